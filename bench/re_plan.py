@@ -89,9 +89,14 @@ def re_plan(articles: Sequence[str], repetitions: int) -> Report:
 
 def replanned(article: str, moves: int) -> list[Replanned]:
     """Move corners of an article and return the measurements; corners and directions are the same in every run."""
-    drawing = solve(drawing_of(load_garment(article))).drawing
-    with _planned(drawing) as document:
-        return [_replanned(document, drawing, *move) for move in chosen(article, len(drawing.outline), moves)]
+    return redrawn(drawing_of(load_garment(article)), moves)
+
+
+def redrawn(drawing: Drawing, moves: int) -> list[Replanned]:
+    """Move corners of a drawing and return the measurements; corners and directions are the same in every run."""
+    shipped = solve(drawing).drawing
+    with _planned(shipped) as document:
+        return [_replanned(document, shipped, *move) for move in chosen(shipped.name, len(shipped.outline), moves)]
 
 
 def chosen(article: str, corners: int, moves: int) -> list[tuple[int, float]]:

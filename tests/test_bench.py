@@ -43,7 +43,8 @@ from bench.studies import Run as StudyRun
 from bench.studies import study_row
 from bench.whole_plans import whole_plans
 from bench.yes_and_no import yes_and_no
-from planner import fold_dag, load_garment
+from planner import fold_dag, load_garment, make_plan
+from planner.geometry.pose import Pose2
 from planner.robots.approaches import APPROACHES
 from planner.robots.arm import read_arm
 from planner.robots.description import read_model
@@ -340,12 +341,25 @@ def test_every_shipped_robot_has_a_row_of_reach(monkeypatch: pytest.MonkeyPatch,
 
 def test_every_other_robot_has_a_row_for_each_article(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):
     monkeypatch.setattr("bench.robot_plans.shipped_robots", lambda: ("pr2", "so101-pair"))
+    monkeypatch.setattr("bench.robot_plans.EDITS", 1)
     report = robot_plans(["scarf", "scarf-halved"], 1)
     (row,) = written(report, tmp_path)["rows"]
     assert (row["robot"], row["article"], row["status"]) == ("so101-pair", "scarf", "solved")
     assert row["cost_s"] > 0.0
     assert row["cpu_s"] > 0.0
+    assert len(row["edits_ms"]) == 1 and row["edits_ms"][0] > 0.0
     assert robot_plans(["scarf-halved"], 1).rows == ()
+
+
+def test_an_article_that_a_robot_cannot_fold_where_it_lies_is_laid_elsewhere(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr("bench.robot_plans.shipped_robots", lambda: ("so101-pair",))
+    monkeypatch.setattr("bench.robot_plans.EDITS", 0)
+    (row,) = (row.data for row in robot_plans(["jeans"], 1).rows)
+    assert (row["status"], row["cost_s"]) == ("infeasible", None)
+    assert row["why_not"] and row["place_cost_s"] > 0.0
+    garment = shrunk(load_garment("jeans"), 0.35)
+    there = Pose2(**row["place"])
+    assert make_plan(garment, robot="so101-pair", placement=there).cost_s == pytest.approx(row["place_cost_s"])
 
 
 def test_articles_for_small_tables_are_shrunk_with_their_folds_and_small_ones_are_not():

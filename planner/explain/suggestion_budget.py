@@ -45,10 +45,13 @@ class TrialBudget:
         """Return whether this share of the work has been done, or the time is up."""
         return self.spent_s >= share * self._whole.work_limit_s or self.is_late
 
-    def plan(self, task: Task, work_s: float | None = None, *, with_reasons: bool = False) -> Plan:
+    def plan(
+        self, task: Task, work_s: float | None = None, *, with_reasons: bool = False, by_folds_alone: bool = False
+    ) -> Plan:
         """Plan a task with limited work (s), by default a fraction of what is left, and never more than is left.
 
-        Only where reasons are wanted are more ways tried before the answer is that there is no plan.
+        Only where reasons are wanted are more ways tried before the answer is that there is no plan. By folds alone,
+        drags by the arms are not looked for.
         """
         left_s = max(self._whole.work_limit_s - self.spent_s, 0.0)
         wanted_s = max(left_s / _TRIALS_LEFT, SHORTEST_TRIAL_S) if work_s is None else work_s
@@ -56,7 +59,8 @@ class TrialBudget:
         self.spent_s += _SETTING_UP_S
         explainer = FirstExplanation() if with_reasons else None
         heuristic, most = task.limits.heuristic, task.limits.max_expanded
-        search = PlanSearch(Problem.of(task), heuristic, part, most, explainer=explainer, is_patient=with_reasons)
+        problem = Problem.of(task).without_arm_drags() if by_folds_alone else Problem.of(task)
+        search = PlanSearch(problem, heuristic, part, most, explainer=explainer, is_patient=with_reasons)
         plan = search.plan().plan
         self.spent_s += part.spent_s
         self.has_unknown |= plan.status == "budget_exceeded"

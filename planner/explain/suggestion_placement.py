@@ -1,4 +1,8 @@
-"""Suggest another place on the table, the nearest first, also turned, and finally the best place seen."""
+"""Suggest another place on the table, the nearest first, also turned, and finally the best place seen.
+
+A base that does not move has no other freedom than the place of the cloth. There more places are tried, and drags by
+the arms, which are much more work, only where folds alone give no plan at any of them.
+"""
 
 import math
 from collections.abc import Iterator
@@ -8,11 +12,15 @@ from planner.explain.suggestion_grid import Room, turned_in_place
 from planner.explain.suggestion_trial import Narrowing, Proof, Search, Trial, narrowed
 from planner.geometry.pose import Pose2
 from planner.message import Message
+from planner.robots.load_robot import load_robot
 from planner.task.task import Task
 from planner.words.catalogue import worded
 
 STEP_M = 0.1
 """Step of the grid of placements (m); every other place is tried first."""
+
+FINE_STEP_M = 0.05
+"""The same for a base that does not move, where the grid has no place that gives a plan (m)."""
 
 NARROWED_TO_M = 0.05
 """The resolution of the nearest place (m)."""
@@ -50,8 +58,10 @@ def placements(task: Task, known_cost_s: float | None) -> Search:
         known_cost_s: the cost of its plan (s), which a suggestion must then beat; None if it has no plan.
     """
     to_beat, best = known_cost_s, None
-    for place in _places(task):
-        trial = _trial(task, place)
+    for place, is_last_resort, by_folds_alone in _tried(task):
+        if is_last_resort and to_beat is not None:
+            break
+        trial = _trial(task, place, by_folds_alone=by_folds_alone)
         plan = yield trial
         if plan is None:
             break
@@ -59,14 +69,25 @@ def placements(task: Task, known_cost_s: float | None) -> Search:
         if proof is None:
             continue
         if to_beat is None:
-            nearest = yield from _nearer(task, place, proof)
+            nearest = yield from _nearer(task, place, proof, by_folds_alone=by_folds_alone)
             to_beat = nearest.cost_s
         best = proof if best is None or proof.cost_s < best.cost_s else best
     if best is not None and to_beat is not None and best.is_worth_more_than(to_beat):
         yield best.suggestion
 
 
-def _nearer(task: Task, place: _Place, proof: Proof) -> Narrowing:
+def _tried(task: Task) -> Iterator[tuple[_Place, bool, bool]]:
+    """Yield the places to try: each with whether it is tried only without any plan so far, and by folds alone."""
+    if not load_robot(task.robot).card.is_fixed:
+        yield from ((place, False, False) for place in _places(task, STEP_M))
+        return
+    places, more = _places(task, STEP_M), _places(task, FINE_STEP_M)
+    yield from ((place, False, True) for place in places)
+    yield from ((place, True, True) for place in more if place not in places)
+    yield from ((place, True, False) for place in more)
+
+
+def _nearer(task: Task, place: _Place, proof: Proof, *, by_folds_alone: bool) -> Narrowing:
     """Look for the nearest place in the same direction that works."""
     far_m = place.distance_m
     room = _room(task, place.quarters)
@@ -74,31 +95,31 @@ def _nearer(task: Task, place: _Place, proof: Proof) -> Narrowing:
     def at(distance_m: float) -> Trial | None:
         share = distance_m / far_m
         nearer = replace(place, dx_m=share * place.dx_m, dy_m=share * place.dy_m)
-        return _trial(task, nearer) if room.holds(nearer.dx_m, nearer.dy_m) else None
+        return _trial(task, nearer, by_folds_alone=by_folds_alone) if room.holds(nearer.dx_m, nearer.dy_m) else None
 
     start_m = far_m - NARROWED_TO_M * round(far_m / NARROWED_TO_M)
     return narrowed(at, start_m, far_m, proof, NARROWED_TO_M)
 
 
-def _trial(task: Task, place: _Place) -> Trial:
+def _trial(task: Task, place: _Place, *, by_folds_alone: bool) -> Trial:
     pose = _turned(task, place.quarters).moved(place.dx_m, place.dy_m)
-    return Trial("placement", place.says, {"placement": pose.to_dict()}, place.size, task.at(pose))
+    return Trial("placement", place.says, {"placement": pose.to_dict()}, place.size, task.at(pose), by_folds_alone)
 
 
-def _places(task: Task) -> list[_Place]:
-    """Return all places except where the garment lies: the coarse grid first, nearest first."""
-    found = [(is_coarse, place) for quarters in range(4) for is_coarse, place in _turned_places(task, quarters)]
+def _places(task: Task, step_m: float) -> list[_Place]:
+    """Return all places of a grid except where the garment lies: every other one first, nearest first."""
+    found = [(is_coarse, place) for quarters in range(4) for is_coarse, place in _turned_places(task, quarters, step_m)]
     found.sort(key=lambda one: (not one[0], one[1].size, one[1].dx_m, one[1].dy_m))
     return [place for _, place in found if place.size > NARROWED_TO_M / 2]
 
 
-def _turned_places(task: Task, quarters: int) -> Iterator[tuple[bool, _Place]]:
+def _turned_places(task: Task, quarters: int, step_m: float) -> Iterator[tuple[bool, _Place]]:
     room = _room(task, quarters)
     if not room.is_none:
         yield True, _Place(quarters, *room.nearest)
-    for i, j in room.moves(STEP_M):
+    for i, j in room.moves(step_m):
         if (i, j) != (0, 0):
-            yield i % 2 == 0 and j % 2 == 0, _Place(quarters, i * STEP_M, j * STEP_M)
+            yield i % 2 == 0 and j % 2 == 0, _Place(quarters, i * step_m, j * step_m)
 
 
 def _room(task: Task, quarters: int) -> Room:

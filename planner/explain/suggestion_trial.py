@@ -28,6 +28,7 @@ class Trial:
         change: the fields of the request that change.
         size: the size of the change.
         task: the task with the change.
+        by_folds_alone: whether drags by the arms are not looked for, which is much less work.
     """
 
     kind: str
@@ -35,6 +36,7 @@ class Trial:
     change: Mapping[str, Any]
     size: float
     task: Task
+    by_folds_alone: bool = False
 
 
 class Proof(NamedTuple):

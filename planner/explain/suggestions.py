@@ -182,7 +182,7 @@ class _Lane:
         found = [] if self._trial is not None else list(self._told_of(None))
         if self._trial is not None and not self.is_done:
             on_trial(self._trial)
-            found += self._told_of(budget.plan(self._trial.task))
+            found += self._told_of(budget.plan(self._trial.task, by_folds_alone=self._trial.by_folds_alone))
         self.spent_s += budget.spent_s - begun_s
         yield from found
 
