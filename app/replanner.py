@@ -66,7 +66,7 @@ class Replanner:
         self._pool = pool
         self._plans = plans
         self._search = LiveSearch()
-        self._of_previews: set[str] = set()
+        self._passing: set[str] = set()
         self._lock = threading.RLock()
         self._phase: Phase = Resting()
         self._seen: DocumentState | None = None
@@ -181,23 +181,25 @@ class Replanner:
             self._document.put_checks(state.drawing, tuple(held_folds(state.solution, arms)))
 
     def _publish(self, asked: DocumentState, plan: Plan, *, is_final: bool) -> None:
-        """Show a plan, and drop the plans that nobody needs to read by id.
+        """Show a plan; then write it if it is to stay, and drop the plans that nobody needs to read by id.
 
-        These are plans that were never shown, and plans for previews that are shown no more.
+        These are plans that were never shown, and those that are shown no more and were not final, or of a preview.
         """
         assert asked.task is not None, "what has no task is not planned"
         now = self._document.state
-        before, is_passing = now.answer, now.draft.gesture is not None
-        plan_id = self._plans.add(plan, is_passing=is_passing)
+        before, is_passing = now.answer, now.draft.gesture is not None or not is_final
+        plan_id = self._plans.add(plan, is_passing=True)
         self._document.settle(asked.version, asked.task, plan, plan_id, is_final=is_final)
         state = self._document.state
-        if is_passing:
-            self._of_previews.add(plan_id)
         kept = {answer.plan_id for answer in (state.answer, state.committed, state.before) if answer is not None}
-        gone = {plan_id} if before is None or before.plan_id not in self._of_previews else {plan_id, before.plan_id}
+        if is_passing:
+            self._passing.add(plan_id)
+        elif plan_id in kept:
+            self._plans.keep(plan_id)
+        gone = {plan_id} if before is None or before.plan_id not in self._passing else {plan_id, before.plan_id}
         for made in gone - kept:
             self._plans.drop(made)
-            self._of_previews.discard(made)
+            self._passing.discard(made)
 
 
 def _is_settled(state: DocumentState) -> bool:

@@ -67,18 +67,34 @@ class PlanStore:
 
         Args:
             plan: the plan.
-            is_passing: whether it is dropped soon, as that of a drawing under a hand; it is not written then.
+            is_passing: whether it may be dropped soon, as that of a drawing under a hand; it is not written then.
         """
         plan_id = uuid.uuid4().hex
         if not is_passing:
-            self._write(plan_id, plan)
+            self._write_and_hold(plan_id, plan)
+            return plan_id
         with self._lock:
-            plans, most = (self._passing, PASSING_MAX) if is_passing else (self._live, self._live_max)
-            plans[plan_id] = plan
-            oldest = plans.popitem(last=False) if len(plans) > most else None
-        if is_passing and oldest is not None:  # it has stayed after all
+            self._passing[plan_id] = plan
+            oldest = self._passing.popitem(last=False) if len(self._passing) > PASSING_MAX else None
+        if oldest is not None:  # it has stayed after all
             self._write(*oldest)
         return plan_id
+
+    def keep(self, plan_id: str) -> None:
+        """Write a plan in passing: it stays."""
+        with self._lock:
+            plan = self._passing.get(plan_id)
+        if plan is not None:
+            self._write_and_hold(plan_id, plan)
+            with self._lock:
+                self._passing.pop(plan_id, None)
+
+    def _write_and_hold(self, plan_id: str, plan: Plan) -> None:
+        self._write(plan_id, plan)
+        with self._lock:
+            self._live[plan_id] = plan
+            if len(self._live) > self._live_max:
+                self._live.popitem(last=False)
 
     def plan(self, plan_id: str) -> Plan:
         """Return the plan with this id; raise `UnknownPlanError` if there is none."""

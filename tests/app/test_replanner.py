@@ -8,10 +8,10 @@ from dataclasses import replace
 import pytest
 
 from app.api.live_messages import plan_message, status_text
-from app.document_state import DocumentState
+from app.document_state import Answer, DocumentState
 from app.drawing.edit import Edit, Phase
 from app.replanner import Replanner
-from app.store.plan_store import UnknownPlanError
+from app.store.plan_store import PlanStore, UnknownPlanError
 from planner import Plan
 from tests.app.drawing.drawings import crease, outlined
 from tests.app.replan_desk import PATIENCE_S, TOWEL, Desk, Endless, moved, nothing, replanning
@@ -113,6 +113,23 @@ def test_plans_of_previews_are_not_kept_and_those_of_commits_are(desk: Desk) -> 
     assert desk.plans.plan(ids[2]).is_solved
 
 
+def test_a_plan_is_shown_before_it_is_written_and_written_only_if_it_is_final(
+    desk: Desk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    desk.rest()
+    written: list[tuple[str, Answer | None]] = []
+
+    def write(_: PlanStore, plan_id: str, __: Plan) -> None:
+        written.append((plan_id, desk.document.state.answer))
+
+    monkeypatch.setattr(PlanStore, "_write", write)
+    desk.document.edit(Edit("Move", moved(20)))
+    desk.until(lambda: bool(written))
+    desk.rest()
+    ((plan_id, shown),) = written
+    assert shown is not None and shown.plan_id == plan_id and shown.is_final
+
+
 def test_what_folds_need_is_told_of_those_before_an_illegal_one_too(desk: Desk) -> None:
     off = crease("off", (0.2, 0.2), (0.3, 0.2))
     state = desk.document.edit(Edit("Draw", replace(TOWEL, folds=(*TOWEL.folds, off))))
@@ -205,13 +222,14 @@ def test_who_drags_back_to_what_was_just_given_up_gets_its_plan_all_the_same(
 ) -> None:
     """The search for the first preview gives way to the second; before it ends, the first is what is drawn again."""
     desk.rest()
-    given_up, go = threading.Event(), threading.Event()
+    begun, given_up, go = threading.Event(), threading.Event(), threading.Event()
     plan = Replanner._plan
 
     def gives_up(self: Replanner, state: DocumentState, first: list[Plan], is_unwanted: Callable[[], bool]) -> None:
         if given_up.is_set():
             plan(self, state, first, is_unwanted)
             return
+        begun.set()
         while not is_unwanted():
             time.sleep(0.001)
         given_up.set()
@@ -219,6 +237,7 @@ def test_who_drags_back_to_what_was_just_given_up_gets_its_plan_all_the_same(
 
     monkeypatch.setattr(Replanner, "_plan", gives_up)
     desk.document.edit(Edit("Drag", moved(1), Phase.PREVIEW))
+    assert begun.wait(PATIENCE_S)
     desk.document.edit(Edit("Drag", moved(2), Phase.PREVIEW))
     assert given_up.wait(PATIENCE_S)
     desk.document.edit(Edit("Drag", moved(1), Phase.PREVIEW))

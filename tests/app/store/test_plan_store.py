@@ -107,6 +107,18 @@ def test_a_plan_in_passing_is_written_only_if_it_stays(copies: Iterator[Plan], t
     database.close()
 
 
+def test_a_plan_in_passing_that_is_kept_is_written_once(copies: Iterator[Plan], database: Database) -> None:
+    store = PlanStore(database)
+    made = store.add(next(copies), is_passing=True)
+    for _ in range(2):
+        store.keep(made)
+    store.keep("unknown")
+    assert row_count(database) == 1
+    assert number_of(PlanStore(database), made) == 0
+    store.drop(made)
+    assert row_count(database) == 0
+
+
 def test_a_full_disk_loses_none_of_the_newest_plans(
     copies: Iterator[Plan], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
