@@ -66,7 +66,7 @@ class Replanner:
         self._pool = pool
         self._plans = plans
         self._search = LiveSearch()
-        self._passing: set[str] = set()
+        self._of_previews: set[str] = set()
         self._lock = threading.RLock()
         self._phase: Phase = Resting()
         self._seen: DocumentState | None = None
@@ -181,25 +181,29 @@ class Replanner:
             self._document.put_checks(state.drawing, tuple(held_folds(state.solution, arms)))
 
     def _publish(self, asked: DocumentState, plan: Plan, *, is_final: bool) -> None:
-        """Show a plan; then write it if it is to stay, and drop the plans that nobody needs to read by id.
+        """Show a plan; then write it if it is final and no preview's, and drop the plans that nobody needs by id.
 
-        These are plans that were never shown, and those that are shown no more and were not final, or of a preview.
+        These are plans that were never shown, and those of previews that are shown no more. Others that a better one
+        replaces can be read for a while.
         """
         assert asked.task is not None, "what has no task is not planned"
         now = self._document.state
-        before, is_passing = now.answer, now.draft.gesture is not None or not is_final
+        before, is_preview = now.answer, now.draft.gesture is not None
         plan_id = self._plans.add(plan, is_passing=True)
         self._document.settle(asked.version, asked.task, plan, plan_id, is_final=is_final)
         state = self._document.state
         kept = {answer.plan_id for answer in (state.answer, state.committed, state.before) if answer is not None}
-        if is_passing:
-            self._passing.add(plan_id)
-        elif plan_id in kept:
+        if is_preview:
+            self._of_previews.add(plan_id)
+        elif is_final and plan_id in kept:
             self._plans.keep(plan_id)
-        gone = {plan_id} if before is None or before.plan_id not in self._passing else {plan_id, before.plan_id}
-        for made in gone - kept:
-            self._plans.drop(made)
-            self._passing.discard(made)
+        left = {plan_id} if before is None else {plan_id, before.plan_id}
+        for made in left - kept:
+            if made == plan_id or made in self._of_previews:
+                self._plans.drop(made)
+                self._of_previews.discard(made)
+            else:
+                self._plans.let_go(made)
 
 
 def _is_settled(state: DocumentState) -> bool:

@@ -57,6 +57,7 @@ class PlanStore:
         self._live_max = min(LIVE_MAX, capacity)
         self._live: OrderedDict[str, Plan] = OrderedDict()
         self._passing: OrderedDict[str, Plan] = OrderedDict()
+        self._let_go: set[str] = set()
         self._added = 0
         self._lock = threading.Lock()
 
@@ -76,7 +77,9 @@ class PlanStore:
         with self._lock:
             self._passing[plan_id] = plan
             oldest = self._passing.popitem(last=False) if len(self._passing) > PASSING_MAX else None
-        if oldest is not None:  # it has stayed after all
+            is_needed = oldest is not None and oldest[0] not in self._let_go
+            self._let_go &= self._passing.keys()
+        if oldest is not None and is_needed:  # it has stayed after all
             self._write(*oldest)
         return plan_id
 
@@ -88,6 +91,12 @@ class PlanStore:
             self._write_and_hold(plan_id, plan)
             with self._lock:
                 self._passing.pop(plan_id, None)
+
+    def let_go(self, plan_id: str) -> None:
+        """Say that a plan, if it is one in passing, need not be written when it is no longer among the newest."""
+        with self._lock:
+            self._let_go.add(plan_id)
+            self._let_go &= self._passing.keys()
 
     def _write_and_hold(self, plan_id: str, plan: Plan) -> None:
         self._write(plan_id, plan)

@@ -107,6 +107,21 @@ def test_a_plan_in_passing_is_written_only_if_it_stays(copies: Iterator[Plan], t
     database.close()
 
 
+def test_a_plan_that_was_let_go_is_read_while_it_is_new_and_never_written(
+    copies: Iterator[Plan], database: Database
+) -> None:
+    store = PlanStore(database)
+    first, second = (store.add(next(copies), is_passing=True) for _ in range(2))
+    store.let_go(first)
+    assert number_of(store, first) == 0
+    for _ in range(PASSING_MAX):
+        store.add(next(copies), is_passing=True)
+    assert row_count(database) == 1
+    assert number_of(store, second) == 1
+    with pytest.raises(UnknownPlanError):
+        store.plan(first)
+
+
 def test_a_plan_in_passing_that_is_kept_is_written_once(copies: Iterator[Plan], database: Database) -> None:
     store = PlanStore(database)
     made = store.add(next(copies), is_passing=True)
