@@ -98,10 +98,16 @@ class FoldPath:
         return top.clear_of_edge(unrolled, self.edge_clear_m, REST_HEIGHT_M)
 
     def sweeps(self, grips: FloatArray) -> FloatArray:
-        """Return the sweeps at which grips are tested: rising, apex in the middle, at most 5 cm apart."""
+        """Return the sweeps at which grips are tested: rising, apex in the middle, at most 5 cm apart.
+
+        Grips as far from the line as anything begin at 0 and end at 2, and not a rounding error before or after: else
+        the base might have a motion of no length to itself.
+        """
         farthest = float(self.line.left_distances(grips).max())
         count = max(1, math.ceil((farthest - LENGTH_M) / self._baseline_step(grips)))
         rising = 1.0 - np.linspace(farthest, 0.0, count + 1) / self.depth_m
+        if abs(self.depth_m - farthest) <= LENGTH_M:
+            rising[0] = 0.0
         return np.concatenate([rising, 2.0 - rising[-2::-1]])
 
     def _baseline_step(self, grips: FloatArray) -> float:

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -46,6 +47,23 @@ class _Wrist:
         return _Wrist(Approach(heading_rad, self.approach.pitch_rad), turned)
 
 
+class _Turn(NamedTuple):
+    """Heading, pitch and roll (rad) of a hand before and after it turns in its grip."""
+
+    start: tuple[float, float, float]
+    goal: tuple[float, float, float]
+
+    @property
+    def angle_rad(self) -> float:
+        """The angles by which it turns, added up (rad)."""
+        return sum(abs(after - before) for before, after in zip(self.start, self.goal, strict=True))
+
+    def rotations(self, shares: FloatArray) -> FloatArray:
+        """Return the tool's axes in the base frame at shares of the turn, shape (n, 1) -> (n, 3, 3)."""
+        start, goal = np.array(self.start), np.array(self.goal)
+        return np.asarray(Rotation.from_euler("ZYX", start + shares * (goal - start)).as_matrix())
+
+
 class StretchSampler:
     """Cuts phases into moments, knowing each hand's orientation at the end of the phase before."""
 
@@ -57,25 +75,19 @@ class StretchSampler:
     def stretches(self, number: int, phase: Phase) -> Iterator[Stretch]:
         """Yield the turning in the grips, if there is any, and the path; its start only in the first phase."""
         turns = [self._turn(arm, hand) for arm, hand in enumerate(phase.hands)]
-        angles = [float(np.abs(turn[1] - turn[0]).sum()) for turn in turns if turn is not None]
-        angle = max(angles, default=0.0)
+        angle = max((turn.angle_rad for turn in turns if turn is not None), default=0.0)
         rolls = tuple(self._rolls)
         if angle > ANGLE_RAD:
             parts = np.linspace(0.0, 1.0, int(np.ceil((angle - EDGE_RAD) / STEP_RAD)) + 1)[1:, None]
-            turned = [
-                np.full((len(parts), 3, 3), np.nan)
-                if turn is None
-                else _rotations(turn[0] + parts * (turn[1] - turn[0]))
-                for turn in turns
-            ]
+            turned = [np.full((len(parts), 3, 3), np.nan) if turn is None else turn.rotations(parts) for turn in turns]
             yield Stretch(number, np.zeros(len(parts)), rolls, np.array(turned))
         shares = np.array([0.0, 1.0]) if self._only_ends else shares_of(phase)
         yield Stretch(number, shares[1 if number else 0 :], rolls, None)
         for arm, hand in enumerate(phase.hands):
             self._wrists[arm] = None if hand is None else _Wrist(hand.approach, self._rolls[arm] + rolls_of(hand)[-1])
 
-    def _turn(self, arm: int, hand: Hand | None) -> FloatArray | None:
-        """Return heading, pitch and roll (rad) of a hand before and after it turns in its grip, shape (2, 3).
+    def _turn(self, arm: int, hand: Hand | None) -> "_Turn | None":
+        """Return how a hand turns in its grip.
 
         None for an empty hand. The hand keeps its roll, so that a hand with its fingers flat above the table stays so;
         the roll with which it goes on is settled here.
@@ -87,7 +99,8 @@ class StretchSampler:
         after = hand.approach
         if before is None or before.approach == after:
             self._rolls[arm] = 0.0 if before is None else before.roll_rad - rolls_of(hand)[0]
-            return np.array([(after.heading_rad, after.pitch_rad, self._rolls[arm] + rolls_of(hand)[0])] * 2)
+            still = (after.heading_rad, after.pitch_rad, self._rolls[arm] + rolls_of(hand)[0])
+            return _Turn(still, still)
         if before.approach.is_vertical:
             before = before.seen_with(after.heading_rad)
             level = math.pi * nearest_whole(before.roll_rad / math.pi)
@@ -98,13 +111,20 @@ class StretchSampler:
             goal = _Wrist(after, before.roll_rad)
         self._rolls[arm] = goal.seen_with(after.heading_rad).roll_rad - rolls_of(hand)[0]
         start = (before.approach.heading_rad, before.approach.pitch_rad, before.roll_rad)
-        turn = wrapped_angle(goal.approach.heading_rad - before.approach.heading_rad)
-        return np.array([start, (start[0] + turn, goal.approach.pitch_rad, goal.roll_rad)])
+        turn = _turn_rad(before.approach.heading_rad, goal.approach.heading_rad)
+        return _Turn(start, (start[0] + turn, goal.approach.pitch_rad, goal.roll_rad))
 
 
-def _rotations(angles_rad: FloatArray) -> FloatArray:
-    """Return the tool's axes in the base frame for headings, pitches and rolls, shape (n, 3) -> (n, 3, 3)."""
-    return np.asarray(Rotation.from_euler("ZYX", angles_rad).as_matrix())
+def _turn_rad(start_rad: float, goal_rad: float) -> float:
+    """Return by how much a hand turns from one heading to another: the short way round, a half turn by way of ahead.
+
+    Of two half turns the mirror image of a task must take the mirror image; behind there is the robot.
+    """
+    turn = wrapped_angle(goal_rad - start_rad)
+    if abs(turn) < math.pi - EDGE_RAD or abs(math.sin(start_rad)) < EDGE_RAD:
+        return turn
+    towards = -math.copysign(1.0, math.sin(start_rad))
+    return turn if turn * towards > 0.0 else turn + towards * math.tau
 
 
 def rolls_of(hand: Hand) -> tuple[float, ...]:

@@ -48,6 +48,10 @@ def assignments(context: Context, station: int, points: FloatArray) -> Iterator[
             yield arms
 
 
+_FINER = 10
+"""The number of steps of the finer grid on which places are sorted in one of the grid."""
+
+
 def hand_keys(context: Context, station: int, arms: Sequence[int], tools: FloatArray) -> list[tuple[int, ...]]:
     """Return the keys that order hands by where they begin and end, whatever the frame of the drawing.
 
@@ -61,7 +65,10 @@ def hand_keys(context: Context, station: int, arms: Sequence[int], tools: FloatA
     """
     ends = context.in_base(station, tools[:, [0, -1]].reshape(-1, 3)).reshape(-1, 2, 3)
     ends[..., 1] *= np.array([side_of(context, arm) for arm in arms])[:, None]
-    return [tuple(key) for key in np.round(ends / SORTING_M).astype(np.int64).reshape(len(arms), -1).tolist()]
+    places = ends.reshape(len(arms), -1) / SORTING_M
+    # A grip nearly straight ahead is as far for both arms; the finer grid tells the two apart, and mirror images alike.
+    steps = np.round(np.concatenate([places, _FINER * places], axis=1)).astype(np.int64)
+    return [tuple(key) for key in steps.tolist()]
 
 
 def side_of(context: Context, arm: int) -> float:

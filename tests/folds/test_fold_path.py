@@ -156,6 +156,13 @@ def test_a_grip_held_out_beside_its_line_cannot_be_folded_without_a_jump():
     assert path(line, 0.1, TOP).is_continuous(beyond)
 
 
+def test_the_farthest_grip_is_moved_from_the_very_beginning_to_the_very_end_whatever_was_rounded():
+    line = Segment((-0.61, 0.3), (-0.61, -0.4))
+    for aside in np.linspace(-3e-6, 3e-6, 61):
+        sweeps = path(line, depth_m=0.05).sweeps(np.array([[-0.56 + aside, 0.1]]))
+        assert sweeps[0] == 0.0 and sweeps[-1] == 2.0
+
+
 def test_waypoints_are_at_most_five_centimetres_apart_and_hold_the_apex_and_both_ends():
     rng = random.Random(16)
     for _ in range(200):

@@ -6,7 +6,7 @@ from dataclasses import replace
 from random import Random
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from planner import Plan, Scene, load_garment, make_plan
@@ -16,6 +16,9 @@ from tests.laws.scenes import Problem
 from tests.laws.tasks import plain_task
 
 SECOND = 1e-6
+
+JOINT_SECOND = 1e-5
+"""The tolerance of costs that joints decide (s): they turn at about 1 rad/s after cloth that lies on a grid of 1 um."""
 
 A_THOUSANDTH = 1e-3
 """The tolerance of costs: in another frame cloth lies up to half a micrometre aside, and joint times follow it."""
@@ -29,12 +32,14 @@ def require_same(seed: int, image: Callable[[Problem], Problem], rel: float = 0.
     assert other.status == plan.status
     assert other.is_proven == plan.is_proven
     if plan.cost_s is not None:
-        assert other.cost_s == pytest.approx(plan.cost_s, abs=SECOND, rel=rel)
+        assert other.cost_s == pytest.approx(plan.cost_s, abs=JOINT_SECOND, rel=rel)
     assert other.statistics.bound_s == pytest.approx(plan.statistics.bound_s, abs=SECOND)
 
 
 @given(SEEDS)
 @law("plan", short=5, long=300)
+@example(169)  # a grip .3 mm beside the middle of the robot, which either arm may take
+@example(174)  # a hand that turns by half a turn in its grip
 def test_a_mirror_image_has_the_same_answer(seed: int):
     require_same(seed, mirrored)
 

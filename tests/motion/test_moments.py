@@ -164,6 +164,14 @@ def test_a_hand_that_is_to_point_elsewhere_turns_in_its_grip_while_all_else_rest
     assert (end == start) == (before == after)
 
 
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_half_a_turn_in_the_grip_goes_by_way_of_ahead_for_mirror_images_alike(side: float):
+    here, there = (Approach(angle, SLANTED.pitch_rad) for angle in (side * math.pi / 2, -side * math.pi / 2))
+    moments = moments_of([phase(holding(HERE, (-0.35, 0.2, 0.05), approach=one)) for one in (here, there)], HEIGHT_M)
+    ahead = moments.rotations[0, :, 0, 0]
+    assert ahead.max() == pytest.approx(math.cos(SLANTED.pitch_rad), abs=1e-3) and ahead.min() > -1e-9
+
+
 def test_a_hand_that_let_go_takes_its_next_grip_without_a_turn():
     middle = (-0.35, 0.2, 0.03)
     left, right = holding(HERE, middle), holding((-0.35, -0.2, 0.02), (-0.35, -0.2, 0.03))
