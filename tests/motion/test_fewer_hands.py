@@ -10,6 +10,7 @@ from planner.motion.fewer_hands import with_fewer_hands
 from planner.motion.tries import QUICK
 from planner.planning import path_search
 from planner.planning.found_plan import FoundPlan
+from planner.planning.problem import Problem
 from planner.plans import find_plan
 
 
@@ -26,7 +27,7 @@ def hands(acts: tuple[Act, ...]) -> int:
 
 
 def test_a_second_hand_that_makes_a_plan_slower_is_taken_away(firm: FoundPlan):
-    fewer = with_fewer_hands(firm.acts, firm.problem.maker, QUICK, worth_s=0.0)
+    fewer = with_fewer_hands(firm.acts, Problem.of(firm.plan.task).maker, QUICK, worth_s=0.0)
     assert hands(fewer) == hands(firm.acts) - 1
     assert duration_s(fewer) < duration_s(firm.acts) - 0.005
     steps = [step for act in fewer for step in act.steps]
@@ -34,11 +35,11 @@ def test_a_second_hand_that_makes_a_plan_slower_is_taken_away(firm: FoundPlan):
 
 
 def test_a_second_hand_that_costs_next_to_nothing_stays(firm: FoundPlan):
-    assert with_fewer_hands(firm.acts, firm.problem.maker, QUICK) == firm.acts
+    assert with_fewer_hands(firm.acts, Problem.of(firm.plan.task).maker, QUICK) == firm.acts
 
 
 def test_a_plan_that_takes_as_long_as_its_motions_keeps_its_hands():
     found = find_plan(Task.of(load_garment("vest"), Scene()))
-    tries = found.problem.maker.tries
-    assert with_fewer_hands(found.acts, found.problem.maker, QUICK, worth_s=0.0) == found.acts
-    assert found.problem.maker.tries == tries
+    maker = Problem.of(found.plan.task).maker
+    assert with_fewer_hands(found.acts, maker, QUICK, worth_s=0.0) == found.acts
+    assert maker.tries == 0

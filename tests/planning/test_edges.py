@@ -4,6 +4,7 @@ import pytest
 
 from planner.planning.edges import Edges
 from planner.planning.heuristic import arm_time
+from planner.planning.problem import Problem
 from planner.primitives.context import Context
 from planner.primitives.primitive import Step
 from planner.primitives.state import State
@@ -21,8 +22,9 @@ def edges_of(context: Context, *, are_spares_wanted: bool = False) -> Edges:
 @pytest.mark.parametrize("name", ["tie", "scarf", "big-towel"])
 def test_what_is_left_out_makes_no_plan_dearer(name: str):
     case = planned(name).found
-    start, goal, bound = case.problem.start, case.problem.is_goal, arm_time(case.problem.context)
-    edges, whole, left_out = edges_of(case.problem.context), edges_of(case.problem.context, are_spares_wanted=True), []
+    problem = Problem.of(case.plan.task)
+    start, goal, bound = problem.start, problem.is_goal, arm_time(problem.context)
+    edges, whole, left_out = edges_of(problem.context), edges_of(problem.context, are_spares_wanted=True), []
 
     def everything(state: State, _cost_s: float):
         whole.begin()
@@ -42,7 +44,7 @@ def test_what_is_left_out_makes_no_plan_dearer(name: str):
 
 def test_from_a_standoff_passed_on_the_way_only_the_base_moves_on():
     case = planned("tie").found
-    context = case.problem.context
+    context = case.context
     edges = edges_of(context)
     near, far = State(0, (0.0, 0.0), 0, 0), State(0, (0.0, 0.0), 0, 4)
     first = kinds_of(edges.leaving(near, 10.0))
