@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from planner.geometry.pose import BoolArray, FloatArray
+from planner.geometry.pose import BoolArray, FloatArray, Point3
 from planner.motion.phase_stretches import Stretch, StretchSampler, rolls_of
 from planner.task.phase import Phase
 
@@ -67,6 +67,10 @@ class Moments:
         return len(self.phases)
 
 
+_NOWHERE: Point3 = (math.nan, math.nan, math.nan)
+"""Where an empty hand counts as being."""
+
+
 def moments_of(phases: Sequence[Phase], height_m: float, *, only_ends: bool = False) -> Moments:
     """Return the moments of phases in which no hand is reaching.
 
@@ -119,30 +123,33 @@ def _positions_and_rotations(
     if all(phase.hands[arm] is None for phase in phases):
         return np.full((len(shares), 3), np.nan), np.full((len(shares), 3, 3), np.nan)
     more = {stretch.number: stretch.rolls[arm] for stretch in stretches}
-    corners: list[tuple[float, ...]] = []
+    points: list[Point3] = []
+    rolls: list[float] = []
     firsts, lasts, axes = [], [], np.full((len(phases), 3, 3), np.nan)
     for number, phase in enumerate(phases):
         hand = phase.hands[arm]
-        firsts.append(len(corners))
+        firsts.append(len(points))
         if hand is None:
-            corners.append((math.nan,) * 4)
+            points.append(_NOWHERE)
+            rolls.append(math.nan)
         else:
-            rolls = (more[number] + roll for roll in rolls_of(hand))
-            corners += [(*point, roll) for point, roll in zip(hand.points, rolls, strict=True)]
+            points += hand.points
+            beyond = more[number]
+            rolls += [beyond + roll for roll in rolls_of(hand)] if beyond else rolls_of(hand)
             axes[number] = hand.approach.rotation
-        lasts.append(len(corners) - 1)
+        lasts.append(len(points) - 1)
     first, last = np.array(firsts)[numbers], np.array(lasts)[numbers]
     at = shares * (last - first)
     before = np.floor(at).astype(np.int64)
-    along, table = (at - before)[:, None], np.array(corners)
+    along, table = (at - before)[:, None], np.empty((len(points), 4))
+    table[:, :3], table[:, 3] = points, rolls
     found = (1.0 - along) * table[first + before] + along * table[np.minimum(first + before + 1, last)]
     rotations = axes[numbers] @ about_x(found[:, 3])
-    start = 0
+    end = 0
     for stretch in stretches:
-        end = start + len(stretch.shares)
+        end += len(stretch.shares)
         if stretch.turned is not None:
-            rotations[start:end] = stretch.turned[arm]
-        start = end
+            rotations[end - len(stretch.shares) : end] = stretch.turned[arm]
     return found[:, :3], rotations
 
 

@@ -27,6 +27,9 @@ def shares_of(phase: Phase) -> FloatArray:
     hands = [hand for hand in phase.hands if hand is not None]
     pieces = max((len(hand.points) - 1 for hand in hands), default=1) or 1
     drive = math.dist((phase.base[0].x_m, phase.base[0].y_m), (phase.base[1].x_m, phase.base[1].y_m))
+    if all(len(hand.points) == 1 for hand in hands):
+        count = max(math.ceil((drive - LENGTH_M) / STEP_M), 1)
+        return np.arange(count + 1) / count
     wanted = np.full(pieces, (drive - LENGTH_M) / pieces / STEP_M)
     for hand in hands:
         if len(hand.points) > 1:

@@ -14,7 +14,6 @@ from planner.geometry.table_top import TableTop
 from planner.motion.act import Act
 from planner.motion.joint_trajectory import JointTrajectory
 from planner.motion.lying_cloth import LyingCloth
-from planner.motion.robot_port import Collisions
 from planner.motion.timed_phase import TimedPhase
 from planner.motion.transfer import Transfer
 from planner.motion.transfer_planner import TransferPlanner
@@ -42,7 +41,7 @@ def trajectory(
         acts: the acts, one after the other.
         duration_s: their total duration (s).
     """
-    builder = _TrajectoryBuilder(maker.transits, maker.collisions, maker.dwell_s)
+    builder = _TrajectoryBuilder(maker.transits, maker.dwell_s)
     segments = tuple(builder.segments(acts, _standing(context)))
     track = builder.track
     rows = np.array(track.joints)
@@ -84,17 +83,16 @@ def _standing(context: Context) -> Phase:
 class _TrajectoryBuilder:
     """Joins transfers and moves into one trajectory."""
 
-    def __init__(self, transits: TransitPaths, collisions: Collisions, dwell_s: float) -> None:
+    def __init__(self, transits: TransitPaths, dwell_s: float) -> None:
         """Begin with all arms at home.
 
         Args:
             transits: the paths of empty hands.
-            collisions: the robot's collisions.
             dwell_s: the time that fingers take to close and to open (s).
         """
         self._transits = transits
         self._dwell_s = dwell_s
-        self._hands = TransitPlanner(transits, collisions, dwell_s)
+        self._hands = TransitPlanner(transits, dwell_s)
         self.track = JointTrajectory.at_rest(transits.home, len(transits.layout.arms))
         self._timed_phases: list[TimedPhase] = []
         self._free: list[TimedPhase] = []

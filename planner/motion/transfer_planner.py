@@ -60,7 +60,6 @@ class TransferPlanner:
     Attributes:
         transits: the paths of empty hands.
         dwell_s: how long hands rest while fingers close, and while they open (s).
-        collisions: the robot's collisions.
         glances: how often the ends of steps were tested for free postures, cached answers counted.
         tries: how often joint paths were requested, cached answers counted.
     """
@@ -86,7 +85,6 @@ class TransferPlanner:
         self._contacts = BlockingContacts(machine, collisions, scene.torso_m, scene.table.height_m)
         self.dwell_s = max(scene.grip_dwell_s, *(arm.gripper.least_s(OPEN_M, CLOSED_M) for arm in machine.card.arms))
         self._cloths = LyingCloths(context, collisions)
-        self.collisions = collisions
 
     def validated(self, steps: Sequence[Step], tries: Tries = QUICK) -> Transfer | None:
         """Return the transfer of a few primitives, none but the last of which lets go; None if none was found."""

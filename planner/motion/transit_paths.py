@@ -11,6 +11,7 @@ from itertools import pairwise, product
 import numpy as np
 
 from planner.geometry.pose import FloatArray, Pose2
+from planner.motion.answer_memory import AnswerMemory
 from planner.motion.lying_cloth import NEAR_GRIP_M, LyingCloth
 from planner.motion.pacing import needed_s
 from planner.motion.robot_port import Collisions, RobotPort
@@ -29,6 +30,9 @@ Spared = tuple[FloatArray, FloatArray]
 
 _WAYS_KEPT = 512
 """Size of the cache of paths, some 3 kB each. Twice as many save no time while a garment is drawn (measured)."""
+
+_ANSWERS_KEPT = 4096
+"""Answers kept about motions, and as many about the lengths of lines."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,6 +59,8 @@ class TransitPaths:
         self._collisions = collisions
         self.layout = JointLayout.of(machine.card)
         self._searched = lru_cache(_WAYS_KEPT)(self._search)
+        self._tested = AnswerMemory[bool](_ANSWERS_KEPT)
+        self._lengths_m = AnswerMemory[float](_ANSWERS_KEPT)
 
     @property
     def home(self) -> FloatArray:
@@ -110,6 +116,23 @@ class TransitPaths:
         base, joints = known.base, np.concatenate([_sampled(start, end) for start, end in pairwise(way)])
         return self.are_clear(cloth, np.tile([base.x_m, base.y_m, base.yaw_rad], (len(joints), 1)), joints, spared)
 
+    def is_clear(self, cloth: LyingCloth, bases: FloatArray, joints: FloatArray) -> bool:
+        """Return whether arms from grips to grips touch nothing and stay high enough above the cloth. Cached.
+
+        Args:
+            cloth: the cloth on the table.
+            bases: the base at each moment tested, shape (n, 3).
+            joints: all arms' joints then (rad), shape (n, joints).
+        """
+        return self._tested.answer(
+            lambda: (
+                self._collisions.are_all_free(bases, joints) and self.are_clear(cloth, bases, joints, self.at_grips)
+            ),
+            cloth.key,
+            bases.tobytes(),
+            joints.tobytes(),
+        )
+
     def are_clear(self, cloth: LyingCloth, bases: FloatArray, joints: FloatArray, spared: Spared) -> bool:
         """Return whether arms are high enough above cloth all along a path, shapes (n, 3) and (n, joints)."""
         before, after = spared
@@ -127,13 +150,18 @@ class TransitPaths:
 
         The lines are of shape (n, joints) each.
         """
-        here = np.zeros((1, 3))
         lengths = [
-            [np.inf if line is None else float(self._gone_m(arm, here, line)[-1]) for arm in self.layout.arms]
-            for line in (tail, lead)
+            [np.inf if line is None else self._length_m(arm, line) for arm in self.layout.arms] for line in (tail, lead)
         ]
         before, after = np.maximum(NEAR_GRIP_M - np.array(lengths), 0.0)
         return before, after
+
+    def _length_m(self, arm: int, line: FloatArray) -> float:
+        """Return the way of an arm's tool along a line of configurations, shape (n, joints), m. Cached."""
+        joints = line[:, self.layout.spans[arm]]
+        return self._lengths_m.answer(
+            lambda: float(self._gone_m(arm, np.zeros((1, 3)), line)[-1]), str(arm).encode(), joints.tobytes()
+        )
 
     def _gone_m(self, arm: int, bases: FloatArray, joints: FloatArray) -> FloatArray:
         """Return the way of an arm's tool in the table's frame up to each of some configurations, shape (n,), m."""

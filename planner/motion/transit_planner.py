@@ -14,7 +14,6 @@ import numpy as np
 from planner.geometry.pose import FloatArray
 from planner.motion.joint_trajectory import JointTrajectory
 from planner.motion.pacing import eased
-from planner.motion.robot_port import Collisions
 from planner.motion.transit_paths import TransitPaths
 from planner.motion.transit_time import TransitTime
 
@@ -67,11 +66,10 @@ class Line:
 class TransitPlanner:
     """Leads empty hands from transfer to transfer."""
 
-    def __init__(self, transits: TransitPaths, collisions: Collisions, dwell_s: float) -> None:
-        """Keep the transit paths, the robot's collisions and the time that fingers take to close (s)."""
+    def __init__(self, transits: TransitPaths, dwell_s: float) -> None:
+        """Keep the transit paths and the time that fingers take to close (s)."""
         self._dwell_s = dwell_s
         self._transits = transits
-        self._collisions = collisions
 
     def keyframes(self, free: TransitTime, tail: Line, lead: Line) -> tuple[TransitTime, Keyframes]:
         """Return the hands' keyframes from a tail to a lead, and the transit's time, changed if the base must wait."""
@@ -116,8 +114,7 @@ class TransitPlanner:
         count = min(int(np.ceil((free.end_s - free.start_s) / _CHECK_S)), _CHECKS_MAX)
         moments = np.linspace(free.start_s, free.end_s, count + 1)
         bases, there = free.bases_at(moments), track.joints_at(moments)
-        is_free = self._collisions.are_all_free(bases, there)
-        return is_free and self._transits.are_clear(free.cloth, bases, there, self._transits.at_grips)
+        return self._transits.is_clear(free.cloth, bases, there)
 
     def _waiting(self, free: TransitTime, tail: Line, lead: Line) -> tuple[TransitTime, Keyframes]:
         """Return keyframes for a base that waits until the hands are home; they set out again when it has arrived.

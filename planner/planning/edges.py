@@ -65,7 +65,7 @@ class Edges:
         self._left.clear()
 
     def leaving(self, state: State, cost_s: float) -> Successors[State, Step]:
-        """Yield the edges that leave a state reached at a cost (s), and the deferred successors.
+        """Return the edges that leave a state reached at a cost (s), and the deferred successors.
 
         Steps that begin with driving are left out where the base could have driven there from a state that was left
         before: from there they took no longer.
@@ -91,23 +91,33 @@ class Edges:
         return False
 
     def _of(self, state: State, found: _Found) -> Successors[State, Step]:
+        edges: list[Edge[State, Step] | DeferredEdges[State, Step]] = []
+        self._collect(state, found, edges)
+        return edges
+
+    def _collect(
+        self, state: State, found: _Found, edges: list[Edge[State, Step] | DeferredEdges[State, Step]]
+    ) -> None:
+        """Append the edges of what a primitive found; of deferred steps computed before, those of their results."""
         for later in found.deferred:
             if later.is_spare and not self._is_wanted(later.towards):
                 continue
-            if later in self._worked_out:
-                yield from self._of(state, self._worked_out[later])
+            worked_out = self._worked_out.get(later)
+            if worked_out is None:
+                edges.append(self._edges_of(state, later))
             else:
-                yield self._edges_of(state, later)
+                self._collect(state, worked_out, edges)
         if found.steps:
-            for step, cost_s in self._possible(state, found.steps):
-                yield Edge(step, cost_s, step.after)
+            edges += [Edge(step, cost_s, step.after) for step, cost_s in self._possible(state, found.steps)]
 
     def _edges_of(self, state: State, later: Deferred[Step]) -> DeferredEdges[State, Step]:
         """Return the deferred edges of deferred steps that leave a state. Cached."""
-        if later not in self._deferred:
+        edges = self._deferred.get(later)
+        if edges is None:
             towards = later.towards if later.is_there else _anywhere(later.towards)
-            self._deferred[later] = DeferredEdges(later.duration_s, towards, partial(self._computed, state, later))
-        return self._deferred[later]
+            edges = DeferredEdges(later.duration_s, towards, partial(self._computed, state, later))
+            self._deferred[later] = edges
+        return edges
 
     def _computed(self, state: State, later: Deferred[Step]) -> Successors[State, Step]:
         self._worked_out[later] = _Found.of(later.steps())

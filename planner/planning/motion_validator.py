@@ -75,27 +75,23 @@ class MotionValidator:
         self.rejected: list[tuple[Step, ...]] = []
         self.slower: tuple[Act, ...] = ()
 
-    def possible(self, state: State, steps: Iterable[Step]) -> Iterator[tuple[Step, float]]:
-        """Yield the steps leaving a state that may succeed, each with the least known cost (s)."""
+    def possible(self, state: State, steps: Iterable[Step]) -> list[tuple[Step, float]]:
+        """Return the steps leaving a state that may succeed, each with the least known cost (s)."""
         if not (self._others or self._least_s):
-            yield from ((step, step.duration_s) for step in steps)
-            return
+            return [(step, step.duration_s) for step in steps]
         situations: dict[tuple[object, ...], None] = {}
+        found: list[Step] = []
         for step in steps:
             if self._given_up and step.task in self._given_up:
                 continue
             situation = step.situation
             situations[situation] = None
             if situation not in self._others or _key(step) in self._real_steps:
-                yield from self._unless_rejected(step)
+                found.append(step)
         for situation in situations:
-            for other in self._others.get(situation, ()):
-                yield from self._unless_rejected(other.begun_in(state))
-
-    def _unless_rejected(self, step: Step) -> Iterator[tuple[Step, float]]:
-        cost_s = self._known_s(step)
-        if math.isfinite(cost_s):
-            yield step, cost_s
+            found += [other.begun_in(state) for other in self._others.get(situation, ())]
+        costs_s = [self._known_s(step) for step in found]
+        return [(step, cost_s) for step, cost_s in zip(found, costs_s, strict=True) if cost_s < math.inf]
 
     @property
     def has_doubts(self) -> bool:

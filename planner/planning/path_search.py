@@ -154,12 +154,13 @@ class PathSearch:
             known_s.append(duration_s(self._found))
         return min(known_s) - TIME_S
 
-    def _possible(self, state: State, steps: Iterable[Step]) -> Iterator[tuple[Step, float]]:
-        """Yield the steps leaving a state that may succeed, each with the least known cost (s)."""
-        for step, cost_s in self._validator.possible(state, steps):
+    def _possible(self, state: State, steps: Iterable[Step]) -> list[tuple[Step, float]]:
+        """Return the steps leaving a state that may succeed, each with the least known cost (s)."""
+        possible = self._validator.possible(state, steps)
+        for step, _ in possible:
             self._achieved |= step.after.done
             self._reached.add(step.after)
-            yield step, cost_s
+        return possible
 
     def _is_wanted(self, held: State) -> bool:
         """Return whether the search should also consider a grasp that it met with the base elsewhere."""

@@ -47,14 +47,21 @@ class _InTheWay:
         return np.ones((len(first), len(second)), dtype=bool)
 
 
+_ALLOCATIONS = 10_000
+"""Objects made and not dropped again after which the garbage collector looks at young ones. A search makes many that
+stay: with Python's 700 a tenth of a plan's time goes into looking at them.
+"""
+
+
 @cache
 def compile_kernels(name: str = DEFAULT_ROBOT) -> None:
     """Compile the kernels for a robot, or load them from the cache, once per process; planning calls it too.
 
     A napkin is planned and played, the reach is asked why places are out of reach, and the arms are led past each
     other: together these use every kernel. Objects that exist by then, above all modules, are hidden from the garbage
-    collector.
+    collector, which is asked less often from then on.
     """
+    gc.set_threshold(max(_ALLOCATIONS, gc.get_threshold()[0]), *gc.get_threshold()[1:])
     gc.freeze()  # modules are no garbage, and scanning them stops the process for some hundredths of a second
     problem = Problem.of(task_for(napkin(name), robot=name, comfort_radius_m=0.0))
     endless = Budget.of(math.inf, math.inf)

@@ -76,25 +76,25 @@ def legs(strip: NDArray[np.uint32], start: int, end: int, count: int) -> tuple[i
     remaining = _remaining(strip, end, count)
     stands: list[int] = []
     at = start
-    for waypoint in range(len(strip)):
+    for waypoint, mask in enumerate(strip.tolist()):
         is_last = waypoint + 1 == len(strip)
-        at = end if is_last else _next_stand(int(strip[waypoint]), remaining, waypoint, at)
+        at = end if is_last else _next_stand(mask, remaining, waypoint, at)
         stands.append(at)
     return tuple(stands)
 
 
-def _remaining(strip: NDArray[np.uint32], end: int, count: int) -> list[NDArray[np.int64]]:
+def _remaining(strip: NDArray[np.uint32], end: int, count: int) -> list[list[int]]:
     """Return for each waypoint the steps to the end from each standoff, counted before driving there."""
     steps = np.full(count, IMPOSSIBLE, dtype=np.int64)
     steps[end] = 0
-    table: list[NDArray[np.int64]] = []
-    for mask in strip[::-1]:
-        _relax(steps, int(mask), count)
-        table.append(steps.copy())
+    table: list[list[int]] = []
+    for mask in strip[::-1].tolist():
+        _relax(steps, mask, count)
+        table.append(steps.tolist())
     return table[::-1]
 
 
-def _next_stand(mask: int, remaining: list[NDArray[np.int64]], waypoint: int, at: int) -> int:
+def _next_stand(mask: int, remaining: list[list[int]], waypoint: int, at: int) -> int:
     """Return the nearest standoff at which to leave a waypoint such that the way stays shortest."""
     total, after = remaining[waypoint][at], remaining[waypoint + 1]
     ways = [j for j in _within_reach(mask, at) if after[j] + abs(j - at) == total]

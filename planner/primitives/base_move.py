@@ -44,7 +44,7 @@ class MoveStep:
         scene = self.context.scene
         return self.route.durations_s(scene.base_speed_m_s, scene.base_turn_rad_s)
 
-    @property
+    @cached_property
     def duration_s(self) -> float:
         """The time to drive and turn (s)."""
         return sum(self._durations_s)

@@ -1,9 +1,9 @@
 """A drag as a step of a plan."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import islice, product
+from itertools import islice
 from typing import Any, ClassVar
 
 import numpy as np
@@ -47,7 +47,7 @@ class DragStep:
         """The distance over which the article is dragged (m)."""
         return (self.after.standoff - self.first_stand) / STANDOFFS_PER_M
 
-    @property
+    @cached_property
     def duration_s(self) -> float:
         """The time to drive, reach and drag (s)."""
         steps = abs(self.before.standoff - self.first_stand)
@@ -115,9 +115,7 @@ class DragStep:
         """Yield this step, then the drag with every other choice of approaches, the best first."""
         yield self
         chosen = tuple(self.way.approaches[self.first_stand].tolist())
-        able = [enumerate(approaches) for approaches in self._able()]
-        for choice in sorted(product(*able), key=lambda c: sum(rank for rank, _ in c)):
-            approaches = tuple(approach for _, approach in choice)
+        for approaches in _best_first(self._able()):
             if approaches != chosen:
                 yield replace(self, approaches=approaches)
 
@@ -214,6 +212,27 @@ class DragStep:
         dx = self.after.offset[0] - self.before.offset[0]
         dy = self.after.offset[1] - self.before.offset[1]
         return np.asarray(self.way.picks + np.array([dx, dy, 0.0]))
+
+
+def _best_first(able: Sequence[Sequence[int]]) -> Iterator[tuple[int, ...]]:
+    """Yield the combinations of one approach for each hand by rising sum of their ranks; mostly only a few are wanted.
+
+    Those of one sum come in the order of their ranks.
+    """
+    for total in range(sum(len(approaches) - 1 for approaches in able) + 1):
+        yield from _of_rank(able, total)
+
+
+def _of_rank(able: Sequence[Sequence[int]], total: int) -> Iterator[tuple[int, ...]]:
+    """Yield the combinations whose ranks add up to `total`, in the order of their ranks."""
+    first, *others = able
+    most = sum(len(approaches) - 1 for approaches in others)
+    ranks = range(max(0, total - most), min(len(first) - 1, total) + 1)
+    if not others:
+        yield from ((first[rank],) for rank in ranks)
+        return
+    for rank in ranks:
+        yield from ((first[rank], *rest) for rest in _of_rank(others, total - rank))
 
 
 def _point(row: FloatArray) -> Point3:

@@ -3,9 +3,9 @@
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import accumulate, pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
 from planner.geometry.pose import Approach, FloatArray, Point3, Pose2
 from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M, nearest_whole
@@ -62,7 +62,7 @@ class FoldMotion:
         """Return the phases: drive, reach, follow the path with the base's legs in between."""
         pieces = tuple(self._pieces())
         moments = [np.zeros(1), *(piece.moments for piece in pieces)]
-        places = np.cumsum([len(sweeps) for sweeps in moments])[:-1]
+        places = tuple(accumulate(len(sweeps) for sweeps in moments))[:-1]
         hands = [self._cut(number, np.concatenate(moments), places) for number in range(len(self.way.trial.arms))]
         begin = () if self.before.held else self._begin([of_hand[0] for of_hand in hands])
         follow = (self._phase(piece, [parts[i] for parts in hands]) for i, piece in enumerate(pieces, start=1))
@@ -71,7 +71,7 @@ class FoldMotion:
     def extremes(self) -> tuple[Phase, ...]:
         """Return one phase straight from the picks to the places; only its start and end are true to the motion."""
         numbers = range(len(self.way.trial.arms))
-        ends = [self._cut(number, np.array([0.0, 2.0]), np.empty(0, dtype=np.int64))[0] for number in numbers]
+        ends = [self._cut(number, np.array([0.0, 2.0]), ())[0] for number in numbers]
         bases = (self._base(self.first_stand), self._base(self.end))
         return (Phase(0.0, bases, self._hands(ends), self._cloth(0.0, 2.0)),)
 
@@ -120,13 +120,14 @@ class FoldMotion:
             hands[arm] = Hand(self._approach(number), part.points, not is_reaching, is_reaching, part.rolls_rad)
         return tuple(hands)
 
-    def _cut(self, number: int, sweeps: FloatArray, places: NDArray[np.int64]) -> "list[_Points]":
+    def _cut(self, number: int, sweeps: FloatArray, places: tuple[int, ...]) -> "list[_Points]":
         """Return a hand's points and rolls at rising sweeps, cut into parts."""
         trial = self.way.trial
         path = trial.path.tool_paths(trial.points[number : number + 1], sweeps)[0]
-        rolls = self._rolls(number, sweeps)
-        parts = zip(np.split(path, places), np.split(rolls, places), strict=True)
-        return [_Points(tuple((x, y, z) for x, y, z in p.tolist()), tuple(r.tolist())) for p, r in parts]
+        points = tuple([(x, y, z) for x, y, z in path.tolist()])
+        rolls = tuple(self._rolls(number, sweeps).tolist())
+        ends = (0, *places, len(points))
+        return [_Points(points[start:end], rolls[start:end]) for start, end in pairwise(ends)]
 
     def _rolls(self, number: int, sweeps: FloatArray) -> FloatArray:
         """Return the roll of a hand at each sweep (rad).

@@ -46,7 +46,7 @@ class FoldStep:
     driven: int
     kind: str = "fold"
 
-    @property
+    @cached_property
     def duration_s(self) -> float:
         """The time of the arm motions and of all the base's legs (s)."""
         steps = self.driven + abs(self.before.standoff - self.first_stand)

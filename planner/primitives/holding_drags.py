@@ -5,6 +5,7 @@ best standoff for the drag and the fold together; drags to all other standoffs a
 """
 
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
 from functools import partial
 from typing import NamedTuple
 
@@ -41,18 +42,44 @@ class _Drag(NamedTuple):
     leads: "_Leads"
 
 
-class _Leads(NamedTuple):
+@dataclass(frozen=True, slots=True, eq=False)
+class _Leads:
     """Where a drag by given hands leads from all states that differ in their standoff alone.
 
     Attributes:
-        afters: the states it may lead to.
-        ends: their standoffs, shape (n,).
+        done: the folds done, as a bit mask.
+        offset: how far the article has been carried since the start, table frame (m).
+        station: the base's station.
+        held: the grips held.
+        count: the length of the drag, in steps of the grid of drags.
+        ends: the standoffs at which it may end, shape (n,).
         folds: the folds that can then be done with the grips.
     """
 
-    afters: tuple[State, ...]
+    done: int
+    offset: Point2
+    station: int
+    held: tuple[Held, ...]
+    count: int
     ends: NDArray[np.int64]
     folds: tuple[int, ...]
+    _afters: dict[int, State] = field(default_factory=dict)
+
+    @property
+    def afters(self) -> Iterator[State]:
+        """The states it may lead to."""
+        return (self.after(end) for end in self.ends.tolist())
+
+    @property
+    def first(self) -> State:
+        """One of these states."""
+        return self.after(int(self.ends[0]))
+
+    def after(self, end: int) -> State:
+        """Return the state with the base at a standoff; most of them are never asked for."""
+        if end not in self._afters:
+            self._afters[end] = State(self.done, self.offset, self.station, end, self.held, self.count)
+        return self._afters[end]
 
 
 class HoldingDrags:
@@ -67,20 +94,20 @@ class HoldingDrags:
         """Yield the drags by `count` steps of the grid of drags that leave grips of use to some fold."""
         drag = self._drag(state, way, count, offset)
         if drag.leads.folds:
-            yield from (self._step(drag, after) for after in drag.leads.afters)
+            yield from self._every_step(drag)
 
     def successors(
         self, state: State, way: DragWay, count: int, offset: Point2
     ) -> Iterator[DragStep | Deferred[DragStep]]:
         """Yield the drags of `every`, those first that are cheapest together with a fold; defer the rest as spare."""
         drag = self._drag(state, way, count, offset)
-        folds, afters = drag.leads.folds, drag.leads.afters
+        folds = drag.leads.folds
         if any(self._context.sequence.dag.follows_at_once(fold) for fold in folds):
-            yield from (self._step(drag, after) for after in afters)
+            yield from self._every_step(drag)
         elif folds:
             for fold in folds:
                 yield from self._serving(drag, fold, drag.driven)
-            yield self._later(drag, drag.driven, lambda: (self._step(drag, a) for a in afters), is_spare=True)
+            yield self._later(drag, drag.driven, lambda: self._every_step(drag), is_spare=True)
 
     def _drag(self, state: State, way: DragWay, count: int, offset: Point2) -> _Drag:
         key = (state.done, state.place, state.station, way, count)
@@ -93,9 +120,10 @@ class HoldingDrags:
         ends = np.array(way.stands, dtype=np.int64) + count * STEPS_PER_DRAG
         ends = ends[ends < self._context.standoffs]
         folds = self._served(state, held) if len(ends) else ()
-        # Nobody asks where a drag leads whose grips serve no fold.
-        to = ends.tolist() if folds else []
-        return _Leads(tuple(State(state.done, offset, state.station, end, held, count) for end in to), ends, folds)
+        return _Leads(state.done, offset, state.station, held, count, ends, folds)
+
+    def _every_step(self, drag: _Drag) -> Iterator[DragStep]:
+        return (self._step(drag, after) for after in drag.leads.afters)
 
     def _step(self, drag: _Drag, after: State) -> DragStep:
         return DragStep(self._context, drag.way, drag.before, after, after.standoff - drag.driven)
@@ -109,14 +137,13 @@ class HoldingDrags:
     def _serving(self, drag: _Drag, fold: int, least: int) -> Iterator[DragStep | Deferred[DragStep]]:
         """Yield the drags that serve a fold best, where drag and fold take at least `least` steps of driving in all."""
         begun = np.full(self._context.standoffs, IMPOSSIBLE)
-        afters, at, _ = drag.leads
+        at = drag.leads.ends
         begun[at] = np.abs(drag.before.standoff + drag.driven - at) + drag.driven
         # The limit grows geometrically, so that a fold far away is queried only a few times.
         most = drag.driven + 3 * (least - drag.driven)
-        ends, more = self._questions.of(afters[0], fold).ends(begun, least, most)
-        after_at = {after.standoff: after for after in afters}
+        ends, more = self._questions.of(drag.leads.first, fold).ends(begun, least, most)
         for end in ends:
-            step = self._step(drag, after_at[end.first])
+            step = self._step(drag, drag.leads.after(end.first))
             yield self._later(drag, end.steps, partial(iter, (step,)))
         if more < IMPOSSIBLE:
             yield self._later(drag, more, partial(self._serving, drag, fold, more))
@@ -130,4 +157,4 @@ class HoldingDrags:
     ) -> Deferred[DragStep]:
         """Return deferred steps that drive `driven` steps in all: before, with and after the drag."""
         duration_s = self._context.scene.arm_motion_s + self._context.drive_s(driven)
-        return Deferred(duration_s, drag.leads.afters[0], steps, is_spare)
+        return Deferred(duration_s, drag.leads.first, steps, is_spare)

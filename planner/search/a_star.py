@@ -15,7 +15,7 @@ from collections.abc import Callable, Hashable, Iterable, Iterator
 from dataclasses import dataclass, field
 from enum import StrEnum
 from itertools import count
-from typing import Generic, TypeAlias, TypeVar
+from typing import Generic, NamedTuple, TypeAlias, TypeVar
 
 S = TypeVar("S", bound=Hashable)
 A = TypeVar("A")
@@ -32,8 +32,7 @@ class Outcome(StrEnum):
     BUDGET_EXCEEDED = "budget_exceeded"
 
 
-@dataclass(frozen=True, slots=True)
-class Edge(Generic[S, A]):
+class Edge(NamedTuple, Generic[S, A]):
     """An edge from a state to another.
 
     Attributes:
@@ -47,8 +46,7 @@ class Edge(Generic[S, A]):
     after: S
 
 
-@dataclass(frozen=True, slots=True)
-class DeferredEdges(Generic[S, A]):
+class DeferredEdges(NamedTuple, Generic[S, A]):
     """Deferred edges that leave a state.
 
     Attributes:

@@ -43,3 +43,17 @@ def test_paths_that_differ_in_their_cloth_or_its_room_are_others():
 def _far(problem: Problem):
     state = problem.start
     return type(state)(state.done, (0.1, 0.0), state.station, state.standoff)
+
+
+def test_a_motion_beside_a_driving_base_is_tested_once(monkeypatch: pytest.MonkeyPatch):
+    problem = Problem.of(Task.of(load_garment("hand-towel")))
+    transits, cloth = problem.maker.transits, problem.maker._cloths.of(problem.start)
+    asked: list[object] = []
+    are_clear = TransitPaths.are_clear
+    monkeypatch.setattr(TransitPaths, "are_clear", lambda self, *about: asked.append(about) or are_clear(self, *about))
+    bases = np.column_stack([np.linspace(-1.2, -1.3, 5), np.zeros(5), np.zeros(5)])
+    joints = np.tile(transits.home, (5, 1))
+    assert transits.is_clear(cloth, bases, joints)
+    assert transits.is_clear(cloth, bases.copy(), joints.copy()) and len(asked) == 1
+    inside = bases + np.array([1.2, 0.0, 0.0])
+    assert not transits.is_clear(cloth, inside, joints)
