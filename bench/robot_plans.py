@@ -32,9 +32,9 @@ COLUMNS = (
     "why not",
     "cost [s]",
     "CPU [s]",
-    "elsewhere [s]",
-    "looked for, CPU [s]",
-    "edits, CPU [ms]",
+    "laid elsewhere",
+    "CPU [s]",
+    "edit [ms]",
     "most",
 )
 

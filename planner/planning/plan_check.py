@@ -12,6 +12,7 @@ import numpy as np
 from planner.errors import FieldError, RequestError
 from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M, TIME_S
+from planner.planning.base_check import require_drive
 from planner.planning.problem import Problem
 from planner.primitives.drag_way import DragWays
 from planner.primitives.fold_obstacles import geometric_obstacle
@@ -72,7 +73,9 @@ def _require_step(problem: Problem, step: PlanStep, segments: tuple[Segment, ...
     _require_cloth(problem, step, before, after)
     tools = _Tools(problem, step, before, after) if step.grips else None
     for segment in segments:
-        for t_s in _moments(segment):
+        times_s = list(_moments(segment))
+        require_drive(problem, segment, times_s)
+        for t_s in times_s:
             _require_arms(problem, segment, path, t_s, tools)
 
 
