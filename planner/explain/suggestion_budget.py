@@ -1,11 +1,17 @@
 """Limit the work of a search for suggestions, and of each of its trials."""
 
+import time
+from collections.abc import Iterable, Iterator
+from typing import TypeVar
+
 from planner.explain.explanation import FirstExplanation
 from planner.planning.budget import Budget
 from planner.planning.plan_search import PlanSearch
 from planner.planning.problem import Problem
 from planner.task.plan import Plan
 from planner.task.task import Task
+
+T = TypeVar("T")
 
 SHORTEST_TRIAL_S = 1.0
 """Least work of a trial (s, see `Budget`); less would cut off most plans just before they are found."""
@@ -40,6 +46,14 @@ class TrialBudget:
     def is_stopped(self) -> bool:
         """Whether the search was told to stop."""
         return self._whole.should_stop()
+
+    def while_left(self, things: Iterable[T], needed_s: float) -> Iterator[T]:
+        """Yield things as long as there is time for one more (s); what is left then counts as unknown."""
+        for thing in things:
+            if time.perf_counter() + needed_s > self._whole.deadline_s:
+                self.has_unknown = True
+                return
+            yield thing
 
     def has_spent(self, share: float) -> bool:
         """Return whether this share of the work has been done, or the time is up."""

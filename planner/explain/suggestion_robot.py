@@ -3,7 +3,7 @@
 The robots are tried one after the other, each proven by its plan; who asks says which there are.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from planner.errors import FoldingError
@@ -17,19 +17,20 @@ from planner.task.task import DEFAULT_ROBOT, Task
 from planner.words.catalogue import worded
 
 
-def robots(task: Task, names: Sequence[str]) -> Search:
+def robots(task: Task, names: Iterable[str]) -> Search:
     """Look for a robot that can fold the garment, and then for quicker ones.
 
     Args:
         task: the task; nothing is tried once a fold is done, since cloth is not carried to another table.
-        names: the robots to try. The task's own is left out, and so is one that cannot be loaded.
+        names: the robots to try, each taken only when it is its turn. The task's own is left out, and so is one that
+            cannot be loaded.
     """
     own = split_changes(task.robot)[0]
-    others = () if task.start.folds_done else tuple(name for name in names if name != own)
+    others = () if task.start.folds_done else (name for name in names if name != own)
     return each_cheaper(_trials(task, others))
 
 
-def _trials(task: Task, names: Sequence[str]) -> Iterator[Trial]:
+def _trials(task: Task, names: Iterable[str]) -> Iterator[Trial]:
     for name in names:
         try:
             title = robot_card_file(name).title

@@ -49,6 +49,9 @@ _SIZES_SHARE = 0.7
 _OWN_SHARE = 0.75
 """Share of the work that is for the task's own robot, where others may be tried."""
 
+_ROBOT_S = 8.0
+"""Time that must be left for another robot to be tried (s): to load one takes seconds, and is no work that counts."""
+
 _FOLDS_MAX = 3
 """Folds to blame that changes are tried for."""
 
@@ -118,7 +121,7 @@ def _searched(
         yield from _by_turns(assumptions, budget, on_trial, own)
     yield from _by_turns(changes, budget, on_trial, own)
     if sum(lane.has_found for lane in (*changes, *assumptions)) < ENOUGH_KINDS:
-        changes += _lanes(robots(task, names))
+        changes += _lanes(robots(task, budget.while_left(names, _ROBOT_S)))
         yield from _by_turns(changes[-1:], budget, on_trial, 1.0)
     yield from _by_turns(assumptions, budget, on_trial, 1.0)
     yield from _by_turns(changes, budget, on_trial, 1.0)

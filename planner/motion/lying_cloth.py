@@ -77,7 +77,7 @@ class LyingCloths:
         self._context = context
         self._collisions = collisions
         self._known: dict[tuple[int, int, int], LyingCloth] = {}
-        self._whole = lru_cache(None)(self._whole_pieces)
+        self._whole: dict[int, tuple[FloatArray, ...]] = {}  # a cached method would keep all this until a collection
 
     def of(self, state: State) -> LyingCloth:
         """Return the cloth as it lies in a state once nothing is held, without what hangs over the table's edges."""
@@ -92,9 +92,11 @@ class LyingCloths:
     def _pieces(self, state: State) -> Sequence[FloatArray]:
         context = self._context
         if context.is_all_on_table(state.done, state.offset):
-            return self._whole(state.done)
+            return self._whole_pieces(state.done)
         top = context.table_in_article(state.offset).region
         return convex_pieces(context.sequence.cloth(state.done).silhouette.intersection(top))
 
     def _whole_pieces(self, done: int) -> tuple[FloatArray, ...]:
-        return convex_pieces(self._context.sequence.cloth(done).silhouette)
+        if done not in self._whole:
+            self._whole[done] = convex_pieces(self._context.sequence.cloth(done).silhouette)
+        return self._whole[done]

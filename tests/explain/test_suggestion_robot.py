@@ -86,3 +86,19 @@ def test_no_robot_is_tried_where_three_kinds_of_change_help_or_there_is_a_plan(
     list(suggestions(task, other_robots=("pr2",)))
     towel = task_for(load_garment("hand-towel"), work_limit_s=0.5, time_limit_s=60.0)
     assert all(one.kind == "placement" for one in suggestions(towel, other_robots=(SHORT,)))
+
+
+def test_no_robot_is_loaded_where_no_time_is_left_for_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    # To load a robot takes seconds, which no limit of work counts: a search of 2 s took 9 s, and 30 s without maps.
+    def never(name: str) -> Any:
+        raise AssertionError(f"{name} was loaded")
+
+    monkeypatch.setattr("planner.explain.suggestion_robot.robot_card_file", never)
+    task = task_for(LONG, robot=SHORT, work_limit_s=2.0, time_limit_s=7.0)
+    search = suggestions(task, other_robots=("pr2",))
+    while True:
+        try:
+            next(search)
+        except StopIteration as end:
+            assert end.value is False, "what another robot can do is unknown"
+            return
