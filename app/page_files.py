@@ -12,7 +12,7 @@ from pathlib import Path
 
 from app.resources import static_dir
 
-_FROM = re.compile(r'^((?:import|export)\b[^;"]*)"(\.{1,2}/[^"]+)"', re.MULTILINE)
+_FROM = re.compile(r'^((?:import|export)(?:\s[^;"()=]*\bfrom)?\s*)"(\.{1,2}/[^"]+)"', re.MULTILINE)
 _STYLES = re.compile(r'^@import "\./([^"]+)";$', re.MULTILINE)
 
 # A module is named in a debugger as it lies in the folder.

@@ -24,6 +24,7 @@ from planner.explain.suggestion_together import together
 from planner.explain.suggestion_trial import Search, Trial
 from planner.planning.budget import Budget
 from planner.planning.warm_up import compile_kernels
+from planner.robots.load_robot import needs_maps
 from planner.task.plan import Plan
 from planner.task.reason import Code
 from planner.task.task import Task
@@ -74,7 +75,8 @@ def suggestions(
         should_stop: polled while searching; true ends the suggestions.
         plan: the answer to the task, where it is known.
         on_trial: called with each change before it is planned.
-        other_robots: the names of robots that may fold it, tried at last, and only where few kinds of change help.
+        other_robots: the names of robots that may fold it, tried at last, and only where few kinds of change help;
+            those that need no maps come first.
 
     Returns:
         The suggestions as they are found, at most `TOLD_MAX` of a kind; the generator's return value says whether every
@@ -88,7 +90,7 @@ def suggestions(
     whole = Budget.of(task.limits.work_limit_s, task.limits.time_limit_s, should_stop)
     budget = TrialBudget(whole)
     known = plan or budget.plan(task, _FIRST_PLAN_SHARE * whole.work_limit_s, with_reasons=True)
-    names = () if known.is_solved else tuple(other_robots)
+    names = () if known.is_solved else sorted(other_robots, key=needs_maps)
     return _searched(task, known, budget, on_trial or _ignore, names)
 
 

@@ -56,6 +56,11 @@ def prepare_robot(name_or_path: str, progress: Progress) -> None:
         robot.prepare(progress)
 
 
+def needs_maps(name_or_path: str) -> bool:
+    """Return whether planning for a robot needs maps of its arms, which may have to be built."""
+    return split_changes(name_or_path)[0] not in CLOSED_FORMS
+
+
 def robot_card_file(name_or_path: str) -> CardFile:
     """Return a robot's card without a look at its URDF; raises as `load_robot` does."""
     base, changes = split_changes(name_or_path)

@@ -89,16 +89,19 @@ def stopped(page: WebSocketRoute) -> None:
     """Fake a server that has been told to stop, until it is told to plan again."""
     server = page.connect_to_server()
     kept: list[str] = []
+    is_again = False
 
     def tell(text: str) -> None:
         message = json.loads(text)
-        if message["kind"] == "plan":
+        if message["kind"] == "plan" and not is_again:
             kept[:] = [text]
             message |= {"status": "failed", "text": "No plan: planning was stopped", "plan": None}
         page.send(json.dumps(message))
 
     def hear(text: str) -> None:
+        nonlocal is_again
         if json.loads(text) == {"do": "plan"}:
+            is_again = True
             page.send(kept[0])
         else:
             server.send(text)

@@ -1,5 +1,6 @@
 """Another robot is offered where few kinds of change help: the quickest that can, at its own table."""
 
+from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from dataclasses import replace
 from types import SimpleNamespace
@@ -86,6 +87,19 @@ def test_no_robot_is_tried_where_three_kinds_of_change_help_or_there_is_a_plan(
     list(suggestions(task, other_robots=("pr2",)))
     towel = task_for(load_garment("hand-towel"), work_limit_s=0.5, time_limit_s=60.0)
     assert all(one.kind == "placement" for one in suggestions(towel, other_robots=(SHORT,)))
+
+
+def test_a_robot_that_needs_no_maps_has_its_turn_first(monkeypatch: pytest.MonkeyPatch) -> None:
+    turns: list[str] = []
+
+    def none(_: Task, names: Iterable[str]) -> Iterator[Any]:
+        turns.extend(names)
+        yield from ()
+
+    monkeypatch.setattr(searching, "robots", none)
+    task = task_for(LONG, robot=SHORT, work_limit_s=0.5, time_limit_s=60.0)
+    list(suggestions(task, other_robots=("baxter", "panda-pair", "pr2")))
+    assert turns == ["pr2", "baxter", "panda-pair"]
 
 
 def test_no_robot_is_loaded_where_no_time_is_left_for_it(monkeypatch: pytest.MonkeyPatch) -> None:
