@@ -16,7 +16,7 @@ from math import cos, sin, tau
 from pathlib import Path
 from statistics import median, quantiles
 from tempfile import TemporaryDirectory
-from time import perf_counter, process_time
+from time import perf_counter, process_time, sleep
 
 from app.document import Document
 from app.document_state import DocumentState
@@ -50,6 +50,10 @@ MOVES = 8
 
 QUICK_MOVES = 1
 STEP_M = 0.01
+
+_REST_S = 0.001
+"""Time between two looks at whether the pool rests (s)."""
+
 SEED = 1
 ILLEGAL = "illegal"
 """Status of a move after which the drawing is not legal, in place of a plan's."""
@@ -95,8 +99,10 @@ def replanned(article: str, moves: int) -> list[Replanned]:
 def redrawn(drawing: Drawing, moves: int) -> list[Replanned]:
     """Move corners of a drawing and return the measurements; corners and directions are the same in every run."""
     shipped = solve(drawing).drawing
-    with _planned(shipped) as document:
-        return [_replanned(document, shipped, *move) for move in chosen(shipped.name, len(shipped.outline), moves)]
+    with _planned(shipped) as (document, pool):
+        return [
+            _replanned(document, pool, shipped, *move) for move in chosen(shipped.name, len(shipped.outline), moves)
+        ]
 
 
 def chosen(article: str, corners: int, moves: int) -> list[tuple[int, float]]:
@@ -114,20 +120,20 @@ def moved(drawing: Drawing, number: int, towards_rad: float) -> Drawing:
 
 
 @contextmanager
-def _planned(drawing: Drawing) -> Iterator[Document]:
-    """Yield a document with its planner, at rest."""
+def _planned(drawing: Drawing) -> Iterator[tuple[Document, JobPool]]:
+    """Yield a document and the pool of its planner, both at rest."""
     document, pool = Document(draft_of(drawing)), JobPool()
     with TemporaryDirectory() as folder, closing(Database(Path(folder) / "pleat.db")) as database:
         replanner = Replanner(document, pool, PlanStore(database))
         try:
-            _until(document, _is_settled)
-            yield document
+            _rest(document, pool)
+            yield document, pool
         finally:
             replanner.close()
             pool.close()
 
 
-def _replanned(document: Document, drawing: Drawing, corner: int, towards_rad: float) -> Replanned:
+def _replanned(document: Document, pool: JobPool, drawing: Drawing, corner: int, towards_rad: float) -> Replanned:
     edited = moved(drawing, corner, towards_rad)
     wall, cpu = perf_counter(), process_time()
     state = document.edit(Edit("Move", edited))
@@ -142,8 +148,15 @@ def _replanned(document: Document, drawing: Drawing, corner: int, towards_rad: f
     is_soon = first.answer is not None and not first.answer.is_final
     status = ILLEGAL if final.solution.problems or final.answer is None else final.answer.plan.status
     document.edit(Edit("Back", drawing))
-    _until(document, _is_settled)
+    _rest(document, pool)
     return Replanned(corner, status, first_cpu_s, first_wall_s, final_cpu_s, is_soon)
+
+
+def _rest(document: Document, pool: JobPool) -> None:
+    """Wait until the answer is final and what comes after it is done: a plan is written only after it is shown."""
+    _until(document, _is_settled)
+    while any(pool.load()[:2]):
+        sleep(_REST_S)
 
 
 def _is_settled(state: DocumentState) -> bool:

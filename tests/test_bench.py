@@ -61,6 +61,7 @@ MEASURED = {
     "explored",
     "ik_queries",
     "ik_time_s",
+    "told_time_s",
     "search_time_s",
     "plan_time_s",
 }
@@ -136,6 +137,7 @@ def test_repetitions_come_out_the_same():
     first, second = measure(Case("hand-towel", 0.0), Case("hand-towel", 0.0), repetitions=2)
     assert first.outcome == second.outcome
     assert len(first.search_times_s) == 2
+    assert all(0 < told <= whole for told, whole in zip(first.told_times_s, first.plan_times_s, strict=True))
 
 
 def test_a_ratio_is_the_median_of_the_turns():

@@ -5,8 +5,9 @@ next grips (the *lead* of the next transfer). If the straight path is not clear 
 first; if that is not clear either, the base waits until they are there.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import pairwise, product
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -78,20 +79,26 @@ class TransitPlanner:
 
     def _overlapping(self, free: TransitTime, tail: Line, lead: Line) -> Keyframes | None:
         """Return keyframes of hands that travel while the base drives; None if that is not clear."""
+        for way in self._ways(free, tail, lead):
+            # Beside a base that drives at once, hands that withdraw quickly are high before they have been swept along.
+            for tail_s in (_TAIL_S, 0.0):
+                keyframes = self._timed(free, tail, way, lead, tail_s)
+                if keyframes is not None and self._is_clear(free, tail, keyframes):
+                    return keyframes
+        return None
+
+    def _ways(self, free: TransitTime, tail: Line, lead: Line) -> Iterator[FloatArray]:
+        """Yield paths from a tail to a lead: straight, free where the base will stand, by way of home.
+
+        The second is looked for only once the first has failed, since that takes the most time.
+        """
         start, goal = tail.joints[-1], lead.joints[0]
-        ways = [np.array([start, goal])]
-        home = self._transits.unwound(self._transits.home, start)
+        yield np.array([start, goal])
         spared = self._transits.spared(tail.joints, lead.joints)
         found = self._transits.way(free.last, start, goal, free.cloth, spared)
         if found is not None:
-            ways.append(found)
-        ways.append(np.array([start, home, goal]))
-        # Beside a base that drives at once, hands that withdraw quickly are high before they have been swept along.
-        for way, tail_s in product(ways, (_TAIL_S, 0.0)):
-            keyframes = self._timed(free, tail, way, lead, tail_s)
-            if keyframes is not None and self._is_clear(free, tail, keyframes):
-                return keyframes
-        return None
+            yield found
+        yield np.array([start, self._transits.unwound(self._transits.home, start), goal])
 
     def _timed(self, free: TransitTime, tail: Line, way: FloatArray, lead: Line, tail_s: float) -> Keyframes | None:
         """Return keyframes that withdraw, travel and come to the grips in time; None if there is too little."""
