@@ -9,6 +9,7 @@ from typing import Any
 from app.files.crease_reading import Creases
 from app.files.import_file import Imported, import_file
 from app.files.robot_archive import unpack_robot
+from app.files.seam_allowance import Line
 from app.jobs.apart import Tell
 from app.jobs.job_kind import Progress
 from app.store.storage_error import storing
@@ -122,9 +123,10 @@ def read_file(
     creases: Creases | None,
     measured: str | None,
     like: str | Garment | None,
+    line: Line | None,
 ) -> Imported:
     """Read a garment from a file, as `import_file` does."""
-    return import_file(filename, data, units, scale, creases, measured, like)
+    return import_file(filename, data, units, scale, creases, measured, like, line)
 
 
 def read_robot(_: Tell, folder: Path, given: bytes | CardFile) -> CardFile:

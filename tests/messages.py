@@ -144,6 +144,8 @@ MESSAGES: list[dict[str, Any]] = [
     {"code": "start_at", "station": "front_left"},
     {"code": "take_back", "step": "Move vertex"},
     {"code": "corners_seen", "corners": 10},
+    {"code": "seam_allowance", "line": "seam", "width_m": 0.01},
+    {"code": "seam_allowance", "line": "cut", "width_m": 0.01},
     {"code": "made_symmetric", "off_m": 0.0021},
     {"code": "edges_do_not_fit", "share": 0.8, "within_m": 0.01},
     {"code": "likeness_does_not_fit", "share": 0.7, "within_m": 0.01},

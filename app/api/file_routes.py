@@ -1,5 +1,6 @@
 """Routes of files: importing a garment, and exporting a document."""
 
+from dataclasses import asdict
 from functools import partial
 from typing import Annotated, Any, Literal
 
@@ -23,6 +24,7 @@ from app.files.exports import EXPORTS, find_export
 from app.files.import_errors import ImportedFileError, UnitsNeededError
 from app.files.import_file import Imported, largest
 from app.files.recording import DEFAULT_RATE_HZ, RATES_HZ
+from app.files.seam_allowance import Line
 from app.jobs.apart import ignore, run_apart
 from app.jobs.job_pool import ShouldStop
 from app.templates.catalogue import find_template
@@ -44,6 +46,10 @@ Scale = Annotated[float, Query(allow_inf_nan=False)]
 Lines = Annotated[
     Creases | None, Query(description="the cloth that fold lines are drawn on: as the folds before leave it, or flat")
 ]
+Outlined = Annotated[
+    Line | None,
+    Query(description="the outline, where a seam line runs along inside a cut line; without it the seam line"),
+]
 Measured = Annotated[
     str | None,
     Query(
@@ -63,13 +69,21 @@ LikeName = Annotated[
 Rate = Annotated[float, Query(ge=RATES_HZ[0], le=RATES_HZ[1], allow_inf_nan=False)]
 
 
+class AllowanceAnswer(BaseModel):
+    """The distance of a drawing's seam line from its cut line (m), and which of them was taken as the outline."""
+
+    line: Line
+    width_m: float
+
+
 class ImportAnswer(BaseModel):
     """An imported garment, and notes about the import.
 
     `creases` says on which cloth the fold lines of a drawing were read; null if that makes no difference. `sizes`
     gives the width and height of the drawing in other units (m). `says` has the numbers of the notes, by name, null
     for a note without numbers. `seen` says of a picture where the garment lies in it, what gave the scale, and how sure
-    that is, as `pleat see` does; null for other files.
+    that is, as `pleat see` does; null for other files. `allowance` is told of a drawing
+    with a seam line inside a cut line.
     """
 
     format: Literal["json", "svg", "dxf", "png", "jpeg"]
@@ -79,6 +93,7 @@ class ImportAnswer(BaseModel):
     creases: Creases | None
     sizes: dict[str, tuple[float, float]] | None
     seen: dict[str, Any] | None
+    allowance: AllowanceAnswer | None
 
 
 class FileEntry(BaseModel):
@@ -107,6 +122,7 @@ async def post_import(
     creases: Lines = None,
     measured: Measured = None,
     like: LikeName = None,
+    line: Outlined = None,
 ) -> Response:
     """Import a garment from a file in the body: a garment or plan file, SVG, DXF, PNG or JPEG, by its name's ending.
 
@@ -119,7 +135,7 @@ async def post_import(
     """
     known = None if like is None else await run_in_threadpool(_liked, workspace_of(request), like)
     data = await read_bytes(request, largest(filename))
-    work = partial(_read, filename, data, units, scale, creases, measured, known)
+    work = partial(_read, filename, data, units, scale, creases, measured, known, line)
     try:
         return JSONResponse(_imported(await answer_of(request, workspace_of(request).lanes.files, work)))
     except UnitsNeededError as error:
@@ -167,9 +183,11 @@ def _read(
     creases: Creases | None,
     measured: str | None,
     like: str | Garment | None,
+    line: Line | None,
     should_stop: ShouldStop,
 ) -> Imported:
-    return run_apart(searches.read_file, should_stop, ignore, filename, data, units, scale, creases, measured, like)
+    asked = (filename, data, units, scale, creases, measured, like, line)
+    return run_apart(searches.read_file, should_stop, ignore, *asked)
 
 
 def _liked(within: HasGarments, name: str) -> str | Garment:
@@ -195,4 +213,5 @@ def _imported(imported: Imported) -> dict[str, Any]:
         "creases": imported.creases,
         "sizes": imported.sizes,
         "seen": imported.seen,
+        "allowance": None if imported.allowance is None else asdict(imported.allowance),
     }

@@ -8,6 +8,7 @@ from typing import Any
 from app.files.crease_reading import Creases
 from app.files.garment_json import read_garment_json
 from app.files.import_errors import ImportedFileError
+from app.files.seam_allowance import Allowance, Line
 from app.files.sketch import Sketch
 from app.files.sketch_garment import garment_of
 from app.files.sketch_size import UNITS_M, Sizes
@@ -53,6 +54,7 @@ class Imported:
         creases: the cloth on which the fold lines were read; None if it makes no difference.
         sizes: the size that a drawing would have in other units; None for a garment file or a picture.
         seen: how sure a garment in a picture is, as JSON; None for other files.
+        allowance: a drawing's seam allowance, and whether it was taken along; None for none.
     """
 
     format: str
@@ -61,6 +63,7 @@ class Imported:
     creases: Creases | None = None
     sizes: Sizes | None = None
     seen: dict[str, Any] | None = None
+    allowance: Allowance | None = None
 
 
 def largest(filename: str) -> int:
@@ -78,6 +81,7 @@ def import_file(
     creases: Creases | None = None,
     measured: str | None = None,
     like: str | Garment | None = None,
+    line: Line | None = None,
 ) -> Imported:
     """Return the garment in a file.
 
@@ -90,6 +94,7 @@ def import_file(
         measured: what gives the scale of a picture, as `app.vision.scale_said` reads it; None to look for a sheet.
         like: the template, by name, or the garment whose measures are fitted to a picture and whose folds come along;
             None to take the outline as it is seen.
+        line: which line of a drawing that has a cut line and a seam line is the outline; None for the seam line.
 
     Raises:
         ImportedFileError: the file is not a garment; the field is ``file``, ``filename``, ``units``, ``scale``,
@@ -111,8 +116,8 @@ def import_file(
     if ending not in _SKETCHES:
         endings = ", ".join(f".{known}" for known in (_JSON, *_SKETCHES, *_PICTURES))
         raise ImportedFileError("filename", f"{path.name[:80]!r} ends in none of {endings}")
-    found = garment_of(_SKETCHES[ending](data), path.stem, units, scale, creases)
-    return Imported(ending, found.garment, found.notes, found.creases, found.sizes)
+    found = garment_of(_SKETCHES[ending](data), path.stem, units, scale, creases, line)
+    return Imported(ending, found.garment, found.notes, found.creases, found.sizes, allowance=found.allowance)
 
 
 def _ending(filename: str) -> str:

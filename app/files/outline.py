@@ -9,11 +9,15 @@ import numpy as np
 from app.files.curve import POINTS_MAX as CURVE_POINTS_MAX
 from app.files.curve import Curve
 from app.files.import_errors import broken
+from app.files.seam_allowance import Allowance, Line, seam_line
 from planner.cloth.outline import AREA_MIN_M2, EDGE_MIN_M, POINTS_MAX
 from planner.geometry.pose import FloatArray
 
 TOLERANCE_M = 0.5e-3
 """Largest deviation of the straight edges from the curve that they replace, unless they are too many (m)."""
+
+_PAIRED_MAX = 8
+"""Closed lines, the largest first, among which a cut line and its seam line are looked for."""
 
 _JOIN_M = 0.2e-3
 """Distance below which the ends of two lines are joined (m)."""
@@ -29,6 +33,7 @@ class FoundOutline:
         is_bent: whether any of the curves is more than straight segments.
         is_simplified: whether corners of the drawing are left out.
         others: the lowest and highest coordinates of each other closed curve (m), shape (n, 2, 2).
+        allowance: what was told of a cut line and a seam line; None where the drawing has no such two.
     """
 
     points: FloatArray
@@ -36,6 +41,7 @@ class FoundOutline:
     is_bent: bool
     is_simplified: bool
     others: FloatArray
+    allowance: Allowance | None = None
 
     def is_about(self, line: FloatArray) -> bool:
         """Return whether a line, shape (n, 2), may belong to this outline: not to another, and not far away."""
@@ -71,12 +77,13 @@ class _Line:
         return _Line(self.points[::-1], self.is_bent)
 
 
-def find_outline(curves: Iterable[Curve], unit_m: float) -> FoundOutline:
+def find_outline(curves: Iterable[Curve], unit_m: float, wanted: Line = "seam") -> FoundOutline:
     """Return the largest closed curve, after joining lines at their ends, with at most 400 corners.
 
     Args:
         curves: the curves.
         unit_m: the length of their unit (m).
+        wanted: which line to take where a seam line runs along inside the largest one.
 
     Raises:
         ImportedFileError: there is no closed curve.
@@ -91,21 +98,31 @@ def find_outline(curves: Iterable[Curve], unit_m: float) -> FoundOutline:
     rings = _rings(lines)
     if not rings:
         raise broken("there is no closed line in it that could be the outline of a garment")
-    others = [(ring.points.min(axis=0), ring.points.max(axis=0)) for ring in rings[1:]]
-    ring = rings[0]
-    whole = points = _spaced(ring.points)
-    spacing_m = EDGE_MIN_M if len(whole) < len(ring.points) - 1 else 0.0
-    tolerance_m = 0.0
-    while len(points) > POINTS_MAX:
-        tolerance_m = 2.0 * tolerance_m or TOLERANCE_M
-        points = _spaced(_simplified(whole, tolerance_m))
+    seam = seam_line([_cornered(ring)[0] for ring in rings[:_PAIRED_MAX]])
+    taken = seam[0] if seam is not None and wanted == "seam" else 0
+    left = [ring for number, ring in enumerate(rings) if number and (seam is None or number != seam[0])]
+    others = [(ring.points.min(axis=0), ring.points.max(axis=0)) for ring in left]
+    ring = rings[taken]
+    points, spacing_m, tolerance_m = _cornered(ring)
     return FoundOutline(
         points,
         TOLERANCE_M + spacing_m + tolerance_m,
         ring.is_bent,
         len(points) < len(ring.points) - 1,
         np.array(others).reshape(-1, 2, 2),
+        None if seam is None else Allowance(wanted, seam[1]),
     )
+
+
+def _cornered(ring: _Line) -> tuple[FloatArray, float, float]:
+    """Return a ring's corners, at most 400, and how much spacing and simplifying them may have moved it (m)."""
+    whole = points = _spaced(ring.points)
+    spacing_m = EDGE_MIN_M if len(whole) < len(ring.points) - 1 else 0.0
+    tolerance_m = 0.0
+    while len(points) > POINTS_MAX:
+        tolerance_m = 2.0 * tolerance_m or TOLERANCE_M
+        points = _spaced(_simplified(whole, tolerance_m))
+    return points, spacing_m, tolerance_m
 
 
 def area(ring: FloatArray) -> float:

@@ -11,6 +11,7 @@ import numpy as np
 from app.files.crease_reading import Creases, ReadCreases, read_creases
 from app.files.import_errors import ImportedFileError, UnitsNeededError
 from app.files.outline import TOLERANCE_M, FoundOutline, find_outline
+from app.files.seam_allowance import Allowance, Line
 from app.files.sketch import Sketch
 from app.files.sketch_size import (
     SHEET_MAX_M,
@@ -50,16 +51,23 @@ class SketchedGarment:
         notes: remarks on how it was read, in sentences.
         creases: the cloth on which its fold lines were read; None if it makes no difference.
         sizes: the size that it would have in other units.
+        allowance: its seam allowance, and whether it was taken along; None if the drawing tells of none.
     """
 
     garment: Garment
     notes: tuple[Message, ...]
     creases: Creases | None
     sizes: Sizes
+    allowance: Allowance | None = None
 
 
 def garment_of(
-    sketch: Sketch, name: str, units: str | None, scale: float, creases: Creases | None = None
+    sketch: Sketch,
+    name: str,
+    units: str | None,
+    scale: float,
+    creases: Creases | None = None,
+    line: Line | None = None,
 ) -> SketchedGarment:
     """Return the garment that a drawing shows.
 
@@ -69,6 +77,7 @@ def garment_of(
         units: the drawing's unit, one of `UNITS_M`; None to take it from the file.
         scale: the factor by which to enlarge everything.
         creases: the cloth on which its fold lines are drawn; None for the reading that makes more of them legal.
+        line: which line is the outline where the drawing has a cut line and a seam line; None for the seam line.
 
     Raises:
         UnitsNeededError: neither the file nor the caller gives the unit, or the one in the file is impossible.
@@ -87,7 +96,7 @@ def garment_of(
     with np.errstate(all="ignore"):
         extent = extent_of(sketch) * unit_m
     require_size(extent, SHEET_MAX_M, "the drawing")
-    found = find_outline(sketch.curves, unit_m)
+    found = find_outline(sketch.curves, unit_m, line or "seam")
     require_size(found.points, LARGEST_M, "the outline")
     origin = found.points.min(axis=0) if sketch.kept is None else np.zeros(2)
     title = " ".join((sketch.title or name).split())[:TITLE_MAX] or name
@@ -101,7 +110,7 @@ def garment_of(
     garment, read = _read(_garment(drawn, sketch.kept or {}, notes), creases, notes)
     size = tuple((found.points.max(axis=0) - found.points.min(axis=0)).tolist())
     sizes = {name: (size[0] * each / unit_m * scale, size[1] * each / unit_m * scale) for name, each in UNITS_M.items()}
-    return SketchedGarment(garment, tuple(notes), read, sizes)
+    return SketchedGarment(garment, tuple(notes), read, sizes, found.allowance)
 
 
 def _read(garment: Garment, creases: Creases | None, notes: list[Message]) -> tuple[Garment, Creases | None]:
@@ -190,6 +199,10 @@ def _outline_notes(found: FoundOutline, units: str | None, unit_m: float) -> Ite
     if len(found.others):
         lines = "another closed line" if len(found.others) == 1 else f"{len(found.others)} other closed lines"
         yield Message.plain(f"The largest closed line was taken as the outline; {lines} in the file left out.")
+    if found.allowance is not None:
+        taken, width_m = found.allowance.line, found.allowance.width_m
+        text = f"A seam line runs {1000 * width_m:.1f} mm inside of the cut line; the {taken} line was taken."
+        yield Message("seam_allowance", text, {"line": taken, "width_m": width_m})
     corners, off = len(found.points), f"at most {1000 * found.tolerance_m:g} mm off"
     values: dict[str, Any] = {"corners": corners, "off_m": found.tolerance_m}
     if found.is_bent:

@@ -7,10 +7,11 @@
  */
 
 import { sayable } from "./dom.js";
+import { bodyOf, send, sentence, UnreachableError } from "./edit_sending.js";
 import { inEnglish, say } from "./language/say.js";
-import { inWords } from "./messages/in_words.js";
 
-/** @import { DocumentState, Drawing, Fold, Garment, Problem } from "pleat" */
+/** @import { DocumentState, Drawing, Garment } from "pleat" */
+/** @import { Answer } from "./edit_sending.js" */
 
 const TRIES = 3;
 const RETRY_MS = 1000;
@@ -18,7 +19,6 @@ const OFFLINE = say("server.nothing_changed");
 const KEPT = say("server.change_kept");
 
 /** @typedef {(drawing: Drawing) => Drawing|void} Change alters the drawing it is given, or returns another one */
-/** @typedef {{ok: boolean, status: number, told: any}} Answer */
 /** @typedef {{drawing: Drawing, version: number}} Base what a change is made to */
 /**
  * A change of the drawing, as it is asked for. Work that is none has the phase "none".
@@ -43,8 +43,6 @@ const KEPT = say("server.change_kept");
 
 /** @type {Wanted} */
 const NO_CHANGE = { label: "", change: null, phase: "none", coalesce: null, gesture: null };
-
-class UnreachableError extends Error {}
 
 export class EditQueue {
   /** @param {import("./store.js").Store} store */
@@ -193,7 +191,7 @@ export class EditQueue {
     /** @type {Base} */
     let base = (isPartOfGesture && this.gesture) || this.store.state;
     for (let tries = 0; tries < TRIES; tries += 1) {
-      const answer = await this.send("PUT", "/drawing", body(job, base));
+      const answer = await this.send("PUT", "/drawing", bodyOf(job, base));
       if (answer.status !== 409) return this.settled(job, base, answer);
       /** @type {DocumentState} */
       const newer = answer.told.state;
@@ -236,30 +234,8 @@ export class EditQueue {
     return told;
   }
 
-  /** @param {string} method @param {string} path @param {unknown} sent @returns {Promise<Answer>} */
-  async send(method, path, sent = undefined) {
-    const body = sent === undefined ? undefined : JSON.stringify(sent);
-    const headers = { "content-type": "application/json" };
-    try {
-      const answer = await fetch(this.store.path + path, { method, headers, body });
-      return { ok: answer.ok, status: answer.status, told: await answer.json() };
-    } catch {
-      throw new UnreachableError();
-    }
+  /** @param {string} method @param {string} path @param {unknown} sent */
+  send(method, path, sent = undefined) {
+    return send(this.store.path + path, method, sent);
   }
-}
-
-/** @param {Job} job @param {Base} base */
-function body({ label, change, phase, coalesce, gesture }, base) {
-  const common = { base_version: base.version, label, phase, coalesce, gesture };
-  if (!change) return common;
-  const copy = structuredClone(base.drawing);
-  return { ...common, drawing: change(copy) ?? copy };
-}
-
-/** @param {Problem} problem @param {Fold[]} folds */
-function sentence(problem, folds) {
-  const first = problem.errors?.[0];
-  if (first?.says) return `${inWords(first, folds)}.`;
-  return first ? `${first.field}: ${first.message}` : (problem.detail ?? problem.title ?? say("server.was_refused"));
 }

@@ -263,3 +263,22 @@ def test_a_drawing_is_made_as_large_as_the_garment_of_a_suggestion_and_folds_sta
     assert made["outline"][1]["curve"] == {"along": 0.0, "across": -0.5}
     assert made["folds"][0]["start"] == {"point": [0, 0], "on": tie}
     assert made["folds"][0]["end"]["point"] == [0.4, 0.1]
+
+
+def test_words_of_findings_are_never_written_over_each_other(page: Page) -> None:
+    random = Random(18)
+    kinds = ("reason-text", "drag-text", "beyond-text", "robot-name")
+    for _ in range(50):
+        items = [
+            {"key": kind, "tag": "text", "class": kind, "text": kind * 2, "text-anchor": "middle"}
+            | {"x": random.uniform(100, 290), "y": random.uniform(250, 300)}
+            for kind in kinds
+        ]
+        items.append({"key": "cross", "tag": "path", "class": "problem", "d": "M0 0"})
+        placed = asked(page, "words_apart", f"m.wordsApart({json.dumps(items)}, 400)")
+        assert [{**new, "y": 0} for new in placed] == [{**old, "y": 0} for old in items[:4]] + [{**items[4], "y": 0}]
+        assert placed[0]["y"] == items[0]["y"]  # what is missing stays where it is
+        for n, one in enumerate(placed[:4]):
+            for other in placed[:n]:
+                apart_px = abs(one["x"] - other["x"]) - 6.5 * (len(one["text"]) + len(other["text"])) / 2
+                assert abs(one["y"] - other["y"]) >= 15 or apart_px >= 0

@@ -14,6 +14,7 @@ import { drawOverhang } from "./draw_overhang.js";
 import { drawReason } from "./draw_reason.js";
 import { drawRobot } from "./draw_robot.js";
 import { drawTable, drawTableEdge } from "./draw_table.js";
+import { wordsApart } from "./words_apart.js";
 
 /** The layers, the lowest first. */
 export const LAYERS = /** @type {const} */ ([
@@ -50,7 +51,7 @@ export function drawAll(board) {
   sheets.over.draw(board.overlays.over());
   sheets.ghost.draw(drawGhost(board));
   sheets.folds.draw(board.isPlaying ? [] : drawFolds(board));
-  sheets.findings.draw([
+  const findings = [
     ...drawRobot(board),
     ...drawTableEdge(board, "table-line"),
     ...drawChecks(board),
@@ -58,7 +59,8 @@ export function drawAll(board) {
     ...drawOverhang(board),
     ...drawReason(board),
     ...drawHolds(board),
-  ]);
+  ];
+  sheets.findings.draw(wordsApart(findings, view.height));
   sheets.preview.draw([...drawAxis(board), ...drawPreview(board), ...drawQuickFix(board)]);
   sheets.handles.draw(board.isPlaying ? [] : drawHandles(board));
   sheets.tool.draw([...tool.items(), ...(tool === outline ? [] : outline.items())]);

@@ -17,6 +17,8 @@ const size = ([wide, tall]) => say("import.by", { wide: length(wide), tall: leng
  */
 export const files = (inWords) => ({
   curves_replaced: ({ corners, off_m: off }) => say("message.curves_replaced", { corners, off: length(off) }),
+  seam_allowance: ({ line, width_m: width }) =>
+    say(line === "cut" ? "message.seam_allowance.cut" : "message.seam_allowance.seam", { width: length(width) }),
   corners_left_out: ({ corners, off_m: off }) => say("message.corners_left_out", { corners, off: length(off) }),
   unit_taken: ({ unit_m: one, is_said: isSaid, size: sides }) =>
     say(isSaid ? "message.unit_taken.said" : "message.unit_taken", { one: length(one), size: size(sides) }),

@@ -320,3 +320,43 @@ def test_curves_are_said_to_be_replaced_only_where_there_are_some(shape: str, to
 
 def test_an_odd_size_is_pointed_out():
     assert any("odd size" in note.text for note in read(svg(SQUARE), "mm", 0.5).notes)
+
+
+CUT = '<path d="M 1 1 H 59 V 39 H 1 Z"/>'
+SEAM = '<path d="M 2 2 H 58 V 38 H 2 Z"/>'
+
+
+@pytest.mark.parametrize(("line", "size"), [(None, (0.56, 0.36)), ("seam", (0.56, 0.36)), ("cut", (0.58, 0.38))])
+def test_of_a_cut_line_and_a_seam_line_the_one_that_is_wanted_is_taken(line, size):
+    found = import_file("piece.svg", svg(CUT, SEAM), line=line)
+    assert np.ptp(np.array(found.garment.outline), axis=0) == pytest.approx(size)
+    assert found.allowance is not None
+    assert (found.allowance.line, found.allowance.width_m) == (line or "seam", pytest.approx(0.01))
+    assert not any("left out" in note.text for note in found.notes)
+    assert any("10.0 mm" in note.text for note in found.notes)
+
+
+@pytest.mark.parametrize(
+    "inner",
+    [
+        '<rect x="20" y="10" width="10" height="10"/>',  # a hole
+        '<rect x="1" y="1" width="20" height="38"/>',  # it touches the cut line
+        '<path d="M 2 2 H 58 V 33 H 2 Z"/>',  # wider at one side
+        '<path d="M 12 12 H 48 V 28 H 12 Z"/>',  # parallel, but far too wide
+    ],
+)
+def test_another_closed_line_that_is_no_seam_line_is_left_out(inner):
+    found = read(svg(CUT, inner))
+    assert found.allowance is None
+    assert np.ptp(np.array(found.garment.outline), axis=0) == pytest.approx((0.58, 0.38))
+
+
+def test_a_round_pattern_and_one_with_sharp_corners_have_their_allowance_told():
+    rounded = read(svg('<circle cx="30" cy="20" r="19"/>', '<circle cx="30" cy="20" r="18.2"/>'))
+    assert rounded.allowance is not None and rounded.allowance.width_m == pytest.approx(0.008, rel=0.05)
+    # A triangle of 50 by 30: each side of the inner one is 1 inside, its corners are up to 3.6 away.
+    half = math.atan2(30, 50) / 2
+    near, top = 5 + 1 / math.tan(half), 7 + 1 / math.tan(math.pi / 4 - half)
+    inner = f'<path d="M {near} 36 H 54 V {top} Z"/>'
+    sharp = read(svg('<path d="M 5 37 H 55 V 7 Z"/>', inner))
+    assert sharp.allowance is not None and sharp.allowance.width_m == pytest.approx(0.01, rel=0.05)

@@ -202,6 +202,23 @@ def test_fold_lines_are_read_on_the_cloth_that_is_chosen(page: Page, shirt: Desk
     assert shirt.state["problems"] == []
 
 
+def test_a_pattern_ends_at_its_seam_line_unless_the_cut_line_is_chosen(page: Page, shirt: Desk) -> None:
+    seam = SVG.replace("<line", '<path d="M10 10H390V290H10Z" fill="none" stroke="black"/><line')
+    choose_file(page, "piece.svg", seam)
+    dialog = page.get_by_role("dialog", name="Import")
+    expect(dialog.get_by_label("the seam line")).to_be_checked()
+    expect(dialog.locator(".notes")).to_contain_text(
+        "The drawing has a seam allowance of 1 cm; the seam line was taken."
+    )
+    dialog.get_by_label("the cut line, 1 cm outside of it").check()
+    expect(dialog.locator(".notes")).to_contain_text("the cut line was taken")
+    dialog.get_by_label("the seam line").check()
+    expect(dialog.locator(".notes")).to_contain_text("the seam line was taken")
+    dialog.get_by_role("button", name="Open here").click()
+    expect_step(page, "Import piece.svg")
+    assert max(corner["point"][0] for corner in shirt.drawing["outline"]) == pytest.approx(0.38)
+
+
 def test_of_a_plan_file_the_garment_is_opened(page: Page, shirt: Desk) -> None:
     plan = make_plan(Garment.from_dict(towel()))
     choose_file(page, "my-towel.plan.json", json.dumps(plan.to_dict()))
