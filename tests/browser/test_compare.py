@@ -1,11 +1,13 @@
 """Two plans side by side, played by one clock: of a document's versions, of other documents, stored ones."""
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
+from urllib.parse import parse_qsl, urlencode, urlsplit, urlunsplit
 
 import pytest
-from playwright.sync_api import Locator, Page, expect
+from playwright.sync_api import Locator, Page, Route, expect
 
 from planner import load_garment
 from tests.app.conftest import REST, Served
@@ -85,6 +87,25 @@ def test_another_document_and_a_plan_by_its_id_or_its_file_are_compared_in_the_s
     expect(costs[0]).to_have_text(costs[1].inner_text())
     expect(dialog.locator(".compare-sum td").last).to_have_text("=")
     assert len(right.locator("optgroup[label='Plans'] option").all()) == 3  # both plans, and the way to another one
+
+
+def test_every_other_document_can_be_chosen_however_many_pages_list_them(
+    page: Page, moved: Sheet, new_sheet: Callable[[Garment], Sheet], designer: Served
+) -> None:
+    for title in ("First of the pages", "Second of the pages", "Third of the pages"):
+        new_sheet({**load_garment("letter-towel").to_dict(), "title": title})
+    listing = f"{designer.url}/api/documents"
+
+    def in_short_pages(route: Route) -> None:
+        here = urlsplit(route.request.url)
+        asked = {**dict(parse_qsl(here.query)), "limit": "2"}
+        route.continue_(url=urlunsplit(here._replace(query=urlencode(asked))))
+
+    page.route(re.compile(re.escape(listing) + r"(\?.*)?$"), in_short_pages)
+    page.get_by_role("button", name="Compare", exact=True).click()
+    others = page.get_by_role("dialog").get_by_label("Left").locator("optgroup[label='Other documents'] option")
+    for title in ("First", "Second", "Third"):
+        expect(others.filter(has_text=f"{title} of the pages")).not_to_have_count(0)
 
 
 def test_a_plan_file_dropped_on_a_side_is_shown_there_and_one_that_is_none_is_refused(

@@ -3,6 +3,7 @@
 import { OFFLINE, sentenceOf } from "../dialogs/dialog.js";
 import { fetched } from "../dialogs/fetched.js";
 import { titleOf, when } from "../gallery/tile.js";
+import { listed } from "../garments.js";
 import { say, translated } from "../language/say.js";
 import { comparedPlan, storedPlan } from "./compared_plan.js";
 
@@ -37,7 +38,7 @@ export async function versionsOf(store) {
 
 /** The other documents, the latest changed first; none for somebody who may see this one alone. @param {string} id @returns {Promise<Choice[]>} */
 export async function documentsBeside(id) {
-  const found = /** @type {DocumentEntry[]} */ (await fetched("../api/documents").catch(() => []));
+  const found = await listed("../api/documents?limit=500", /** @type {DocumentEntry[]} */ ([]));
   return found
     .filter((entry) => entry.id !== id && !entry.problem)
     .map((entry) => ({
