@@ -24,6 +24,7 @@ from app.api.messages import (
 )
 from app.document import Document
 from app.document_state import DocumentState
+from app.drawing.arcs import with_arcs
 from app.drawing.edit import Edit
 from app.drawing.garment_drawing import drawing_of
 from app.drawing.robot_drawing import with_robot
@@ -79,12 +80,18 @@ def obey(command: Command, workspace: Workspace, document: Document) -> None:
 
 
 def put_garment(
-    document: Document, garment: Garment, label: str | None = None, base_version: int | None = None
+    document: Document,
+    garment: Garment,
+    label: str | None = None,
+    base_version: int | None = None,
+    *,
+    has_arcs: bool = False,
 ) -> DocumentState:
-    """Put another garment into the scene, as one step; raises `StaleVersionError`."""
+    """Put another garment into the scene, as one step, its arcs as curves if asked; raises `StaleVersionError`."""
     now = document.state.drawing
+    drawn = drawing_of(garment, now.scene, now.robot)
     drawing = replace(
-        drawing_of(garment, now.scene, now.robot),
+        with_arcs(drawn) if has_arcs else drawn,
         start_station=now.start_station,
         comfort_radius_m=now.comfort_radius_m,
     )

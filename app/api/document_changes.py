@@ -53,7 +53,7 @@ async def put_other_garment(request: Request, document_id: str, wanted: GarmentR
 
     def change(document: Document) -> DocumentState:
         garment = asked_garment(workspace_of(request), wanted.garment)
-        return put_garment(document, garment, wanted.label, wanted.base_version)
+        return put_garment(document, garment, wanted.label, wanted.base_version, has_arcs=wanted.arcs)
 
     return await _changed(request, document_id, change)
 

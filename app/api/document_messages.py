@@ -13,6 +13,10 @@ from planner.strict_model import StrictModel
 Label = Annotated[str, Field(max_length=200)]
 Key = Annotated[str, Field(max_length=64)]
 Version = Annotated[int, Field(ge=1)]
+Arcs = Annotated[
+    bool,
+    Field(description="whether edges that stand for the arc of a circle, as in an imported drawing, become curves"),
+]
 
 
 def _drawing(value: Any) -> Any:  # noqa: ANN401
@@ -26,6 +30,7 @@ class NewDocument(StrictModel):
 
     garment: GarmentField | None = None
     copy_of: str | None = None
+    arcs: Arcs = False
 
 
 class EditRequest(StrictModel):
@@ -50,6 +55,7 @@ class GarmentRequest(StrictModel):
     garment: GarmentField
     label: Label | None = None
     base_version: Version | None = None
+    arcs: Arcs = False
 
 
 class RobotRequest(StrictModel):

@@ -27,6 +27,7 @@ from app.api.live_messages import document_message, playback_message
 from app.api.messages import AnyCommand, Command
 from app.api.shared import require_look
 from app.api.waiting import quick_answer
+from app.drawing.arcs import with_arcs
 from app.drawing.blank import blank_drawing
 from app.drawing.drawing import Drawing
 from app.drawing.garment_drawing import drawing_of
@@ -161,7 +162,10 @@ def _first_drawing(workspace: Workspace, wanted: NewDocument) -> Drawing:
         raise RequestError("copy_of", "a new document is either of a garment or a copy")
     if wanted.copy_of is not None:
         return workspace.opened(wanted.copy_of).document.state.drawing
-    return blank_drawing() if wanted.garment is None else drawing_of(asked_garment(workspace, wanted.garment))
+    if wanted.garment is None:
+        return blank_drawing()
+    drawing = drawing_of(asked_garment(workspace, wanted.garment))
+    return with_arcs(drawing) if wanted.arcs else drawing
 
 
 def _placed(opened: OpenDocument, wanted: CreaseRequest) -> PlacedCrease:

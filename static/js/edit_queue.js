@@ -98,11 +98,11 @@ export class EditQueue {
     return this.push(async () => this.taken(await this.send("POST", `/${verb}`)));
   }
 
-  /** @param {string|Garment} garment @param {string|null} label */
-  open(garment, label) {
+  /** @param {string|Garment} garment @param {string|null} label @param {boolean} arcs */
+  open(garment, label, arcs) {
     const run = async () => {
       const before = this.store.state?.drawing;
-      const state = this.taken(await this.send("PUT", "/garment", { garment, label }));
+      const state = this.taken(await this.send("PUT", "/garment", { garment, label, arcs }));
       this.store.select(null);
       this.store.showStep(0);
       this.store.dispatchEvent(new CustomEvent("opened", { detail: before }));

@@ -195,9 +195,10 @@ export class Store extends EventTarget {
    * Another garment in place of this one.
    * @param {string|Garment} garment its name, or a garment file
    * @param {string|null} label the name of the step
+   * @param {boolean} arcs whether edges that stand for arcs become curves
    */
-  open(garment, label = null) {
-    return this.queue.open(garment, label);
+  open(garment, label = null, arcs = false) {
+    return this.queue.open(garment, label, arcs);
   }
 
   /** Have another robot fold, with the scene that suits it. @param {string} robot its name */

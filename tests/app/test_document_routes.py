@@ -2,8 +2,10 @@
 
 import asyncio
 import itertools
+import math
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import httpx
 import pytest
@@ -157,6 +159,27 @@ async def test_another_garment_is_one_step_in_the_same_scene(client: httpx.Async
     assert_problem(await client.put(path, json={"garment": "nothing"}), 404)
     problem = assert_problem(await client.put(path, json={"garment": towel(outline=[[0, 0]])}), 422)
     assert problem["errors"][0]["field"] == "garment.outline"
+
+
+async def test_edges_that_stand_for_an_arc_become_a_curve_only_where_that_is_asked_for(
+    client: httpx.AsyncClient,
+) -> None:
+    turns = [math.pi * step / 40 for step in range(41)]
+    half_circle = [[0.2 + 0.1 * math.sin(turn), 0.1 - 0.1 * math.cos(turn)] for turn in turns]
+    garment = towel(outline=[[0.0, 0.0], *half_circle, [0.0, 0.2]], folds=[])
+
+    def curved(state: dict[str, Any]) -> list[float]:
+        return [corner["curve"]["across"] for corner in state["drawing"]["outline"] if corner.get("curve")]
+
+    straight = (await client.post("/api/documents", json={"garment": garment})).json()
+    assert len(straight["drawing"]["outline"]) == len(garment["outline"])
+    assert curved(straight) == []
+    anew = (await client.post("/api/documents", json={"garment": garment, "arcs": True})).json()
+    path = f"/api/documents/{straight['id']}/garment"
+    here = (await client.put(path, json={"garment": garment, "arcs": True})).json()
+    for state in (anew, here):
+        assert len(state["drawing"]["outline"]) == 4
+        assert curved(state) == [pytest.approx(-0.5, abs=1e-6)]
 
 
 async def test_the_layers_of_each_step_lie_bottom_to_top(client: httpx.AsyncClient) -> None:

@@ -50,7 +50,8 @@ class MovePoints(Tool):
             return say(self._pencil.state.language, "stage.let_go")
         if not self._pencil.state.drawing.outline:
             return say(self._pencil.state.language, "stage.no_outline")
-        return say(self._pencil.state.language, "stage.drag_corner")
+        is_curved = any(corner.curve is not None for corner in self._pencil.state.drawing.outline)
+        return say(self._pencil.state.language, "stage.drag_corner.curved" if is_curved else "stage.drag_corner")
 
     def press(self, aim: Aim) -> None:
         """Grab the nearest corner that is near enough."""

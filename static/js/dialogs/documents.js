@@ -6,7 +6,7 @@
 export const goTo = (id) => location.assign(`../d/${id}`);
 
 /**
- * @param {{garment?: string|Garment}} wanted `{garment}` or nothing for a blank board
+ * @param {{garment?: string|Garment, arcs?: boolean}} wanted `{garment}` or nothing for a blank board
  * @param {string} tool the board's tool that is at hand there
  * @returns {Promise<Response>} what the server answered, if it was no new document
  */

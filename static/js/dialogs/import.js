@@ -15,6 +15,8 @@ import { takeRobot } from "./take_robot.js";
 /** @import { Garment, Imported } from "pleat" */
 /** @import { Store } from "../store.js" */
 
+/** Files that draw arcs, which stay curves on the board. */
+const DRAWINGS = new Set(["svg", "dxf"]);
 const KINDS = ".json,.svg,.dxf,.png,.jpg,.jpeg,.zip";
 /** @typedef {NonNullable<Imported["creases"]>} Creases */
 /** @typedef {NonNullable<Imported["sizes"]>} Sizes by unit, how wide and how high (m) */
@@ -114,10 +116,11 @@ const asked = (store, body, file, how, why) => ({
  * @param {How} how
  * @param {Imported} imported
  */
-function found(store, body, file, how, { garment, notes, says, creases, sizes, seen, allowance }) {
+function found(store, body, file, how, { format, garment, notes, says, creases, sizes, seen, allowance }) {
   const said = element("p", "dialog-problem");
-  const here = button("main-button", () => open(store, body, file, garment), say("import.open_here"));
-  const anew = button("plain-button", () => create(garment, said), say("import.open_new"));
+  const arcs = DRAWINGS.has(format);
+  const here = button("main-button", () => open(store, body, file, garment, arcs), say("import.open_here"));
+  const anew = button("plain-button", () => create(garment, arcs, said), say("import.open_new"));
   /** @param {Sizes} known */
   const other = (known) =>
     askSize(asked(store, body, file, how, say("import.garment_is", { size: sizeOf(garment) })), known);
@@ -152,15 +155,15 @@ function replaces({ state }) {
   return [element("p", "dialog-text", say("import.replaces", { title: titleOf({ title, name }) }))];
 }
 
-/** @param {Store} store @param {HTMLElement} body @param {File} file @param {Garment} garment */
-async function open(store, body, file, garment) {
-  const state = await store.open(garment, inEnglish("step.import", { name: file.name }));
+/** @param {Store} store @param {HTMLElement} body @param {File} file @param {Garment} garment @param {boolean} arcs */
+async function open(store, body, file, garment, arcs) {
+  const state = await store.open(garment, inEnglish("step.import", { name: file.name }), arcs);
   if (state) body.closest("dialog")?.close();
 }
 
-/** @param {Garment} garment @param {HTMLElement} said */
-async function create(garment, said) {
-  const answer = await goToNew({ garment }).catch(() => null);
+/** @param {Garment} garment @param {boolean} arcs @param {HTMLElement} said */
+async function create(garment, arcs, said) {
+  const answer = await goToNew({ garment, arcs }).catch(() => null);
   if (!answer) said.textContent = OFFLINE;
   else if (answer.status !== 201) said.textContent = sentenceOf(await answer.json());
 }

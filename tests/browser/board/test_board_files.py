@@ -219,6 +219,22 @@ def test_a_pattern_ends_at_its_seam_line_unless_the_cut_line_is_chosen(page: Pag
     assert max(corner["point"][0] for corner in shirt.drawing["outline"]) == pytest.approx(0.38)
 
 
+def test_an_arc_of_a_drawing_is_a_curve_that_can_be_pulled(page: Page, shirt: Desk) -> None:
+    rounded = '<path d="M0 0H200A100 100 0 0 1 200 200H0Z"/>'
+    choose_file(page, "rounded.svg", f"{SVG.partition('>')[0]}>{rounded}</svg>")
+    page.get_by_role("dialog", name="Import").get_by_role("button", name="Open here").click()
+    expect_step(page, "Import rounded.svg")
+    expect(page.locator(".corner")).to_have_count(4)
+    expect(page.locator(".handle.middle.is-curved")).to_have_count(1)
+    hand = Hand(page)
+    hand.tool("Select")
+    hand.tool("Fit")
+    hand.drag((0.3, 0.1), (0.25, 0.1))
+    expect_step(page, "Bend edge")
+    (bent,) = (corner["curve"] for corner in shirt.drawing["outline"] if "curve" in corner)
+    assert abs(bent["across"]) == pytest.approx(0.25, abs=5e-3)
+
+
 def test_of_a_plan_file_the_garment_is_opened(page: Page, shirt: Desk) -> None:
     plan = make_plan(Garment.from_dict(towel()))
     choose_file(page, "my-towel.plan.json", json.dumps(plan.to_dict()))
