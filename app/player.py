@@ -121,6 +121,8 @@ class Player:
         shown, self._shown = self._shown, state
         if shown is None or shown.is_dark != state.is_dark:
             self._stage.set_theme(is_dark=state.is_dark)
+        if shown is None or shown.language != state.language:
+            self._stage.set_language(state.language)
         if state.preview is not None:
             self._show_preview(state.preview)
             return

@@ -20,6 +20,9 @@ CURVE_TOLERANCE_M: Final = 1e-3
 CURVE_MAX: Final = 2.0
 """Largest distance of a handle from the middle of its chord, along it or across (chord lengths)."""
 
+_FLAT: Final = 1e-4
+"""Distance of a handle from its chord below which the edge is straight (chord lengths)."""
+
 _STRAIGHT_RAD: Final = 1e-4
 """Half angle below which an arc is told from a parabola only by rounding (rad)."""
 
@@ -36,10 +39,31 @@ class Curve:
     along: float
     across: float
 
+    @staticmethod
+    def through(start: Point2, end: Point2, handle: Point2) -> "Curve | None":
+        """Return the curve between two corners that has its handle at a point (m); None where that is straight."""
+        a, b = np.array(start), np.array(end)
+        chord = b - a
+        square = float(chord @ chord)
+        if square == 0.0:
+            return None
+        off = np.array(handle) - (a + b) / 2.0
+        along, across = (
+            min(max(float(off @ way) / square, -CURVE_MAX), CURVE_MAX)
+            for way in (chord, np.array([-chord[1], chord[0]]))
+        )
+        return None if abs(across) < _FLAT else Curve(along, across)
+
     @property
     def turned(self) -> "Curve":
         """The same curve for the edge in the opposite direction."""
         return Curve(-self.along, -self.across)
+
+    def handle(self, start: Point2, end: Point2) -> Point2:
+        """Return where the handle is, of the edge between two corners (m)."""
+        (ax, ay), (bx, by) = start, end
+        x, y = bx - ax, by - ay
+        return ((ax + bx) / 2 + self.along * x - self.across * y, (ay + by) / 2 + self.along * y + self.across * x)
 
     def points(self, start: Point2, end: Point2, tolerance_m: float = CURVE_TOLERANCE_M) -> list[Point2]:
         """Return the points between two corners (m), an odd number of them, so that the handle is one.

@@ -54,6 +54,7 @@ SIDES: Final = {"along_y": "left over", "against_y": "right over", "along_x": "t
 DRAW_FOLD: Final = "Draw fold"
 DRAW_OUTLINE: Final = "Draw outline"
 MOVE_CORNER: Final = "Move vertex"
+BEND_EDGE: Final = "Bend edge"
 
 NO_CLOTH: Final = "there is no cloth yet: draw an outline first"
 CORNER_TAKEN: Final = "there is a corner already"
@@ -103,6 +104,29 @@ def snapped_corner(points: Sequence[Point2], point: Point2, pixel_m: float) -> P
     if len(points) >= LEAST_CORNERS and math.dist(points[0], point) <= SNAP_PX["close"] * pixel_m:
         return points[0]
     return nearest_within(points[:-1], point, SNAP_PX["vertex"] * pixel_m) or point
+
+
+def snapped_handle(start: Point2, end: Point2, point: Point2, pixel_m: float) -> Point2:
+    """Return the handle of an edge that a pointer at a point means: a straight edge, half a circle, an arc, or any.
+
+    Args:
+        start: the corner at which the edge begins, in the pointer's frame (m).
+        end: the corner at which it ends (m).
+        point: the pointer's point (m).
+        pixel_m: the distance between neighbouring pixels there (m).
+    """
+    a, b, at = np.array(start), np.array(end), np.array(point)
+    chord, middle = b - a, (a + b) / 2.0
+    rise = np.array([-chord[1], chord[0]])
+    square = max(float(chord @ chord), np.finfo(float).tiny)
+    straight = a + min(max(float((at - a) @ chord) / square, 0.0), 1.0) * chord
+    half_circles = (middle + rise / 2.0, middle - rise / 2.0)
+    arc = middle + float((at - middle) @ rise) / square * rise
+    for kind, handles in (("dropped", (straight,)), ("fraction", half_circles), ("bisector", (arc,))):
+        place = nearest_within([(float(x), float(y)) for x, y in handles], point, SNAP_PX[kind] * pixel_m)
+        if place is not None:
+            return place
+    return point
 
 
 def next_corner(points: Sequence[Point2], point: Point2) -> NextCorner:

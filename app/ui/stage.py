@@ -12,6 +12,7 @@ import numpy as np
 import viser
 from viser.infra import StateSerializer
 
+from app.language import ENGLISH, Language
 from app.ui.cloth_view import ClothView
 from app.ui.colours import DARK, LIGHT
 from app.ui.fold_view import FoldView
@@ -53,6 +54,7 @@ class Stage:
         self.scene = scene
         self.opening: Viewpoint = opening(scene, _SQUARE, card=card)
         self.card = card
+        self._language: Language = ENGLISH
         self._server, self.secret = start_private_viser()
         self.port = self._server.get_port()
         with self._server.atomic():
@@ -102,6 +104,13 @@ class Stage:
             self._server.gui.configure_theme(show_logo=False, show_share_button=False, dark_mode=is_dark)
             for view in (self._table, self._cloth, self._folds, self._robot, self._grips):
                 view.recolour(palette)
+        self._server.flush()
+
+    def set_language(self, language: Language) -> None:
+        """Name the stations in a language."""
+        self._language = language
+        with self._server.atomic():
+            self._table.speak(language)
         self._server.flush()
 
     def show_robot(self, card: RobotCard) -> None:
@@ -185,7 +194,7 @@ class Stage:
         camera.fov = self.opening.fov_rad
 
     def _bring_table(self) -> TableView:
-        return TableView(self._server, self.scene, has_stations=not self.card.is_fixed)
+        return TableView(self._server, self.scene, has_stations=not self.card.is_fixed, language=self._language)
 
     def _exchange_table(self) -> None:
         self._table.remove()

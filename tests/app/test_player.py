@@ -25,11 +25,15 @@ class CountingStage:
         self.lying, self.bare, self.plans = 0, 0, 0
         self.times: list[float] = []
         self.themes: list[bool] = []
+        self.languages: list[str] = []
         self.scenes: list[Scene] = []
         self.robots: list[str] = []
 
     def set_theme(self, *, is_dark: bool) -> None:
         self.themes.append(is_dark)
+
+    def set_language(self, language: str) -> None:
+        self.languages.append(language)
 
     def show_scene(self, scene: Scene) -> None:
         self.scenes.append(scene)
@@ -136,6 +140,20 @@ def test_the_stage_follows_the_theme_and_another_garment_keeps_it() -> None:
         until(lambda: stage.lying == 2)
         assert document.state.is_dark
         assert stage.themes == [False, True]
+    finally:
+        player.close()
+
+
+def test_the_stage_follows_the_language() -> None:
+    document, stage = towel_document(), CountingStage(True)
+    player = Player(document, stage)
+    try:
+        until(lambda: stage.lying == 1)
+        document.set_language("de")
+        until(lambda: stage.languages == ["en", "de"])
+        document.set_theme(is_dark=True)
+        until(lambda: stage.themes == [False, True])
+        assert stage.languages == ["en", "de"]
     finally:
         player.close()
 

@@ -178,6 +178,27 @@ def test_a_theme_colours_the_whole_stage(stage: Stage, plan: Plan) -> None:
         assert tuple(line.colors) == tuple(ink(palette.fold_blue))
 
 
+def test_stations_are_named_in_the_readers_language_whatever_robot_comes(stage: Stage) -> None:
+    def label(station: str) -> str:
+        found = stage._server.scene.get_handle_by_name(f"/stations/{station}/name")
+        assert found is not None
+        return str(found.text)
+
+    own = replace(Scene(), stations=(*Scene().stations, ("by_the_door", Pose2(-0.8, 0.3, 0.0))))
+    try:
+        assert label("front_left") == "front left"
+        stage.set_language("de")
+        assert label("front_left") == "vorn links"
+        stage.show_scene(own)
+        assert label("front_left") == "vorn links"
+        assert label("by_the_door") == "by the door"
+        stage.set_language("es")
+        assert label("front_left") == "frente izquierda"
+    finally:
+        stage.show_scene(Scene())
+        stage.set_language("en")
+
+
 def test_drags_and_folds_lead_to_the_plans_own_end(plan: Plan) -> None:
     timeline, end = Timeline.of(plan), plan.final_placement
     assert end is not None

@@ -9,7 +9,8 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, Page
 
-from app.drawing.rules import SNAP_PX, fold_name, next_corner, snapped
+from app.drawing.curve import Curve
+from app.drawing.rules import SNAP_PX, fold_name, next_corner, snapped, snapped_handle
 from planner.cloth.outline import POINTS_MAX
 from planner.geometry.region import Region
 from tests.app.conftest import Served
@@ -235,6 +236,31 @@ def test_a_pointer_on_the_board_means_what_it_means_on_the_stage(page: Page) -> 
         slack = SNAP_PX["grid"] / scale if there and there["kind"] == "edge" else 1e-9
         assert there is None or math.dist(there["at"], here) <= slack
     assert kinds == {"vertex", "fraction", "edge", None}
+
+
+def test_an_edge_bends_on_the_board_as_on_the_stage(page: Page) -> None:
+    a, b, scale = (0.1, 0.0), (0.4, 0.2), 700.0
+    rng = Random(74)
+    points = [(rng.uniform(-0.1, 0.5), rng.uniform(-0.2, 0.5)) for _ in range(150)]
+    points += [(x + rng.uniform(-0.02, 0.02), y + rng.uniform(-0.02, 0.02)) for x, y in [(0.15, 0.25), a] * 30]
+    found = asked(
+        page,
+        "snap",
+        f"""{json.dumps(points)}.map((at) => new m.Snapper().strongest(
+            {{ scale: {scale} }},
+            {{ at, isTouch: false, isKeyboard: false, ctrl: false, shift: false }},
+            {{ rings: [], points: [], onlyCloth: true, bent: {json.dumps([a, b])} }},
+        ))""",
+    )
+    kinds = set()
+    for point, there in zip(points, found, strict=True):
+        kinds.add(there["kind"] if there else None)
+        assert snapped_handle(a, b, point, 1 / scale) == pytest.approx(tuple(there["at"]) if there else point)
+        bent = asked(page, "curves", f"m.curveThrough({list(a)}, {list(b)}, {list(point)})")
+        curve = Curve.through(a, b, point)
+        assert (bent is None) == (curve is None)
+        assert curve is None or bent == pytest.approx({"along": curve.along, "across": curve.across})
+    assert kinds == {"dropped", "fraction", "bisector", None}
 
 
 def test_a_drawing_is_made_as_large_as_the_garment_of_a_suggestion_and_folds_stay_tied(page: Page) -> None:

@@ -41,13 +41,15 @@ class Aids:
 
     Attributes:
         handles: the points that can be grabbed, or have been placed.
-        chosen: the highlighted handle: the handle that is grabbed, or that closes an outline.
+        middles: points in the middle of edges, by which these are bent; smaller.
+        chosen: the highlighted one of handles and middles: the one that is grabbed, or that closes an outline.
         lines: polylines; a polyline that ends at its beginning is closed.
         pile: the folded cloth on which a fold is drawn; None while it is the cloth that lies there.
         ghost: the fold that is being dragged.
     """
 
     handles: tuple[Point2, ...] = ()
+    middles: tuple[Point2, ...] = ()
     chosen: int | None = None
     lines: tuple[tuple[Point2, ...], ...] = ()
     pile: Pile | None = None

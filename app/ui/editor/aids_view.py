@@ -16,7 +16,7 @@ from planner.geometry.region import Region
 
 ROOT = "/editor"
 
-_HANDLE_PX, _CHOSEN_PX = 5.5, 8.0
+_HANDLE_PX, _MIDDLE_PX, _CHOSEN_PX = 5.5, 3.5, 8.0
 _LINE_PX, _GHOST_PX = 2.0, 5.0
 _LANDED_OPACITY = 0.35
 _PILE_M = CLOTH_HEIGHT_M + 0.006
@@ -73,7 +73,7 @@ class AidsView:
             self._pile.set_visible(is_visible=aids.pile is not None)
             if aids.pile is not None:
                 self._pile.show(pile_surface(aids.pile, _PILE_M))
-        if (aids.handles, aids.chosen, aids.pile) != (before.handles, before.chosen, before.pile) or is_zoomed:
+        if _grabbed(aids) != _grabbed(before) or is_zoomed:
             self._draw_handles(aids)
         if (aids.lines, aids.pile) != (before.lines, before.pile):
             self._draw_lines(aids)
@@ -87,11 +87,13 @@ class AidsView:
         return (CLOTH_HEIGHT_M if pile is None else _PILE_M + height(pile)) + _ABOVE_M
 
     def _draw_handles(self, aids: Aids) -> None:
-        count = len(aids.handles)
+        points = aids.handles + aids.middles
+        count = len(points)
         sizes = np.full(count, _HANDLE_PX * self._pixel_m, dtype=np.float32)
+        sizes[len(aids.handles) :] = _MIDDLE_PX * self._pixel_m
         if aids.chosen is not None:
             sizes[aids.chosen] = _CHOSEN_PX * self._pixel_m
-        places = _raised(aids.handles, self._top_m).astype(np.float32)
+        places = _raised(points, self._top_m).astype(np.float32)
         if self._handles is not None and len(self._handles.batched_positions) == count:
             self._handles.batched_positions, self._handles.batched_scales = places, sizes
             return
@@ -139,6 +141,11 @@ class AidsView:
         return self._scene.add_line_segments(
             f"{ROOT}/{name}", _NO_SEGMENTS, (0, 0, 0), thickness=width_px, thickness_units="screen", visible=False
         )
+
+
+def _grabbed(aids: Aids) -> tuple[object, ...]:
+    """Return everything that decides how handles are drawn."""
+    return aids.handles, aids.middles, aids.chosen, aids.pile
 
 
 def _raised(points: tuple[Point2, ...], height_m: float) -> FloatArray:

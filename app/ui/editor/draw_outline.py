@@ -89,7 +89,8 @@ class DrawOutline(Tool):
 
     def aids(self, state: DocumentState) -> Aids:
         """Return the corners so far, and the edges between them."""
-        return Aids(self._points, 0 if len(self._points) >= LEAST_CORNERS else None, (self._points,))
+        chosen = 0 if len(self._points) >= LEAST_CORNERS else None
+        return Aids(self._points, chosen=chosen, lines=(self._points,))
 
     def _close(self) -> None:
         def change(state: DocumentState) -> Drawing:

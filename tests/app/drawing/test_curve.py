@@ -30,6 +30,7 @@ SEMICIRCLE = Curve(0.0, -0.5)
 """Out of a counter-clockwise outline, by half the chord."""
 
 parts = st.floats(-1.5, 1.5)
+points = st.tuples(st.floats(-1.0, 1.0), st.floats(-1.0, 1.0))
 
 
 def curved(drawing: Drawing, **curves: Curve | None) -> Drawing:
@@ -56,7 +57,7 @@ def test_points_are_within_the_tolerance_of_the_curve_and_its_handle_is_on_it(
     points = np.array([ends[0], *curve.points(*ends), ends[1]])
     ellipse = Ellipse.of(curve, *ends)
     fine = ellipse.at(np.linspace(-ellipse.half_angle_rad, ellipse.half_angle_rad, 2001))
-    assert np.allclose(fine[[0, 1000, 2000]], [ends[0], handle(curve, *ends), ends[1]], atol=1e-6)
+    assert np.allclose(fine[[0, 1000, 2000]], [ends[0], curve.handle(*ends), ends[1]], atol=1e-6)
     a, b = points[:-1, None], points[1:, None]
     along_piece = np.clip(((fine - a) * (b - a)).sum(-1) / ((b - a) ** 2).sum(-1), 0.0, 1.0)
     off = np.hypot(*np.moveaxis(a + along_piece[..., None] * (b - a) - fine, -1, 0)).min(axis=0)
@@ -64,14 +65,14 @@ def test_points_are_within_the_tolerance_of_the_curve_and_its_handle_is_on_it(
     assert off.max() <= (CURVE_TOLERANCE_M + 1e-9 if is_smooth else 3e-3)
 
 
-def handle(curve: Curve, start: Point2, end: Point2) -> Point2:
-    """Return the middle of the chord, moved as the curve says."""
-    (ax, ay), (bx, by) = start, end
-    x, y = bx - ax, by - ay
-    return (
-        (ax + bx) / 2 + curve.along * x - curve.across * y,
-        (ay + by) / 2 + curve.along * y + curve.across * x,
-    )
+@given(parts, parts, points, points)
+def test_a_curve_leads_through_its_handle(along: float, across: float, start: Point2, end: Point2) -> None:
+    assume(math.dist(start, end) > 1e-3 and abs(across) > 1e-3)
+    curve = Curve(along, across)
+    found = Curve.through(start, end, curve.handle(start, end))
+    assert found is not None
+    assert (found.along, found.across) == pytest.approx((along, across), abs=1e-9)
+    assert Curve.through(start, end, Curve(along, 0.0).handle(start, end)) is None
 
 
 @given(along=parts, across=parts)

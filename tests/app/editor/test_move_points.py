@@ -3,6 +3,8 @@ from dataclasses import replace
 
 import pytest
 
+from app.document import Document
+from app.drawing.curve import Curve
 from app.drawing.edit import Edit
 from app.ui.editor.mode import Mode
 from tests.app.drawing.drawings import outlined, pulled, towel_drawing
@@ -136,3 +138,71 @@ def test_somebody_elses_gesture_is_not_cancelled() -> None:
     document.edit(Edit("Theirs", theirs, gesture="theirs"))
     editor.release(None)
     assert document.state.drawing.outline[0].point == pytest.approx((-0.1, 0.0))
+
+
+# The middle of the second edge, from (0.4, 0) to (0.4, 0.3) of the article, on the table.
+RIGHT = (-0.55, -0.2)
+
+
+def bent(document: Document) -> list[tuple[int, float, float]]:
+    """Return which edges are curved, and how far along and across."""
+    curves = [corner.curve for corner in document.state.drawing.outline]
+    return [(index, curve.along, curve.across) for index, curve in enumerate(curves) if curve is not None]
+
+
+def test_the_middle_of_an_edge_is_pulled_into_an_arc_pulled_again_and_straightened() -> None:
+    document, editor = seat(towel_drawing(), Mode.MOVE_POINTS)
+    assert editor.aids.middles[1] == pytest.approx(RIGHT)
+    drag(editor, RIGHT, (-0.56, -0.26))  # 1 cm aside of 15 px: the arc of a circle is near
+    assert bent(document) == [(1, pytest.approx(0.0, abs=1e-12), pytest.approx(-0.2))]
+    assert [step.label for step in document.state.draft.history.past] == ["Bend edge"]
+    assert editor.aids.middles[1] == pytest.approx((-0.55, -0.26))
+    drag(editor, (-0.55, -0.26), (-0.475, -0.26))
+    assert bent(document) == [(1, pytest.approx(0.25), pytest.approx(-0.2))]
+    drag(editor, (-0.475, -0.26), (-0.5, -0.21))
+    assert bent(document) == []
+    editor.undo()
+    assert [index for index, *_ in bent(document)] == [1]
+
+
+def test_half_a_circle_is_met_from_near() -> None:
+    document, editor = seat(towel_drawing(), Mode.MOVE_POINTS)
+    drag(editor, RIGHT, (-0.54, -0.34))
+    assert bent(document) == [(1, pytest.approx(0.0, abs=1e-12), pytest.approx(-0.5))]
+
+
+def test_the_edge_that_is_bent_is_highlighted_and_goes_back_off_the_table() -> None:
+    document, editor = seat(towel_drawing(), Mode.MOVE_POINTS)
+    editor.press(at(RIGHT))
+    assert "middle of the edge" in editor.says
+    editor.drag(at((-0.55, -0.3)))
+    assert editor.aids.chosen == len(CORNERS) + 1
+    editor.release(at((-0.55, -0.8)))
+    assert bent(document) == []
+    assert "the edge is as it was" in editor.says
+
+
+def test_a_short_edge_has_a_middle_only_once_it_is_curved() -> None:
+    short = outlined(towel_drawing(), (0.0, 0.0), (0.4, 0.0), (0.4, 0.21), (0.4, 0.3), (0.0, 0.3))
+    document, editor = seat(short, Mode.MOVE_POINTS)
+    assert len(editor.aids.middles) == 4
+    outline = tuple(replace(corner, curve=Curve(0.0, -0.2)) for corner in document.state.drawing.outline)
+    document.edit(Edit("Bend", replace(document.state.drawing, outline=outline)))
+    assert len(editor.aids.middles) == 5
+
+
+def test_an_edge_that_somebody_takes_away_is_told_of() -> None:
+    document, editor = seat(towel_drawing(), Mode.MOVE_POINTS)
+    editor.press(at(RIGHT))
+    drawing = document.state.drawing
+    document.edit(Edit("Elsewhere", replace(drawing, outline=(drawing.outline[0], *drawing.outline[2:]))))
+    editor.release(at((-0.55, -0.3)))
+    assert len(document.state.drawing.outline) == 3
+    assert "taken this edge away" in editor.says
+
+
+def test_a_bent_edge_is_a_step_in_the_readers_language() -> None:
+    document, editor = seat(towel_drawing(), Mode.MOVE_POINTS)
+    drag(editor, RIGHT, (-0.55, -0.3))
+    document.set_language("de")
+    assert "Kante wölben" in editor.undo_label
