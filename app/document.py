@@ -1,8 +1,8 @@
 """The document: the one object that owns the mutable state. It knows neither viser nor FastAPI.
 
-REST, page and stage are thin layers over it: they call its methods and are notified of changes. Its state is an
-immutable value that is swapped under a lock, so that a reader never sees half a change. A change of the drawing is on
-the disk before anyone sees it.
+REST, page and stage are thin layers over it: they call its methods and are notified of changes. Its state is one
+immutable value (`app.document_state`), and so is what becomes of it. A change of the drawing is on the disk before
+anyone sees it.
 """
 
 import threading
@@ -19,6 +19,7 @@ from app.drawing.edit import Edit, OvertakenError, StaleVersionError
 from app.jobs.courtesy import Courtesy
 from app.language import Language
 from app.playback import Playback
+from app.watched import Listener, Watched
 from planner.errors import FoldingError
 from planner.task.plan import Plan
 from planner.task.task import Task
@@ -26,7 +27,6 @@ from planner.task.world_state import WorldState
 
 STOPPED = "planning was stopped; the next change is planned again"
 
-Listener = Callable[[], None]
 Keep = Callable[[int, Draft], None]
 KeepStart = Callable[[WorldState | None], None]
 
@@ -86,33 +86,24 @@ class Document:
         self._keep = keep
         self._keep_start = keep_start
         self._reread = reread
-        self._lock = threading.Lock()
         self._edits = threading.Lock()
         self._has_ended = False
         self._courtesy = courtesy or Courtesy()
-        self._state = DocumentState(version, draft, start=start)
-        self._listeners: list[Listener] = []
+        self._watched = Watched(DocumentState(version, draft, start=start))
 
     @property
     def state(self) -> DocumentState:
         """The current state."""
-        return self._state
+        return self._watched.value
 
     @property
     def t_s(self) -> float:
         """The current time in the plan (s)."""
-        return self._state.playback.at(self._clock())
+        return self.state.playback.at(self._clock())
 
     def subscribe(self, listener: Listener) -> Callable[[], None]:
         """Call a function after every change, in the thread that made it; return the function that unsubscribes it."""
-        with self._lock:
-            self._listeners.append(listener)
-
-        def unsubscribe() -> None:
-            with self._lock:
-                self._listeners.remove(listener)
-
-        return unsubscribe
+        return self._watched.subscribe(listener)
 
     def edit(self, edit: Edit) -> DocumentState:
         """Change the drawing; return the new state.
@@ -154,7 +145,7 @@ class Document:
             answered = state.answered(answer)
             return answered if state.task is None else answered.showing(answer, self._clock())
 
-        self._change(change)
+        self._watched.change(change)
 
     def put_checks(self, drawing: Drawing, folds: tuple[HeldFold, ...]) -> None:
         """Store the grips that the folds of a drawing need; ignore them if the drawing has changed."""
@@ -162,24 +153,24 @@ class Document:
         def change(state: DocumentState) -> DocumentState:
             return replace(state, checks=Checks(state.version, folds)) if state.drawing == drawing else state
 
-        self._change(change)
+        self._watched.change(change)
 
     def fail(self, version: int, failure: str) -> None:
         """Store why a version has no answer."""
-        self._change(lambda state: replace(state, failure=failure) if version == state.version else state)
+        self._watched.change(lambda state: replace(state, failure=failure) if version == state.version else state)
 
     def prepare(self, share: float | None) -> None:
         """Store how far the robot's arms are mapped (0 to 1), in steps of a hundredth; None: they are."""
         prepared = None if share is None else round(share, 2)
-        self._change(lambda state: state if state.prepared == prepared else replace(state, prepared=prepared))
+        self._watched.change(lambda state: state if state.prepared == prepared else replace(state, prepared=prepared))
 
     def stop_planning(self) -> None:
         """Stop waiting for an answer to this version, or for a better one."""
-        self._change(lambda state: state.stopped(STOPPED))
+        self._watched.change(lambda state: state.stopped(STOPPED))
 
     def plan_again(self) -> None:
         """Request an answer to a version for which planning was stopped or failed."""
-        self._change(lambda state: replace(state, failure=None) if state.failure else state)
+        self._watched.change(lambda state: replace(state, failure=None) if state.failure else state)
 
     def plan_from(self, step: int) -> None:
         """Plan the rest after a step of the plan shown; raise `RequestError` if there is none. -1: before the first."""
@@ -198,7 +189,7 @@ class Document:
             kept = replace(state.answer, is_final=False) if state.answer.plan.is_solved else None
             return replace(state, answer=kept, is_thorough=True)
 
-        self._change(change)
+        self._watched.change(change)
 
     def play(self) -> None:
         """Start playing; without a solved plan, do nothing."""
@@ -222,23 +213,23 @@ class Document:
 
     def set_theme(self, *, is_dark: bool) -> None:
         """Set whether the background is dark."""
-        self._change(lambda state: replace(state, is_dark=is_dark))
+        self._watched.change(lambda state: replace(state, is_dark=is_dark))
 
     def set_language(self, language: Language) -> None:
         """Set the language of the stage's words and of the instruction sheet."""
-        self._change(lambda state: replace(state, language=language))
+        self._watched.change(lambda state: replace(state, language=language))
 
     def set_effort(self, work_s: float | None) -> None:
         """Set the work of each search from the next one on, None for the usual (s, see `planner.planning.budget`)."""
-        self._change(lambda state: replace(state, work_s=work_s))
+        self._watched.change(lambda state: replace(state, work_s=work_s))
 
     def preview(self, plan: Plan | None) -> None:
         """Have the stage show the plan of a change that is pointed at; None shows the document's own again."""
-        self._change(lambda state: state.previewing(plan))
+        self._watched.change(lambda state: state.previewing(plan))
 
     def stop_at_end(self) -> None:
         """Pause if the plan has been played to its end."""
-        playback = self._state.playback
+        playback = self.state.playback
         if playback.is_playing and playback.has_ended(self._clock()):
             self.pause()
 
@@ -247,26 +238,26 @@ class Document:
         with self._edits, self._courtesy.short_work():
             if self._has_ended:
                 raise EndedDocumentError
-            version, draft = self._state.version, self._state.draft
+            version, draft = self.state.version, self.state.draft
             if base_version not in (None, version):
                 raise StaleVersionError(base_version, version)
             after = change(draft)
             if after is draft:
-                return self._state
+                return self.state
             with self._unless_overtaken():
                 self._keep(version + 1, after)
-            return self._change(lambda state: state.redrawn(after, self._clock()))
+            return self._watched.change(lambda state: state.redrawn(after, self._clock()))
 
     def _start_at(self, start_of: Callable[[DocumentState], WorldState | None]) -> None:
         """Plan the same drawing from another world state; it is saved before anyone sees it."""
         with self._edits:
             if self._has_ended:
                 raise EndedDocumentError
-            start = start_of(self._state)
-            if start != self._state.start:
+            start = start_of(self.state)
+            if start != self.state.start:
                 with self._unless_overtaken():
                     self._keep_start(start)
-            self._change(lambda state: state.started_at(start, self._clock()))
+            self._watched.change(lambda state: state.started_at(start, self._clock()))
 
     @contextmanager
     def _unless_overtaken(self) -> Iterator[None]:
@@ -274,9 +265,9 @@ class Document:
         try:
             yield
         except OvertakenError:
-            version = self._state.version
+            version = self.state.version
             self._take_over()
-            raise StaleVersionError(version, self._state.version) from None
+            raise StaleVersionError(version, self.state.version) from None
 
     def _take_over(self) -> None:
         if self._reread is None:
@@ -287,16 +278,7 @@ class Document:
             current = replace(state, version=max(state.version, saved.version - 1))
             return current.redrawn(saved.draft, self._clock()).started_at(saved.start, self._clock())
 
-        self._change(change)
+        self._watched.change(change)
 
     def _change_playback(self, change: Callable[[Playback], Playback]) -> None:
-        self._change(lambda state: replace(state, playback=change(state.playback)))
-
-    def _change(self, change: Callable[[DocumentState], DocumentState]) -> DocumentState:
-        with self._lock:
-            before, self._state = self._state, change(self._state)
-            after, listeners = self._state, tuple(self._listeners)
-        if after is not before:
-            for listener in listeners:
-                listener()
-        return after
+        self._watched.change(lambda state: replace(state, playback=change(state.playback)))
