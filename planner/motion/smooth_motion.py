@@ -1,9 +1,10 @@
 """A plan's motion for controllers: smooth, with the speeds and accelerations of all joints bounded.
 
 A plan's trajectory goes straight from keyframe to keyframe, so its velocities jump. Here a curve with continuous second
-derivatives goes through the same keyframes, and is then run through as fast as speeds and accelerations allow, but
-never faster than the plan. All joints, grippers and the base share one clock, so hands that carry a cloth together stay
-together. Each step begins and ends at rest and can be sent alone.
+derivatives goes through the same keyframes. A step takes as long as in the plan where speeds and accelerations allow:
+it is slower where it turns, and a little quicker elsewhere, no more than it must be. All joints, grippers and the base
+share one clock, so hands that carry a cloth together stay together. Each step begins and ends at rest and can be sent
+alone.
 
 The curve is a cubic spline through fine samples of a monotone one (Fritsch and Carlson): it does not overshoot, as a
 spline through the keyframes alone would, and its accelerations do not jump, as the monotone one's do.
@@ -17,6 +18,7 @@ from typing import Any
 
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline, PchipInterpolator
+from scipy.optimize import brentq
 from toppra import SplineInterpolator
 from toppra.algorithm import TOPPRA
 from toppra.constraint import DiscretizationType, JointAccelerationConstraint, JointVelocityConstraint
@@ -37,6 +39,15 @@ _FINE_S = 0.02
 
 _SAME_S = 1e-6
 """Keyframes of different tracks nearer than this are one (s)."""
+
+PACE_MAX = 2.0
+"""The most seconds of the plan in one second of a smooth motion."""
+
+_PACE_FOUND = 0.01
+"""The accuracy to which the least pace is found with which a step takes no longer than in the plan."""
+
+_SPARE = 0.03
+"""The share of a step's time that is left, when the pace is found, for keeping limits between the solver's points."""
 
 _HURRY_S2 = 10.0
 """Bounds the change of the pace through the plan (1/s2) where nothing moves, so that no joint bounds it."""
@@ -94,7 +105,7 @@ class SmoothStep:
 
 
 def smooth_steps(plan: Plan, limits: MotionLimits) -> Iterator[SmoothStep]:
-    """Yield the quickest motion of each step that keeps the limits and is nowhere quicker than the plan.
+    """Yield a motion of each step that keeps the limits and takes as long as in the plan, or as little more as can be.
 
     Raises:
         UnsolvedPlanError: the plan has no trajectory.
@@ -114,7 +125,7 @@ def _smooth(number: int, start_s: float, step: PlanStep, path: Trajectory, limit
     curve = _monotone(knots, planned_values(path, knots))(fine)
     rest = np.append(np.zeros(curve.shape[1]), 1.0)
     whole = SplineInterpolator(fine, np.column_stack([curve, fine]), ((1, rest), (1, rest)))
-    run, stretch = _quickest(whole, fine, limits)
+    run, stretch = _in_time(_Path(whole, fine, limits), step.duration_s)
     arms = len(path.arms.names)
     looked = _cut(knots, _FINE_S / 2, 4)
     deviation = np.abs(whole(looked)[:, :arms] - planned_values(path, looked)[:, :arms]).max()
@@ -154,25 +165,56 @@ def _monotone(times_s: FloatArray, values: FloatArray) -> CubicHermiteSpline:
     return CubicHermiteSpline(times_s, values, slopes)
 
 
-def _quickest(path: SplineInterpolator, fine: FloatArray, limits: MotionLimits) -> tuple[Any, float]:
-    """Return the quickest run through a path, and how far it must be stretched to keep the limits everywhere.
+@dataclass(frozen=True, eq=False)
+class _Path:
+    """A path with the limits of what moves along it; its last coordinate is the plan's time (s).
 
-    The solver keeps them at its grid points alone, so it is given tighter ones where it exceeds them in between.
+    Attributes:
+        curve: the path.
+        fine: its samples (s).
+        limits: of all other coordinates.
     """
-    grid = np.sort(np.concatenate([fine, 0.5 * (fine[:-1] + fine[1:])]))
-    speeds, accelerations = np.append(limits.speeds, 1.0), np.append(_HELD_BACK * limits.accelerations, _HURRY_S2)
-    runs = []
-    for _ in range(_ROUNDS):
+
+    curve: SplineInterpolator
+    fine: FloatArray
+    limits: MotionLimits
+
+    def quickest(self, pace: float) -> tuple[Any, float]:
+        """Return the quickest run at a pace, and how far it must be stretched to keep the limits everywhere.
+
+        The solver keeps them at its grid points alone, so it is given tighter ones where it exceeds them in between.
+        """
+        accelerations = _HELD_BACK * self.limits.accelerations
+        runs = []
+        for _ in range(_ROUNDS):
+            run = self.run(pace, accelerations)
+            times = np.linspace(0.0, run.duration, 12 * len(self.fine))
+            excess = self.limits.excess(run(times, 1)[:, :-1], run(times, 2)[:, :-1])
+            runs.append((run.duration * excess, excess, run))
+            accelerations = accelerations / excess**2
+        _, stretch, quickest = min(runs, key=lambda tried: tried[0])
+        return quickest, stretch
+
+    def run(self, pace: float, accelerations: FloatArray) -> Any:  # noqa: ANN401
+        """Return the quickest run with some accelerations, and with at most a pace through the plan's time."""
+        speeds, hard = np.append(self.limits.speeds, pace), np.append(accelerations, _HURRY_S2)
         bounds = [
             JointVelocityConstraint(np.column_stack([-speeds, speeds])),
-            JointAccelerationConstraint(
-                np.column_stack([-accelerations, accelerations]), DiscretizationType.Interpolation
-            ),
+            JointAccelerationConstraint(np.column_stack([-hard, hard]), DiscretizationType.Interpolation),
         ]
-        run = TOPPRA(bounds, path, gridpoints=grid, parametrizer="ParametrizeConstAccel").compute_trajectory(0.0, 0.0)
-        times = np.linspace(0.0, run.duration, 6 * len(grid))
-        excess = limits.excess(run(times, 1)[:, :-1], run(times, 2)[:, :-1])
-        runs.append((run.duration * excess, excess, run))
-        accelerations = accelerations / excess**2
-    _, stretch, quickest = min(runs, key=lambda tried: tried[0])
-    return quickest, stretch
+        grid = np.sort(np.concatenate([self.fine, 0.5 * (self.fine[:-1] + self.fine[1:])]))
+        solver = TOPPRA(bounds, self.curve, gridpoints=grid, parametrizer="ParametrizeConstAccel")
+        return solver.compute_trajectory(0.0, 0.0)
+
+
+def _in_time(path: _Path, planned_s: float) -> tuple[Any, float]:
+    """Return the run with the least hurry that takes as long as planned, or the quickest; and its stretch."""
+
+    def late_s(pace: float) -> float:
+        return float(path.run(pace, _HELD_BACK * path.limits.accelerations).duration) - (1.0 - _SPARE) * planned_s
+
+    pace = PACE_MAX
+    if late_s(PACE_MAX) < 0.0:
+        pace = min(brentq(late_s, 1.0, PACE_MAX, xtol=_PACE_FOUND) + _PACE_FOUND, PACE_MAX)
+    run, stretch = path.quickest(pace)
+    return run, max(stretch, planned_s / float(run.duration))

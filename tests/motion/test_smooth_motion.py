@@ -1,12 +1,15 @@
 """A smooth motion goes through the plan's keyframes, keeps its limits, and rests between steps."""
 
+from dataclasses import replace
+from itertools import islice
+
 import numpy as np
 import pytest
 from scipy.optimize import brentq
 
 from planner.errors import UnsolvedPlanError
 from planner.motion.motion_limits import RISE_S, MotionLimits
-from planner.motion.smooth_motion import SmoothStep, smooth_steps
+from planner.motion.smooth_motion import PACE_MAX, SmoothStep, smooth_steps
 from tests.small_plan import CARD, one_armed, small_plan, unsolved
 
 PLAN = small_plan()
@@ -36,8 +39,9 @@ def test_what_is_told_as_velocity_and_acceleration_are_the_derivatives(step: Smo
     times = np.linspace(0.1, step.duration_s - 0.1, 50)
     for order in (1, 2):
         slope = (step.at(times + 1e-5, order - 1) - step.at(times - 1e-5, order - 1)) / 2e-5
-        assert np.median(np.abs(slope - step.at(times, order))) < 1e-6
-        assert np.abs(slope - step.at(times, order)).max() < 0.05
+        off = np.abs(slope - step.at(times, order)).max(axis=1)
+        assert np.median(off) < 1e-5
+        assert (off < 0.05).sum() >= len(times) - 2  # accelerations jump, sometimes right between two of these moments
 
 
 @each_step
@@ -67,11 +71,27 @@ def test_between_keyframes_it_is_as_near_to_the_plan_as_it_says(step: SmoothStep
     assert off <= 1.1 * step.deviation < 0.03
 
 
-def test_it_is_nowhere_quicker_than_the_plan_and_steps_follow_each_other():
+def test_steps_follow_each_other_and_take_no_less_than_planned():
+    assert STEPS[1].start_s == pytest.approx(STEPS[0].duration_s)
     for step, planned in zip(STEPS, PLAN.steps, strict=True):
         assert step.duration_s >= planned.duration_s - 1e-9
-        assert np.all(np.diff(step.plan_s(step.times_s(100.0))) <= 1.0 / 100.0 + 1e-9)
-    assert STEPS[1].start_s == pytest.approx(STEPS[0].duration_s)
+
+
+@each_step
+def test_where_it_turns_it_loses_time_that_it_makes_up_elsewhere_with_no_more_hurry_than_that_takes(step: SmoothStep):
+    planned = PLAN.steps[step.number]
+    paces = np.diff(step.plan_s(step.times_s(100.0))) * 100.0
+    assert paces.min() < 0.5
+    assert 1.0 < paces.max() < PACE_MAX - 0.1
+    assert step.duration_s <= 1.02 * planned.duration_s
+
+
+def test_where_speeds_leave_no_time_to_make_up_it_takes_longer_at_the_quickest_pace():
+    slow = replace(LIMITS, accelerations=LIMITS.accelerations / 20.0)
+    (step,) = islice(smooth_steps(PLAN, slow), 1)
+    assert step.duration_s > 1.2 * PLAN.steps[0].duration_s
+    times = step.times_s(1000.0)
+    assert np.all(np.abs(np.diff(step.at(times), 2, axis=0) / times[1] ** 2) <= slow.accelerations * (1.0 + BETWEEN))
 
 
 def test_a_robot_with_one_arm_has_a_motion_too():
