@@ -35,6 +35,7 @@ from bench.reach import Effort, reach_of
 from bench.reach_boundary import distance_m
 from bench.reach_queries import FURTHEST_M, any_poses, pinches
 from bench.reach_truth import DenseReach
+from bench.rehearsal import ARTICLES as REHEARSED
 from bench.rehearsal import Rehearsed, row_of
 from bench.report import Report, Row
 from bench.robot_plans import LONGEST_M, robot_plans, shrunk
@@ -322,6 +323,22 @@ def test_naming_a_garment_leaves_out_what_is_of_no_garment(monkeypatch: pytest.M
     assert {"table-1", "re-plan", "first-plan"} <= set(asked)
     assert not set(asked) & {"reach", "any-robot", "growth", "rehearsal"}
     assert all(articles == ["vest"] for articles in asked.values())
+
+
+def test_every_article_that_is_rehearsed_can_be_named(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):
+    asked: list[Sequence[str]] = []
+
+    def noted(articles: Sequence[str], repetitions: int) -> Report:
+        asked.append(articles)
+        return Report("rehearsal", "rehearsal", (), (), repetitions)
+
+    monkeypatch.setattr("bench.__main__.BENCHMARKS", {"rehearsal": noted})
+    main(["--quick", "--only", "rehearsal"], tmp_path, tmp_path)
+    for article in REHEARSED:
+        main(["--quick", "--only", "rehearsal", article], tmp_path, tmp_path)
+    everything, *each = asked
+    assert set(REHEARSED) <= set(everything)
+    assert each == [[article] for article in REHEARSED]
 
 
 def test_a_rehearsal_tells_its_steps_the_first_lost_and_how_often_it_held():

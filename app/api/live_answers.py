@@ -32,7 +32,11 @@ class PlanBefore(BaseModel):
 
 
 class FoldCheck(BaseModel):
-    """The corners of a fold that must be held, and the grips that hold them (m)."""
+    """The corners of a fold that must be held, and the grips that hold them (m).
+
+    `grips` are those of the plan, which may have a hand more so that corners are held firmly; where no plan makes the
+    fold, the fewest that hold. `grips_needed` is the number of the fewest.
+    """
 
     must_hold: list[Point]
     grips: list[Point]

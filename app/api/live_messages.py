@@ -1,5 +1,6 @@
 """The three messages that tell pages about a document, each sent when its subject has changed."""
 
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from app.document_state import Answer, Checks, DocumentState
@@ -7,6 +8,7 @@ from app.drawing.drawing_json import drawing_to_dict
 from app.drawing.garment_json import garment_to_dict
 from app.shown_robot import shown_robot
 from planner.errors import FoldingError
+from planner.geometry.pose import Point2
 from planner.robots.load_robot import robot_card_file
 from planner.task.statistics import Statistics
 
@@ -50,7 +52,7 @@ def plan_message(state: DocumentState) -> dict[str, Any]:
         "may_look_longer": state.may_look_longer,
         "start": None if state.start is None else state.start.to_dict(),
         "before": None if state.before is None else _figures(state.before),
-        "checks": None if state.checks is None else _checks(state.checks),
+        "checks": None if state.checks is None else _checks(state.checks, _planned_grips(state)),
     }
 
 
@@ -126,13 +128,22 @@ def _figures(answer: Answer) -> dict[str, Any]:
     return {"version": answer.version, "status": answer.plan.status, "cost_s": answer.plan.cost_s}
 
 
-def _checks(checks: Checks) -> dict[str, Any]:
+def _planned_grips(state: DocumentState) -> dict[int, list[Point2]]:
+    """Return the grips of each fold that the plan of this version makes, article frame as it lies before the fold."""
+    if state.answer is None or not state.is_answered:
+        return {}
+    steps = state.answer.plan.steps
+    return {step.fold: [one.point for one in step.holdings] for step in steps if step.fold is not None}
+
+
+def _checks(checks: Checks, planned: Mapping[int, Sequence[Point2]]) -> dict[str, Any]:
+    """Return what each fold needs; grips as the plan has them, where it makes the fold, else the fewest that do."""
     folds = [
         {
             "must_hold": [list(point) for point in fold.must_hold],
-            "grips": [list(point) for point in fold.grips],
+            "grips": [list(point) for point in planned.get(number) or fold.grips],
             "grips_needed": fold.grips_needed,
         }
-        for fold in checks.folds
+        for number, fold in enumerate(checks.folds)
     ]
     return {"version": checks.version, "folds": folds}

@@ -1,17 +1,18 @@
 """A world simulated in MuJoCo: the article as a flex on a table, grips that move its vertices."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 
 from app.physics.fabric import Fabric, Resolution
-from app.physics.pinch import pinched
+from app.physics.hand_way import HandWay
+from app.physics.held_cloth import HeldCloth
+from app.physics.pinch import fingertip, pinched
 from app.physics.simulation import ClothSimulation
 from app.rehearsal.planned_cloth import planned_positions
 from app.rehearsal.world import GripMotion, Observation, Performed, StepMotion, Truth
 from planner.folds.fold_sequence import replayed
-from planner.geometry.pose import FloatArray, Pose2
+from planner.geometry.pose import Pose2
 from planner.geometry.region import Region
 from planner.geometry.ring import evenly_along
 from planner.geometry.table_top import TableTop
@@ -60,10 +61,11 @@ class PhysicsWorld:
         self.elapsed_s = 0.0
         lies = placement or task.start.placement
         self._pattern, triangles = woven_mesh(task.garment.pattern, resolution.edge_m, seed)
+        self._thickness_m = fabric.thickness_m
         ball = fabric.thickness_m / 2.0
         rest = np.column_stack([lies.to_outer(self._pattern), np.full(len(self._pattern), ball)])
         self.simulation = ClothSimulation(rest, triangles, fabric, resolution, task.scene.table)
-        self._grips: dict[str, _Pinch] = {}
+        self._grips: dict[str, HeldCloth] = {}
         if task.start.done or not self._top.covers(rest):
             sequence = replayed(task.garment)
             table, gap_m = task.scene.table, fabric.thickness_m
@@ -82,7 +84,7 @@ class PhysicsWorld:
             return Performed()
         found = {grip.arm: self._take(grip) for grip in motion.grips}
         if all(found.values()) or not motion.needs_all:
-            self._follow(motion.grips)
+            self._follow(motion)
         else:
             self._let_go({grip.arm for grip in motion.grips})
         if not self._grips:
@@ -99,24 +101,36 @@ class PhysicsWorld:
         if grip.arm in self._grips and not grip.closes:
             return True
         tool, now = grip.at(grip.times_s[0]), self.simulation.positions
-        taken = pinched(now, self.simulation.triangles, tool, self._top, self._clear_m) - self.simulation.held
+        found = pinched(now, self.simulation.triangles, tool, self._top, self._clear_m)
+        taken = {vertex: point for vertex, point in found.items() if vertex not in self.simulation.held}
         if taken:
-            vertices = tuple(sorted(taken))
-            self._grips[grip.arm] = pinch = _Pinch(vertices, now[list(vertices)] - tool)
-            self.simulation.hold(pinch.at(tool))
+            self._grips[grip.arm] = held = HeldCloth.of(taken, now, fingertip(tool))
+            self.simulation.hold(held.at(fingertip(tool)))
         return bool(taken)
 
-    def _follow(self, grips: tuple[GripMotion, ...]) -> None:
+    def _follow(self, motion: StepMotion) -> None:
         """Move the hands along their paths; each opens at the end of its own, if it opens at all."""
+        grips = motion.grips
         now_s, last_s = min(g.times_s[0] for g in grips), max(g.times_s[-1] for g in grips)
+        ways = [self._way(grip, motion.is_fold) for grip in grips if grip.arm in self._grips]
         while now_s < last_s:
             now_s = min(now_s + self.simulation.step_s, last_s)
-            for grip in grips:
-                pinch = self._grips.get(grip.arm)
-                if pinch is not None:
-                    self.simulation.hold(pinch.at(grip.at(now_s)))
+            for way in ways:
+                if way.grip.arm in self._grips:
+                    self.simulation.hold(way.at(now_s))
             self._let_go({grip.arm for grip in grips if grip.opens and grip.times_s[-1] <= now_s})
             self._step()
+        self._grips |= {way.grip.arm: way.held_at(last_s) for way in ways if way.grip.arm in self._grips}
+
+    def _way(self, grip: GripMotion, is_fold: bool) -> HandWay:
+        """Return the way of a hand and the cloth in it; in a fold that comes to lie on what is there already."""
+        way, positions = HandWay(grip, self._grips[grip.arm], is_fold, self._top), self.simulation.positions
+        if not is_fold:
+            return way
+        apart = np.linalg.norm(positions[:, :2] - np.array(grip.points[-1][:2]), axis=1)
+        apart[list(self.simulation.held)] = np.inf
+        below = positions[apart <= self.resolution.edge_m, 2]
+        return way.landing_on(float(below.max()) + self._thickness_m) if len(below) else way
 
     def _let_go(self, arms: set[str]) -> None:
         for arm in arms & self._grips.keys():
@@ -130,15 +144,3 @@ class PhysicsWorld:
         self.simulation.step()
         self.elapsed_s += self.simulation.step_s
         self._tick()
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class _Pinch:
-    """The vertices that a hand holds, and where they are seen from its tool, shape (n, 3), m."""
-
-    vertices: tuple[int, ...]
-    offsets: FloatArray
-
-    def at(self, tool: FloatArray) -> dict[int, FloatArray]:
-        """Return each vertex's place for a position of the tool."""
-        return dict(zip(self.vertices, tool + self.offsets, strict=True))

@@ -22,11 +22,12 @@ _ALIKE_M = 0.003
 
 def pinched(
     positions: FloatArray, triangles: NDArray[np.int64], tool: FloatArray, top: TableTop, clear_m: float
-) -> frozenset[int]:
-    """Return the vertices that fingers hold once they have closed; none if they find no cloth.
+) -> dict[int, FloatArray]:
+    """Return the vertices that fingers hold once they have closed, each with the point between the fingers.
 
     The nearest vertex of every triangle that the pad touches is held; where it touches none, the triangles nearest to
     it within a finger's length. Beside the table, where tools keep clear of the edge, the fingers reach that far more.
+    The fingers are where the triangle comes nearest to them; its vertex may be most of a triangle's edge away.
 
     Args:
         positions: the vertices, table frame, shape (n, 3), m.
@@ -34,41 +35,69 @@ def pinched(
         tool: the tool's position, shape (3,), m; its fingers close `REST_HEIGHT_M` below.
         top: the table's top.
         clear_m: how far outside an edge's plane a tool holds hanging cloth (m).
+
+    Returns:
+        For each vertex the point of the cloth that is between the fingers, table frame, shape (3,), m; empty if they
+        find no cloth.
     """
-    tip = tool - np.array([0.0, 0.0, REST_HEIGHT_M])
+    tip = fingertip(tool)
     is_beside = not top.covers(tool[None])
     limit = FINGER_M + (clear_m if is_beside else 0.0)
     near = np.flatnonzero(np.linalg.norm(positions - tip, axis=1)[triangles].min(axis=1) < 3.0 * limit + 0.05)
     if not len(near):
-        return frozenset()
+        return {}
     corners = positions[triangles[near]]
     flat = 3 if is_beside else 2
-    gaps = triangle_distances(corners[..., :flat], tip[:flat])
+    weights = nearest_weights(corners[..., :flat], tip[:flat])
+    points = (weights[..., None] * corners).sum(axis=1)
+    gaps = np.linalg.norm(points[:, :flat] - tip[:flat], axis=1)
     gaps[np.abs(corners[..., 2] - tip[2]).min(axis=1) > _OPENING_M + limit * is_beside] = np.inf
     reach = PAD_M if gaps.min() <= PAD_M else gaps.min() + _ALIKE_M
     if gaps.min() > limit:
-        return frozenset()
-    taken = near[gaps <= reach]
-    apart = np.linalg.norm(positions[triangles[taken]][..., :flat] - tip[:flat], axis=-1)
-    return frozenset(triangles[taken, np.argmin(apart, axis=1)].tolist())
+        return {}
+    taken = np.flatnonzero(gaps <= reach)
+    apart = np.linalg.norm(corners[taken][..., :flat] - tip[:flat], axis=-1)
+    vertices = triangles[near[taken], np.argmin(apart, axis=1)].tolist()
+    order = np.argsort(
+        -gaps[taken], kind="stable"
+    ).tolist()  # of a vertex's triangles the nearest comes last, and stays
+    return {vertices[i]: points[taken[i]] for i in order}
 
 
-def triangle_distances(triangles: FloatArray, point: FloatArray) -> FloatArray:
-    """Return the distance of a point from each triangle, shape (n, 3, d) -> (n,), in the plane or in space (m)."""
+def fingertip(tool: FloatArray) -> FloatArray:
+    """Return where fingers close for a position of their tool, shape (3,), m."""
+    return np.asarray(tool - np.array([0.0, 0.0, REST_HEIGHT_M]))
+
+
+def nearest_weights(triangles: FloatArray, point: FloatArray) -> FloatArray:
+    """Return the weights of each triangle's corners at its point nearest to a point, in the plane or in space.
+
+    Args:
+        triangles: shape (n, 3, d), m.
+        point: shape (d,), m.
+
+    Returns:
+        Shape (n, 3); each row's sum is 1.
+    """
     a, ab, ac = triangles[:, 0], triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
     ap = point - a
     uu, uv, vv = (ab * ab).sum(1), (ab * ac).sum(1), (ac * ac).sum(1)
     pu, pv = (ap * ab).sum(1), (ap * ac).sum(1)
     area = np.maximum(uu * vv - uv * uv, 1e-18)
     u, v = (vv * pu - uv * pv) / area, (uu * pv - uv * pu) / area
-    is_over = (u >= 0.0) & (v >= 0.0) & (u + v <= 1.0)
-    foot = a + u[:, None] * ab + v[:, None] * ac
-    inner = np.where(is_over, np.linalg.norm(point - foot, axis=1), np.inf)
-    edges = [_edge_distances(triangles[:, i], triangles[:, (i + 1) % 3], point) for i in range(3)]
-    return np.asarray(np.minimum(inner, np.min(edges, axis=0)))
+    inner = np.column_stack([1.0 - u - v, u, v])
+    found = np.stack([inner, *(_edge_weights(triangles, i, point) for i in range(3))], axis=1)
+    gaps = np.linalg.norm((found[..., None] * triangles[:, None]).sum(axis=2) - point, axis=-1)
+    gaps[(inner < 0.0).any(axis=1), 0] = np.inf
+    return np.asarray(found[np.arange(len(found)), gaps.argmin(axis=1)])
 
 
-def _edge_distances(starts: FloatArray, ends: FloatArray, point: FloatArray) -> FloatArray:
-    along = ends - starts
-    share = np.clip(((point - starts) * along).sum(1) / np.maximum((along * along).sum(1), 1e-18), 0.0, 1.0)
-    return np.asarray(np.linalg.norm(point - starts - share[:, None] * along, axis=1))
+def _edge_weights(triangles: FloatArray, first: int, point: FloatArray) -> FloatArray:
+    """Return the weights of the corners at the point of an edge nearest to a point, shape (n, 3)."""
+    second = (first + 1) % 3
+    along = triangles[:, second] - triangles[:, first]
+    way = ((point - triangles[:, first]) * along).sum(1)
+    share = np.clip(way / np.maximum((along * along).sum(1), 1e-18), 0.0, 1.0)
+    weights = np.zeros((len(triangles), 3))
+    weights[:, first], weights[:, second] = 1.0 - share, share
+    return weights

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from app.rehearsal.world import GripMotion, StepMotion
+from app.rehearsal.world import GripMotion, StepMotion, way_done
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray, Point2, Pose2
 
@@ -33,7 +33,7 @@ def corrected(motion: StepMotion, carried: Isometry) -> StepMotion:
         moved = np.column_stack([carried.apply(points[:, :2]), points[:, 2]])
         if not motion.is_drag:
             return moved
-        left = 1.0 - _progress(points)[:, None]
+        left = 1.0 - way_done(points)[:, None]
         return np.asarray(points + left * (moved[0] - points[0]))
 
     return replace(motion, grips=tuple(_along(grip, carried_along(np.array(grip.points))) for grip in motion.grips))
@@ -63,7 +63,7 @@ def _beside(grip: GripMotion, radius_m: float, turn_rad: float, fold: Isometry |
     angle = math.atan2(ahead[1], ahead[0]) + turn_rad
     offset = radius_m * np.array([math.cos(angle), math.sin(angle)])
     landed = offset if fold is None else np.array(_turned(fold, (float(offset[0]), float(offset[1]))))
-    share = _progress(points)[:, None]
+    share = way_done(points)[:, None]
     points[:, :2] += (1.0 - share) * offset + share * landed
     return _along(grip, points)
 
@@ -71,12 +71,6 @@ def _beside(grip: GripMotion, radius_m: float, turn_rad: float, fold: Isometry |
 def _turned(isometry: Isometry, vector: Point2) -> Point2:
     (x, y), (x0, y0) = isometry.apply_point(vector), isometry.apply_point((0.0, 0.0))
     return x - x0, y - y0
-
-
-def _progress(points: FloatArray) -> FloatArray:
-    """Return the fraction of the path that is done at each of its points, shape (n,)."""
-    lengths = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
-    return np.asarray(lengths / max(float(lengths[-1]), 1e-9))
 
 
 def _along(grip: GripMotion, points: FloatArray) -> GripMotion:

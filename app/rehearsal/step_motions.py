@@ -1,12 +1,13 @@
 """Read the motions of the hands that hold cloth off a plan's trajectory, step by step, for any robot."""
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 import numpy as np
 
 from app.rehearsal.world import GripMotion, StepMotion
 from planner.errors import UnsolvedPlanError
-from planner.geometry.pose import FloatArray, Pose2
+from planner.geometry.pose import Point3, Pose2
 from planner.task.phase import Hand
 from planner.task.plan import Plan
 from planner.task.plan_step import PlanStep
@@ -28,8 +29,8 @@ def step_motions(plan: Plan) -> tuple[StepMotion, ...]:
     for number, step in enumerate(plan.steps):
         after = set(closed[number + 1]) if number + 1 < len(plan.steps) and step.details.get("holds") else set()
         grips = tuple(
-            GripMotion(arm, times, points, arm not in held, arm not in after)
-            for arm, (times, points) in closed[number].items()
+            GripMotion(arm, path.times_s, path.points, arm not in held, arm not in after, path.turned_rad)
+            for arm, path in closed[number].items()
         )
         found.append(StepMotion(number, step.kind, step.duration_s, grips, base=_driven(step)))
         held = set(closed[number]) & after
@@ -41,39 +42,49 @@ def _driven(step: PlanStep) -> Pose2 | None:
     return None if step.before.base.station == step.base.station else step.base.pose
 
 
-_Path = tuple[tuple[float, ...], tuple[tuple[float, float, float], ...]]
+@dataclass(frozen=True, slots=True)
+class _Path:
+    """The path of a tool that holds cloth: times since the step's start (s), points (m), and how far it has rolled."""
+
+    times_s: tuple[float, ...]
+    points: tuple[Point3, ...]
+    turned_rad: tuple[float, ...]
 
 
 def _closed(path: Trajectory, step: int) -> dict[str, _Path]:
-    """Return the times since the step's start and the tool's points of each arm that holds cloth in a step."""
+    """Return the path of each arm that holds cloth in a step."""
     segments = path.of_step(step)
     found: dict[str, _Path] = {}
     for number, gripper in enumerate(path.grippers):
         rows = [row for segment in segments for row in _rows(segment, segment.phase.hands[number])]
         if rows:
-            times, points = zip(*_rising(rows), strict=True)
+            times, points, turned = zip(*_rising(rows), strict=True)
             began = segments[0].start_s
-            found[gripper.arm] = (tuple(t - began for t in times), points)
+            found[gripper.arm] = _Path(tuple(t - began for t in times), points, turned if any(turned) else ())
     return found
 
 
-def _rows(segment: Segment, hand: Hand | None) -> Iterator[tuple[float, tuple[float, float, float]]]:
+_Row = tuple[float, Point3, float]
+"""A time (s), a point (m), and a roll without its sign (rad): whichever arm it is, a hand rolls as the cloth turns."""
+
+
+def _rows(segment: Segment, hand: Hand | None) -> Iterator[_Row]:
     if hand is None or not hand.is_closed or hand.is_reaching:
         return
     at = np.linspace(0.0, 1.0, len(hand.points))
     # The corners of the path come in between the segment's own keyframes.
     fractions = np.unique(np.concatenate([at, np.asarray(segment.fractions)]))
     times = np.interp(fractions, segment.fractions, segment.times_s) + segment.start_s
-    points: FloatArray = np.column_stack([np.interp(fractions, at, axis) for axis in np.array(hand.points).T])
-    yield from ((time, (x, y, z)) for time, (x, y, z) in zip(times.tolist(), points.tolist(), strict=True))
+    rolls = np.abs(hand.rolls_rad or (0.0,) * len(hand.points))
+    columns = [np.interp(fractions, at, axis) for axis in (*np.array(hand.points).T, rolls)]
+    for time, x, y, z, roll in np.column_stack([times, *columns]).tolist():
+        yield time, (x, y, z), roll
 
 
-def _rising(
-    rows: list[tuple[float, tuple[float, float, float]]],
-) -> Iterator[tuple[float, tuple[float, float, float]]]:
+def _rising(rows: list[_Row]) -> Iterator[_Row]:
     """Yield the rows whose time is later than that of the one before; of two at one time the first."""
     last = -1.0
-    for time, point in rows:
-        if time > last:
-            yield time, point
-            last = time
+    for row in rows:
+        if row[0] > last:
+            yield row
+            last = row[0]

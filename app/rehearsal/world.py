@@ -20,6 +20,7 @@ class GripMotion:
         points: the tool's path, table frame (m); between two points it moves evenly on a straight line.
         closes: whether the fingers close on the cloth at the first point; if not, they hold it already.
         opens: whether they open at the last point; if not, they hold on for the next step.
+        turned_rad: how far the hand has rolled over with the cloth at each point (rad); empty: it does not roll.
     """
 
     arm: str
@@ -27,10 +28,21 @@ class GripMotion:
     points: tuple[Point3, ...]
     closes: bool = True
     opens: bool = True
+    turned_rad: tuple[float, ...] = ()
 
     def at(self, t_s: float) -> FloatArray:
         """Return the tool's position at a time since the step's start (s), shape (3,), m."""
         return np.array([np.interp(t_s, self.times_s, axis) for axis in zip(*self.points, strict=True)])
+
+    def turned_at(self, t_s: float) -> float:
+        """Return how far the hand has rolled over with the cloth at a time since the step's start (rad)."""
+        return float(np.interp(t_s, self.times_s, self.turned_rad)) if self.turned_rad else 0.0
+
+
+def way_done(points: FloatArray) -> FloatArray:
+    """Return the fraction of a path that is done at each of its points, shape (n, 3) -> (n,)."""
+    lengths = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+    return np.asarray(lengths / max(float(lengths[-1]), 1e-9))
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,6 +70,11 @@ class StepMotion:
     def is_drag(self) -> bool:
         """Whether the article as a whole is moved over the table."""
         return self.kind in ("drag", "arm_drag")
+
+    @property
+    def is_fold(self) -> bool:
+        """Whether a part of the article is turned over."""
+        return self.kind == "fold"
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,6 +13,7 @@ from app.drawing.edit import Edit, Phase
 from app.replanner import Replanner
 from app.store.plan_store import PlanStore, UnknownPlanError
 from planner import Plan
+from planner.task.grip import Holding
 from tests.app.drawing.drawings import crease, outlined
 from tests.app.replan_desk import PATIENCE_S, TOWEL, Desk, Endless, moved, nothing, replanning
 
@@ -32,6 +33,21 @@ def test_the_first_plan_comes_by_itself_with_checks_and_film(desk: Desk) -> None
     (held,) = state.checks.folds
     assert sorted(held.must_hold) == [pytest.approx((0.0, 0.0)), pytest.approx((0.4, 0.0))]
     assert held.grips_needed == 2
+
+
+def test_the_grips_that_are_told_are_those_of_the_plan_and_without_one_the_fewest(desk: Desk) -> None:
+    desk.rest()
+    state = desk.document.state
+    answer, checks = state.answer, state.checks
+    assert answer is not None and checks is not None
+    (step,), (held,) = answer.plan.steps, checks.folds
+    more = replace(step, holdings=(*step.holdings, Holding("third", (0.2, 0.3), ())))
+    holding_more = replace(state, answer=replace(answer, plan=replace(answer.plan, steps=(more,))))
+    unplanned = replace(state, version=2)
+    told = [plan_message(one)["checks"]["folds"][0] for one in (holding_more, unplanned)]
+    assert told[0]["grips"] == [list(one.point) for one in more.holdings]
+    assert told[1]["grips"] == [list(point) for point in held.grips]
+    assert [one["grips_needed"] for one in told] == [2, 2]
 
 
 def test_an_edit_is_planned_and_the_plan_is_of_what_is_drawn(desk: Desk) -> None:

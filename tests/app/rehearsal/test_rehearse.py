@@ -1,3 +1,4 @@
+import math
 from dataclasses import replace
 
 import pytest
@@ -53,6 +54,18 @@ def test_hands_close_on_the_picks_of_the_plan_and_open_on_its_places():
         assert grip.closes
         assert grip.opens
         assert 0.0 < grip.times_s[0] < grip.times_s[-1] < step.duration_s
+
+
+def test_hands_roll_over_with_the_cloth_as_the_plan_has_them_roll():
+    (motion,) = step_motions(towel_plan())
+    trajectory = towel_plan().trajectory
+    assert trajectory is not None
+    rolls = [hand.rolls_rad[-1] for hand in trajectory.of_step(0)[-1].phase.hands if hand is not None]
+    assert [grip.turned_rad[-1] for grip in motion.grips] == pytest.approx([math.pi, math.pi])
+    assert sorted(rolls) == pytest.approx([-math.pi, math.pi])
+    for grip in motion.grips:
+        assert grip.turned_at(grip.times_s[0]) == pytest.approx(0.0)
+        assert list(grip.turned_rad) == sorted(grip.turned_rad)
 
 
 @pytest.mark.slow

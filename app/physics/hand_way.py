@@ -1,0 +1,70 @@
+"""The way of one hand through a step, with the cloth that it holds."""
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from app.physics.held_cloth import HeldCloth
+from app.physics.pinch import fingertip
+from app.rehearsal.world import GripMotion, way_done
+from planner.geometry.pose import FloatArray
+from planner.geometry.table_top import TableTop
+
+_STILL_M = 1e-3
+"""The way on the ground below which a hand is taken to turn nothing over (m)."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class HandWay:
+    """The way of one hand.
+
+    Attributes:
+        grip: its motion.
+        held: the cloth between its fingers at the start.
+        is_fold: whether that is turned over on the way.
+        top: the table's top, beside which cloth hangs.
+        rise_m: how much higher than its path the hand ends (m).
+    """
+
+    grip: GripMotion
+    held: HeldCloth
+    is_fold: bool
+    top: TableTop
+    rise_m: float = 0.0
+
+    def landing_on(self, height_m: float) -> "HandWay":
+        """Return the way on which the lowest cloth in the hand ends at a height or above it (m).
+
+        The path knows no thickness: it would press the cloth into the stack on which it comes to lie.
+        """
+        end_s = self.grip.times_s[-1]
+        lowest = fingertip(self.grip.at(end_s))[2] + self.held_at(end_s).lowest_m
+        return replace(self, rise_m=max(0.0, height_m - float(lowest)))
+
+    def held_at(self, t_s: float) -> HeldCloth:
+        """Return the cloth between the fingers at a time since the step's start (s)."""
+        way = self._ahead
+        if not self.is_fold or way is None:
+            return self.held
+        done = float(np.interp(t_s, self.grip.times_s, way_done(np.array(self.grip.points))))
+        turned = self.held.turned(way, self.grip.turned_at(t_s), done * self._turn_rad)
+        return turned.raised(self.rise_m * max(0.0, 2.0 * done - 1.0))  # from the apex on
+
+    def at(self, t_s: float) -> dict[int, FloatArray]:
+        """Return the place of each vertex held at a time since the step's start (s), shape (3,), m."""
+        return self.held_at(t_s).at(fingertip(self.grip.at(t_s)))
+
+    @property
+    def _ahead(self) -> FloatArray | None:
+        """The direction of the way on the ground, shape (2,); None if it goes nowhere."""
+        shift = np.subtract(self.grip.points[-1][:2], self.grip.points[0][:2])
+        length = float(np.linalg.norm(shift))
+        return None if length < _STILL_M else np.asarray(shift / length)
+
+    @property
+    def _turn_rad(self) -> float:
+        """The angle by which the cloth beside the fingers turns over: half a turn, more where it hangs."""
+        ends = np.array([self.grip.points[0], self.grip.points[-1]])
+        hanging = sum(not self.top.covers(end[None]) for end in ends)
+        return math.pi * (1.0 + 0.5 * hanging)

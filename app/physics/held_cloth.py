@@ -1,0 +1,74 @@
+"""Cloth between two fingers: what is between them moves with the hand, what hangs from them turns as it is folded.
+
+A mesh has no vertex just where fingers close. So the nearest vertices are held, which are up to an edge of a triangle
+beside them: there the cloth is not in the hand. It lies on one side of the fingers before a fold and on the other side
+after it, and held rigidly it would be put down beyond its place by twice as much. Layers whose edges do not
+reach the fingers' tip, or have no vertex there, would be pulled that far. A hand that rolls with the cloth turns what
+is between its fingers too.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from planner.geometry.pose import FloatArray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class HeldCloth:
+    """The vertices that a hand holds.
+
+    Attributes:
+        vertices: their numbers.
+        between: from the fingers' tip to the points of the cloth that are between them, shape (n, 3), m.
+        beside: from these points to the vertices, shape (n, 3), m.
+    """
+
+    vertices: tuple[int, ...]
+    between: FloatArray
+    beside: FloatArray
+
+    @staticmethod
+    def of(pinched: Mapping[int, FloatArray], positions: FloatArray, tip: FloatArray) -> "HeldCloth":
+        """Return the cloth between fingers that have just closed.
+
+        Args:
+            pinched: the point of the cloth between the fingers for each vertex, shape (3,), m.
+            positions: all vertices, table frame, shape (n, 3), m.
+            tip: where the fingers have closed, shape (3,), m.
+        """
+        vertices = tuple(sorted(pinched))
+        points = np.array([pinched[vertex] for vertex in vertices])
+        return HeldCloth(vertices, points - tip, positions[list(vertices)] - points)
+
+    def turned(self, way: FloatArray, hand_rad: float, cloth_rad: float) -> "HeldCloth":
+        """Return the cloth when the hand, and the cloth that hangs from it, have turned over on their way.
+
+        Args:
+            way: the direction in which the hand is going, horizontal, of length 1, shape (2,).
+            hand_rad: how far the hand has rolled that way (rad).
+            cloth_rad: how far the cloth has turned over (rad): half a turn in a fold.
+        """
+        return HeldCloth(self.vertices, _turned(self.between, way, hand_rad), _turned(self.beside, way, cloth_rad))
+
+    def raised(self, height_m: float) -> "HeldCloth":
+        """Return the cloth held higher by a height (m)."""
+        return HeldCloth(self.vertices, self.between + np.array([0.0, 0.0, height_m]), self.beside)
+
+    def at(self, tip: FloatArray) -> dict[int, FloatArray]:
+        """Return each vertex's place for a place of the fingers' tip, shape (3,), m."""
+        return dict(zip(self.vertices, tip + self.between + self.beside, strict=True))
+
+    @property
+    def lowest_m(self) -> float:
+        """The height of the lowest vertex over the fingers' tip (m)."""
+        return float((self.between + self.beside)[:, 2].min())
+
+
+def _turned(vectors: FloatArray, way: FloatArray, angle_rad: float) -> FloatArray:
+    """Return vectors turned over, shape (n, 3): what points ahead along the way goes down, and then back."""
+    ahead, up = vectors[:, :2] @ way, vectors[:, 2]
+    cos, sin = np.cos(angle_rad), np.sin(angle_rad)
+    shift = ahead * (cos - 1.0) + up * sin
+    return np.column_stack([vectors[:, :2] + shift[:, None] * way, up * cos - ahead * sin])

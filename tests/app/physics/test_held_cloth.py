@@ -1,0 +1,99 @@
+"""What fingers hold, and how it turns over with the cloth."""
+
+import math
+
+import numpy as np
+import pytest
+
+from app.physics.hand_way import HandWay
+from app.physics.held_cloth import HeldCloth
+from app.physics.pinch import fingertip, nearest_weights, pinched
+from app.rehearsal.world import GripMotion
+from planner.folds.fold_path import REST_HEIGHT_M
+from planner.geometry.table import Table
+from planner.geometry.table_top import TableTop
+
+TOP = TableTop.of(Table())
+
+
+def held(between: tuple[float, float, float], beside: tuple[float, float, float]) -> HeldCloth:
+    return HeldCloth((7,), np.array([between]), np.array([beside]))
+
+
+def fold(turned_rad: tuple[float, ...] = ()) -> GripMotion:
+    """A hand that brings the tip from x = 10 cm over the apex to x = -10 cm."""
+    points = tuple((x, 0.0, z + REST_HEIGHT_M) for x, z in ((0.1, 0.0), (0.0, 0.1), (-0.1, 0.0)))
+    return GripMotion("left", (0.0, 1.0, 2.0), points, turned_rad=turned_rad)
+
+
+def test_cloth_beside_the_fingers_lies_on_their_other_side_after_a_fold():
+    # 1.5 cm inwards of the tip before the fold, as far inwards of it afterwards: the fold's mirror image.
+    way = HandWay(fold(), held((0.0, 0.0, 0.0), (-0.015, 0.004, 0.0)), is_fold=True, top=TOP)
+    assert way.at(0.0)[7] == pytest.approx([0.085, 0.004, 0.0])
+    assert way.at(1.0)[7] == pytest.approx([0.0, 0.004, 0.1 - 0.015])
+    assert way.at(2.0)[7] == pytest.approx([-0.085, 0.004, 0.0])
+
+
+def test_cloth_between_the_fingers_turns_over_only_with_a_hand_that_rolls():
+    between = held((-0.01, 0.0, 0.001), (0.0, 0.0, 0.0))
+    still = HandWay(fold(), between, is_fold=True, top=TOP)
+    rolls = HandWay(fold((0.0, math.pi / 2.0, math.pi)), between, is_fold=True, top=TOP)
+    assert still.at(2.0)[7] == pytest.approx([-0.11, 0.0, 0.001])
+    assert rolls.at(2.0)[7] == pytest.approx([-0.09, 0.0, -0.001])
+
+
+def test_nothing_turns_over_in_a_drag():
+    way = HandWay(fold(), held((0.0, 0.0, 0.0), (-0.015, 0.0, 0.0)), is_fold=False, top=TOP)
+    assert way.at(2.0)[7] == pytest.approx([-0.115, 0.0, 0.0])
+
+
+def test_cloth_that_hung_beside_the_table_turns_over_by_a_quarter_more():
+    # It hangs up to the edge from the fingers; laid down it leads back towards the edge.
+    x = -Table().depth_m / 2.0
+    points = ((x - 0.03, 0.0, -0.1), (x, 0.0, 0.1), (x + 0.1, 0.0, 0.02))
+    way = HandWay(
+        GripMotion("left", (0.0, 1.0, 2.0), points), held((0.0, 0.0, 0.0), (0.0, 0.0, 0.01)), is_fold=True, top=TOP
+    )
+    assert way.at(2.0)[7] - fingertip(np.array(points[-1])) == pytest.approx([-0.01, 0.0, 0.0])
+
+
+def test_the_lowest_cloth_in_a_hand_is_laid_on_the_stack_and_stays_as_high_if_the_hand_holds_on():
+    layers = HeldCloth((1, 2), np.array([[0.0, 0.0, 0.001], [0.0, 0.0, 0.003]]), np.zeros((2, 3)))
+    way = HandWay(fold(), layers, is_fold=True, top=TOP).landing_on(0.009)
+    assert way.at(0.0)[1] == pytest.approx([0.1, 0.0, 0.001])
+    assert way.at(1.0)[1] == pytest.approx([0.0, 0.0, 0.101])
+    assert way.at(2.0)[1] == pytest.approx([-0.1, 0.0, 0.009])
+    assert way.held_at(2.0).lowest_m == pytest.approx(0.009)
+    assert HandWay(fold(), layers, is_fold=True, top=TOP).landing_on(0.0).rise_m == 0.0
+
+
+def test_a_vertex_is_held_as_far_beside_the_fingers_as_it_is():
+    # One triangle whose edge passes under the tip, 2 cm from either of its ends: the vertex nearest to it is held.
+    positions = np.array([[0.0, 0.02, 0.001], [0.0, -0.021, 0.001], [0.03, 0.0, 0.001]])
+    found = pinched(positions, np.array([[0, 1, 2]]), np.array([0.0, 0.0, REST_HEIGHT_M]), TOP, 0.03)
+    assert list(found) == [0]
+    assert found[0] == pytest.approx([0.0, 0.0, 0.001])
+    cloth = HeldCloth.of(found, positions, np.zeros(3))
+    assert cloth.between == pytest.approx(np.array([[0.0, 0.0, 0.001]]))
+    assert cloth.beside == pytest.approx(np.array([[0.0, 0.02, 0.0]]))
+
+
+def test_of_several_triangles_at_a_vertex_the_one_nearest_to_the_fingers_tells_where_they_are():
+    positions = np.array([[0.0, 0.0, 0.0], [0.02, 0.0, 0.0], [0.02, 0.02, 0.0], [0.0, -0.02, 0.0], [0.02, -0.02, 0.0]])
+    triangles = np.array([[0, 3, 4], [0, 1, 2]])
+    found = pinched(positions, triangles, np.array([0.008, 0.004, REST_HEIGHT_M]), TOP, 0.03)
+    assert found[0] == pytest.approx([0.008, 0.004, 0.0])
+
+
+@pytest.mark.parametrize(
+    ("point", "wanted"),
+    [
+        ((0.2, 0.2), (0.6, 0.2, 0.2)),
+        ((0.5, -0.5), (0.5, 0.5, 0.0)),
+        ((1.0, 1.0), (0.0, 0.5, 0.5)),
+        ((-3.0, -4.0), (1.0, 0.0, 0.0)),
+    ],
+)
+def test_the_weights_of_a_triangle_are_those_of_its_nearest_point(point: tuple[float, ...], wanted: tuple[float, ...]):
+    triangle = np.array([[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]])
+    assert nearest_weights(triangle, np.array(point))[0] == pytest.approx(wanted)
