@@ -66,6 +66,15 @@ def test_a_fold_beside_the_cloth_can_only_be_deleted():
     assert labels(drawing) == ["Delete fold 0 'beside'"]
 
 
+def test_of_two_folds_that_both_miss_the_cloth_one_after_the_other_is_mended():
+    beside, ends_inside = crease("beside", (0.7, 0.0), (0.7, 0.3)), crease("half", (0.3, 0.15), (0.0, 0.15))
+    (first,) = offered(towel_drawing(beside, ends_inside))
+    assert [problem.fold for problem in solve(first.drawing).problems] == [0]
+    second, *_ = offered(first.drawing)
+    assert second.label == "Put fold 0 'half' onto the cloth"
+    assert solve(second.drawing).problems == ()
+
+
 def test_a_fold_without_length_can_be_deleted_and_its_twin_is_left_alone():
     nothing = replace(crease("nothing", (0.2, 0.15), (0.2, 0.15)), twin="half")
     (quick_fix,) = offered(towel_drawing(nothing, replace(HALF, twin="nothing")))
