@@ -77,6 +77,7 @@ class SmoothStep:
     deviation: float
     _run: Any
     _stretch: float
+    _columns: int
 
     @property
     def end_s(self) -> float:
@@ -89,7 +90,7 @@ class SmoothStep:
         Returns:
             Joints, grippers and base in the order of `MotionLimits.names`, shape (n, names): rad, m; per s, per s2.
         """
-        return np.asarray(self._whole(times_s, order)[:, :-1])
+        return np.asarray(self._whole(times_s, order)[:, : self._columns])
 
     def plan_s(self, times_s: FloatArray) -> FloatArray:
         """Return the times of the plan at times since the step's start (s), shape (n,)."""
@@ -123,13 +124,13 @@ def _smooth(number: int, start_s: float, step: PlanStep, path: Trajectory, limit
     knots = _cut(_keyframes(number, step, path), STRAIGHT_S, 1)
     fine = _cut(knots, _FINE_S, 2)
     curve = _monotone(knots, planned_values(path, knots))(fine)
-    rest = np.append(np.zeros(curve.shape[1]), 1.0)
-    whole = SplineInterpolator(fine, np.column_stack([curve, fine]), ((1, rest), (1, rest)))
+    rest = np.append(np.zeros(len(limits.bounds[0])), 1.0)
+    whole = SplineInterpolator(fine, np.column_stack([limits.bounded(curve), fine]), ((1, rest), (1, rest)))
     run, stretch = _in_time(_Path(whole, fine, limits), step.duration_s)
     arms = len(path.arms.names)
     looked = _cut(knots, _FINE_S / 2, 4)
     deviation = np.abs(whole(looked)[:, :arms] - planned_values(path, looked)[:, :arms]).max()
-    return SmoothStep(number, start_s, float(run.duration) * stretch, float(deviation), run, stretch)
+    return SmoothStep(number, start_s, float(run.duration) * stretch, float(deviation), run, stretch, curve.shape[1])
 
 
 def _keyframes(number: int, step: PlanStep, path: Trajectory) -> FloatArray:
@@ -172,7 +173,7 @@ class _Path:
     Attributes:
         curve: the path.
         fine: its samples (s).
-        limits: of all other coordinates.
+        limits: of what moves; the other coordinates are what they bound.
     """
 
     curve: SplineInterpolator
@@ -184,7 +185,7 @@ class _Path:
 
         The solver keeps them at its grid points alone, so it is given tighter ones where it exceeds them in between.
         """
-        accelerations = _HELD_BACK * self.limits.accelerations
+        accelerations = _HELD_BACK * self.limits.bounds[1]
         runs = []
         for _ in range(_ROUNDS):
             run = self.run(pace, accelerations)
@@ -197,7 +198,7 @@ class _Path:
 
     def run(self, pace: float, accelerations: FloatArray) -> Any:  # noqa: ANN401
         """Return the quickest run with some accelerations, and with at most a pace through the plan's time."""
-        speeds, hard = np.append(self.limits.speeds, pace), np.append(accelerations, _HURRY_S2)
+        speeds, hard = np.append(self.limits.bounds[0], pace), np.append(accelerations, _HURRY_S2)
         bounds = [
             JointVelocityConstraint(np.column_stack([-speeds, speeds])),
             JointAccelerationConstraint(np.column_stack([-hard, hard]), DiscretizationType.Interpolation),
@@ -211,7 +212,7 @@ def _in_time(path: _Path, planned_s: float) -> tuple[Any, float]:
     """Return the run with the least hurry that takes as long as planned, or the quickest; and its stretch."""
 
     def late_s(pace: float) -> float:
-        return float(path.run(pace, _HELD_BACK * path.limits.accelerations).duration) - (1.0 - _SPARE) * planned_s
+        return float(path.run(pace, _HELD_BACK * path.limits.bounds[1]).duration) - (1.0 - _SPARE) * planned_s
 
     pace = PACE_MAX
     if late_s(PACE_MAX) < 0.0:

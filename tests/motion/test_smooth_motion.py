@@ -7,9 +7,12 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
+from planner import Plan
 from planner.errors import UnsolvedPlanError
+from planner.geometry.pose import Pose2
 from planner.motion.motion_limits import RISE_S, MotionLimits
 from planner.motion.smooth_motion import PACE_MAX, SmoothStep, smooth_steps
+from planner.task.trajectory import Segment
 from tests.small_plan import CARD, one_armed, small_plan, unsolved
 
 PLAN = small_plan()
@@ -19,6 +22,23 @@ PATH = PLAN.trajectory
 JOINTS = slice(0, len(PATH.arms.names)) if PATH else slice(0)
 BETWEEN = 5e-3
 """The share by which limits may be exceeded between the points where they are solved for."""
+
+
+def askew(plan: Plan, angle: float) -> Plan:
+    """Return a plan whose base is turned about the table frame's origin."""
+    assert plan.trajectory is not None
+    cos, sin = np.cos(angle), np.sin(angle)
+
+    def turned(pose: Pose2) -> Pose2:
+        return Pose2(cos * pose.x_m - sin * pose.y_m, sin * pose.x_m + cos * pose.y_m, pose.yaw_rad + angle)
+
+    def segment(one: Segment) -> Segment:
+        first, last = one.phase.base
+        return replace(one, phase=replace(one.phase, base=(turned(first), turned(last))))
+
+    path = plan.trajectory
+    return replace(plan, trajectory=replace(path, segments=tuple(segment(one) for one in path.segments)))
+
 
 each_step = pytest.mark.parametrize("step", STEPS, ids=lambda step: f"step {step.number}")
 
@@ -32,6 +52,20 @@ def test_speeds_and_accelerations_stay_within_their_limits(step: SmoothStep):
     assert np.all(speeds <= LIMITS.speeds * (1.0 + BETWEEN))
     assert np.all(accelerations <= LIMITS.accelerations * (1.0 + BETWEEN))
     assert accelerations.max() > 0.0
+
+
+def test_a_base_that_drives_askew_keeps_the_limits_of_its_whole_way_and_nearly_uses_them():
+    turned = replace(LIMITS, speeds=1000.0 * LIMITS.speeds, accelerations=1000.0 * LIMITS.accelerations)
+    fast, hard = turned.speeds.copy(), turned.accelerations.copy()
+    fast[-3:-1], hard[-3:-1] = 0.05, 0.02
+    for angle in (0.0, 0.2, 0.7):
+        step = next(smooth_steps(askew(PLAN, angle), replace(turned, speeds=fast, accelerations=hard)))
+        times = step.times_s(500.0)
+        way, gap = step.at(times)[:, -3:-1], times[1]
+        speed = np.linalg.norm(np.diff(way, axis=0), axis=1) / gap
+        acceleration = np.linalg.norm(np.diff(way, 2, axis=0), axis=1) / gap**2
+        assert 0.9 * 0.02 < acceleration.max() <= 0.02 * (1.0 + BETWEEN)
+        assert speed.max() <= 0.05 * (1.0 + BETWEEN)
 
 
 @each_step
