@@ -15,12 +15,11 @@ from app.jobs.job_kind import Progress
 from app.store.storage_error import storing
 from planner import make_plan
 from planner.cloth.garment import Garment
-from planner.errors import RobotError
 from planner.explain.suggestion_map import PlacementMap, placement_map
 from planner.explain.suggestions import suggestions
 from planner.planning.plan_check import require_replay
 from planner.robots.card_file import CardFile
-from planner.robots.collision.part_source import make_parts
+from planner.robots.collision.described_parts import described_parts
 from planner.robots.described_robot import DescribedRobot, read_card
 from planner.robots.known_robots import robot_names
 from planner.robots.own_robots import CARD
@@ -137,6 +136,5 @@ def read_robot(_: Tell, folder: Path, given: bytes | CardFile) -> CardFile:
         with storing("the robot could not be unpacked"):
             unpack_robot(given, folder)
         card = read_card(folder / CARD)
-    if not make_parts(DescribedRobot.of(card, folder)):
-        raise RobotError("urdf", "no link has a shape")
+    described_parts(DescribedRobot.of(card, folder))  # kept for the first plan
     return card

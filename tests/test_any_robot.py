@@ -18,7 +18,7 @@ DOOR = (
     "planner.robots.card",
     "planner.robots.card_file",
     "planner.robots.collision.contact",
-    "planner.robots.collision.part_source",
+    "planner.robots.collision.described_parts",
     "planner.robots.described_robot",
     "planner.robots.joint_layout",
     "planner.robots.known_robots",

@@ -12,6 +12,7 @@ from app.api import (
     document_routes,
     file_routes,
     garment_routes,
+    job_answers,
     job_routes,
     live,
     metrics_routes,
@@ -23,6 +24,7 @@ from app.api import (
     share_routes,
     stage_routes,
     study_routes,
+    suggestion_events,
     suggestion_routes,
     template_routes,
 )
@@ -93,7 +95,7 @@ def create_app(settings: Settings, token: AccessToken | None = None) -> FastAPI:
         app.include_router(routes.router)
     page_routes.mount_files(app)
     install_problems(app)
-    describe(app, Problem, LiveMessage, LiveCommand)
+    describe(app, Problem, LiveMessage, LiveCommand, *suggestion_events.EVENTS, *job_answers.EVENTS)
     app.add_middleware(FailuresAsProblems)
     app.add_middleware(Measured, metrics=app.state.metrics)
     if token is not None:

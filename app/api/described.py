@@ -9,6 +9,7 @@ from fastapi.routing import APIRoute
 from pydantic import BaseModel
 
 from app.api.body import JsonBody
+from app.api.links import link
 from app.api.problems import MEDIA_TYPE
 
 _INVALID, _OF_FASTAPI = "422", "HTTPValidationError"
@@ -70,10 +71,10 @@ def _inlined(schema: Any, definitions: dict[str, Any]) -> Any:  # noqa: ANN401
 
 
 def describe(app: FastAPI, *models: type[BaseModel]) -> None:
-    """Add the schemas that no route's signature names to the description, and say that all errors are problems.
+    """Add the schemas that no route's signature names, and links; say that all errors are problems.
 
-    Problems and websocket messages are in no signature. FastAPI describes its own answer to parameters that are not
-    valid, in place of which a problem is sent.
+    Problems, events and websocket messages are in no signature. FastAPI describes its own answer to parameters that are
+    not valid, in place of which a problem is sent.
     """
     plain = app.openapi
 
@@ -83,6 +84,7 @@ def describe(app: FastAPI, *models: type[BaseModel]) -> None:
         for model in models:
             schemas.update(_schemas(model))
         _tell_of_problems(description)
+        link(description)
         return description
 
     app.openapi = openapi  # type: ignore[method-assign]

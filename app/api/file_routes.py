@@ -4,7 +4,7 @@ from dataclasses import asdict
 from functools import partial
 from typing import Annotated, Any, Literal
 
-from fastapi import APIRouter, Query, Request
+from fastapi import APIRouter, Path, Query, Request
 from fastapi.concurrency import run_in_threadpool
 from pydantic import BaseModel
 from starlette.exceptions import HTTPException
@@ -66,6 +66,7 @@ LikeName = Annotated[
         "fitted, and its folds come along",
     ),
 ]
+What = Annotated[str, Path(json_schema_extra={"enum": [export.what for export in EXPORTS]})]
 Rate = Annotated[float, Query(ge=RATES_HZ[0], le=RATES_HZ[1], allow_inf_nan=False)]
 
 
@@ -156,7 +157,7 @@ async def list_files(request: Request, document_id: str) -> JSONResponse:
     response_class=Response,
     responses={200: {"content": {export.media_type: {} for export in EXPORTS}}, **problems(404, 409, 422, 429, 503)},
 )
-async def read_file(request: Request, document_id: str, what: str, rate_hz: Rate = DEFAULT_RATE_HZ) -> Response:
+async def read_file(request: Request, document_id: str, what: What, rate_hz: Rate = DEFAULT_RATE_HZ) -> Response:
     """Return a document as a file to save; `rate_hz` is the frame rate of a recording.
 
     Answers 409 with the reason if the document cannot be exported so now.

@@ -3,7 +3,7 @@
 from dataclasses import asdict
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Depends, Request, Response
+from fastapi import APIRouter, Depends, Path, Request, Response
 from fastapi.concurrency import run_in_threadpool
 from starlette.responses import JSONResponse
 
@@ -22,6 +22,8 @@ _TOWEL = {
     "outline": [[0.0, 0.0], [0.4, 0.0], [0.4, 0.3], [0.0, 0.3]],
     "folds": [{"name": "half", "kind": "blue", "start": [0.4, 0.15], "end": [0.0, 0.15]}],
 }
+AnyName = Annotated[str, Path(examples=["t-shirt"])]
+OwnName = Annotated[str, Path(examples=[_TOWEL["name"]])]
 GarmentBody = Annotated[Garment, Depends(JsonBody(WholeGarment, _TOWEL))]
 
 
@@ -33,7 +35,7 @@ async def list_garments(request: Request) -> list[dict[str, Any]]:
 
 
 @router.get("/{name}", responses={200: {"model": Garment}, **problems(404)})
-async def read_garment(request: Request, name: str) -> JSONResponse:
+async def read_garment(request: Request, name: AnyName) -> JSONResponse:
     """Return a garment file with every field filled in."""
     garment = await run_in_threadpool(workspace_of(request).garments.garment, name)
     return JSONResponse(garment.to_dict())
@@ -43,7 +45,7 @@ async def read_garment(request: Request, name: str) -> JSONResponse:
     "/{name}",
     responses={200: {"model": Garment}, 201: {"model": Garment}, **problems(403, 409, 413, 422, 507)},
 )
-async def save_garment(request: Request, name: str, garment: GarmentBody) -> JSONResponse:
+async def save_garment(request: Request, name: OwnName, garment: GarmentBody) -> JSONResponse:
     """Save or replace a garment of one's own: 201 if it is new, 200 if it existed."""
     repository = workspace_of(request).garments
     if garment.name != name:
@@ -53,7 +55,7 @@ async def save_garment(request: Request, name: str, garment: GarmentBody) -> JSO
 
 
 @router.delete("/{name}", status_code=204, responses=problems(403, 404, 409))
-async def remove_garment(request: Request, name: str) -> Response:
+async def remove_garment(request: Request, name: OwnName) -> Response:
     """Remove a garment of one's own."""
     await run_in_threadpool(workspace_of(request).garments.remove, name)
     return Response(status_code=204)

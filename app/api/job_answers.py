@@ -5,6 +5,7 @@ from typing import Any
 
 from pydantic import BaseModel
 
+from app.api.event_streams import event_stream
 from app.store.job_repository import JobStatus, StoredJob
 
 
@@ -25,6 +26,25 @@ class JobAnswer(JobEntry):
     """A job with its result; null unless it is done."""
 
     result: Any
+
+
+EVENTS = (JobEntry, JobAnswer)
+
+_BEGUN: dict[str, Any] = {
+    "id": "0123456789abcdef0123456789abcdef",
+    "kind": "placements",
+    "status": "running",
+    "progress": 0.5,
+    "message": "6 of 12 places",
+    "created": "2026-01-31T12:00:00.000Z",
+    "started": "2026-01-31T12:00:00.010Z",
+    "ended": None,
+}
+_ENDED = {"status": "done", "progress": 1.0, "message": "", "ended": "2026-01-31T12:00:02.500Z", "result": {}}
+STREAM = event_stream(
+    {"progress": (JobEntry, _BEGUN), "end": (JobAnswer, {**_BEGUN, **_ENDED})},
+    "The job whenever it changes, and at its end with its result",
+)
 
 
 class JobsAnswer(BaseModel):

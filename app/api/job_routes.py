@@ -13,7 +13,7 @@ from starlette.responses import JSONResponse
 from app.api.asked import client_of, within_request, workspace_of
 from app.api.body import JsonBody, read_object
 from app.api.described import problems, taking
-from app.api.job_answers import JobAnswer, JobsAnswer, job_entry
+from app.api.job_answers import STREAM, JobAnswer, JobsAnswer, job_entry
 from app.api.waiting import waking
 from app.job_kinds.kinds import KINDS
 from app.jobs.job_desk import JobDesk
@@ -50,7 +50,7 @@ for _kind in KINDS.values():
         name=f"start_{_kind.name}",
         description=f"{_kind.does} Answers at once; `Location` is the job's path.",
         status_code=202,
-        responses={202: {"model": JobAnswer}, **problems(404, 413, 422, 429, 503)},
+        responses={202: {"model": JobAnswer}, **problems(404, 409, 413, 422, 429, 503)},
         openapi_extra=taking(JsonBody(_kind.body, _kind.example)),
     )
 
@@ -90,7 +90,7 @@ async def _known(request: Request, job_id: str) -> StoredJob:
     return await run_in_threadpool(workspace_of(request).jobs.job, job_id)
 
 
-@router.get("/api/jobs/{job_id}/events", response_class=EventSourceResponse, responses=problems(404))
+@router.get("/api/jobs/{job_id}/events", response_class=EventSourceResponse, responses={200: STREAM, **problems(404)})
 async def follow_job(
     request: Request, job: Annotated[StoredJob, Depends(_known)], last_event_id: LastEventId = None
 ) -> AsyncIterator[ServerSentEvent]:

@@ -1,7 +1,9 @@
 """HTTP methods: `HEAD` wherever there is `GET`, and the methods that a path allows."""
 
+from collections.abc import Iterator
+
 from fastapi import Request
-from starlette.routing import Match, Mount
+from starlette.routing import BaseRoute, Match, Mount, Router
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 _METHODS = ("GET", "POST", "PUT", "PATCH", "DELETE")
@@ -27,14 +29,32 @@ class HeadAsGet:
 
 
 def allowed_methods(request: Request) -> str:
-    """Return the value of `Allow` for the path of a request: the methods of all routes that lead there."""
-    allowed = [method for method in _METHODS if _is_allowed(request, method)]
+    """Return the value of `Allow` for the path of a request: the methods of the routes that lead there.
+
+    Where a route has this very path, those that have a parameter in it do not count: `/api/jobs/studies` is no job.
+    """
+    found = {method: parameters for method in _METHODS if (parameters := _parameters(request, method)) is not None}
+    allowed = [method for method, parameters in found.items() if parameters == min(found.values())]
     return ", ".join(["GET", "HEAD", *allowed[1:]] if "GET" in allowed else allowed)
 
 
-def _is_allowed(request: Request, method: str) -> bool:
-    """Return whether a route allows this method; folders of files are only read."""
+def _parameters(request: Request, method: str) -> int | None:
+    """Return how many parameters the path has for a route of this method; None if there is no such route.
+
+    Folders of files are only read.
+    """
     root_path = request.scope.get("app_root_path", request.scope.get("root_path", ""))  # set by mounted folders
-    scope = {**request.scope, "method": method, "root_path": root_path}
-    matching = [route for route in request.app.router.routes if route.matches(scope)[0] is Match.FULL]
-    return any(method == "GET" or not isinstance(route, Mount) for route in matching)
+    scope = {**request.scope, "method": method, "root_path": root_path, "path_params": {}}
+    routes = [route for route in _routes(request.app.router) if method == "GET" or not isinstance(route, Mount)]
+    matches = [told for route in routes for match, told in [route.matches(scope)] if match is Match.FULL]
+    return min((len(told.get("path_params", ())) for told in matches), default=None)
+
+
+def _routes(router: Router) -> Iterator[BaseRoute]:
+    """Yield the routes of a router and of the routers in it: an included one does not tell the parameters."""
+    for route in router.routes:
+        inner = getattr(route, "original_router", None)
+        if inner is None:
+            yield route
+        else:
+            yield from _routes(inner)

@@ -1,10 +1,10 @@
 """Routes of robots: the list, one robot's card, and saving one's own."""
 
 from functools import partial
-from pathlib import Path
+from pathlib import Path as FilePath
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Depends, Request, Response
+from fastapi import APIRouter, Depends, Path, Request, Response
 from fastapi.concurrency import run_in_threadpool
 from starlette.responses import JSONResponse
 
@@ -22,20 +22,24 @@ from planner.errors import RobotError
 from planner.robots.card_file import CardFile
 from planner.robots.described_robot import robot_entry, shipped_card
 from planner.robots.known_robots import card_of, robot_cards
+from planner.task.task import DEFAULT_ROBOT
 
 router = APIRouter(prefix="/api/robots", tags=["robots"], route_class=DescribedRoute)
 
 _ARCHIVE = {
     "requestBody": {
         "required": True,
-        "content": {"application/zip": {"schema": {"type": "string", "format": "binary"}}},
+        "content": {
+            kind: {"schema": {"type": "string", "format": "binary"}}
+            for kind in ("application/zip", "application/octet-stream")
+        },
     }
 }
 
-CardBody = Annotated[
-    CardFile,
-    Depends(JsonBody(CardFile, {**shipped_card("so101-pair").to_dict(), "name": "bench", "title": "My bench"})),
-]
+_BENCH = {**shipped_card("so101-pair").to_dict(), "name": "bench", "title": "My bench"}
+CardBody = Annotated[CardFile, Depends(JsonBody(CardFile, _BENCH))]
+AnyName = Annotated[str, Path(examples=[DEFAULT_ROBOT])]
+OwnName = Annotated[str, Path(examples=[_BENCH["name"]])]
 
 
 @router.get("", response_model=list[RobotEntry])
@@ -65,7 +69,7 @@ async def post_robot_import(request: Request) -> JSONResponse:
 
 
 @router.get("/{name}", responses={200: {"model": CardFile}, **problems(404, 422)})
-async def read_robot_card(name: str) -> JSONResponse:
+async def read_robot_card(name: AnyName) -> JSONResponse:
     """Return a robot's card with every field filled in."""
     card = await run_in_threadpool(card_of, name)
     return JSONResponse(card.to_dict())
@@ -75,7 +79,7 @@ async def read_robot_card(name: str) -> JSONResponse:
     "/{name}",
     responses={200: {"model": CardFile}, 201: {"model": CardFile}, **problems(403, 409, 413, 422, 503, 507)},
 )
-async def save_robot_card(request: Request, name: str, card: CardBody) -> JSONResponse:
+async def save_robot_card(request: Request, name: OwnName, card: CardBody) -> JSONResponse:
     """Save or replace the card of a robot of one's own: 201 if it is new, 200 if it existed.
 
     Its URDF is in an installed package, or among the files that an import has put beside the card.
@@ -88,7 +92,7 @@ async def save_robot_card(request: Request, name: str, card: CardBody) -> JSONRe
 
 
 @router.delete("/{name}", status_code=204, responses=problems(403, 404, 409))
-async def remove_robot(request: Request, name: str) -> Response:
+async def remove_robot(request: Request, name: OwnName) -> Response:
     """Remove a robot of one's own with its files."""
     await run_in_threadpool(workspace_of(request).robots.remove, name)
     return Response(status_code=204)
@@ -105,7 +109,7 @@ def _saved(robots: RobotRepository, card: CardFile, should_stop: ShouldStop) -> 
     return robots.save(card)
 
 
-def _looked_at(should_stop: ShouldStop, folder: Path, given: bytes | CardFile) -> CardFile:
+def _looked_at(should_stop: ShouldStop, folder: FilePath, given: bytes | CardFile) -> CardFile:
     """Return the card of an archive or a card as it stands in a folder; raise `RobotError` if it is not valid."""
     try:
         return run_apart(searches.read_robot, should_stop, ignore, folder, given)

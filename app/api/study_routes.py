@@ -1,8 +1,9 @@
 """The files of studies that are done: report, table, times. They are asked for as jobs (`app.job_kinds.studies`)."""
 
 import re
+from typing import Annotated
 
-from fastapi import APIRouter, Request
+from fastapi import APIRouter, Path, Request
 from fastapi.concurrency import run_in_threadpool
 from starlette.responses import FileResponse
 
@@ -17,11 +18,13 @@ router = APIRouter(prefix="/api/studies", tags=["studies"])
 _ID = re.compile(r"[0-9a-f]{32}")
 _SAFE = {"content-security-policy": "default-src 'none'; style-src 'unsafe-inline'; frame-ancestors 'self'"}
 
+FileName = Annotated[str, Path(json_schema_extra={"enum": list(STUDY_FILES)})]
+
 _CONTENT: dict[str, dict[str, object]] = {media_type.partition(";")[0]: {} for media_type in STUDY_FILES.values()}
 
 
 @router.get("/{study_id}/{file}", response_class=FileResponse, responses={200: {"content": _CONTENT}, **problems(404)})
-async def read_study_file(request: Request, study_id: str, file: str) -> FileResponse:
+async def read_study_file(request: Request, study_id: str, file: FileName) -> FileResponse:
     """Return a file of a study: `report.html`, `table.csv`, `table.parquet`, `timing.csv`."""
     return await run_in_threadpool(_file, workspace_of(request), study_id, file)
 

@@ -7,7 +7,7 @@ from concurrent.futures import Future
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 from fastapi import APIRouter, Depends, Query, Request
 from fastapi.sse import EventSourceResponse, ServerSentEvent
@@ -15,13 +15,13 @@ from pydantic import BaseModel
 from starlette.responses import JSONResponse
 
 from app import searches
-from app.api.answers import Change, Says
 from app.api.asked import TimeLimit, asked_places, asked_task, within_request, workspace_of
 from app.api.body import JsonBody
 from app.api.described import DescribedRoute, problems
 from app.api.messages import PlacementsRequest, PlanRequest
+from app.api.suggestion_events import STREAM
 from app.api.waiting import answer_of, until
-from app.jobs.apart import ignore, run_apart
+from app.jobs.apart import StoppedError, ignore, run_apart
 from app.jobs.job_pool import Job, ShouldStop
 from app.store.plan_store import UnknownPlanError
 from app.workspace import Workspace
@@ -37,44 +37,11 @@ PlacementsRequestBody = Annotated[
 PlanRequestBody = Annotated[PlanRequest, Depends(JsonBody(PlanRequest, {"garment": "hand-towel", "time_limit_s": 2.0}))]
 
 
-Kind = Literal[
-    "placement",
-    "fold_line",
-    "split",
-    "halve",
-    "flip",
-    "order",
-    "station",
-    "robot",
-    "size",
-    "friction",
-    "grip_radius",
-    "comfort_radius",
-    "together",
-]
-
-
 Known = Annotated[str | None, Query(description="id of the answer to this request, which then is not planned again")]
 
 
-class TryingEvent(BaseModel):
-    """The data of an event `trying`: a change that is being planned."""
-
-    kind: Kind
-    says: Says
-
-
-class SuggestionEvent(BaseModel):
-    """The data of an event `suggestion`; the last event, `done`, has `count`, `elapsed_s` and `complete`."""
-
-    kind: Kind
-    is_assumption: bool
-    message: str
-    says: Says
-    change: Change
-    size: float
-    cost_s: float
-    plan_id: str
+_GRACE_S = 2.0
+"""Time after its limit in which a search that has begun may end by itself before its process is killed (s)."""
 
 
 class CellAnswer(BaseModel):
@@ -149,8 +116,17 @@ class SuggestionSearch:
         known = self._known
         if known is not None and replace(known.task, limits=task.limits) != task:
             known = None
-        with within_request():
-            return run_apart(searches.suggest, should_stop, self._hear, task, known)
+
+        def is_unwanted() -> bool:
+            return should_stop() or (self._begun.done() and self._limit.is_over_by(_GRACE_S))
+
+        try:
+            with within_request():
+                return run_apart(searches.suggest, is_unwanted, self._hear, task, known)
+        except StoppedError:
+            if should_stop():
+                raise
+            return False  # it took too long over something; what it has found by then is told
 
     def _hear(self, news: searches.Suggested | searches.Tried | None) -> None:
         if news is None:
@@ -194,7 +170,7 @@ async def _begun(request: Request, wanted: PlanRequestBody, known: Known = None)
 @router.post(
     "/suggestions",
     response_class=EventSourceResponse,
-    responses={200: {"model": SuggestionEvent | TryingEvent}, **problems(404, 413, 422, 503)},
+    responses={200: STREAM, **problems(404, 413, 422, 503)},
 )
 async def post_suggestions(
     search: Annotated[SuggestionSearch, Depends(_begun)],

@@ -2,7 +2,7 @@
 
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Depends, Request
+from fastapi import APIRouter, Depends, Path, Request
 from fastapi.concurrency import run_in_threadpool
 from pydantic import BaseModel, Field
 from starlette.exceptions import HTTPException
@@ -64,6 +64,7 @@ class MadeRequest(StrictModel):
     title: Annotated[str, Field(max_length=TITLE_MAX)] | None = None
 
 
+Name = Annotated[str, Path(examples=[TEMPLATES[0].name])]
 MadeRequestBody = Annotated[MadeRequest, Depends(JsonBody(MadeRequest, {"title": "A towel"}, may_be_empty=True))]
 
 
@@ -77,7 +78,7 @@ async def list_templates() -> list[dict[str, Any]]:
     "/{name}",
     responses={200: {"model": MadeAnswer}, **problems(404, 413, 422)},
 )
-async def post_template(request: Request, name: str, wanted: MadeRequestBody) -> JSONResponse:
+async def post_template(request: Request, name: Name, wanted: MadeRequestBody) -> JSONResponse:
     """Return the garment that a template makes of these measures, with its folds."""
     template = find_template(name)
     if template is None:

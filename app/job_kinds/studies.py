@@ -1,17 +1,16 @@
 """A study as a job: the product of its axes, a plan for each cell, one table and one report."""
 
-from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
 from app.jobs.job_kind import JobKind, Stores
 from app.studies.garment_entries import Sources
 from app.studies.study import Study
+from app.studies.study_fields import StudyFields
 from app.studies.study_file import study_of
 from app.studies.study_job import do_study
 from app.studies.table import CSV, PARQUET, TIMING
 from planner.errors import RequestError
-from planner.json_form import STRICT
 from planner.robots.known_robots import require_name
 
 CELLS_LIMIT = 10_000
@@ -27,34 +26,13 @@ STUDY_FILES = {
 """The files of a study, and their media types."""
 
 
-@dataclass(frozen=True, slots=True)
-class StudyRequest:
-    """A study in JSON, with its file's fields (docs/studies.md); garments are named or drawn, not read from files."""
-
-    __pydantic_config__ = STRICT
-
-    garments: list[dict[str, Any]]
-    title: str | None = None
-    robots: list[str] | None = None
-    start_stations: list[str] | None = None
-    table: dict[str, Any] | None = None
-    scene: dict[str, Any] | None = None
-    placements: str | list[Any] | dict[str, Any] | None = None
-    limits: dict[str, Any] | None = None
-    sample: dict[str, Any] | None = None
-    comfort_margin: bool | None = None
-    cells_max: int | None = None
-
-
-def _prepare(stores: Stores, wanted: StudyRequest) -> tuple[Study, Path]:
+def _prepare(stores: Stores, wanted: StudyFields) -> tuple[Study, Path]:
     for number, robot in enumerate(wanted.robots or ()):
         try:
             require_name(robot)  # the path of a card would name the server's own files
         except RequestError as error:
             raise RequestError(f"robots[{number}]", error.message) from None
-    given = {field.name: getattr(wanted, field.name) for field in fields(wanted)}
-    content = {name: value for name, value in given.items() if value is not None}
-    return study_of(content, Sources(stores.garments.garment), CELLS_LIMIT), stores.studies
+    return study_of(wanted.content, Sources(stores.garments.garment), CELLS_LIMIT), stores.studies
 
 
 def _finish(_: Stores, answer: dict[str, Any]) -> dict[str, Any]:
@@ -65,7 +43,7 @@ def _finish(_: Stores, answer: dict[str, Any]) -> dict[str, Any]:
 STUDIES = JobKind(
     name="studies",
     does="Plan the product of garments, tables, placements and limits (docs/studies.md), as a job.",
-    body=StudyRequest,
+    body=StudyFields,
     example={"garments": [{"name": "hand-towel"}], "table": {"height_m": [0.7, 0.8]}},
     prepare=_prepare,
     work=do_study,

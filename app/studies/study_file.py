@@ -12,6 +12,7 @@ from app.studies.fields import require_known, table, text, truth, whole
 from app.studies.garment_entries import Sources, read_garments
 from app.studies.study import Sample, Study
 from app.studies.study_error import StudyError
+from app.studies.study_fields import FIELDS
 from planner.errors import FieldError
 from planner.geometry.given import GivenPose
 from planner.geometry.pose import Pose2
@@ -31,10 +32,6 @@ CELLS_LIMIT = 10_000_000
 WORK_LIMIT_S = 10.0
 """The work for a cell by default, in seconds of a present-day machine; time is left for slower ones."""
 
-_FIELDS = (
-    "title", "garments", "robots", "card", "start_stations", "table", "scene", "placements", "limits", "cells_max",
-    "sample", "comfort_margin",
-)  # fmt: skip
 _STATIONS = "stations"
 _POSE = tuple(field.name for field in fields(Pose2))
 _POSES: JsonForm[tuple[Pose2, ...]] = JsonForm(tuple[GivenPose, ...], StudyError)
@@ -85,7 +82,7 @@ def study_of(content: Mapping[str, Any], sources: Sources, cells_limit: int = CE
     Raises:
         StudyError: a field is not valid, or there are more cells than `cells_max`.
     """
-    require_known("", content, _FIELDS)
+    require_known("", content, FIELDS)
     robots = content.get("robots", [DEFAULT_ROBOT])
     scene, axes = _scene(table("scene", content.get("scene", {})))
     poses, placed = _placements(content.get("placements", "own"))

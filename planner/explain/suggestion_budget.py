@@ -23,6 +23,10 @@ _SETTING_UP_S = 0.01
 """Work counted for preparing a request, which replays the folds (s); the planner counts none of it."""
 
 
+class TimeUpError(Exception):
+    """The time was up in the middle of something that nobody needs in part."""
+
+
 class TrialBudget:
     """Work and time for a series of trials.
 
@@ -54,6 +58,15 @@ class TrialBudget:
                 self.has_unknown = True
                 return
             yield thing
+
+    def require_time(self, _share: float = 0.0) -> None:
+        """Raise `TimeUpError` once the time is up; what was begun then counts as unknown.
+
+        Progress can be told to it (see `planner.robots.posture_maps`): so the building of maps ends in between.
+        """
+        if self.is_late:
+            self.has_unknown = True
+            raise TimeUpError
 
     def has_spent(self, share: float) -> bool:
         """Return whether this share of the work has been done, or the time is up."""

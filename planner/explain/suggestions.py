@@ -51,7 +51,10 @@ _OWN_SHARE = 0.75
 """Share of the work that is for the task's own robot, where others may be tried."""
 
 _ROBOT_S = 8.0
-"""Time that must be left for another robot to be tried (s): to load one takes seconds, and is no work that counts."""
+"""Time that must be left for another robot to be tried (s): to load one takes seconds, and is no work that counts.
+
+Maps that must be built take longer, and end with the time.
+"""
 
 _FOLDS_MAX = 3
 """Folds to blame that changes are tried for."""
@@ -123,7 +126,7 @@ def _searched(
         yield from _by_turns(assumptions, budget, on_trial, own)
     yield from _by_turns(changes, budget, on_trial, own)
     if sum(lane.has_found for lane in (*changes, *assumptions)) < ENOUGH_KINDS:
-        changes += _lanes(robots(task, budget.while_left(names, _ROBOT_S)))
+        changes += _lanes(robots(task, budget.while_left(names, _ROBOT_S), budget.require_time))
         yield from _by_turns(changes[-1:], budget, on_trial, 1.0)
     yield from _by_turns(assumptions, budget, on_trial, 1.0)
     yield from _by_turns(changes, budget, on_trial, 1.0)

@@ -8,15 +8,19 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
+from app.jobs.apart import Tell
 from app.jobs.job_desk import JobDesk
 from app.jobs.job_kind import AnyKind, JobKind, Progress, Stores, as_it_is
 from app.jobs.job_pool import JobPool
+from app.searches import Tried
 from app.store.database import Database
 from app.store.garment_repository import GarmentRepository
 from app.store.job_repository import JobRepository, StoredJob
 from app.store.plan_store import PlanStore
 from planner.errors import RequestError
 from planner.strict_model import StrictModel
+from planner.task.plan import Plan
+from planner.task.task import Task
 
 FOR_EVER_S = 600
 
@@ -55,6 +59,14 @@ def wait_with_a_child(_: int, progress: Progress) -> None:
 
 def not_json(_: int, __: Progress) -> float:
     return float("nan")
+
+
+def suggest_and_hang(tell: Tell, _: Task, __: Plan | None) -> bool:
+    """Look for suggestions as `app.searches.suggest` does, and never come to an end over the first change."""
+    tell(None)
+    tell(Tried({"kind": "robot", "says": {"code": "other_robot", "robot": "pr2", "title": "PR2"}}))
+    time.sleep(FOR_EVER_S)
+    return True
 
 
 def kind(name: str, work: object, *, may_begin_anew: bool = False) -> AnyKind:

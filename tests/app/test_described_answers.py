@@ -20,7 +20,7 @@ from app.api.file_routes import FileEntry, ImportAnswer
 from app.api.live_answers import LiveMessage
 from app.api.overlay_answers import OverlaysAnswer
 from app.api.problems import Problem
-from app.api.suggestion_routes import SuggestionEvent
+from app.api.suggestion_events import DoneEvent, SuggestionEvent, TryingEvent
 from app.api.template_routes import MadeAnswer, TemplateAnswer
 from planner.robots.card_file import CardFile
 from planner.task.scene import Scene
@@ -117,6 +117,8 @@ def test_plans_and_the_reasons_why_there_is_none_are_as_described(name: str) -> 
 
 async def test_suggestions_are_as_described(client: httpx.AsyncClient) -> None:
     answer = await client.post("/api/suggestions", json=STUCK)
-    found = [data for name, data in events_in(answer.text) if name == "suggestion"]
-    assert found
-    assert_described(found, list[SuggestionEvent])
+    shapes = {"trying": TryingEvent, "suggestion": SuggestionEvent, "done": DoneEvent}
+    events = events_in(answer.text)
+    assert {name for name, _ in events} == set(shapes)
+    for name, data in events:
+        assert_described(data, shapes[name])

@@ -6,7 +6,10 @@ import httpx
 import pytest
 from pydantic import TypeAdapter
 
+from app.api import job_answers, suggestion_events
 from planner.task.task import Limits
+from tests.app.test_described_answers import assert_described
+from tests.app.test_suggestion_routes import events_in
 
 pytestmark = pytest.mark.anyio
 
@@ -48,15 +51,58 @@ async def test_every_example_of_a_body_is_answered(client: httpx.AsyncClient) ->
     ]
     assert len(bodies) >= 14
     for method, path, example in bodies:
+        for parameter in description["paths"][path][method].get("parameters", ()):
+            for given in parameter["schema"].get("examples", ()):
+                path = path.replace(f"{{{parameter['name']}}}", given)
         if "{document_id}" in path:
             document = (await client.post("/api/documents", json={"garment": "hand-towel"})).json()
             path = path.replace("{document_id}", document["id"])
         if path == "/api/rehearsals":
             plan = (await client.post("/api/plans", json={"garment": "letter-towel"})).json()
             example = {**example, "plan": plan["id"]}
-        name = "towel" if "templates" in path else example.get("name")
-        answer = await client.request(method, path.replace("{name}", str(name)), json=example)
+        answer = await client.request(method, path, json=example)
         assert answer.is_success, (method, path, answer.text)
+
+
+async def test_events_are_described_one_by_one_with_examples_that_are_such_events(client: httpx.AsyncClient) -> None:
+    description = (await client.get("/openapi.json")).json()
+    models = {model.__name__: model for model in (*suggestion_events.EVENTS, *job_answers.EVENTS)}
+    found = {}
+    for path, operations in description["paths"].items():
+        for operation in operations.values():
+            stream = operation["responses"].get("200", {}).get("content", {}).get("text/event-stream")
+            if stream is not None:
+                assert set(stream) == {"itemSchema", "example"}, "a schema would be one of the whole stream"
+                kinds = {kind["title"]: kind["properties"] for kind in stream["itemSchema"]["anyOf"]}
+                found[path] = list(kinds)
+                for name, data in events_in(stream["example"]):
+                    assert kinds[name]["event"] == {"const": name}
+                    model = kinds[name]["data"]["contentSchema"]["$ref"].rpartition("/")[2]
+                    assert_described(data, models[model])
+    assert found == {
+        "/api/suggestions": ["trying", "suggestion", "done"],
+        "/api/jobs/{job_id}/events": ["progress", "end"],
+    }
+
+
+async def test_links_lead_from_what_is_made_to_every_call_that_takes_its_id(client: httpx.AsyncClient) -> None:
+    description = (await client.get("/openapi.json")).json()
+    operations = {
+        operation["operationId"]: (path, operation)
+        for path, methods in description["paths"].items()
+        for operation in methods.values()
+    }
+    linked: dict[str, set[str]] = {}
+    for path, operation in operations.values():
+        for response in operation["responses"].values():
+            for target in response.get("links", {}).values():
+                to = operations[target["operationId"]][0]
+                for name in target.get("parameters", ()):
+                    assert f"{{{name}}}" in to
+                linked.setdefault(path, set()).add(to)
+    for name, made in (("document_id", "/api/documents"), ("plan_id", "/api/plans"), ("job_id", "/api/studies")):
+        assert {path for path, _ in operations.values() if f"{{{name}}}" in path} <= linked[made]
+    assert "/api/rehearsals" in linked["/api/plans"]
 
 
 async def test_every_body_in_json_is_described_with_its_fields_and_an_example(client: httpx.AsyncClient) -> None:

@@ -1,10 +1,13 @@
 """Any request is answered, bad ones with a problem that names the field: never a 500, never a trace."""
 
+import asyncio
 import json
+from collections.abc import Iterator
 from typing import Any
 
 import httpx
 import pytest
+from fastapi import FastAPI
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -172,13 +175,17 @@ KNOWN = st.sampled_from(
 )
 
 
+@pytest.fixture(scope="module")
+def app(tmp_path_factory: pytest.TempPathFactory) -> Iterator[FastAPI]:
+    made = create_app(Settings(data=tmp_path_factory.mktemp("fuzz")))
+    yield made
+    made.state.workspace.close()
+
+
 @settings(max_examples=150, deadline=None, suppress_health_check=list(HealthCheck))
 @given(body=st.dictionaries(KNOWN, JSON, max_size=5))
-def test_no_known_field_with_any_value_ends_in_a_500(body: dict[str, Any], tmp_path_factory: Any) -> None:
-    import asyncio
-
+def test_no_known_field_with_any_value_ends_in_a_500(body: dict[str, Any], app: FastAPI) -> None:
     async def ask() -> httpx.Response:
-        app = create_app(Settings(data=tmp_path_factory.getbasetemp() / "fuzz"))
         transport = httpx.ASGITransport(app=app, raise_app_exceptions=False)
         async with httpx.AsyncClient(transport=transport, base_url=OWN_URL) as client:
             return await client.post("/api/plans", json=body)

@@ -5,14 +5,14 @@ from typing import Any
 import httpx
 import pytest
 
-from app.api.job_answers import JobAnswer, JobsAnswer
+from app.api.job_answers import JobAnswer, JobEntry, JobsAnswer
 from tests.app.conftest import Served
 from tests.app.test_described_answers import assert_described
 from tests.app.test_suggestion_routes import STUCK, events_in
 
 pytestmark = pytest.mark.anyio
 
-MAP = {"garment": "hand-towel", "step_m": 0.5, "time_limit_s": 60.0}
+MAP = {"garment": "hand-towel", "step_m": 1.0, "time_limit_s": 60.0}
 LONG = {"garment": "shirt", "step_m": 0.02, "time_limit_s": 60.0}
 
 
@@ -71,6 +71,9 @@ async def test_a_job_can_be_followed_to_its_end_and_again_after_it(client: httpx
     *progress, (last, job) = events_in(followed.text)
     assert {name for name, _ in progress} <= {"progress"}
     assert last == "end"
+    for _, told in progress:
+        assert_described(told, JobEntry)
+    assert_described(job, JobAnswer)
     assert job == (await client.get(path)).json()
     again = await client.get(f"{path}/events", headers={"last-event-id": "1"})
     assert events_in(again.text) == [("end", job)]

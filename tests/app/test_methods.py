@@ -33,6 +33,9 @@ async def test_head_of_what_is_not_there_is_not_found(client: httpx.AsyncClient)
         ("/api/documents", {"GET", "HEAD", "POST"}),
         ("/api/documents/anything/drawing", {"PUT"}),
         ("/api/plans", {"POST"}),
+        ("/api/plans/imports", {"POST"}),
+        ("/api/jobs/placements", {"POST"}),
+        ("/api/jobs/anything", {"GET", "HEAD"}),
         ("/static/js/main.js", {"GET", "HEAD"}),
     ],
 )

@@ -12,6 +12,7 @@ from app.cli import cli
 from planner import Task
 from planner.explain.suggestion import Suggestion
 from tests.app.conftest import Served
+from tests.app.job_works import suggest_and_hang
 from tests.app.processes import cpu_s
 from tests.app.samples import towel
 
@@ -62,10 +63,21 @@ async def test_a_change_merged_into_the_request_gives_the_plan_told(client: http
 
 async def test_the_answer_to_a_request_may_be_named_and_may_have_been_dropped(client: httpx.AsyncClient) -> None:
     answer = (await client.post("/api/plans", json={**STUCK, "time_limit_s": 10.0})).json()
-    wanted = {**STUCK, "time_limit_s": 8.0}  # too short for another robot to be loaded
+    wanted = {**STUCK, "time_limit_s": 8.0, "work_limit_s": 1.5}  # too short for another robot to be loaded
     for known in (answer["id"], "dropped"):
         told = events_in((await client.post("/api/suggestions", params={"known": known}, json=wanted)).text)
         assert any(name == "suggestion" for name, _ in told)
+
+
+async def test_a_search_that_is_stuck_ends_soon_after_its_time(
+    client: httpx.AsyncClient, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("app.searches.suggest", suggest_and_hang)
+    monkeypatch.setattr("app.api.suggestion_routes._GRACE_S", 0.1)
+    answer = await client.post("/api/suggestions", json={**STUCK, "time_limit_s": 0.5})
+    (trying, _), (last, done) = events_in(answer.text)
+    assert (trying, last) == ("trying", "done")
+    assert (done["count"], done["complete"]) == (0, False)
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,6 @@
 """Another robot is offered where few kinds of change help: the quickest that can, at its own table."""
 
+import time
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from dataclasses import replace
@@ -28,8 +29,12 @@ LONG = garment(rectangle_points(0.6, 0.9), fold((0.6, 0.45), (0.0, 0.45)))
 SHORT = "so101-pair"
 
 
+def ignore(_: float) -> None:
+    """Ignore how far a map is."""
+
+
 def first_trial(task: Task, names: tuple[str, ...]) -> Trial:
-    wish = next(robots(task, names))
+    wish = next(robots(task, names, ignore))
     assert isinstance(wish, Trial)
     return wish
 
@@ -54,19 +59,19 @@ def test_the_tasks_own_robot_and_one_that_is_not_there_are_left_out() -> None:
     trial = first_trial(task_for(SMALL, robot=SHORT), (SHORT, "nobody", "pr2"))
     assert trial.says.values["robot"] == "pr2"
     with pytest.raises(StopIteration):
-        next(robots(task_for(SMALL, robot=SHORT), (SHORT, "nobody")))
+        next(robots(task_for(SMALL, robot=SHORT), (SHORT, "nobody"), ignore))
 
 
 def test_cloth_that_is_folded_in_part_is_not_carried_to_another_table() -> None:
     task = task_for(SMALL)
     begun = replace(task, start=replace(task.start, folds_done=(0,)))
     with pytest.raises(StopIteration):
-        next(robots(begun, (SHORT,)))
+        next(robots(begun, (SHORT,), ignore))
 
 
 @pytest.mark.parametrize(("second_s", "offered"), [(29.5, ["pr2"]), (20.0, ["pr2", SHORT])])
 def test_of_two_robots_the_later_is_offered_only_if_it_is_quicker_by_a_second(second_s: float, offered: list[str]):
-    search, kept = robots(task_for(SMALL, robot="ur5e-pair"), ("pr2", SHORT)), []
+    search, kept = robots(task_for(SMALL, robot="ur5e-pair"), ("pr2", SHORT), ignore), []
     for cost_s in (30.0, second_s):
         trial = next(search)
         assert isinstance(trial, Trial)
@@ -92,7 +97,7 @@ def test_no_robot_is_tried_where_three_kinds_of_change_help_or_there_is_a_plan(
 def test_a_robot_that_needs_no_maps_has_its_turn_first(monkeypatch: pytest.MonkeyPatch) -> None:
     turns: list[str] = []
 
-    def none(_: Task, names: Iterable[str]) -> Iterator[Any]:
+    def none(_: Task, names: Iterable[str], __: Any) -> Iterator[Any]:
         turns.extend(names)
         yield from ()
 
@@ -116,3 +121,31 @@ def test_no_robot_is_loaded_where_no_time_is_left_for_it(monkeypatch: pytest.Mon
         except StopIteration as end:
             assert end.value is False, "what another robot can do is unknown"
             return
+
+
+def test_the_building_of_maps_ends_with_the_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    told: list[float] = []
+
+    def for_ever(_: str, progress: Any) -> None:
+        until_s = time.monotonic() + 20.0
+        while time.monotonic() < until_s:
+            told.append(time.monotonic())
+            progress(0.5)
+            time.sleep(0.01)
+
+    monkeypatch.setattr("planner.explain.suggestion_robot.prepare_robot", for_ever)
+    monkeypatch.setattr(searching, "_ROBOT_S", 0.0)
+    task = task_for(LONG, robot=SHORT, work_limit_s=0.3, time_limit_s=60.0)
+    list(suggestions(task))  # kernels are loaded, and what a search of so little work takes is known to be less
+    begun_s, search = (
+        time.monotonic(),
+        suggestions(replace(task, limits=replace(task.limits, time_limit_s=4.0)), other_robots=("pr2",)),
+    )
+    while True:
+        try:
+            next(search)
+        except StopIteration as end:
+            assert end.value is False, "what the robot can do is unknown"
+            break
+    assert told, "no robot was begun"
+    assert told[-1] - begun_s < 5.0

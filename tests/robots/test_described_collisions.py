@@ -8,6 +8,7 @@ import pytest
 
 from planner.errors import RobotError
 from planner.geometry.pose import FloatArray, Pose2
+from planner.robots.collision import part_source
 from planner.robots.collision.collisions import Collisions
 from planner.robots.collision.described_parts import described_parts
 from planner.robots.described_robot import DescribedRobot, read_robot, shipped_robots
@@ -205,6 +206,26 @@ def test_parts_are_the_same_when_they_are_read_again_and_when_the_cache_is_spoil
             np.testing.assert_array_equal(one.corners, other.corners)
         for one, other in zip(read.own_pairs, made.own_pairs, strict=True):
             np.testing.assert_array_equal(one, other)
+
+
+def test_parts_are_made_once_for_copies_under_other_names_in_other_folders_but_not_for_other_meshes(
+    tmp_path, monkeypatch
+):
+    made = []
+    make = part_source.make_parts
+    monkeypatch.setattr(
+        "planner.robots.collision.described_parts.make_parts", lambda robot: made.append(1) or make(robot)
+    )
+    for name, side_m, times in (("first", 1, 1), ("second", 1, 1), ("third", 2, 2)):
+        folder = tmp_path / name
+        folder.mkdir()
+        corners = (f"v 0 0 0\nv {side_m} 0 0\nv 0 1 0\nv 0 0 1", "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4")
+        (folder / "rod.obj").write_text("\n".join(corners))
+        bench(folder, '<mesh filename="rod.obj" scale="0.1 0.1 0.1"/>')
+        card = json.loads((folder / "three.json").read_text())
+        (folder / "three.json").write_text(json.dumps(card | {"name": name, "title": name.title()}))
+        described_parts(read_robot(str(folder / "three.json")), tmp_path)
+        assert len(made) == times
 
 
 def test_a_mesh_of_more_triangles_than_may_be_is_refused_by_its_name(tmp_path, monkeypatch):

@@ -2,11 +2,12 @@
 
 import contextlib
 from collections.abc import Sequence
-from functools import lru_cache
+from functools import cache, lru_cache
 from hashlib import blake2b
 from json import dumps
 from pathlib import Path
 from typing import Any, NamedTuple
+from xml.etree.ElementTree import tostring
 from zipfile import BadZipFile
 
 import numpy as np
@@ -16,7 +17,6 @@ from platformdirs import user_cache_path
 from planner.errors import RobotError
 from planner.robots.collision import part_source
 from planner.robots.collision.arm_chains import ArmChains
-from planner.robots.collision.link_shapes import mesh_paths
 from planner.robots.collision.pair_choice import Choice, choose
 from planner.robots.collision.part_poses import Index
 from planner.robots.collision.part_source import Part, make_parts, openings_m
@@ -24,9 +24,13 @@ from planner.robots.collision.rigid_groups import BODY, Carrier
 from planner.robots.collision.robot_parts import RobotParts
 from planner.robots.collision.shape_files import Arrays, hull_arrays, hull_from, write_arrays
 from planner.robots.described_robot import DescribedRobot
+from planner.robots.urdf_reader import parsed
 
 _FORMAT = 2
 """Version of the cache; raise it whenever parts or pairs are made or stored differently."""
+
+_CALLED = ("name", "title")
+"""Fields of a card on which no part depends."""
 
 
 class _Made(NamedTuple):
@@ -117,14 +121,27 @@ def _kinematics(robot: DescribedRobot, carriers: Sequence[Carrier], arms: Index)
 
 
 def _digest(robot: DescribedRobot) -> str:
-    """Return a digest of everything that the parts depend on: the card, the URDF, its meshes, how parts are made."""
+    """Return a digest of everything that the parts depend on: the card, the URDF, its meshes, how parts are made.
+
+    What the robot is called and where its files lie is left out, so a copy finds the parts of the first.
+    """
     limits = {name: value for name, value in vars(part_source).items() if name.isupper()}
     digest = blake2b(f"{_FORMAT} {dumps(limits, default=str)}".encode(), digest_size=12)
-    digest.update(dumps(robot.card.to_dict(), sort_keys=True).encode())
-    digest.update(robot.urdf.encode())
-    for path in mesh_paths(robot.urdf):
-        digest.update(path.read_bytes())
+    card = {name: value for name, value in robot.card.to_dict().items() if name not in _CALLED}
+    digest.update(dumps(card, sort_keys=True).encode())
+    urdf, read = parsed(robot.urdf.encode()), cache(_digest_of)
+    urdf.attrib.pop("name", None)
+    for mesh in urdf.iter("mesh"):
+        mesh.set("filename", read(mesh.get("filename", "")))
+    digest.update(tostring(urdf))
     return digest.hexdigest()
+
+
+def _digest_of(path: str) -> str:
+    try:
+        return blake2b(Path(path).read_bytes()).hexdigest()
+    except OSError:
+        return ""  # whoever makes the parts says what is wrong with it
 
 
 def _arrays(made: _Made) -> dict[str, NDArray[Any]]:

@@ -58,11 +58,6 @@ def link_shapes(model: pin.Model, urdf: str) -> tuple[LinkShape, ...]:
     return tuple(shape for link in parsed(urdf.encode()).iterfind("link") for shape in _shapes(model, link))
 
 
-def mesh_paths(urdf: str) -> tuple[Path, ...]:
-    """Return the files of the meshes of a URDF, in alphabetical order."""
-    return tuple(sorted({Path(mesh.get("filename", "")) for mesh in parsed(urdf.encode()).iter("mesh")}))
-
-
 def _shapes(model: pin.Model, link: Element) -> Iterator[LinkShape]:
     name = link.get("name", "")
     frame = model.frames[model.getFrameId(name, pin.FrameType.BODY)]

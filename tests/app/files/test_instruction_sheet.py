@@ -2,6 +2,7 @@
 
 import io
 import re
+from dataclasses import replace
 from xml.etree import ElementTree
 
 import pytest
@@ -84,6 +85,6 @@ def test_a_letter_that_no_font_has_becomes_an_empty_square():
     assert reader.pages[0].extract_text() == "a\N{WHITE SQUARE}b"
 
 
-def test_without_a_plan_there_is_no_sheet():
+def test_without_a_plan_there_is_no_sheet(plan: Plan):
     with pytest.raises(UnsolvedPlanError):
-        instruction_sheet(make_plan(load_garment("tie-halved"), time_limit_s=60.0))
+        instruction_sheet(replace(plan, steps=(), trajectory=None, status="infeasible"))

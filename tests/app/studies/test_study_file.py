@@ -1,12 +1,18 @@
 import json
+import re
+import tomllib
 from pathlib import Path
-from typing import Any
+from types import SimpleNamespace
+from typing import Any, cast
 
 import pytest
 
+from app.job_kinds.studies import STUDIES
+from app.jobs.job_kind import Stores
 from app.studies.garment_entries import Sources
 from app.studies.study import Study
 from app.studies.study_error import StudyError
+from app.studies.study_fields import FIELDS
 from app.studies.study_file import read_study, study_of
 from planner import load_garment
 from planner.geometry.pose import Pose2
@@ -233,3 +239,45 @@ def test_a_file_that_is_no_toml_is_told(tmp_path: Path, text: str | None, told: 
         path.write_text(text)
     with pytest.raises(StudyError, match=told):
         read_study(path)
+
+
+ALL_FIELDS = """
+title = "Everything"
+robots = ["so101-pair"]
+start_stations = ["front"]
+cells_max = 50
+comfort_margin = true
+[[garments]]
+template = "towel"
+measures.width_m = [0.2, 0.3]
+[card]
+mounts.0.y_m = [0.15, 0.2]
+[table]
+depth_m = { from = 0.5, to = 0.6, count = 2 }
+[scene]
+friction = [0.5, 1.0]
+[placements.moved]
+x_m = [0.0, 0.1]
+[limits]
+comfort_radius_m = 0.01
+[sample]
+cells = 5
+seed = 2
+"""
+
+
+def test_a_request_in_json_has_every_field_of_a_file_and_says_the_same_study():
+    written = tomllib.loads(ALL_FIELDS)
+    assert set(written) == set(FIELDS), "a field is missing above"
+    wanted = STUDIES.form.read(json.loads(json.dumps(written)))
+    nowhere = SimpleNamespace(garments=SimpleNamespace(garment=load_garment), studies=Path())
+    asked, _ = STUDIES.prepare(cast(Stores, nowhere), wanted)
+    assert asked == study_of(written, Sources())
+    assert asked.count == 5
+
+
+def test_the_documentation_names_every_field():
+    text = (Path(__file__).parents[3] / "docs" / "studies.md").read_text(encoding="utf-8")
+    rows = text.partition("## The file")[2].partition("##")[0].splitlines()
+    named = [name for row in rows if row.startswith("| `") for name in re.findall(r"`(\w+)`", row.split("|")[1])]
+    assert sorted(named) == sorted(FIELDS)
