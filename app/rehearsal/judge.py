@@ -5,8 +5,9 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from app.rehearsal.planned_cloth import planned_positions, planned_silhouette
+from app.rehearsal.planned_cloth import planned_positions
 from app.rehearsal.world import Truth
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.isometry import Isometry
@@ -19,6 +20,9 @@ _MM = 1000.0
 
 _GAP_M = 0.002
 """The height of a layer above the one below (m)."""
+
+_UPRIGHT_M2 = 1e-8
+"""Twice the area of a triangle's shadow up to which it counts as upright and covers nothing (m^2)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,13 +125,24 @@ def judged(
     back = slide.isometry.inverse
     places = np.column_stack([back.apply(truth.positions[:, :2]), truth.positions[:, 2]])
     errors = _MM * np.linalg.norm(places - planned, axis=1)
-    covered = planned_silhouette(sequence, state.done, lies, table)
-    seen = Region.union(Region.polygon(corners) for corners in places[truth.triangles][..., :2])
+    covered, seen = (_silhouette(points[:, :2], truth.triangles) for points in (planned, places))
     shared = covered.intersection(seen).area
     iou = shared / (covered.area + seen.area - shared)
     mean, p95 = float(errors.mean()), float(np.quantile(errors, 0.95))
     held = iou >= gate.iou and mean <= gate.mean_mm and p95 <= gate.p95_mm and not empty
     return StepVerdict(step, iou, mean, p95, _MM * slide.slid_m, slide.turned_rad, empty, held)
+
+
+def _silhouette(points: FloatArray, triangles: NDArray[np.int64]) -> Region:
+    """Return what a mesh covers, seen from above; its points have the shape (n, 2), m.
+
+    The planned cloth is seen by the same mesh: one without a row on a crease ends short of it. Measured against the
+    true outline, cloth just as planned overlapped by no more than .95 to 1, with rows 20 mm apart.
+    """
+    corners = points[triangles]
+    (ax, ay), (bx, by) = (corners[:, i].T - corners[:, 0].T for i in (1, 2))
+    lying = corners[np.abs(ax * by - ay * bx) > _UPRIGHT_M2]
+    return Region.union(Region.polygon(triangle) for triangle in lying)
 
 
 def _carried(placement: Pose2, carried: Isometry) -> Pose2:

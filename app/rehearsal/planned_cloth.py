@@ -4,9 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.folds.fold_sequence import FoldSequence
-from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray, Pose2
-from planner.geometry.region import Region
 from planner.geometry.table import Table
 from planner.geometry.table_top import TableTop
 
@@ -37,9 +35,3 @@ def layer_numbers(sequence: FoldSequence, pattern: FloatArray, done: int) -> NDA
     """Return the layer to which each point belongs, 0 at the bottom, shape (n,)."""
     layers = sequence.cloth(done).layers
     return np.asarray(np.argmin([layer.pattern_piece.distances_to(pattern) for layer in layers], axis=0))
-
-
-def planned_silhouette(sequence: FoldSequence, done: int, placement: Pose2, table: Table) -> Region:
-    """Return what the cloth should cover of the table, table frame."""
-    turn = Isometry.rotation(placement.yaw_rad, placement.x_m, placement.y_m)
-    return sequence.cloth(done).silhouette.moved(turn).intersection(Region.polygon(table.corners))
