@@ -96,6 +96,7 @@ MESSAGES: list[dict[str, Any]] = [
     {"code": "at_start", "what": LOOSE, "is_too_large": False, "dragged": [0.0, 0.0], "is_held": False},
     {"code": "afterwards", "what": LOOSE, "dragged": [-0.1, 0.2], "is_held": False},
     {"code": "beside_table", "off_m": 0.2},
+    {"code": "beside_table", "off_m": 0.0},
     {"code": "corner_covered", "corner": [-0.8, 0.49], "depth_m": 0.05},
     {"code": "hangs_from_several", "area_m2": 0.0123, "edges": ["right", "near"]},
     LOOSE,

@@ -5,6 +5,7 @@ robot where it stands, where hands take the cloth, and arrows to where they brin
 """
 
 import math
+import textwrap
 from collections.abc import Iterator, Sequence
 
 import numpy as np
@@ -26,8 +27,14 @@ _EDGE, _TABLE, _INK, _FAINT = "5a5142", "f4f4f2", "222222", "888888"
 _ROBOT = 11.0
 """Half the width of the robot's base in pictures (pt); to scale it would leave the cloth no room."""
 
-_LETTER = 4.5
+_LETTER, _BOLD_LETTER = 4.5, 5.1
 """Width of a letter of a caption (pt)."""
+
+_LINE = 10.0
+"""Height of a line of a caption (pt)."""
+
+_TITLE_LINES = 2
+"""Most lines for what a step does; there is room for one more below them."""
 
 
 def instruction_sheet(plan: Plan, language: Language = ENGLISH) -> Page:
@@ -227,10 +234,17 @@ def _what(plan: Plan, step: PlanStep, language: Language) -> str:
 
 def _caption(number: int, frame: Frame, kind: str, lines: Sequence[str]) -> Iterator[Shape]:
     left, top, width, height = frame
-    letters = max(int((width - 22) / _LETTER), 8)
-    below = top + height
+    room, below = width - 22, top + height
     yield Disc((left + 9, below + 13), 8)
     yield Words((left + 9, below + 16), str(number), 8, is_bold=True, anchor="middle")
     first, *rest = lines
-    yield Words((left + 22, below + 11), (f"{kind}: {first}" if rest else kind)[:letters], 8, is_bold=True)
-    yield Words((left + 22, below + 21), (rest[0] if rest else first)[:letters], 8)
+    titles = textwrap.wrap(
+        f"{kind}: {first}" if rest else kind,
+        max(int(room / _BOLD_LETTER), 8),
+        max_lines=_TITLE_LINES,
+        placeholder="\N{HORIZONTAL ELLIPSIS}",
+    )
+    for line, title in enumerate(titles):
+        yield Words((left + 22, below + 11 + line * _LINE), title, 8, is_bold=True)
+    details = (rest[0] if rest else first)[: max(int(room / _LETTER), 8)]
+    yield Words((left + 22, below + 11 + len(titles) * _LINE), details, 8)

@@ -4,9 +4,14 @@ from collections.abc import Callable, Mapping
 
 from planner.words.lengths import Values, carried, on_garment, rounded_up
 
+_SMALL_M = 0.005
+"""Shortest way off the table that a sentence tells (m)."""
+
 
 def _beside_table(values: Values) -> str:
-    return f"nothing of the cloth lies on the table: it is {values['off_m']:.2f} m beside it"
+    off_m = values["off_m"]
+    where = f": it is {off_m:.2f} m beside it" if off_m >= _SMALL_M else ""
+    return f"nothing of the cloth lies on the table{where}"
 
 
 def _corner_covered(values: Values) -> str:

@@ -291,6 +291,13 @@ def test_a_drawing_is_made_as_large_as_the_garment_of_a_suggestion_and_folds_sta
     assert made["folds"][0]["end"]["point"] == [0.4, 0.1]
 
 
+def test_words_of_findings_leave_the_foot_of_the_board_to_its_hint(page: Page) -> None:
+    words = {"key": "a", "tag": "text", "class": "drag-text", "text": "dragged", "text-anchor": "middle", "x": 100}
+    for y, expected in ((395, 364), (370, 364), (360, 360), (450, 450)):
+        (placed,) = asked(page, "words_apart", f"m.wordsApart({json.dumps([{**words, 'y': y}])}, 400)")
+        assert placed["y"] == expected
+
+
 def test_words_of_findings_are_never_written_over_each_other(page: Page) -> None:
     random = Random(18)
     kinds = ("reason-text", "drag-text", "beyond-text", "robot-name")

@@ -62,11 +62,14 @@ def test_what_hangs_loose_is_said_in_the_unit_of_the_page(page: Page, new_sheet:
           const what = { code: "hangs_loose", layer: 0, edge: "far", at: [0.61, 0.57], beyond_m: 0.177 };
           const reason = { fold: null, code: "not_a_g_state", says: { code: "at_start", what, is_too_large: false } };
           const later = { ...reason, fold: 0, says: { code: "afterwards", what } };
-          return [sentence(reason, []), sentence(later, [{ name: "half" }])];
+          const off = { code: "afterwards", what: { code: "beside_table", off_m: 0 }, dragged: [-0.2, 0] };
+          const folds = [{ name: "half" }];
+          return [sentence(reason, []), sentence(later, folds), sentence({ ...later, says: off }, folds)];
         }"""
     )
     assert told == [
         "The cloth hangs 17.7 cm over the table\N{RIGHT SINGLE QUOTATION MARK}s far edge, and nothing holds it there.",
-        "Half: afterwards layer 1 hangs over the far edge and nothing holds its corner at (61, 57) cm of the garment, "
-        "17.7 cm beyond the edge.",
+        "Half: afterwards the cloth hangs 17.7 cm over the table\N{RIGHT SINGLE QUOTATION MARK}s far edge, and nothing "
+        "holds it there.",
+        "Half: afterwards nothing of the cloth lies on the table.",
     ]

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from playwright.sync_api import Page, Route, expect
 
 from tests.app.conftest import REST
+from tests.browser.board_hand import Hand
 from tests.browser.conftest import Garment, Sheet
 from tests.browser.searches import SEARCH_MS
 from tests.browser.status_pill import expect_planned
@@ -26,6 +27,16 @@ APRON = {
     ],
     "folds": [{"name": "half", "kind": "blue", "start": [0.35, 0.0], "end": [0.35, 0.88]}],
 }
+
+
+def top_of_cloth_px(page: Page, high_m: float) -> float:
+    return Hand(page).px((0.0, high_m))[1]
+
+
+def foot_of_strip_px(page: Page) -> float:
+    box = page.locator(".repair").bounding_box()
+    assert box is not None
+    return box["y"] + box["height"]
 
 
 def test_an_apron_halved_lengthwise_is_split_by_the_keyboard_and_put_back_by_one_undo(
@@ -51,6 +62,30 @@ def test_an_apron_halved_lengthwise_is_split_by_the_keyboard_and_put_back_by_one
     page.keyboard.press("Control+z")
     expect(page.locator(".repair")).to_be_visible()
     assert sheet.fold_names == ["half"]
+
+
+def test_a_cloth_just_drawn_is_not_hidden_below_the_strip_and_a_view_that_was_moved_stays(
+    page: Page, new_sheet: Callable[[Garment], Sheet]
+) -> None:
+    page.goto(new_sheet(None).page_url)
+    hand = Hand(page)
+    pointed = [(0.0, 0.0), (0.5, 0.0), (0.7, 0.4), (0.5, 0.8), (0.0, 0.8)]
+    for point in [*pointed, pointed[0]]:
+        hand.click(point)
+    hand.tool("Draw fold")
+    hand.drag((0.2, 0.8), (0.2, 0.0))  # its three corners are too far from each other for two hands
+    strip = page.locator(".repair")
+    expect(strip).to_be_visible()
+    board = hand.board.bounding_box()
+    assert board is not None
+    assert foot_of_strip_px(page) <= top_of_cloth_px(page, 0.8)
+    assert hand.px((0.0, 0.0))[1] <= board["y"] + board["height"]
+    page.mouse.move(*hand.px((0.25, 0.4)))
+    page.mouse.wheel(0, -300)
+    moved = hand.px((0.0, 0.0))
+    strip.get_by_role("button", name="Hide").click()
+    strip.get_by_role("button", name="Show").click()
+    assert hand.px((0.0, 0.0)) == moved
 
 
 def test_all_cards_that_come_are_at_hand_and_none_moves_while_others_come(
@@ -90,6 +125,8 @@ def test_all_cards_that_come_are_at_hand_and_none_moves_while_others_come(
     assert kinds == ["Move or size the cloth", "Change a fold", "Assume"]
     page.get_by_role("button", name="1 more").click()
     expect(cards).to_have_count(4)
+    page.wait_for_function("new Promise(requestAnimationFrame)")
+    assert top_of_cloth_px(page, 0.9) >= foot_of_strip_px(page)
     assert "RUBBISH" not in page.locator("body").inner_text()
 
 

@@ -1,4 +1,7 @@
-/** What part of the plane is seen: the whole garment at first, then what the reader chooses; no edit ever moves it. */
+/**
+ * What part of the plane is seen: the whole garment at first, then what the reader chooses. No edit ever moves it, but
+ * what comes to lie over the board does, so that no cloth is hidden below it.
+ */
 
 import { ringOf } from "./curves.js";
 import { boxOf } from "./geometry.js";
@@ -15,6 +18,8 @@ const BESIDE_TABLE_M = 0.3;
 const BEFORE_TABLE_M = 0.6;
 const BEYOND_TABLE_M = 0.1;
 const HINT_PX = 24;
+/** Between what covers the board's upper edge and the cloth (px). */
+const GAP_PX = 12;
 /** A board narrower than this is only looked at: it shows the whole cloth. */
 const INSET_PX = 160;
 
@@ -29,6 +34,9 @@ export class Framing {
     this.name = "";
     /** What was seen when it was fitted last, and of what. @type {string|null} */
     this.fitted = null;
+    /** Whether the board's upper edge is covered, and what was seen once room was made for that. */
+    this.isCovered = false;
+    this.roomMade = "";
     /** The view of the large board while it is an inset. @type {Seen & Pick<View, "width"|"height">|null} */
     this.full = null;
     /** What was seen before the robot's way was to be seen as well. @type {Seen|null} */
@@ -43,16 +51,43 @@ export class Framing {
     const { board } = this;
     board.view.fit(board.isPlacing ? this.tableBox() : (this.clothBox() ?? BLANK), { top: board.covered, bottom: HINT_PX });
     this.fitted = this.seen();
+    this.roomMade = this.where();
     board.render();
   }
 
-  /** Fit again where nobody has moved the view since, once the upper edge is covered, so that no cloth is hidden. */
+  /**
+   * The upper edge is covered, or more of it: make room for the cloth, unless somebody moves it or has moved the view
+   * since the edge was free. What was seen whole is seen whole again; cloth drawn since is pushed down as far as it goes.
+   */
   uncover() {
-    const { tool, state, store, covered, view } = this.board;
-    const box = this.clothBox();
-    const isUntouched = this.isFitted && this.fitted === this.seen() && !tool.isBusy && !state?.gesture && !store.selection;
-    if (covered && box && isUntouched && view.toPx(box.high)[1] < covered) this.fit();
-    this.board.render();
+    const { board } = this;
+    const { tool, state, store, covered, view, shown } = board;
+    const isNew = covered > 0 && !this.isCovered;
+    this.isCovered = covered > 0;
+    const isInHand = tool.isBusy || state?.gesture || store.selection;
+    const isMoved = !isNew && this.roomMade !== this.where();
+    const box = boxOf(shown.silhouette.flat()) ?? this.clothBox();
+    if (covered && box && this.isFitted && !isInHand && !isMoved) {
+      const [top, foot] = this.heights(box);
+      const [by, room] = [covered + GAP_PX - top, view.height - HINT_PX - foot];
+      if (top < covered && this.fitted === this.seen()) this.fit();
+      else if (top < covered && room > 0) view.pan([0, Math.min(by, room)]);
+    }
+    if (!isMoved) this.roomMade = this.where();
+    board.render();
+  }
+
+  /** Where a box of the article frame begins and ends on the board, from its upper edge (px). @param {{low: Point, high: Point}} box */
+  heights({ low, high }) {
+    const corners = [low, high, [low[0], high[1]], [high[0], low[1]]];
+    const ys = corners.map((corner) => this.board.view.toPx(/** @type {Point} */ (corner))[1]);
+    return [Math.min(...ys), Math.max(...ys)];
+  }
+
+  /** What part of the plane is seen. */
+  where() {
+    const { scale, origin } = this.board.view;
+    return JSON.stringify([scale, origin]);
   }
 
   /** What is seen, and of what: the same as long as nobody has moved the view or pulled the cloth. */

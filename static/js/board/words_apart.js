@@ -9,8 +9,8 @@ const ORDER = ["reason-arm", "reason-text", "drag-text", "beyond-text", "robot-n
 /** How wide a letter is at most on average, and how high a line (px). */
 const LETTER_PX = 6.5;
 const LINE_PX = 15;
-/** The middle of a line above its foot (px). */
-const MIDDLE_PX = 4;
+/** How much of the board's foot other words have (px). */
+const FOOT_PX = 36;
 
 /** @typedef {{x0: number, x1: number, y: number}} Place */
 
@@ -28,7 +28,7 @@ export function wordsApart(items, height) {
   for (const name of ORDER)
     for (const item of words.filter((one) => one.class === name)) {
       const wanted = placeOf(item);
-      const place = free(wanted, taken, height);
+      const place = free(wanted, taken, height, name !== "reason-arm");
       taken.push(place);
       if (place.y !== wanted.y) moved.set(item, place.y);
     }
@@ -48,12 +48,14 @@ function placeOf({ text = "", x, y, class: name, "text-anchor": anchor }) {
  * @param {Place} wanted
  * @param {Place[]} taken
  * @param {number} height
+ * @param {boolean} isMovable whether it may leave the board's foot to the hint that is written there
  * @returns {Place}
  */
-function free(wanted, taken, height) {
-  const heights = [wanted.y, ...taken.flatMap(({ y }) => [y + LINE_PX, y - LINE_PX])];
-  const possible = heights
-    .filter((y) => y === wanted.y || (y > LINE_PX && y < height - MIDDLE_PX))
+function free(wanted, taken, height, isMovable) {
+  const foot = height - FOOT_PX;
+  const y0 = isMovable && wanted.y > foot && wanted.y < height && foot > LINE_PX ? foot : wanted.y;
+  const possible = [y0, ...taken.flatMap(({ y }) => [y + LINE_PX, y - LINE_PX])]
+    .filter((y) => y === y0 || (y > LINE_PX && y <= foot))
     .map((y) => ({ ...wanted, y }))
     .filter((place) => taken.every((other) => !isOver(place, other)));
   const away = (/** @type {Place} */ { y }) => Math.abs(y - wanted.y);

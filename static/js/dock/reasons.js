@@ -5,7 +5,7 @@ import { say } from "../language/say.js";
 import { inWords } from "../messages/in_words.js";
 import { enough, length } from "../messages/lengths.js";
 import { called, place, word } from "../messages/names.js";
-import { causeInWords } from "../messages/reasons.js";
+import { causeInWords, SMALL_M } from "../messages/reasons.js";
 import { capital, foldName, seconds } from "./words.js";
 
 /** @import { DocumentState, Drawing, DrawingProblem, PlanMessage, Reason, Says } from "pleat" */
@@ -127,14 +127,20 @@ function subject(field) {
   return word("subject", field.startsWith("outline") ? "outline" : field);
 }
 
-/** How the cloth lies at the start, in the page's unit; nothing of what comes later. @param {Reason} reason */
+/** How the cloth lies at the start or after a fold, in the page's unit; nothing of what comes before. @param {Reason} reason */
 function atRest({ says }) {
-  if (says.code !== "at_start") return "";
-  const { code, edge, beyond_m: beyond, off_m: off } = /** @type {Says} */ (says.what);
-  if (code === "hangs_loose") {
-    return say("why.hangs_loose", { length: length(beyond), edge: word("edge", edge) });
-  }
-  if (code === "beside_table") return say("why.beside_table", { length: length(off) });
+  const what = /** @type {Says} */ (says.what);
+  if (says.code === "at_start") return resting(what);
+  if (says.code !== "afterwards") return "";
+  const why = resting(what) || inWords({ says: what, message: "" }, []).split(". ")[0];
+  return say("message.afterwards", { why, carried: "" });
+}
+
+/** How cloth lies that does not stay there, where that is soon said. @param {Says} what */
+function resting({ code, edge, beyond_m: beyond, off_m: off }) {
+  if (code === "hangs_loose") return say("why.hangs_loose", { length: length(beyond), edge: word("edge", edge) });
+  if (code === "beside_table")
+    return off < SMALL_M ? say("message.beside_table.at_edge") : say("why.beside_table", { length: length(off) });
   return code === "corner_covered" ? say("why.corner_covered") : "";
 }
 

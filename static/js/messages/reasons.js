@@ -10,6 +10,8 @@ import { called, counted, stand, word } from "./names.js";
 
 const OBLIQUE = 0.5;
 const LISTED_MAX = 4;
+/** Less is not told (m). */
+export const SMALL_M = 5e-4;
 
 /** @type {Record<string, string>} */
 const MOMENTS = {
@@ -101,7 +103,8 @@ export const REASONS = {
     say(isTooLarge ? "message.at_start.too_large" : "message.at_start", { why: REASONS[what.code](what, folds) }),
   afterwards: (says, folds) =>
     say("message.afterwards", { why: REASONS[says.what.code](says.what, folds), carried: carried(says) }),
-  beside_table: ({ off_m: off }) => say("message.beside_table", { off: length(off) }),
+  beside_table: ({ off_m: off }) =>
+    off < SMALL_M ? say("message.beside_table.at_edge") : say("message.beside_table", { off: length(off) }),
   corner_covered: ({ corner, depth_m: depth }) =>
     say("message.corner_covered", { corner: onTable(corner), depth: length(depth) }),
   hangs_from_several: ({ area_m2: m2, edges }) => {

@@ -59,6 +59,7 @@ export class Repair extends EventTarget {
     pane.append(this.root);
     for (const source of [this.search, this.quickFixes]) source.addEventListener("change", () => this.showFound());
     for (const name of ["document", "plan", "connection"]) store.addEventListener(name, () => this.follow());
+    new ResizeObserver(() => this.tell()).observe(this.root);
     addEventListener("unit", () => this.reword());
     addEventListener("resize", () => this.unfold(this.chosen ?? !this.isLow));
     this.unfold(true);

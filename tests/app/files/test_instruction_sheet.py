@@ -38,6 +38,19 @@ def test_each_step_has_a_number_its_hands_and_how_long_it_takes(plan: Plan, page
     assert words[-1] == f"after {plan.cost_s:.1f} s"
 
 
+def test_what_a_step_does_goes_on_in_a_second_line_where_it_is_long():
+    garment = load_garment("letter-towel")
+    long = replace(garment.folds[0], name="the long side that hangs over the near edge of the table")
+    plan = make_plan(replace(garment, folds=(long, *garment.folds[1:])), time_limit_s=60.0)
+    words = [shape for shape in instruction_sheet(plan).shapes if isinstance(shape, Words) and shape.size == 8.0]
+    first = next(index for index, shape in enumerate(words) if shape.text.startswith("Fold: the long side"))
+    title, goes_on, details = words[first : first + 3]
+    assert f"{title.text} {goes_on.text}".startswith("Fold: the long side that hangs over the near edge")
+    assert title.is_bold and goes_on.is_bold and not details.is_bold
+    assert title.at[1] < goes_on.at[1] < details.at[1]
+    assert details.text.endswith(" s")
+
+
 def test_all_shapes_are_on_the_page(page: Page):
     for shape in page.shapes:
         spots = shape.points if isinstance(shape, Outline) else [shape.middle if isinstance(shape, Disc) else shape.at]
