@@ -95,6 +95,7 @@ def find_plan(
         ).plan()
         if still.plan.is_solved:
             return still
+        problem = Problem.of(task)  # it knows where the arms reach as far as has been asked
     if not problem.may_let_go:
         return PlanSearch(
             problem, limits.heuristic, budget, limits.max_expanded, known, like, on_found, explainer

@@ -95,6 +95,9 @@ class WideReach:
         """Set `allowed`, a function of an arm's index, a point in the base frame at standoff 0, and a standoff."""
         self._allowed = allowed or (lambda arm, point, standoff: True)
 
+    def share(self) -> None:
+        pass
+
     def standoffs(
         self,
         arm: int,

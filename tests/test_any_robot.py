@@ -28,6 +28,7 @@ DOOR = (
     "planner.robots.varied_card",
     "planner.robots.table_reach",
     "planner.robots.tool_path",
+    "planner.robots.tool_point",
 )
 """What others may import of the robots: descriptions, the way to load one, types of questions and answers."""
 

@@ -1,15 +1,18 @@
 """``pleat robots`` and ``pleat robot check``: list the robots, and check a robot's card."""
 
+from dataclasses import asdict
 from typing import Annotated
 
 import typer
 from rich.progress import Progress
 
 from app.cli.program import STANDARD_OUTPUT, DataOption, JsonOption, blaming, cli, errors, output, write_json
+from app.robot_warnings import robot_warnings
 from app.tables import robot_check_table, robots_table
 from planner.robots.described_robot import read_robot, robot_entry
 from planner.robots.known_robots import robot_cards
 from planner.robots.table_reach import table_reach
+from planner.robots.tool_point import tool_points
 
 robot = typer.Typer(help="Look at the card of a robot.", no_args_is_help=True)
 cli.add_typer(robot, name="robot")
@@ -32,14 +35,19 @@ def check(
 ) -> None:
     """Check that a card is complete, that what it names is there, and how much of its table it reaches.
 
-    The first time it looks where the arms can go, which takes up to half a minute an arm.
+    Where a tool point is not between the fingertips it warns. The first time it looks where the arms can go, which
+    takes up to half a minute an arm.
     """
     with blaming(card):
         found = read_robot(card)
+        points = tool_points(found)
     with Progress(console=errors, transient=True) as progress:
         task = progress.add_task("Looking where the arms can go", total=1.0)
         reach = table_reach(found, lambda share: progress.update(task, completed=share))
     reached = {"arms": reach.arms, "any_arm": reach.any_arm, "two_arms": reach.two_arms}
-    write_json({"name": found.card.name, "title": found.card.title, "table_reached": reached}, json_to)
+    told = {"tool_points": [asdict(point) for point in points], "warnings": robot_warnings(points)}
+    write_json({"name": found.card.name, "title": found.card.title, "table_reached": reached, **told}, json_to)
     if json_to != STANDARD_OUTPUT:
         output.print(robot_check_table(found.card, reach))
+        for warning in told["warnings"]:
+            output.print(f"Warning: {warning['message']}.", markup=False, soft_wrap=True)

@@ -5,7 +5,7 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from planner.motion.act import Act
+from planner.motion.act import Act, duration_s
 from planner.motion.tries import MORE_TRANSFERS, THOROUGH
 from planner.planning.budget import Budget
 from planner.planning.found_plan import FoundPlan
@@ -29,6 +29,9 @@ LESS_ROOM_AFTER_S = 1.0
 # every request.
 MORE_COMFORT_SHARE, NARROWER_SHARE = 2.0, 0.5
 """Work on each task with a larger comfort radius, and on all with narrower cones, as a share of earlier work."""
+
+WORTH_SHOWING_S = 0.1
+"""Least time by which a plan found meanwhile is quicker than the one shown before (s)."""
 
 REASONS_WORK_S = 4.0
 """Work of all trials of the causes for one plan (s, see `Budget`)."""
@@ -70,6 +73,7 @@ class PlanSearch(PathSearch):
         self._on_found = on_found
         self._is_patient = is_patient
         self._greedy_at_s = GREEDY_AFTER_S
+        self._shown_s = math.inf if known is None else known.plan.cost_s or 0.0
         self._tried_s = 0.0
         self._has_tried_less = False
         self._tightened: list[Problem] = []
@@ -178,8 +182,16 @@ class PlanSearch(PathSearch):
 
     def _begin_next_round(self) -> None:
         super()._begin_next_round()
+        self._show_found()
         if self._found and self._budget.spent_s > LESS_ROOM_AFTER_S:
             self._try_with_less_room()
+
+    def _show_found(self) -> None:
+        """Show the plan found so far while the search for a quicker one continues, unless one as quick was shown."""
+        if self._on_found is None or not self._found or duration_s(self._found) > self._shown_s - WORTH_SHOWING_S:
+            return
+        self._shown_s = duration_s(self._found)
+        self._on_found(self._answer(Outcome.SOLVED, self._found, (), is_cut_short=True))
 
     def _look(self) -> None:
         super()._look()
@@ -192,6 +204,7 @@ class PlanSearch(PathSearch):
         self._known = quickly_planned(self._budget.watch(self._problem.anew()), self._like, self._is_out_of_budget)
         if self._known is None:
             return
+        self._shown_s = self._known.plan.cost_s or 0.0
         self._started += self._known.plan.statistics.search_time_s + self._known.plan.statistics.joint_time_s
         if self._on_found is not None:
             self._on_found(self._known)

@@ -134,7 +134,8 @@ class Problem:
         return self._with_reach(UnlimitedReach(self.context.reach, more_hands))
 
     def anew(self) -> "Problem":
-        """Return this problem with nothing computed yet, for use in another thread."""
+        """Return this problem with nothing computed yet; what the arms reach as far as asked is known to it."""
+        self.context.reach.share()
         return self._with_reach(self.robot.reach(self.context.scene.torso_m, self.context.reach.comfort_m))
 
     def _with_reach(self, reach: Reach) -> "Problem":

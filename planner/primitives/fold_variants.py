@@ -63,8 +63,31 @@ def fold_variants(
         hands_max: the most hands.
     """
     trials = [trial for trial in fold_trials(context, state, fold) if len(trial.arms) <= hands_max]
-    found = (sorted(trial_variants(context, state, trial, end), key=_rank) for trial in trials)
-    yield from merge(*found, key=_rank)
+    yield from merge(*(_by_travel(context, state, trial, end) for trial in trials), key=_rank)
+
+
+def _by_travel(context: Context, state: State, trial: FoldTrial, end: int) -> Iterator[Variant]:
+    """Yield the ways of one trial that end at a standoff, sorted.
+
+    Mostly only a few are wanted, and where arms reach from standoffs far back takes long to ask. So the standoffs are
+    limited first: a way that drives further back than both its ends drives that far twice.
+    """
+    told, furthest = -1, max(state.standoff, end)
+    for count in _counts(furthest + 1, context.standoffs):
+        is_all = count == context.standoffs
+        most = abs(state.standoff - end) + 2 * (count - 1 - furthest)
+        found = (v for v in trial_variants(context, state, trial, end, count=count) if v.steps > told)
+        yield from sorted((v for v in found if is_all or v.steps <= most), key=_rank)
+        told = most
+
+
+def _counts(least: int, most: int) -> Iterator[int]:
+    """Yield numbers of standoffs: the least, and twice as many as long as there are more, up to the most."""
+    count = least
+    while count < most:
+        yield count
+        count *= 2
+    yield most
 
 
 def fold_spread(context: Context, state: State, fold: int, count: int) -> Iterator[Variant]:
@@ -84,7 +107,12 @@ def _rank(variant: Variant) -> tuple[int, int, int]:
 
 
 def trial_variants(
-    context: Context, state: State, trial: FoldTrial, end: int | None = None, approaches: Approaches | None = None
+    context: Context,
+    state: State,
+    trial: FoldTrial,
+    end: int | None = None,
+    approaches: Approaches | None = None,
+    count: int | None = None,
 ) -> Iterator[Variant]:
     """Yield the ways of one trial: for each combination of orientations, the one of least travel.
 
@@ -94,34 +122,36 @@ def trial_variants(
         trial: grips, arms and path.
         end: the standoff at which the base ends; None: any.
         approaches: the approaches to combine; None: all of the trial's.
+        count: how many standoffs, from the first, the base may stand at; None: all.
     """
-    masks, chosen, ranks = _all_strips(context, state, trial, approaches or trial.approaches)
+    count = context.standoffs if count is None else count
+    masks, chosen, ranks = _all_strips(context, state, trial, approaches or trial.approaches, count)
     every = max(1, len(ranks) // _COMBINATIONS_MAX)
     masks, chosen, ranks = np.ascontiguousarray(masks[::every]), chosen[::every], ranks[::every]
-    steps = np.where(_allowed(context, state, end), travel(masks, context.standoffs), IMPOSSIBLE)
-    begin = np.abs(np.arange(context.standoffs) - state.standoff)
+    steps = np.where(_allowed(count, state, end), travel(masks, count), IMPOSSIBLE)
+    begin = np.abs(np.arange(count) - state.standoff)
     total = steps if end is None else np.minimum(steps + begin[:, None], IMPOSSIBLE)
-    total = total.reshape(len(steps), context.standoffs**2)
+    total = total.reshape(len(steps), count**2)
     least = total.argmin(axis=1)
     for number in np.flatnonzero(total.min(axis=1) < IMPOSSIBLE):
-        first, last = divmod(int(least[number]), context.standoffs)
+        first, last = divmod(int(least[number]), count)
         way = FoldWay(trial, tuple(int(approach) for approach in chosen[number]))
         driven = int(steps[number, first, last])
         yield Variant(way, first, last, driven + int(begin[first]), driven, int(ranks[number]))
 
 
-def _allowed(context: Context, state: State, end: int | None) -> BoolArray:
-    """Return at which standoffs a path may be begun and ended, shape (standoffs, standoffs)."""
-    every = np.arange(context.standoffs)
-    is_first = every == state.standoff if state.held else np.ones(context.standoffs, dtype=bool)
-    is_last = every == end if end is not None else np.ones(context.standoffs, dtype=bool)
+def _allowed(count: int, state: State, end: int | None) -> BoolArray:
+    """Return at which of some standoffs a path may be begun and ended, shape (count, count)."""
+    every = np.arange(count)
+    is_first = every == state.standoff if state.held else np.ones(count, dtype=bool)
+    is_last = every == end if end is not None else np.ones(count, dtype=bool)
     return np.asarray(is_first[:, None] & is_last)
 
 
 def _all_strips(
-    context: Context, state: State, trial: FoldTrial, approaches: Approaches
+    context: Context, state: State, trial: FoldTrial, approaches: Approaches, count: int
 ) -> tuple[NDArray[np.uint32], NDArray[np.int64], NDArray[np.int64]]:
-    """Return every combination of approaches for which the base has a standoff at every waypoint.
+    """Return every combination of approaches for which the base has one of some standoffs at every waypoint.
 
     Returns:
         Bit masks of standoffs, shape (combinations, waypoints); each hand's approach, shape (combinations, hands); and
@@ -131,7 +161,7 @@ def _all_strips(
     masks, numbers = [], []
     for arm, tools, allowed in zip(trial.arms, trial.tools, approaches, strict=True):
         points = context.in_base(state.station, tools)
-        found = context.reach.standoffs(arm, points, allowed, context.standoffs, STANDOFF_STEP_M, start=start)
+        found = context.reach.standoffs(arm, points, allowed, count, STANDOFF_STEP_M, start=start)
         able = np.flatnonzero(found.all(axis=1))
         masks.append(found[able])
         numbers.append(able)

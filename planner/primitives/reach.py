@@ -127,6 +127,10 @@ class Reach(Counted, Shortfalls, Protocol):
         """Drop all caches; answers stay the same."""
         ...
 
+    def share(self) -> None:
+        """Let the next plan know what has been asked so far; its answers and the queries charged stay the same."""
+        ...
+
     @property
     def approaches(self) -> tuple[Approach, ...]:
         """The directions from which this robot's grippers may pinch cloth, base frame."""

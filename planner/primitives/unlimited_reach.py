@@ -29,6 +29,9 @@ class UnlimitedReach:
     def forget(self) -> None:
         """Do nothing: there are no caches."""
 
+    def share(self) -> None:
+        """Do nothing: nothing has to be asked."""
+
     def standoffs(
         self,
         arm: int,

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from planner.geometry.pose import Approach, BoolArray, FloatArray, Point3
 from planner.geometry.tolerance import LENGTH_M
 from planner.robots.asked_arms import AskedArms
-from planner.robots.comfort import QUERIES, ROW_CELLS, ROW_STEP, empty_memory
+from planner.robots.comfort import QUERIES, ROW_CELLS, ROW_STEP, ROWS, Memory, empty_memory
 from planner.robots.comfort_memories import Memories
 from planner.robots.driving_task import UNSEEN, Task
 from planner.robots.following import Following
@@ -69,6 +69,12 @@ class ComfortReach:
             self._memories = None
         self._memory = empty_memory(_SMALL_BITS)
         self._memory.counts[QUERIES] = queries
+
+    def share(self) -> None:
+        """Leave a copy of the memory to the next plan (1 ms); see `Memories`."""
+        if self._memories is not None and self._memory.counts[ROWS]:
+            keys, bits, counts, hints = self._memory
+            self._memories.leave(Memory(keys.copy(), bits.copy(), counts.copy(), hints.copy()))
 
     @property
     def arm_names(self) -> tuple[str, ...]:

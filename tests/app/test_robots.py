@@ -133,3 +133,21 @@ def test_a_robot_that_the_command_line_does_not_know_is_told_by_its_option() -> 
     result = pleat("plan", "tie", "--robot", "nobody")
     assert result.exit_code == 2
     assert "--robot" in result.stderr and "so101-pair" in result.stderr
+
+
+@pytest.mark.usefixtures("reach_known")
+def test_a_tool_point_off_the_fingertips_is_warned_of_with_its_numbers(tmp_path: Path) -> None:
+    card = shipped_card("panda-pair").to_dict()
+    card["arms"] = json.loads(json.dumps(card["arms"]))
+    card["arms"][1]["tool"]["offset_m"] = [0.0, 0.009, -0.019]
+    (tmp_path / "mine.json").write_text(json.dumps(card))
+    answer = json.loads(pleat("robot", "check", str(tmp_path / "mine.json"), "--json", "-").stdout)
+    good, short = answer["tool_points"]
+    assert (good["arm"], short["arm"]) == ("left", "right")
+    assert short["beyond_m"] == pytest.approx(good["beyond_m"] + 0.019)
+    assert short["beside_m"] == pytest.approx(good["beside_m"] - 0.009)
+    [warning] = answer["warnings"]
+    assert {key: warning[key] for key in ("code", "arm", "beyond_m", "beside_m")} == {"code": "tool_off_tips", **short}
+    told = " ".join(pleat("robot", "check", str(tmp_path / "mine.json")).stdout.split())
+    assert "Warning: right: the fingertips reach 0.028 m beyond the tool point" in told
+    assert "the fingers meet 0.009 m beside it" in told

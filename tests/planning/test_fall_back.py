@@ -1,5 +1,7 @@
 """A long search falls back on a greedy plan, and reports it while it goes on."""
 
+from itertools import pairwise
+
 import pytest
 
 from planner import Task, find_plan, load_garment, make_plan
@@ -53,3 +55,13 @@ def test_where_there_is_no_plan_that_is_told_before_its_reasons_are_tried(found:
     assert answer.plan.status == first.status == "infeasible"
     assert {reason.set for reason in first.reasons} == {None}
     assert any(reason.set is not None for reason in answer.plan.reasons)
+
+
+def test_a_plan_slower_than_assumed_is_shown_while_a_quicker_one_is_looked_for():
+    # The scarf's quickest plan takes longer than its motions: the search goes on once it has a plan.
+    shown: list[FoundPlan] = []
+    answer = find_plan(Task.of(load_garment("scarf")), on_found=shown.append).plan
+    costs_s = [one.plan.cost_s for one in shown]
+    assert costs_s and all(one.plan.is_solved and not one.plan.is_proven for one in shown)
+    assert costs_s == sorted(costs_s, reverse=True) and costs_s[-1] >= answer.cost_s - 1e-9
+    assert all(before_s - after_s > 0.1 for before_s, after_s in pairwise(costs_s))

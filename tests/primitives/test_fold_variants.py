@@ -1,17 +1,24 @@
 """Variants of a fold between two states: the least travel first, and the base only where the hands can follow."""
 
 import math
+from dataclasses import replace
+from itertools import islice
+from typing import Any
 
 import numpy as np
 import pytest
 
 from planner import Scene, load_garment
 from planner.folds.fold_sequence import FoldSequence
+from planner.geometry.pose import FloatArray
+from planner.primitives import fold_variants as variants_module
 from planner.primitives.base_legs import legs
 from planner.primitives.context import STANDOFF_STEP_M, Context
 from planner.primitives.fold_step import FoldStep, fold_step
-from planner.primitives.fold_variants import Variant, fold_spread, fold_variants
+from planner.primitives.fold_trial import fold_trials
+from planner.primitives.fold_variants import Variant, fold_spread, fold_variants, trial_variants
 from planner.primitives.g_fold import GFold
+from planner.primitives.reach import Reach
 from planner.primitives.state import State
 from planner.robots.load_robot import load_robot
 from tests.builders import CIRCLE_M
@@ -103,3 +110,39 @@ def test_with_grips_held_the_base_begins_where_it_stands():
     assert held.held and held.standoff < context.standoffs
     found = list(fold_spread(context, held, 1, COUNT))
     assert found and {v.first for v in found} == {held.standoff}
+
+
+class Asking:
+    """A reach that notes from how many standoffs it is asked."""
+
+    def __init__(self, reach: Reach) -> None:
+        self._reach = reach
+        self.counts: list[int] = []
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._reach, name)
+
+    def standoffs(self, arm: int, points: FloatArray, approaches: np.ndarray, count: int, *rest: Any, **more: Any):
+        self.counts.append(count)
+        return self._reach.standoffs(arm, points, approaches, count, *rest, **more)
+
+
+def test_ways_that_need_no_driving_are_found_without_a_look_from_further_back(context: Context):
+    (step, *_) = GFold(context).successors(START)
+    fold, end = step.way.trial.fold, step.after.standoff
+    asking = Asking(context.reach)
+    few = islice(fold_variants(replace(context, reach=asking), START, fold, end), 3)  # type: ignore[arg-type]
+    assert [v.steps for v in few] == [end - START.standoff] * 3
+    assert set(asking.counts) == {end + 1} and end + 1 < context.standoffs
+
+
+def test_all_ways_are_those_of_a_look_from_everywhere(context: Context, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(variants_module, "_COMBINATIONS_MAX", 100_000)
+    (step, *_) = GFold(context).successors(START)
+    fold, end = step.way.trial.fold, step.after.standoff
+    every = [v for trial in fold_trials(context, START, fold) for v in trial_variants(context, START, trial, end)]
+    found = list(fold_variants(context, START, fold, end))
+    assert [v.steps for v in found] == sorted(v.steps for v in every)
+    assert {(v.way.trial.arms, v.way.approaches) for v in found} == {
+        (v.way.trial.arms, v.way.approaches) for v in every
+    }

@@ -254,3 +254,19 @@ def _naive_comfort(arm: int, points: np.ndarray, comfort_m: float) -> np.ndarray
 def _random_rotation(rng: np.random.Generator) -> np.ndarray:
     rotation = np.linalg.qr(rng.normal(size=(3, 3)))[0]
     return rotation * np.linalg.det(rotation)
+
+
+def test_a_plan_that_is_begun_meanwhile_knows_what_has_been_asked_and_is_charged_for_it():
+    memories, paths = Memories(), list(_paths(np.random.default_rng(23)))
+    first = bodiless(0.03, memories)
+    known = [first.standoffs(0, points, EVERY_APPROACH, COUNT, STEP_M) for points in paths]
+    first.share()
+    left = memories.take()
+    tested = left.bits[:, comfort.TESTED].copy()
+    assert tested.any() and not left.bits[:, comfort.KNOWN].any()
+    memories.leave(left)
+    beside = bodiless(0.03, memories)
+    for points, masks in zip(paths, known, strict=True):
+        np.testing.assert_array_equal(beside.standoffs(0, points, EVERY_APPROACH, COUNT, STEP_M), masks)
+    np.testing.assert_array_equal(left.bits[:, comfort.TESTED], tested)
+    assert beside.queries == first.queries > 0

@@ -1,7 +1,7 @@
 """The shapes of a URDF's links: those for collisions, or those that are shown of links that have none."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import product
@@ -36,6 +36,7 @@ class LinkShape:
         geometry: the shape as it is, for coal.
         placement: its frame in the joint's.
         corners: the corners of a convex hull that contains it, in its joint's frame (m), shape (n, 3).
+        triangles: of a mesh the numbers of each triangle's vertices, shape (k, 3); None of other shapes.
     """
 
     link: str
@@ -43,19 +44,28 @@ class LinkShape:
     geometry: coal.CollisionGeometry
     placement: pin.SE3
     corners: FloatArray
+    triangles: NDArray[np.int64] | None
 
 
-def link_shapes(model: pin.Model, urdf: str) -> tuple[LinkShape, ...]:
-    """Return the shapes of all links.
+def link_shapes(
+    model: pin.Model, urdf: str, is_wanted: Callable[[int], bool] = lambda joint: True
+) -> tuple[LinkShape, ...]:
+    """Return the shapes of all links, or of those wanted.
 
     Args:
         model: the robot's kinematic tree.
         urdf: the robot's URDF, the paths of its meshes absolute.
+        is_wanted: whether the links are wanted that a joint of the model carries.
 
     Raises:
         RobotError: a mesh cannot be read or has more than `TRIANGLES_MAX` triangles, or a number is none.
     """
-    return tuple(shape for link in parsed(urdf.encode()).iterfind("link") for shape in _shapes(model, link))
+    links = parsed(urdf.encode()).iterfind("link")
+    return tuple(shape for link in links if is_wanted(_joint(model, link)) for shape in _shapes(model, link))
+
+
+def _joint(model: pin.Model, link: Element) -> int:
+    return int(model.frames[model.getFrameId(link.get("name", ""), pin.FrameType.BODY)].parentJoint)
 
 
 def _shapes(model: pin.Model, link: Element) -> Iterator[LinkShape]:
@@ -67,13 +77,13 @@ def _shapes(model: pin.Model, link: Element) -> Iterator[LinkShape]:
             continue
         placement = frame.placement * _origin(element.find("origin"))
         try:
-            shape, points = _read(geometry[0])
+            shape, points, triangles = _read(geometry[0])
             corners: FloatArray = hull_corners(points) @ placement.rotation.T + placement.translation
         except RobotError as error:
             raise RobotError("urdf", f"link {name!r}: {error.message}") from None
         except (ValueError, TypeError, RuntimeError):
             raise RobotError("urdf", f"link {name!r} has a {geometry[0].tag} whose numbers make no shape") from None
-        yield LinkShape(name, frame.parentJoint, shape, placement, corners)
+        yield LinkShape(name, frame.parentJoint, shape, placement, corners, triangles)
 
 
 def _origin(element: Element | None) -> pin.SE3:
@@ -91,23 +101,27 @@ def _numbers(text: str) -> FloatArray:
     return numbers
 
 
-def _read(element: Element) -> tuple[coal.CollisionGeometry, FloatArray]:
-    """Return a shape, and points whose hull contains it; raise `ValueError` or `TypeError` where numbers are wrong."""
+_Shape = tuple[coal.CollisionGeometry, FloatArray, NDArray[np.int64] | None]
+"""A shape, points whose hull contains it, and of a mesh its triangles."""
+
+
+def _read(element: Element) -> _Shape:
+    """Return a shape; raise `ValueError` or `TypeError` where numbers are wrong."""
     if element.tag == "mesh":
         scale = _numbers(element.get("scale", "1 1 1"))
         return _mesh(Path(element.get("filename", "")), scale)
     if element.tag == "box":
         size = _numbers(element.get("size", ""))
-        return coal.Box(*size), np.array([*product((-0.5, 0.5), repeat=3)]) * size
+        return coal.Box(*size), np.array([*product((-0.5, 0.5), repeat=3)]) * size, None
     if element.tag not in ("sphere", "cylinder"):
         raise RobotError("urdf", f"a {element.tag} is no shape that is known")
     (radius,) = _numbers(element.get("radius", ""))
     if element.tag == "sphere":
-        return coal.Sphere(radius), radius * _ball()
+        return coal.Sphere(radius), radius * _ball(), None
     (length,) = _numbers(element.get("length", ""))
     ring = radius * _circle()
     ends = [np.column_stack([ring, np.full(_ROUND, side * length / 2)]) for side in (-1, 1)]
-    return coal.Cylinder(radius, length), np.vstack(ends)
+    return coal.Cylinder(radius, length), np.vstack(ends), None
 
 
 def _circle() -> FloatArray:
@@ -123,8 +137,8 @@ def _ball() -> FloatArray:
     return np.unique(np.vstack(rings) / math.cos(math.pi / _ROUND), axis=0)
 
 
-def _mesh(path: Path, scale: FloatArray) -> tuple[coal.CollisionGeometry, FloatArray]:
-    """Return a mesh and its vertices."""
+def _mesh(path: Path, scale: FloatArray) -> _Shape:
+    """Return a mesh, its vertices and its triangles."""
     try:
         read = _read_once(path, path.stat().st_mtime_ns)
     except (MeshError, OSError) as error:
@@ -141,7 +155,7 @@ def _mesh(path: Path, scale: FloatArray) -> tuple[coal.CollisionGeometry, FloatA
     mesh.addVertices(vertices)
     mesh.addTriangles(triangles)
     mesh.endModel()
-    return mesh, vertices
+    return mesh, vertices, triangles
 
 
 @lru_cache(maxsize=64)

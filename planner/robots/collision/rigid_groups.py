@@ -85,17 +85,25 @@ class Skeleton:
         """
         gripper = self._arms[self.carrier(shape.joint).arm].card.gripper
         low, high = (drive_value(gripper, at_m) for at_m in (0.0, opening_m))
-        ways = []
-        for value in np.linspace(low, high, SWEEP if high != low else 1):
-            q = self._q.copy()
-            for name, (factor, offset) in self._fingers(gripper).items():
-                joint = self.model.joints[self.model.getJointId(name)]
-                at = factor * value + offset
-                q[joint.idx_q : joint.idx_q + joint.nq] = [at] if joint.nq == 1 else [math.cos(at), math.sin(at)]
-            ways.append(_moved(self._place(shape, self._at(q)), shape.corners))
+        values = np.linspace(low, high, SWEEP if high != low else 1)
+        ways = [_moved(self._driven(shape, gripper, value), shape.corners) for value in values]
         # A curve in small steps is off its chords by an eighth of its second differences.
         bent = np.linalg.norm(np.diff(ways, n=2, axis=0), axis=2)
         return np.vstack(ways), float(bent.max(initial=0.0)) / 8.0
+
+    def placement_open(self, shape: LinkShape, opening_m: float) -> pin.SE3:
+        """Return where a finger's shape is at an opening (m), in the frame of the joint that carries it."""
+        gripper = self._arms[self.carrier(shape.joint).arm].card.gripper
+        return self._driven(shape, gripper, drive_value(gripper, opening_m)) * shape.placement
+
+    def _driven(self, shape: LinkShape, gripper: GripperFile, value: float) -> pin.SE3:
+        """Return where a finger's joint is, in the frame of its carrier, at a value of the driving joint."""
+        q = self._q.copy()
+        for name, (factor, offset) in self._fingers(gripper).items():
+            joint = self.model.joints[self.model.getJointId(name)]
+            at = factor * value + offset
+            q[joint.idx_q : joint.idx_q + joint.nq] = [at] if joint.nq == 1 else [math.cos(at), math.sin(at)]
+        return self._place(shape, self._at(q))
 
     def _place(self, shape: LinkShape, places: list[pin.SE3]) -> pin.SE3:
         """Return where a shape's joint is in the frame of its carrier."""
