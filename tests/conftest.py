@@ -1,5 +1,6 @@
 """Shared settings: which tests need a browser, where it is, and the number of random cases."""
 
+import gc
 from collections import Counter
 from collections.abc import Iterator
 from functools import cache
@@ -29,6 +30,7 @@ settings.load_profile("default")
 @pytest.hookimpl(tryfirst=True)
 def pytest_configure(config: pytest.Config) -> None:
     """Let ``--hypothesis-seed`` set the random cases; the chosen profile is loaded afterwards."""
+    gc.disable()  # until all is collected: modules and tests stay, and looking through them takes seconds
     if config.getoption("hypothesis_seed") is not None:
         for name in ("default", LONG):
             settings.register_profile(name, settings.get_profile(name), derandomize=False)
@@ -41,6 +43,11 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
             item.add_marker("browser")
             item.add_marker(pytest.mark.flaky(reruns=1))  # a page starved of its cores; the closing line counts reruns
     items.sort(key=lambda item: _turn(item.path))
+
+
+def pytest_collection_finish() -> None:
+    gc.freeze()
+    gc.enable()
 
 
 @cache

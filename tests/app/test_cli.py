@@ -1,5 +1,7 @@
 import json
 import socket
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -178,3 +180,15 @@ def test_a_data_path_that_is_none_is_said_before_any_address(tmp_path: Path, ins
     assert result.exit_code == 2
     assert result.stdout == ""
     assert str(data) in result.stderr.replace("\n", "")
+
+
+def test_the_garbage_collector_rests_while_the_program_is_imported_and_looks_at_what_comes_later():
+    script = """
+import gc
+begun = []
+gc.callbacks.append(lambda phase, told: begun.append(told) if phase == "start" else None)
+import app.cli
+print(len(begun), gc.isenabled(), gc.get_freeze_count() > 100_000)
+"""
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    assert done.stdout.split() == ["0", "True", "True"]
