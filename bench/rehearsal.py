@@ -1,7 +1,8 @@
 """Every article's plan performed in simulated physics: which steps hold, as it is and corrected by what is seen.
 
-One row for each article, noise and feedback. Several articles are rehearsed side by side in processes; CPU time is that
-of the rehearsal alone.
+One row for each article, noise and feedback: steps and runs that held, the first step lost, overlap and mean error
+after the last step, bounds of the rate of success, how fast it was. Several articles are rehearsed side by side in
+processes; CPU time is that of the rehearsal alone.
 """
 
 from collections.abc import Sequence
@@ -28,14 +29,14 @@ REAL_RUNS = 20
 COLUMNS = (
     "",
     "noise",
-    "feedback",
-    "steps held",
-    "first lost",
-    "last overlap",
-    "last mean [mm]",
-    "runs held",
+    "sees",
+    "steps",
+    "lost at",
+    "overlap",
+    "mean [mm]",
+    "runs",
     "95 %",
-    "x real time",
+    "x real",
     "CPU [s]",
 )
 

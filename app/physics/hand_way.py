@@ -11,6 +11,9 @@ from app.rehearsal.world import GripMotion, way_done
 from planner.geometry.pose import FloatArray
 from planner.geometry.table_top import TableTop
 
+UNDER_M = 0.01
+"""The thickness of the finger under cloth that is held (m)."""
+
 _STILL_M = 1e-3
 """The way on the ground below which a hand is taken to turn nothing over (m)."""
 
@@ -36,9 +39,11 @@ class HandWay:
     def landing_on(self, height_m: float) -> "HandWay":
         """Return the way on which the lowest cloth in the hand ends at a height or above it (m).
 
-        The path knows no thickness: it would press the cloth into the stack on which it comes to lie.
+        The path knows no thickness: it would press the cloth into the stack on which it comes to lie. A hand that holds
+        on keeps a finger under the cloth; without that, edges that met were hooked, and the stack was lifted too.
         """
         end_s = self.grip.times_s[-1]
+        height_m += 0.0 if self.grip.opens else UNDER_M
         lowest = fingertip(self.grip.at(end_s))[2] + self.held_at(end_s).lowest_m
         return replace(self, rise_m=max(0.0, height_m - float(lowest)))
 

@@ -1,11 +1,12 @@
 """What fingers hold, and how it turns over with the cloth."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from app.physics.hand_way import HandWay
+from app.physics.hand_way import UNDER_M, HandWay
 from app.physics.held_cloth import HeldCloth
 from app.physics.pinch import fingertip, nearest_weights, pinched
 from app.rehearsal.world import GripMotion
@@ -65,6 +66,11 @@ def test_the_lowest_cloth_in_a_hand_is_laid_on_the_stack_and_stays_as_high_if_th
     assert way.at(2.0)[1] == pytest.approx([-0.1, 0.0, 0.009])
     assert way.held_at(2.0).lowest_m == pytest.approx(0.009)
     assert HandWay(fold(), layers, is_fold=True, top=TOP).landing_on(0.0).rise_m == 0.0
+
+
+def test_a_hand_that_holds_on_keeps_a_finger_between_its_cloth_and_the_stack():
+    way = HandWay(replace(fold(), opens=False), held((0.0, 0.0, 0.001), (0.0, 0.0, 0.0)), is_fold=True, top=TOP)
+    assert way.landing_on(0.009).at(2.0)[7][2] == pytest.approx(0.009 + UNDER_M)
 
 
 def test_a_vertex_is_held_as_far_beside_the_fingers_as_it_is():
