@@ -75,6 +75,8 @@ MESSAGES: list[dict[str, Any]] = [
     {**REACH, "cause": "comfort_only", "comfort_m": 0.0151, "joint": None, "movable": None},
     {**REACH, "movable": ["torso"], "shift_towards": [0.0, 0.0, -1.0]},
     {**REACH, "movable": None, "enough_comfort_m": 0.0151},
+    {**REACH, "movable": None, "enough_comfort_m": 0.0151, "is_enough": False},
+    {**REACH, "movable": None, "enough_cone_rad": 1.8326, "is_enough": False},
     {**REACH, "movable": None, "enough_cone_rad": 1.8326},
     {**REACH, "movable": [], "shift_m": None, "shift_towards": None},
     {**REACH, "movable": [], "is_at_least": True, "moment": "pick", "dragged": [0.0, 0.0], "is_held": False},

@@ -20,7 +20,7 @@ from planner.explain.correction_candidates import candidates
 from planner.explain.correction_trials import SpentError, Trials, applied
 from planner.explain.joint_corrections import JointCorrections, Member
 from planner.explain.reason_obstacle import lacking
-from planner.explain.reason_out_of_reach import remedied_by
+from planner.explain.reason_out_of_reach import enough_with_others, remedied_by
 from planner.explain.relaxed import Ask, Relaxed
 from planner.planning.trial import Trial
 from planner.task.reason import Code, Reason
@@ -186,7 +186,11 @@ class _Corrections:
 
     def _told(self, members: tuple[Member, ...]) -> tuple[Reason, ...]:
         change = self._joint.applied_to_base(members).change
-        return tuple(replace(self._advised(member), change=change, gives=self._gives) for member in members)
+        told = [self._advised(member) for member in members]
+        if len(told) > 1:
+            context = self._base.context
+            told = [enough_with_others(one, context) if one.code is Code.OUT_OF_REACH else one for one in told]
+        return tuple(replace(one, change=change, gives=self._gives) for one in told)
 
     def _advised(self, member: Member) -> Reason:
         """Return a member's reason, with the advice that proved true when tried."""

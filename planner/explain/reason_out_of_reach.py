@@ -120,6 +120,11 @@ def reached_with_cone(reason: Reason, context: Context, cone_rad: float) -> Reas
     return replace(advised, shift_m=None, shift_towards=None)
 
 
+def enough_with_others(reason: Reason, context: Context) -> Reason:
+    """Return a reason whose change is not enough alone, but only with what else its set has."""
+    return _advised(reason, context, {"is_enough": False})
+
+
 def _advised(reason: Reason, context: Context, values: Mapping[str, Any]) -> Reason:
     """Return a reason that also says what would help."""
     says = worded(reason.says.code, {**reason.says.values, **values}, context.sequence.folds, reason.fold)

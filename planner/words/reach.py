@@ -84,11 +84,13 @@ def _lack(values: Values) -> str:
 def _advice(values: Values) -> str:
     """Return in words what was tried and brings the point into reach; empty where nothing has been tried yet."""
     movable, shift_m = values["movable"], values["shift_m"]
+    is_enough = values.get("is_enough", True)
     if values["enough_comfort_m"] is not None:
-        return f"; with {rounded_down(values['enough_comfort_m'])} m of comfort it can be done"
+        with_comfort = f"{rounded_down(values['enough_comfort_m'])} m of comfort"
+        return f"; with {with_comfort} it can be done" if is_enough else f"; {with_comfort} is part of what it takes"
     if values["enough_cone_rad"] is not None:
-        cone = in_degrees(values["enough_cone_rad"])
-        return f"; with pinches from within {cone} degrees of the way into the cloth it can be done"
+        pinches = f"pinches from within {in_degrees(values['enough_cone_rad'])} degrees of the way into the cloth"
+        return f"; with {pinches} it can be done" if is_enough else f"; {pinches} are part of what it takes"
     if movable is None:
         return ""
     if movable:

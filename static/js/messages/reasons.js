@@ -161,8 +161,13 @@ export function causeInWords(cause, upright) {
 
 /** What a person can change, of what the planner has tried. @param {Says} says */
 function advice({ movable, shift_m: by, shift_towards: towards, enough_comfort_m: comfort, ...says }) {
-  if (typeof comfort === "number") return say("advice.comfort", { comfort: length(comfort) });
-  if (typeof says.enough_cone_rad === "number") return say("advice.cone", { cone: degrees(says.enough_cone_rad) });
+  const isPart = says.is_enough === false;
+  if (typeof comfort === "number") {
+    return say(isPart ? "advice.comfort.part" : "advice.comfort", { comfort: length(comfort) });
+  }
+  if (typeof says.enough_cone_rad === "number") {
+    return say(isPart ? "advice.cone.part" : "advice.cone", { cone: degrees(says.enough_cone_rad) });
+  }
   if (!movable) return "";
   if (movable.length) {
     const [whereto, how] = [whereTo(towards), howTo(movable, towards[2])];
