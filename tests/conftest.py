@@ -2,7 +2,7 @@
 
 import gc
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -30,7 +30,6 @@ settings.load_profile("default")
 @pytest.hookimpl(tryfirst=True)
 def pytest_configure(config: pytest.Config) -> None:
     """Let ``--hypothesis-seed`` set the random cases; the chosen profile is loaded afterwards."""
-    gc.disable()  # until all is collected: modules and tests stay, and looking through them takes seconds
     if config.getoption("hypothesis_seed") is not None:
         for name in ("default", LONG):
             settings.register_profile(name, settings.get_profile(name), derandomize=False)
@@ -45,9 +44,15 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     items.sort(key=lambda item: _turn(item.path))
 
 
-def pytest_collection_finish() -> None:
-    gc.freeze()
-    gc.enable()
+@pytest.hookimpl(wrapper=True)
+def pytest_collection() -> Generator[None, object, object]:
+    """Look for no garbage while tests are imported: modules and tests stay, and looking through them takes seconds."""
+    gc.disable()
+    try:
+        return (yield)
+    finally:
+        gc.freeze()
+        gc.enable()
 
 
 @cache
