@@ -12,12 +12,19 @@ import pytest
 from app.api.create_app import create_app
 from app.settings import Settings
 from app.store.database import Database
+from tests.app.job_works import suggest_with_own_robot
 from tests.databases import emptied, postgresql
 
 OWN_URL = "http://127.0.0.1:8000"
 
 REST = httpx.Client(limits=httpx.Limits(max_keepalive_connections=0), timeout=60.0)
 """A shared client: `httpx.get` reads the system's certificates at each call, which takes longer than the call."""
+
+
+@pytest.fixture
+def own_robot(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let searches for suggestions try no other robot."""
+    monkeypatch.setattr("app.searches.suggest", suggest_with_own_robot)
 
 
 @pytest.fixture

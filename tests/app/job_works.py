@@ -7,12 +7,13 @@ import time
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
+from unittest.mock import patch
 
 from app.jobs.apart import Tell
 from app.jobs.job_desk import JobDesk
 from app.jobs.job_kind import AnyKind, JobKind, Progress, Stores, as_it_is
 from app.jobs.job_pool import JobPool
-from app.searches import Tried
+from app.searches import Tried, suggest
 from app.store.database import Database
 from app.store.garment_repository import GarmentRepository
 from app.store.job_repository import JobRepository, StoredJob
@@ -59,6 +60,12 @@ def wait_with_a_child(_: int, progress: Progress) -> None:
 
 def not_json(_: int, __: Progress) -> float:
     return float("nan")
+
+
+def suggest_with_own_robot(tell: Tell, task: Task, known: Plan | None) -> bool:
+    """Look for suggestions as `app.searches.suggest` does, but with no other robot: to load one takes many seconds."""
+    with patch("app.searches.robot_names", lambda: ()):
+        return suggest(tell, task, known)
 
 
 def suggest_and_hang(tell: Tell, _: Task, __: Plan | None) -> bool:

@@ -115,6 +115,7 @@ def test_plans_and_the_reasons_why_there_is_none_are_as_described(name: str) -> 
     assert_described({"id": "p", **plan.answer()}, PlanAnswer)
 
 
+@pytest.mark.usefixtures("own_robot")
 async def test_suggestions_are_as_described(client: httpx.AsyncClient) -> None:
     answer = await client.post("/api/suggestions", json=STUCK)
     shapes = {"trying": TryingEvent, "suggestion": SuggestionEvent, "done": DoneEvent}
