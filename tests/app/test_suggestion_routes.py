@@ -20,7 +20,7 @@ pytestmark = pytest.mark.anyio
 
 FRONT_ONLY = {"stations": {"front": {"x_m": -0.95, "y_m": 0.0, "yaw_rad": 0.0}}}
 FAR = {"x_m": 0.4, "y_m": 0.2, "yaw_rad": -1.5707963267948966}
-STUCK = {"garment": towel(placement=FAR), "scene": FRONT_ONLY, "time_limit_s": 30.0, "work_limit_s": 1.0}
+STUCK = {"garment": towel(placement=FAR), "scene": FRONT_ONLY, "time_limit_s": 60.0, "work_limit_s": 1.0}
 """A search that ends by its work, however busy the machine is."""
 
 LONG = {"time_limit_s": 60.0, "work_limit_s": 60.0}
