@@ -1,4 +1,4 @@
-"""What is not wrong with a robot's card but probably not meant, as data with a sentence for the command line."""
+"""Warnings about values of a robot's card that are allowed but probably not intended: codes, numbers and a sentence."""
 
 from collections.abc import Iterable, Iterator
 from typing import Any

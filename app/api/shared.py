@@ -21,7 +21,7 @@ _TOKEN = "pleat.shared"
 
 _LINK = re.compile(r"(/s/([A-Za-z0-9_-]{8,80}))(/.*)")
 _FOR_ALL = re.compile(r"/static/.*|/api/(health|scene|robots(/[a-z0-9-]+)?|plans/[0-9a-f]{32}(/(pictures|timeline))?)")
-"""What every link leads to besides its document; nobody guesses the ids of plans."""
+"""Paths that every link may read besides its document's; nobody can guess the ids of plans."""
 
 _NOT_FOUND, _FORBIDDEN, _POLICY_VIOLATION = 404, 403, 1008
 _LOOK_EVERY_S = 5.0

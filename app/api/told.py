@@ -1,4 +1,4 @@
-"""What pages are told of a document, as JSON texts that all its pages share."""
+"""Messages to pages about a document: each is written as JSON once, for all of its pages."""
 
 import json
 

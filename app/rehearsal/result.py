@@ -31,7 +31,7 @@ class Decision:
 
 @dataclass(frozen=True, slots=True)
 class Run:
-    """One run of a plan.
+    """The result of performing a plan once.
 
     Attributes:
         seed: the seed of its noise.

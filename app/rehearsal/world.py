@@ -47,7 +47,7 @@ def way_done(points: FloatArray) -> FloatArray:
 
 @dataclass(frozen=True, slots=True)
 class StepMotion:
-    """All that hands do to the cloth in one step of a plan.
+    """The motions of all hands that hold cloth in one step of a plan.
 
     Attributes:
         step: the index of the plan's step.

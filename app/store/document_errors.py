@@ -31,7 +31,7 @@ class NewerDocumentError(FoldingError):
 
 @dataclass
 class BrokenDocumentError(FoldingError):
-    """What is stored of a document cannot be read."""
+    """The stored data of a document cannot be read."""
 
     document_id: str
     why: str

@@ -43,7 +43,7 @@ _NO_PREVIEW = {"preview_version": None, "preview_label": None, "preview": None}
 
 
 class Kept(NamedTuple):
-    """What is saved: the drawings, the number of the first one's step, and how often the document was changed."""
+    """The saved data: the drawings, the number of the first drawing's step, and how often the document was changed."""
 
     tape: Tape[Drawing]
     first: int

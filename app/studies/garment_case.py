@@ -9,7 +9,7 @@ from planner.cloth.garment import Garment
 
 @dataclass(frozen=True, slots=True)
 class GarmentCase:
-    """One value of the garment axis.
+    """A garment as one value of a study's garment axis.
 
     Attributes:
         label: its name in the table, unique in the study.

@@ -12,6 +12,7 @@ from playwright.sync_api import Browser, Page
 from app.drawing.curve import Curve
 from app.drawing.rules import SNAP_PX, fold_name, next_corner, snapped, snapped_handle
 from planner.cloth.outline import POINTS_MAX
+from planner.geometry.pose import Point2
 from planner.geometry.region import Region
 from tests.app.conftest import Served
 from tests.browser.board_desk import window
@@ -213,20 +214,25 @@ def test_an_outline_goes_on_and_ends_on_the_board_as_on_the_stage(page: Page) ->
     assert {"put", "close", "taken", "full"} == set(expected)
 
 
-def test_a_pointer_on_the_board_means_what_it_means_on_the_stage(page: Page) -> None:
-    ring, scale = [(0.0, 0.0), (0.35, 0.03), (0.4, 0.4), (-0.1, 0.3)], 700.0
-    rng = Random(73)
-    points = [(rng.uniform(-0.15, 0.45), rng.uniform(-0.05, 0.45)) for _ in range(150)]
-    points += [(x + rng.uniform(-0.02, 0.02), y + rng.uniform(-0.02, 0.02)) for x, y in ring for _ in range(20)]
-    found = asked(
+def strongest(page: Page, points: list[Point2], scale: float, to: dict[str, Any]) -> Any:
+    """Return what a pointer at each of some points (m) snaps to on the board, at a scale (px/m)."""
+    return asked(
         page,
         "snap",
         f"""{json.dumps(points)}.map((at) => new m.Snapper().strongest(
             {{ scale: {scale} }},
             {{ at, isTouch: false, isKeyboard: false, ctrl: false, shift: false }},
-            {{ rings: [{json.dumps(ring)}], points: [], onlyCloth: true }},
+            {json.dumps({"points": [], "onlyCloth": True, **to})},
         ))""",
     )
+
+
+def test_a_pointer_on_the_board_means_what_it_means_on_the_stage(page: Page) -> None:
+    ring, scale = [(0.0, 0.0), (0.35, 0.03), (0.4, 0.4), (-0.1, 0.3)], 700.0
+    rng = Random(73)
+    points = [(rng.uniform(-0.15, 0.45), rng.uniform(-0.05, 0.45)) for _ in range(150)]
+    points += [(x + rng.uniform(-0.02, 0.02), y + rng.uniform(-0.02, 0.02)) for x, y in ring for _ in range(20)]
+    found = strongest(page, points, scale, {"rings": [ring]})
     region, kinds = Region.polygon(ring), set()
     for point, there in zip(points, found, strict=True):
         here = snapped(region, point, 1 / scale)
@@ -243,15 +249,7 @@ def test_an_edge_bends_on_the_board_as_on_the_stage(page: Page) -> None:
     rng = Random(74)
     points = [(rng.uniform(-0.1, 0.5), rng.uniform(-0.2, 0.5)) for _ in range(150)]
     points += [(x + rng.uniform(-0.02, 0.02), y + rng.uniform(-0.02, 0.02)) for x, y in [(0.15, 0.25), a] * 30]
-    found = asked(
-        page,
-        "snap",
-        f"""{json.dumps(points)}.map((at) => new m.Snapper().strongest(
-            {{ scale: {scale} }},
-            {{ at, isTouch: false, isKeyboard: false, ctrl: false, shift: false }},
-            {{ rings: [], points: [], onlyCloth: true, bent: {json.dumps([a, b])} }},
-        ))""",
-    )
+    found = strongest(page, points, scale, {"rings": [], "bent": [a, b]})
     kinds = set()
     for point, there in zip(points, found, strict=True):
         kinds.add(there["kind"] if there else None)
