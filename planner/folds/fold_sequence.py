@@ -27,7 +27,7 @@ from planner.geometry.pose import FloatArray
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 
-_REMEMBERED = 8
+_REMEMBERED = 12
 """The number of garments whose replays are cached."""
 
 

@@ -12,6 +12,7 @@ from planner.geometry.pose import Pose2
 from planner.geometry.tolerance import LENGTH_M, nearest_whole
 from planner.motion.robot_port import RobotPort
 from planner.motion.transfer_planner import TransferPlanner
+from planner.primitives.cloth_memory import cloth_memory
 from planner.primitives.context import DRAGS_PER_M, STANDOFFS_PER_M, Context
 from planner.primitives.reach import Reach
 from planner.primitives.state import Held, State
@@ -100,7 +101,6 @@ class Problem:
         apart = context.grips_apart_m if grips_apart_m is None else grips_apart_m
         limits = (context.circle_m, behind, apart)
         fresh = Context(sequence, wanted, reach, changed.start.placement, *limits, start, is_fixed=context.is_fixed)
-        fresh.adopt_rest(context)
         return Problem(changed, fresh, machine, TransferPlanner(fresh, machine))
 
     def tightened(self, scene: Scene | None = None, comfort_m: float | None = None) -> "Problem":
@@ -230,5 +230,5 @@ def _require_folds_in_order(start: WorldState, sequence: FoldSequence) -> None:
 
 def forget_garments() -> None:
     """Clear the caches of folded and unfolded cloth, so that benchmarks measure their computation."""
-    for remembered in (replayed, fold_cloth, spread_out):
+    for remembered in (replayed, fold_cloth, spread_out, cloth_memory):
         remembered.cache_clear()

@@ -17,6 +17,7 @@ from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.pose import FloatArray, Point2, Pose2
 from planner.geometry.shortfall import never
 from planner.geometry.tolerance import LENGTH_M, grid_key
+from planner.primitives.cloth_memory import ClothMemory, cloth_memory
 from planner.primitives.obstacle import Obstacles
 from planner.primitives.reach import Reach
 from planner.primitives.state import State
@@ -84,10 +85,6 @@ class Context:
     obstacles: Obstacles = field(default_factory=Obstacles)
     patience: Patience = field(default_factory=Patience)
     is_fixed: bool = False
-    _unrest: dict[tuple[int, int, int], Unrest | None] = field(default_factory=dict)
-    _tables: dict[tuple[int, int], TableInArticle] = field(default_factory=dict)
-    _extents: dict[int, tuple[FloatArray, FloatArray]] = field(default_factory=dict)
-    _placed: dict[Point2, Pose2] = field(default_factory=dict)
     _bases: dict[tuple[int, int], Pose2] = field(default_factory=dict)
     _kept: dict[Callable[["Context"], object], object] = field(default_factory=dict)
     _met: set[str] = field(default_factory=set)
@@ -100,23 +97,17 @@ class Context:
 
     def forget(self) -> None:
         """Drop everything but the obstacles: caches of a few megabytes, which later requests fill again."""
-        for kept in (self._unrest, self._tables, self._extents, self._placed, self._bases, self._kept, self._met):
+        for kept in (self._bases, self._kept, self._met):
             kept.clear()
+        self.cloth.trim()
+        vars(self).pop("cloth", None)
         self.reach.forget()
 
-    def adopt_rest(self, other: "Context") -> None:
-        """Copy from another context where cloth stays as it is, if that is the same in both."""
-        if self._rests_on == other._rests_on:
-            self._unrest.update(other._unrest)
-            self._tables.update(other._tables)
-            self._extents.update(other._extents)
-            self._placed.update(other._placed)
-
-    @property
-    def _rests_on(self) -> tuple[object, ...]:
-        """The data on which it depends whether cloth stays as it is."""
+    @cached_property
+    def cloth(self) -> ClothMemory:
+        """What is known of the cloth, shared with other contexts in which it is the same."""
         scene = self.scene
-        return (id(self.sequence), self.placement, scene.table, scene.friction, scene.support_angle_rad)
+        return cloth_memory(self.sequence.garment, self.placement, scene.table, scene.friction, scene.support_angle_rad)
 
     @cached_property
     def standoffs(self) -> int:
@@ -125,9 +116,10 @@ class Context:
 
     def placed(self, offset: Point2) -> Pose2:
         """Return the article's placement after drags by `offset`."""
-        if offset not in self._placed:
-            self._placed[offset] = self.placement.moved(*offset)
-        return self._placed[offset]
+        found = self.cloth.placed.get(offset)
+        if found is None:
+            found = self.cloth.placed[offset] = self.placement.moved(*offset)
+        return found
 
     def station_pose(self, station: int) -> Pose2:
         """Return a station's base pose, table frame."""
@@ -157,9 +149,10 @@ class Context:
     def table_in_article(self, offset: Point2) -> TableInArticle:
         """Return the table top in the article frame after drags by `offset`."""
         key = (grid_key(offset[0]), grid_key(offset[1]))
-        if key not in self._tables:
-            self._tables[key] = TableInArticle.seen_from(self.placed(offset), self.scene.table)
-        return self._tables[key]
+        found = self.cloth.tables.get(key)
+        if found is None:
+            found = self.cloth.tables[key] = TableInArticle.seen_from(self.placed(offset), self.scene.table)
+        return found
 
     def is_on_table(self, point: Point2, offset: Point2) -> bool:
         """Return whether a point of the article, article frame, is over the table top after drags by `offset`."""
@@ -169,9 +162,10 @@ class Context:
         """Return whether all cloth lies on the table after some folds (bit mask) and drags by `offset`."""
         if all(self._is_over_top(corner, offset) for corner in self._extent_of_all):
             return True
-        if done not in self._extents:
-            self._extents[done] = self._extent(self.sequence.cloth(done).silhouette.coordinates)
-        return all(self._is_over_top(corner, offset) for corner in self._extents[done])
+        extent = self.cloth.extents.get(done)
+        if extent is None:
+            extent = self.cloth.extents[done] = self._extent(self.sequence.cloth(done).silhouette.coordinates)
+        return all(self._is_over_top(corner, offset) for corner in extent)
 
     def may_be_on_table(self, offset: Point2) -> bool:
         """Return whether any cloth, folded or not, may lie on the table top after drags by `offset`."""
@@ -206,15 +200,14 @@ class Context:
 
     def unrest(self, done: int, offset: Point2) -> Unrest | None:
         """Return why the cloth would not stay at a placement after some folds; None if it is in a g-state."""
-        key = (done, grid_key(offset[0]), grid_key(offset[1]))
-        if key not in self._unrest and self.is_all_on_table(done, offset):
-            self._unrest[key] = None
-        if key not in self._unrest:
-            scene = self.scene
-            self._unrest[key] = unrest(
-                self.sequence.cloth(done), self.table_in_article(offset), scene.friction, scene.support_angle_rad
-            )
-        found = self._unrest[key]
+        key, known = (done, grid_key(offset[0]), grid_key(offset[1])), self.cloth.unrest
+        if key not in known:
+            known[key] = None if self.is_all_on_table(done, offset) else self._unrest(done, offset)
+        found = known[key]
         if found is not None:
             self._met.add(found.code)
         return found
+
+    def _unrest(self, done: int, offset: Point2) -> Unrest | None:
+        scene, top = self.scene, self.table_in_article(offset)
+        return unrest(self.sequence.cloth(done), top, scene.friction, scene.support_angle_rad)

@@ -69,23 +69,12 @@ def drag_covers(context: Context, done: int, offset: Point2, towards: Point2) ->
 
     Where that is all of it, they are the same wherever it lies, and kept.
     """
-    if not context.is_all_on_table(done, offset):
-        return _drag_covers(context, done, offset, towards)
-    known = context.kept(_WholeCovers).known
-    if (done, towards) not in known:
-        known[done, towards] = _drag_covers(context, done, offset, towards)
-    return known[done, towards]
-
-
-class _WholeCovers:
-    """The grips for drags of cloth that lies on the table as a whole, by the folds done and the direction.
-
-    Attributes:
-        known: those asked for so far.
-    """
-
-    def __init__(self, _context: Context) -> None:
-        self.known: dict[tuple[int, Point2], GripCovers] = {}
+    where = None if context.is_all_on_table(done, offset) else offset
+    key, known = (done, where, towards, len(context.reach.arm_names)), context.cloth.drag_covers
+    found = known.get(key)
+    if found is None:
+        found = known[key] = _drag_covers(context, done, offset, towards)
+    return found
 
 
 def _drag_covers(context: Context, done: int, offset: Point2, towards: Point2) -> GripCovers:

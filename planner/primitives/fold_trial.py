@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
 
@@ -15,6 +15,7 @@ from planner.geometry.pose import FloatArray, Point2
 from planner.geometry.segment import Segment
 from planner.geometry.table_top import TableTop
 from planner.geometry.tolerance import LENGTH_M
+from planner.primitives.cloth_memory import Hands
 from planner.primitives.context import STANDOFF_STEP_M, Context
 from planner.primitives.fold_obstacles import Depths
 from planner.primitives.grasping import (
@@ -23,6 +24,7 @@ from planner.primitives.grasping import (
     assignments,
     hand_keys,
     nearest_pair_m,
+    sides,
 )
 from planner.primitives.held_covers import held_covers
 from planner.primitives.obstacle import Obstacle
@@ -77,17 +79,6 @@ class FoldTrial:
         """Return whether the same arms take the same grips, possibly elsewhere on the table."""
         return (self.cover, self.arms) == (other.cover, other.arms)
 
-    def in_order(self, hands: list[int]) -> "FoldTrial":
-        """Return the trial with its hands in another order."""
-        return replace(
-            self,
-            cover=tuple(self.cover[hand] for hand in hands),
-            arms=tuple(self.arms[hand] for hand in hands),
-            points=self.points[hands],
-            tools=self.tools[hands],
-            approaches=tuple(self.approaches[hand] for hand in hands),
-        )
-
     def in_base(self, context: Context, station: int) -> FloatArray:
         """Return the tool paths in the base frame at standoff 0, shape (grips, waypoints, 3), m."""
         return context.in_base(station, self.tools)
@@ -103,12 +94,34 @@ def fold_trials(context: Context, state: State, fold: int) -> list[FoldTrial]:
     Those with more hands come first: they hold the cloth more firmly. Beyond that the order of the trials and of their
     hands depends on where things are and not on how they were drawn; a mirror image of the task has the same order.
     """
-    keyed = sorted(_trials(context, state, fold), key=lambda pair: (-len(pair[1].arms), pair[0]))
-    return [trial for _, trial in keyed]
+    return [
+        FoldTrial(
+            fold, *hands, tuple(_approaches(context, state, fold, *hand) for hand in zip(*hands[:2], strict=True))
+        )
+        for hands in _hands(context, state, fold)
+    ]
 
 
-def _trials(context: Context, state: State, fold: int) -> Iterator[tuple[list[tuple[int, ...]], FoldTrial]]:
-    """Yield the trials, their hands in order, each with the keys of its hands."""
+def _hands(context: Context, state: State, fold: int) -> tuple[Hands, ...]:
+    """Return the hands of all trials. They depend neither on the other folds done nor on reach, and are kept.
+
+    Where there are none, the reason is noted each time.
+    """
+    scene, reach = context.scene, context.reach
+    held = (state.is_dragged, tuple([(h.arm, h.point) for h in state.held]))
+    robot = (reach.arm_names, context.kept(sides), context.station_pose(state.station), context.grips_apart_m)
+    key, known = (fold, state.offset, held, robot, scene.edge_clear_m), context.cloth.hands
+    found = known.get(key)
+    if found is None:
+        keyed = sorted(_searched(context, state, fold), key=lambda pair: (-len(pair[1].arms), pair[0]))
+        found = tuple(hands for _, hands in keyed)
+        if found:
+            known[key] = found
+    return found
+
+
+def _searched(context: Context, state: State, fold: int) -> Iterator[tuple[list[tuple[int, ...]], Hands]]:
+    """Yield the hands of each trial in order, each with their keys."""
     path, on_table = _path(context, state, fold), context.kept(_OnTable)
     for cover, arms in _grips(context, state, fold):
         flat = None if state.is_dragged else on_table.of(fold, cover, state.offset)
@@ -118,11 +131,13 @@ def _trials(context: Context, state: State, fold: int) -> Iterator[tuple[list[tu
                 continue
             sweeps = path.sweeps(points)
             flat = _Flat(points, sweeps, path.tool_paths(points, sweeps))
-        approaches = tuple(_approaches(context, state, fold, *hand) for hand in zip(cover, arms, strict=True))
-        trial = FoldTrial(fold, cover, arms, path, *flat, approaches)
-        keys = hand_keys(context, state.station, arms, trial.tools)
+        keys = hand_keys(context, state.station, arms, flat.tools)
         order = sorted(range(len(arms)), key=lambda hand: (keys[hand], arms[hand]))
-        yield [keys[hand] for hand in order], trial if order == list(range(len(arms))) else trial.in_order(order)
+        ordered = tuple(cover[hand] for hand in order), tuple(arms[hand] for hand in order)
+        yield (
+            [keys[hand] for hand in order],
+            Hands(*ordered, path, flat.points[order], flat.sweeps, flat.tools[order]),
+        )
 
 
 class _Flat(NamedTuple):

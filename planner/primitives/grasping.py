@@ -73,10 +73,11 @@ def hand_keys(context: Context, station: int, arms: Sequence[int], tools: FloatA
 
 def side_of(context: Context, arm: int) -> float:
     """Return the side of the robot that an arm is on: 1 left, -1 right."""
-    return context.kept(_sides)[arm]
+    return context.kept(sides)[arm]
 
 
-def _sides(context: Context) -> tuple[float, ...]:
+def sides(context: Context) -> tuple[float, ...]:
+    """Return the side of the robot that each arm is on, see `side_of`."""
     return tuple(math.copysign(1.0, y) for _, y, _ in context.reach.shoulders)
 
 
