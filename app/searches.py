@@ -12,6 +12,7 @@ from app.files.robot_archive import unpack_robot
 from app.files.seam_allowance import Line
 from app.jobs.apart import Tell
 from app.jobs.job_kind import Progress
+from app.store.packed_plan import PackedPlan
 from app.store.storage_error import storing
 from planner import make_plan
 from planner.cloth.garment import Garment
@@ -50,9 +51,9 @@ _LAST_SHARE = 0.99
 """The share of a search for suggestions that is told at most before its end."""
 
 
-def plan(_: Tell, task: Task) -> Plan:
-    """Plan a task, as `make_plan` does."""
-    return make_plan(task)
+def plan(_: Tell, task: Task) -> PackedPlan:
+    """Plan a task, as `make_plan` does, and pack the plan here, so that the server has no work with it."""
+    return PackedPlan.of(make_plan(task))
 
 
 def read_plan(_: Tell, data: dict[str, Any]) -> Plan:

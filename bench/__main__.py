@@ -26,6 +26,7 @@ from bench.rehearsal import LETTER, rehearsal
 from bench.report import Report
 from bench.robot_plans import robot_plans
 from bench.studies import studies
+from bench.two_at_once import two_at_once
 from bench.vision import vision
 from bench.whole_plans import whole_plans
 from bench.yes_and_no import PAIRS, yes_and_no
@@ -48,11 +49,12 @@ BENCHMARKS: Final[Mapping[str, Benchmark]] = {
     "hand": hand,
     "crowd": crowd,
     "load": load,
+    "two-at-once": two_at_once,
     "studies": studies,
     "vision": vision,
     "rehearsal": rehearsal,
 }
-APART: Final = frozenset({"reach", "any-robot", "growth", "hand", "crowd", "load", "studies", "vision"})
+APART: Final = frozenset({"reach", "any-robot", "growth", "hand", "crowd", "load", "two-at-once", "studies", "vision"})
 """Tables left out if garments are named and these are not: they have no garment, or need a browser or a server."""
 
 ASKED: Final = frozenset({"rehearsal"})

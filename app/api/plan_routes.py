@@ -49,14 +49,15 @@ async def post_dag(request: Request, wanted: DagRequestBody) -> JSONResponse:
     "/plans",
     responses={200: {"model": PlanAnswer}, **problems(404, 413, 422, 503)},
 )
-async def post_plan(request: Request, wanted: PlanRequestBody) -> JSONResponse:
+async def post_plan(request: Request, wanted: PlanRequestBody) -> Response:
     """Plan a garment; "there is no plan" is an answer, too.
 
     The time limit runs from the arrival of the request. Answers 503 if it passes before the request's turn comes.
     """
     workspace, limit = workspace_of(request), TimeLimit(wanted.time_limit_s)
     work = partial(_plan, workspace, wanted, limit)
-    return JSONResponse(await answer_of(request, workspace.lanes.searches, work, limit.limit_s))
+    told = await answer_of(request, workspace.lanes.searches, work, limit.limit_s)
+    return Response(told, media_type="application/json")
 
 
 @router.post(
@@ -153,11 +154,11 @@ def _dag(workspace: Workspace, wanted: DagRequest) -> dict[str, Any]:
     return answer
 
 
-def _plan(workspace: Workspace, wanted: PlanRequest, limit: TimeLimit, should_stop: ShouldStop) -> dict[str, Any]:
+def _plan(workspace: Workspace, wanted: PlanRequest, limit: TimeLimit, should_stop: ShouldStop) -> bytes:
     task = asked_task(workspace, wanted, limit)
     with within_request():
-        plan = run_apart(searches.plan, should_stop, ignore, task)
-    return plan_answer(workspace.plans.add(plan), plan)
+        packed = run_apart(searches.plan, should_stop, ignore, task)
+    return b'{"id":"%b",%b' % (workspace.plans.add_packed(packed).encode(), packed.answer.removeprefix(b"{"))
 
 
 def _timeline(plan: Plan, rate_hz: float, should_stop: ShouldStop) -> bytes:

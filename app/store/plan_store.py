@@ -1,20 +1,18 @@
 """Keeps the newest plans in the database, by id, so that they can be read after a restart too.
 
-The plans made last also stay in memory as objects. The others are read anew from their JSON, compressed, whose version
-a later Pleat knows.
+The plans made or read last also stay in memory as objects. The others are unpacked anew (`app.store.packed_plan`).
 """
 
 import logging
 import threading
 import uuid
-import zlib
 from collections import OrderedDict
 from dataclasses import dataclass
 
-from pydantic_core import from_json, to_json
 from sqlalchemy import delete, insert, select
 
 from app.store.database import Database
+from app.store.packed_plan import PackedPlan, unpacked
 from app.store.schema import PlanRow
 from planner.errors import FoldingError
 from planner.task.plan import Plan
@@ -23,16 +21,15 @@ CAPACITY, CAPACITY_BYTES = 1000, 128 << 20
 """Number of plans kept, and their size (bytes)."""
 
 LIVE_MAX = 16
-"""Number of plans kept as objects."""
+"""Number of plans in memory beside the database's."""
 
-PASSING_MAX = 64
-"""Number of plans in passing kept: each open document has one or two while its drawing is under a hand."""
+PASSING_MAX = 24
+"""Number of plans in passing kept: each document has one or two while its drawing is under a hand. What is beyond is
+written if it may still be asked for.
+"""
 
 _DROP_EVERY = 16
 """Plans added between two looks at whether the oldest are to be dropped."""
-
-_ZIP_LEVEL = 1
-"""Compression level. Higher ones take longer and save only 5 % more (measured)."""
 
 _log = logging.getLogger(__name__)
 
@@ -55,7 +52,7 @@ class PlanStore:
         self._database = database
         self._capacity, self._capacity_bytes = capacity, capacity_bytes
         self._live_max = min(LIVE_MAX, capacity)
-        self._live: OrderedDict[str, Plan] = OrderedDict()
+        self._live: OrderedDict[str, Plan | PackedPlan] = OrderedDict()
         self._passing: OrderedDict[str, Plan] = OrderedDict()
         self._let_go: set[str] = set()
         self._added = 0
@@ -83,6 +80,13 @@ class PlanStore:
             self._write(*oldest)
         return plan_id
 
+    def add_packed(self, packed: PackedPlan) -> str:
+        """Store a plan that was packed elsewhere and return its id; unpack it only when it is asked for."""
+        plan_id = uuid.uuid4().hex
+        self._write_content(plan_id, packed.content)
+        self._hold(plan_id, packed)
+        return plan_id
+
     def keep(self, plan_id: str) -> None:
         """Write a plan in passing: it stays."""
         with self._lock:
@@ -100,24 +104,34 @@ class PlanStore:
 
     def _write_and_hold(self, plan_id: str, plan: Plan) -> None:
         self._write(plan_id, plan)
+        self._hold(plan_id, plan)
+
+    def _hold(self, plan_id: str, plan: Plan | PackedPlan) -> None:
+        """Have a plan in memory as the newest."""
         with self._lock:
             self._live[plan_id] = plan
+            self._live.move_to_end(plan_id)
             if len(self._live) > self._live_max:
                 self._live.popitem(last=False)
 
     def plan(self, plan_id: str) -> Plan:
         """Return the plan with this id; raise `UnknownPlanError` if there is none."""
         with self._lock:
-            plan = self._live.get(plan_id) or self._passing.get(plan_id)
-        if plan is not None:
-            return plan
+            held = self._live.get(plan_id) or self._passing.get(plan_id)
+        if isinstance(held, Plan):
+            return held
+        plan = self._stored(plan_id) if held is None else held.plan()
+        self._hold(plan_id, plan)
+        return plan
+
+    def _stored(self, plan_id: str) -> Plan:
         if "\0" in plan_id:  # PostgreSQL knows no zero character
             raise UnknownPlanError(plan_id)
         with self._database.reading("the plan could not be read") as session:
             packed = session.scalar(select(PlanRow.content).where(PlanRow.id == plan_id))
         if packed is None:
             raise UnknownPlanError(plan_id)
-        return Plan.from_dict(from_json(zlib.decompress(packed)))
+        return unpacked(packed)
 
     def drop(self, plan_id: str) -> None:
         """Drop a plan, if it is there."""
@@ -129,13 +143,15 @@ class PlanStore:
             session.execute(delete(PlanRow).where(PlanRow.id == plan_id))
 
     def _write(self, plan_id: str, plan: Plan) -> None:
+        self._write_content(plan_id, PackedPlan.of(plan).content)
+
+    def _write_content(self, plan_id: str, content: bytes) -> None:
         try:
-            self._write_row(plan_id, plan)
+            self._write_row(plan_id, content)
         except FoldingError as error:
             _log.warning("%s", error)
 
-    def _write_row(self, plan_id: str, plan: Plan) -> None:
-        content = zlib.compress(to_json(plan.to_dict()), _ZIP_LEVEL)
+    def _write_row(self, plan_id: str, content: bytes) -> None:
         row = {"id": plan_id, "size": len(content), "content": content}
         with self._database.writing("the plan could not be kept", is_synced=False, is_lasting=False) as session:
             session.execute(insert(PlanRow), row)

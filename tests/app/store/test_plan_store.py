@@ -11,6 +11,7 @@ import pytest
 from sqlalchemy import func, select
 
 from app.store.database import Database
+from app.store.packed_plan import PackedPlan
 from app.store.plan_store import LIVE_MAX, PASSING_MAX, PlanStore, UnknownPlanError
 from app.store.schema import PlanRow
 from planner import Plan, load_garment, make_plan
@@ -52,6 +53,35 @@ def test_after_a_restart_a_plan_is_told_and_played_as_it_was(plan: Plan, databas
     for unknown in ("unknown", "", "\0", "x" * 1000):
         with pytest.raises(UnknownPlanError):
             again.plan(unknown)
+
+
+def test_a_plan_that_was_packed_elsewhere_is_unpacked_when_it_is_asked_for(plan: Plan, database: Database) -> None:
+    store, gone = PlanStore(database), PackedPlan.of(plan)
+    plan_id = store.add_packed(gone)
+    found = store.plan(plan_id)
+    assert found == plan and store.plan(plan_id) is found
+    assert PlanStore(database).plan(plan_id) == plan
+
+
+def test_a_plan_that_was_read_is_unpacked_once_while_it_is_among_the_newest(plan: Plan, database: Database) -> None:
+    plan_id = PlanStore(database).add(plan)
+    again = PlanStore(database)
+    first = again.plan(plan_id)
+    assert again.plan(plan_id) is first
+    again.drop(plan_id)
+    with pytest.raises(UnknownPlanError):
+        again.plan(plan_id)
+
+
+def test_packed_plans_are_no_objects_in_memory(plan: Plan, database: Database) -> None:
+    def plans() -> int:
+        gc.collect()
+        return sum(isinstance(one, Plan) for one in gc.get_objects())
+
+    store, packed, before = PlanStore(database), PackedPlan.of(plan), plans()
+    for _ in range(LIVE_MAX):
+        store.add_packed(packed)
+    assert plans() == before
 
 
 def test_the_newest_can_be_read_and_older_ones_are_gone(copies: Iterator[Plan], database: Database) -> None:
