@@ -342,7 +342,10 @@ def test_every_article_that_is_rehearsed_can_be_named(monkeypatch: pytest.Monkey
 
 
 def test_a_rehearsal_tells_its_steps_the_first_lost_and_how_often_it_held():
-    held, lost = StepVerdict(0, 0.98, 3.0, 8.0, 1.0, 0.0), StepVerdict(1, 0.8, 21.0, 60.0, 9.0, 0.1, held=False)
+    held, lost = (
+        StepVerdict(0, 0.98, 1.0, 3.0, 8.0, 1.0, 0.0),
+        StepVerdict(1, 0.8, 14.0, 21.0, 60.0, 9.0, 0.1, held=False),
+    )
     result = RehearsalResult((Run(0, (held, lost), simulated_s=10.0, cpu_s=20.0), Run(1, (held,), reason="stopped")))
     (line,) = row_of(Rehearsed("vest", "real", True, result)).lines
     assert line == ("vest", "real", "on", "2 of 3", "1", "0.890", "12.0", "0 of 2", "0% to 84%", "0.50", "20.00")

@@ -52,7 +52,7 @@ def model_xml(
     return f"""<mujoco>
 <compiler autolimits="true" boundmass="1e-9"/>
 <option timestep="{resolution.step_s}" integrator="discrete" solver="CG" iterations="{resolution.iterations}"
- tolerance="1e-6" cone="elliptic" impratio="10"/>
+ tolerance="{resolution.tolerance}" cone="elliptic" impratio="10"/>
 <size memory="400M"/>
 <worldbody>{"" if table is None else _board(table, fabric)}{vertices}{sockets}</worldbody>
 <deformable><flex name="cloth" dim="2" radius="{ball}" body="{" ".join(f"v{i}" for i in range(len(rest)))}"

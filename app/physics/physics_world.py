@@ -22,6 +22,12 @@ from planner.task.task import Task
 _OUTLINE_M = 0.01
 """The distance between points of an outline that is seen (m)."""
 
+_REST_M_S = 0.005
+"""The speed below which no point of cloth at rest moves (m/s)."""
+
+_RESTED_S = 0.1
+"""The time after which cloth that has not moved is taken to be at rest (s)."""
+
 
 class PhysicsWorld:
     """An article on a table, simulated.
@@ -70,7 +76,7 @@ class PhysicsWorld:
             sequence = replayed(task.garment)
             table, gap_m = task.scene.table, fabric.thickness_m
             self.simulation.put(planned_positions(sequence, self._pattern, task.start.done, lies, table, gap_m))
-            self._run(resolution.settle_s)
+            self._settle()
 
     def observe(self) -> Observation:
         """Return the outline as it is; this world has no camera."""
@@ -88,7 +94,7 @@ class PhysicsWorld:
         else:
             self._let_go({grip.arm for grip in motion.grips})
         if not self._grips:
-            self._run(self.resolution.settle_s)
+            self._settle()
         return Performed(found)
 
     def truth(self) -> Truth:
@@ -136,9 +142,15 @@ class PhysicsWorld:
         for arm in arms & self._grips.keys():
             self.simulation.release(frozenset(self._grips.pop(arm).vertices))
 
-    def _run(self, duration_s: float) -> None:
-        for _ in range(round(duration_s / self.simulation.step_s)):
+    def _settle(self) -> None:
+        """Let what was let go come to rest; what rests already is not simulated."""
+        rested_s = 0.0
+        for _ in range(round(self.resolution.settle_s / self.simulation.step_s)):
             self._step()
+            is_at_rest = float(self.simulation.speeds.max()) < _REST_M_S
+            rested_s = rested_s + self.simulation.step_s if is_at_rest else 0.0
+            if rested_s >= _RESTED_S:
+                return
 
     def _step(self) -> None:
         self.simulation.step()

@@ -1,14 +1,14 @@
 """Change the motions of a step to fit the cloth as it lies: moved with it, or taken at another point of it."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 import numpy as np
 
 from app.rehearsal.world import GripMotion, StepMotion, way_done
 from planner.geometry.isometry import Isometry
-from planner.geometry.pose import FloatArray, Point2, Pose2
+from planner.geometry.pose import FloatArray, Point2, Point3, Pose2
 
 REGRASPS = 8
 """Points round a grip at which a grasp that missed is tried again (paper, section 9)."""
@@ -50,22 +50,47 @@ def regrasps(motion: StepMotion, arms: frozenset[str], radius_m: float, fold: Is
     """
     for number in range(REGRASPS):
         turn = math.pi / 4.0 * ((number + 1) // 2) * (-1.0 if number % 2 else 1.0)
-        yield replace(
-            motion,
-            grips=tuple(_beside(grip, radius_m, turn, fold) if grip.arm in arms else grip for grip in motion.grips),
+        yield beside(
+            motion, {grip.arm: _round(grip, radius_m, turn) for grip in motion.grips if grip.arm in arms}, fold
         )
 
 
-def _beside(grip: GripMotion, radius_m: float, turn_rad: float, fold: Isometry | None) -> GripMotion:
-    """Return a grip's motion for a point of the cloth beside it; it lands where the fold brings that point."""
+def beside(motion: StepMotion, offsets: Mapping[str, Point2], fold: Isometry | None) -> StepMotion:
+    """Return the step with hands that hold the cloth beside their grips; they land where the fold brings its points.
+
+    Args:
+        motion: the step.
+        offsets: for some arms, how far beside its grip each begins (m).
+        fold: the reflection of the cloth by the step's fold, table frame; None if it makes none.
+    """
+
+    def moved(grip: GripMotion) -> GripMotion:
+        offset = offsets[grip.arm]
+        points = np.array(grip.points)
+        share = way_done(points)[:, None]
+        landed = offset if fold is None else _turned(fold, offset)
+        points[:, :2] += (1.0 - share) * np.array(offset) + share * np.array(landed)
+        return _along(grip, points)
+
+    return replace(motion, grips=tuple(moved(grip) if grip.arm in offsets else grip for grip in motion.grips))
+
+
+def still_beside(planned: StepMotion, made: StepMotion) -> dict[str, Point2]:
+    """Return how far beside their planned ends the hands hold cloth after a step, for those that hold on (m)."""
+    pairs = zip(planned.grips, made.grips, strict=True)
+    return {one.arm: _from(one.points[-1], other.points[-1]) for one, other in pairs if not one.opens}
+
+
+def _from(start: Point3, end: Point3) -> Point2:
+    return end[0] - start[0], end[1] - start[1]
+
+
+def _round(grip: GripMotion, radius_m: float, turn_rad: float) -> Point2:
+    """Return a point round a grip, from it (m); at a turn of 0 it is the one ahead."""
     points = np.array(grip.points)
     ahead = points[len(points) // 2, :2] - points[0, :2]
     angle = math.atan2(ahead[1], ahead[0]) + turn_rad
-    offset = radius_m * np.array([math.cos(angle), math.sin(angle)])
-    landed = offset if fold is None else np.array(_turned(fold, (float(offset[0]), float(offset[1]))))
-    share = way_done(points)[:, None]
-    points[:, :2] += (1.0 - share) * offset + share * landed
-    return _along(grip, points)
+    return radius_m * math.cos(angle), radius_m * math.sin(angle)
 
 
 def _turned(isometry: Isometry, vector: Point2) -> Point2:

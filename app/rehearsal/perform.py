@@ -1,20 +1,21 @@
 """Perform a plan in a world and judge each step; with feedback, look before each and correct it (paper, section 9).
 
 Before hands close the stack's outline is fitted to what is seen. Grips follow the cloth as far as the comfort radius
-goes; beyond that, the rest is planned again from what is there. A hand that finds no cloth tries again round its grip.
+goes; beyond that, the rest is planned again from what is there. A hand that finds no cloth tries again round its grip,
+and holds the cloth beside it for as long as it holds on.
 """
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
-from app.rehearsal.corrections import carry, corrected, regrasps, shift_of
+from app.rehearsal.corrections import beside, carry, corrected, regrasps, shift_of, still_beside
 from app.rehearsal.judge import Gate, StepVerdict, judged
 from app.rehearsal.result import Decision
 from app.rehearsal.step_motions import step_motions
 from app.rehearsal.world import Performed, StepMotion, World
 from app.vision.fit_stack import fit_stack
 from planner.geometry.isometry import Isometry
-from planner.geometry.pose import Pose2
+from planner.geometry.pose import Point2, Pose2
 from planner.task.plan import Plan
 from planner.task.plan_step import PlanStep
 from planner.task.task import Task
@@ -53,6 +54,7 @@ class Performer:
     _verdicts: list[StepVerdict] = field(default_factory=list)
     _decisions: list[Decision] = field(default_factory=list)
     _made: int = 0
+    _beside: dict[str, Point2] = field(default_factory=dict)
 
     def performed(self) -> Performance:
         """Perform the plan."""
@@ -76,7 +78,7 @@ class Performer:
                     motions, number, carried = step_motions(self.plan), 0, Isometry()
                     continue
             else:
-                answer = self.world.perform(corrected(motion, carried))
+                answer = self._held_on(corrected(motion, carried), step, carried)
             if motion.is_drag:  # it ends where it should, so the hands that hold on fold where they should
                 carried = Isometry()
             self._judge(motion, step, answer, carried)
@@ -95,15 +97,23 @@ class Performer:
 
     def _tried(self, motion: StepMotion, step: PlanStep, carried: Isometry) -> Performed | None:
         """Perform a step, and where hands find no cloth again round their grips; None if they never find any."""
-        answer = self.world.perform(motion)
+        answer, made = self.world.perform(motion), motion
         missing = frozenset(arm for arm, has in answer.has_cloth.items() if not has)
         radius_m, fold = self.plan.task.limits.comfort_radius_m, self._reflection(step, carried)
-        for trial in regrasps(motion, missing, radius_m, fold) if missing else ():
+        for made in regrasps(motion, missing, radius_m, fold) if missing else ():
             self._decide("regrasped", ("radius_m", radius_m))
-            answer = self.world.perform(trial)
+            answer = self.world.perform(made)
             if not answer.is_missing_cloth:
                 break
+        self._beside = still_beside(motion, made)
         return None if answer.is_missing_cloth else answer
+
+    def _held_on(self, motion: StepMotion, step: PlanStep, carried: Isometry) -> Performed:
+        """Perform a step with the hands where they hold the cloth, be that beside their grips."""
+        held = {grip.arm: self._beside[grip.arm] for grip in motion.grips if grip.arm in self._beside}
+        made = beside(motion, held, self._reflection(step, carried))
+        self._beside = still_beside(motion, made)
+        return self.world.perform(made)
 
     def _reflection(self, step: PlanStep, carried: Isometry) -> Isometry | None:
         """Return what a fold does to the cloth as it lies, table frame."""

@@ -84,6 +84,11 @@ class Region:
         return float(shapely.area(self.shape))
 
     @cached_property
+    def outline_length(self) -> float:
+        """The length of all boundaries, holes included (m)."""
+        return float(shapely.length(self.shape))
+
+    @cached_property
     def length(self) -> float:
         """The longer side of the smallest enclosing rectangle (m)."""
         ring = shapely.get_coordinates(shapely.minimum_rotated_rectangle(self.shape))

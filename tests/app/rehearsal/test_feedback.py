@@ -116,6 +116,19 @@ def test_a_fold_taken_at_another_point_lands_where_the_fold_brings_that_point():
         assert trial.grips[1] == motion.grips[1]
 
 
+def test_a_hand_that_took_the_cloth_beside_its_grip_holds_it_there_in_the_red_fold_after_it():
+    plan = make_plan(Task.of(load_garment("letter-towel")))
+    world = NotedWorld(evenly_along(plan.task.start.placement.to_outer(plan.garment.pattern.ring), 0.01), misses=1)
+    Performer(plan, world, Gate(), no_plan).performed()
+    planned = step_motions(plan)
+    _, blue, red = world.asked
+    assert [motion.kind for motion in planned] == ["fold", "fold"] and not planned[1].grips[0].closes
+    for before, after in zip(blue.grips, red.grips, strict=True):
+        assert math.dist(before.points[-1][:2], after.points[0][:2]) < 1e-3
+    offsets = [math.dist(a.points[-1], b.points[-1]) for a, b in zip(red.grips, planned[1].grips, strict=True)]
+    assert sorted(offsets) == pytest.approx([0.0, 0.03], abs=2e-3)
+
+
 def test_a_correction_carries_a_step_along_and_its_shift_is_that_of_the_furthest_grip():
     (motion,) = step_motions(towel_plan())
     carried = carry(Pose2(0.1, 0.2, 0.3), Pose2(0.1, 0.21, 0.3))

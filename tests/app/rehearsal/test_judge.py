@@ -31,7 +31,7 @@ def verdict(shift: FloatArray, seed: int) -> StepVerdict:
 def test_cloth_just_as_planned_overlaps_wholly_wherever_the_rows_of_its_mesh_lie(seed: int):
     found = verdict(np.zeros((2, 3)), seed)
     assert found.iou == pytest.approx(1.0, abs=1e-6)
-    assert (found.mean_mm, found.slid_mm) == pytest.approx((0.0, 0.0), abs=1e-6)
+    assert (found.outline_mm, found.mean_mm, found.slid_mm) == pytest.approx((0.0, 0.0, 0.0), abs=1e-6)
 
 
 def test_layers_four_centimetres_apart_are_seen_as_that_and_lost():
@@ -39,4 +39,6 @@ def test_layers_four_centimetres_apart_are_seen_as_that_and_lost():
     found = verdict(np.array([[0.0, 0.0, 0.0], [0.0, 0.04, 0.0]]), 0)
     assert found.mean_mm == pytest.approx(20.0, abs=1.0)
     assert found.iou == pytest.approx(40.0 / 44.0, abs=0.01)
+    # One of them covers 4 x 15 cm alone, along 110 cm of outline: 5.5 mm.
+    assert found.outline_mm == pytest.approx(60.0 / 11.0, abs=0.5)
     assert not found.held
