@@ -32,7 +32,8 @@ def two_at_once(articles: Sequence[str], repetitions: int) -> Report:
 def _measured(url: str, pid: int, pair: Sequence[str], repetitions: int) -> tuple[float, float]:
     """Return the CPU time of two plans in turn and at once (s), medians."""
     _in_turn(url, pair)  # the server has loaded all then
-    in_turn, at_once = [], []
+    in_turn: list[float] = []
+    at_once: list[float] = []
     for _ in range(repetitions):
         for times, way in ((in_turn, _in_turn), (at_once, _at_once)):
             before_s = family_cpu_s(family(pid))

@@ -42,6 +42,7 @@ from bench.robot_plans import LONGEST_M, robot_plans, shrunk
 from bench.served import served
 from bench.studies import Run as StudyRun
 from bench.studies import study_row
+from bench.two_at_once import two_at_once
 from bench.whole_plans import whole_plans
 from bench.yes_and_no import yes_and_no
 from planner import fold_dag, load_garment, make_plan
@@ -407,6 +408,14 @@ def test_a_crowd_edits_and_asks_for_plans(monkeypatch: pytest.MonkeyPatch, tmp_p
         assert 0 < row["edits"] <= row["edits_wanted"] + 1
         assert 0.0 < row["edit_ms"]["median"] <= row["edit_ms"]["p99"] <= row["edit_ms"]["most"]
     assert crowd(["scarf-halved"], 1).rows == ()
+
+
+@pytest.mark.slow
+def test_two_plans_at_once_are_set_beside_two_in_turn():
+    (row,) = two_at_once(["hand-towel", "vest"], 1).rows
+    assert row.data["plans"] == ["vest", "hand-towel"] or row.data["plans"] == ["hand-towel", "vest"]
+    assert row.data["in_turn_cpu_s"] > 0.0 and row.data["at_once_cpu_s"] > 0.0
+    assert two_at_once(["hand-towel"], 1).rows == ()
 
 
 def test_a_load_tells_what_was_refused_what_grew_and_what_stayed_open(

@@ -75,8 +75,7 @@ def _on_table(moment: Moment, region: Region, to_article: Isometry) -> list[dict
     """Return the part of a region of the base frame that lies on the table, article frame.
 
     Close to the base, single orientations reach in between the limits of others. This leaves a fringe of teeth along
-    the
-    table's edge, which is useless and left out.
+    the table's edge, which is useless and left out.
     """
     even = region.evened(NOTCH_M, FRINGE_M).moved(to_article)
     return [region_to_dict(part) for part in even.intersection(moment.table.region).pieces]
