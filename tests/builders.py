@@ -91,14 +91,14 @@ class WideReach:
     queries = 0
     query_time_s = 0.0
 
-    def forget(self) -> None:
-        """Drop nothing: nothing is kept."""
-
     def __init__(self, allowed: Callable[[int, FloatArray, int], bool] | None = None) -> None:
         """Set `allowed`, a function of an arm's index, a point in the base frame at standoff 0, and a standoff."""
         self._allowed = allowed or (lambda arm, point, standoff: True)
 
     def share(self) -> None:
+        pass
+
+    def forget(self) -> None:
         pass
 
     def standoffs(

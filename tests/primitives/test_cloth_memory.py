@@ -8,6 +8,7 @@ import pytest
 
 from planner import Scene
 from planner.geometry.pose import Pose2
+from planner.geometry.tolerance import grid_key
 from planner.primitives.cloth_memory import cloth_memory
 from planner.primitives.context import Context
 from planner.primitives.fold_trial import fold_trials
@@ -49,7 +50,7 @@ def test_a_context_that_forgets_leaves_what_it_found_to_the_next():
     found = first.unrest(0, (0.1, 0.0)), fold_trials(first, State(0, (0.1, 0.0), 0, 0), 0)
     first.forget()
     next_one = towel()
-    assert (0, round(0.1e6), 0) in next_one.cloth.unrest
+    assert (0, grid_key(0.1), 0) in next_one.cloth.unrest
     assert next_one.unrest(0, (0.1, 0.0)) == found[0]
     assert fold_trials(next_one, State(0, (0.1, 0.0), 0, 0), 0)[0].tools is found[1][0].tools
 
