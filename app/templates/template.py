@@ -128,7 +128,12 @@ def lying_away(outline: tuple[Point2, ...], inside_m: float = INSIDE_M, beside_m
     return Pose2(NEAR_EDGE_X_M + inside_m - min(ys), beside_m + (min(xs) + max(xs)) / 2, -math.pi / 2)
 
 
-def lying_towards(outline: tuple[Point2, ...]) -> Pose2:
-    """Return the placement with the article's y against the table's x, its highest y nearest to the robot, centred."""
+def lying_towards(outline: tuple[Point2, ...], beside_m: float = 0.0) -> Pose2:
+    """Return the placement with the article's y against the table's x, its highest y nearest to the robot.
+
+    Args:
+        outline: the pattern's corners (m).
+        beside_m: the shift of its middle to the left of the table's (m).
+    """
     xs, ys = zip(*outline, strict=True)
-    return Pose2(NEAR_EDGE_X_M + INSIDE_M + max(ys), -(min(xs) + max(xs)) / 2, math.pi / 2)
+    return Pose2(NEAR_EDGE_X_M + INSIDE_M + max(ys), beside_m - (min(xs) + max(xs)) / 2, math.pi / 2)

@@ -10,6 +10,9 @@ MEASURES = (
     Measure("hem_m", "Hem", "a leg's opening, laid flat", 0.102, ("waist_m",)),
 )
 
+BESIDE_M = 0.1
+"""How far to the right of the table's middle trousers lie: leg on leg is in reach there without a drag (m)."""
+
 
 def cut(given: Measures) -> Cut:
     """Return the pattern and its folds: the left leg onto the right, then the hems onto the waist."""
@@ -32,7 +35,7 @@ def cut(given: Measures) -> Cut:
         fold("leg on leg", (middle, inseam), (middle, length)),
         fold("hem onto waist", (waist, height), (inner, height)),
     )
-    return Cut(outline, folds, lying_towards(outline))
+    return Cut(outline, folds, lying_towards(outline, -BESIDE_M))
 
 
 TEMPLATE = Template("trousers", "Trousers", "Two legs; leg on leg, then hem onto waist.", 0.4, MEASURES, cut)
