@@ -13,7 +13,9 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from bench.photo_look import Look
+from app.camera.develop import coded, developed
+from app.camera.look import Look
+from app.camera.texture import stretched, wood
 
 FloatArray = NDArray[np.float64]
 Image = NDArray[np.uint8]
@@ -74,7 +76,7 @@ def photo(
         marker: where an ArUco marker lies (m, m, rad) and its side (m); None for none.
     """
     rng = np.random.default_rng(seed)
-    plane = _table(look, rng)
+    plane = wood(look, int(SIDE_M / PIXEL_M), rng)
     for level, ring in enumerate(layers):
         _lay_cloth(plane, _wobbled(ring, look.wobble_m, rng), look, level, rng)
     if sheet is not None:
@@ -91,25 +93,8 @@ def photo(
     taken = np.asarray(painted, np.float32)
     if look.has_arm:
         _reach_in(taken, rng)
-    return _developed(taken, look, to_pixels, rng)
-
-
-def _table(look: Look, rng: np.random.Generator) -> NDArray[np.float32]:
-    side = int(SIDE_M / PIXEL_M)
-    grain = _stretched(rng, side, (20, 2), 2.0)
-    knots = _stretched(rng, side, (20, 20), 1.3)
-    shade = 22 * look.wood * (grain / grain.std() + 0.6 * knots / knots.std())
-    tint = np.array([0.7, 0.9, 1.0], np.float32)
-    return np.asarray(np.asarray(look.table, np.float32) + shade[:, :, None] * tint, np.float32)
-
-
-def _stretched(rng: np.random.Generator, side: int, times: tuple[int, int], blur: float) -> NDArray[np.float32]:
-    """Return noise of so many pixels, blurred and then stretched across and down."""
-    across, down = times
-    noise = rng.standard_normal((side // down + 1, side // across + 1), dtype=np.float32)
-    if blur:
-        noise = np.asarray(cv2.GaussianBlur(noise, (0, 0), blur), np.float32)
-    return np.asarray(cv2.resize(noise, (side, side), interpolation=cv2.INTER_CUBIC), np.float32)
+    data = coded(developed(taken, look, rng), look.quality)
+    return Photo(np.asarray(cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_COLOR), np.uint8), to_pixels, data)
 
 
 def _covered(ring: FloatArray) -> NDArray[np.float32]:
@@ -140,8 +125,8 @@ def _lay_cloth(plane: NDArray[np.float32], ring: FloatArray, look: Look, level: 
         if look.pattern == "checks":
             waves ^= np.sin(columns * 2 * math.pi / 0.05) > 0.3
         colour[waves] = np.clip(255 - colour[waves] * 0.7, 15, 240)
-    folds = _stretched(rng, plane.shape[0], (10, 20), 1.5)
-    weave = _stretched(rng, plane.shape[0], (1, 1), 0.0)
+    folds = stretched(rng, plane.shape[0], (10, 20), 1.5)
+    weave = stretched(rng, plane.shape[0], (1, 1), 0.0)
     shade = look.wrinkles * 18 * folds / folds.std() + 3 * weave - 3 * level
     plane += mask[:, :, None] * (colour + shade[:, :, None] - plane)
 
@@ -192,16 +177,6 @@ def _reach_in(taken: NDArray[np.float32], rng: np.random.Generator) -> None:
     grey = float(rng.uniform(60, 200))
     cv2.line(taken, _pixel(tip), _pixel(root), (grey, grey, grey * 0.98), 70, cv2.LINE_AA)
     cv2.circle(taken, _pixel(tip), 42, (40.0, 40.0, 42.0), -1, cv2.LINE_AA)
-
-
-def _developed(taken: NDArray[np.float32], look: Look, to_pixels: FloatArray, rng: np.random.Generator) -> Photo:
-    height, width = taken.shape[:2]
-    across, down = np.meshgrid(np.linspace(-1, 1, width), np.linspace(-1, 1, height))
-    light = 1.0 + rng.uniform(-0.12, 0.12) * across + rng.uniform(-0.12, 0.12) * down - 0.06 * (across**2 + down**2)
-    lit = cv2.GaussianBlur(taken * light[:, :, None].astype(np.float32), (0, 0), 0.9)
-    grainy = np.clip(lit + look.noise * rng.standard_normal(taken.shape, dtype=np.float32), 0, 255).astype(np.uint8)
-    _, coded = cv2.imencode(".jpg", grainy, [cv2.IMWRITE_JPEG_QUALITY, look.quality])
-    return Photo(np.asarray(cv2.imdecode(coded, cv2.IMREAD_COLOR), np.uint8), to_pixels, coded.tobytes())
 
 
 def _wobbled(ring: FloatArray, wobble_m: float, rng: np.random.Generator) -> FloatArray:

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 from shapely import Point
 
+from app.camera.look import random_look
 from app.vision.fit_stack import fit_stack
 from app.vision.on_table import outline_on_table
 from app.vision.picture import read_picture
@@ -22,7 +23,6 @@ from app.vision.scale_said import SheetSaid
 from app.vision.seen_garment import drawn
 from app.vision.stack_fit import LOOKS_ALIKE
 from app.vision.vision_errors import NothingToldError
-from bench.photo_look import random_look
 from bench.report import Report, Row, seconds
 from bench.table_photo import Photo, photo
 from planner import load_garment

@@ -53,7 +53,7 @@ LIBRARY_HOMES: Mapping[str, tuple[str, ...]] = {
     "ruamel": ("app.files",),
     "toppra": ("planner.motion",),
     "ezdxf": ("app.files",),
-    "cv2": ("app.vision",),
+    "cv2": ("app.camera", "app.vision"),
     "filelock": ("app.store",),
     "sqlalchemy": ("app.store",),
     "alembic": ("app.store",),

@@ -13,14 +13,9 @@ from app.rehearsal.planned_cloth import planned_positions
 from app.rehearsal.world import GripMotion, Observation, Performed, StepMotion, Truth
 from planner.folds.fold_sequence import replayed
 from planner.geometry.pose import Pose2
-from planner.geometry.region import Region
-from planner.geometry.ring import evenly_along
 from planner.geometry.table_top import TableTop
 from planner.geometry.woven_mesh import woven_mesh
 from planner.task.task import Task
-
-_OUTLINE_M = 0.01
-"""The distance between points of an outline that is seen (m)."""
 
 _REST_M_S = 0.005
 """The speed below which no point of cloth at rest moves (m/s)."""
@@ -79,10 +74,8 @@ class PhysicsWorld:
             self._settle()
 
     def observe(self) -> Observation:
-        """Return the outline as it is; this world has no camera."""
-        corners = self.simulation.positions[self.simulation.triangles][..., :2]
-        ring = Region.union(Region.polygon(one) for one in corners).ring
-        return Observation(outline=evenly_along(ring, _OUTLINE_M))
+        """Return nothing: this world has no camera (see `app.rehearsal.camera_world`)."""
+        return Observation()
 
     def perform(self, motion: StepMotion) -> Performed:
         """Close the fingers, move them along their paths, open them, and let the cloth come to rest."""

@@ -20,7 +20,7 @@ class Noise:
         miss: the probability that fingers close beside cloth that is there.
         placement_m: where the article lies at the start (m).
         placement_rad: how it is turned at the start (rad).
-        camera_m: a point of the outline as the camera sees it (m).
+        camera_m: how far the camera is from where it is believed to be, each axis in the plane, all run long (m).
         friction: the relative error of the friction coefficient.
     """
 
@@ -52,7 +52,7 @@ NOISE = {
         # Placement: laid by hand along a mark.
         placement_m=0.01,
         placement_rad=0.02,
-        # Camera: about two pixels at one metre and VGA, assumed.
+        # Camera: its calibration, assumed; a pixel of the default camera over the default table is 2.75 mm.
         camera_m=0.003,
         # Friction: assumed for fabrics on one surface.
         friction=0.15,

@@ -1,9 +1,11 @@
 """A world with errors of robot and camera: motions end a little elsewhere, or fail."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
 
+from app.camera.posture import Posture
 from app.rehearsal.corrections import carry
 from app.rehearsal.noise import Noise
 from app.rehearsal.world import GripMotion, Observation, Performed, StepMotion, Truth, World
@@ -14,28 +16,29 @@ from planner.geometry.pose import Pose2
 class NoisyWorld:
     """Another world, seen and acted on with errors.
 
-    The robot believes that its base is where it should be. What it sees is seen from its base, so a correction by what
-    is seen takes off the base's error too.
+    The robot believes that its base is where it should be. What it sees it places in the frame of its base (an overhead
+    camera sees the base too), so a correction by what is seen takes off the base's error.
     """
 
     def __init__(self, world: World, noise: Noise, seed: int, base: Pose2) -> None:
         """Take a world, the noise, its seed, and where the base stands at first."""
         self._world, self._noise = world, noise
         self._rng = np.random.default_rng(seed)
+        self._calibrated = Isometry.rotation(0.0, *self._rng.normal(0.0, noise.camera_m, 2).tolist())
         self._error = self._driven(base)
 
     def observe(self) -> Observation:
-        """Return the outline as seen from where the robot believes to be."""
-        seen = self._world.observe()
-        if seen.outline is None:
-            return seen
-        points = self._error.inverse.apply(seen.outline)
-        return replace(seen, outline=points + self._rng.normal(0.0, self._noise.camera_m, points.shape))
+        """Return what is seen, with camera and outline as seen from where the robot believes to be."""
+        seen, believed = self._world.observe(), self._calibrated.after(self._error.inverse)
+        camera = None if seen.camera is None else seen.camera.carried(believed)
+        outline = None if seen.outline is None else believed.apply(seen.outline)
+        return replace(seen, camera=camera, outline=outline)
 
     def perform(self, motion: StepMotion) -> Performed:
         """Perform a step from where the base really is; a hand may close beside its grip, and a drag stop short."""
         if motion.base is not None:
             self._error = self._driven(motion.base)
+        motion = replace(motion, ends=self._really(motion.ends))
         missed = {grip.arm for grip in motion.grips if grip.closes and self._rng.random() < self._noise.miss}
         if missed and motion.needs_all:
             return Performed({grip.arm: grip.arm not in missed for grip in motion.grips})
@@ -54,6 +57,13 @@ class NoisyWorld:
         return carry(
             base, Pose2(base.x_m + x, base.y_m + y, base.yaw_rad + self._rng.normal(0.0, self._noise.base_rad))
         )
+
+    def _really(self, ends: Posture | None) -> Posture | None:
+        """Return how the robot stands where it believes to stand so."""
+        if ends is None:
+            return None
+        x, y = self._error.apply_point((ends.base.x_m, ends.base.y_m))
+        return replace(ends, base=Pose2(x, y, ends.base.yaw_rad + math.atan2(self._error.c, self._error.a)))
 
     def _off(self, grip: GripMotion, short: float) -> GripMotion:
         points = np.array(grip.points)

@@ -2,18 +2,22 @@
 
 Before hands close the stack's outline is fitted to what is seen. Grips follow the cloth as far as the comfort radius
 goes; beyond that, the rest is planned again from what is there. A hand that finds no cloth tries again round its grip,
-and holds the cloth beside it for as long as it holds on.
+and holds the cloth beside it for as long as it holds on. Where it is not known where the stack lies, the arms withdraw
+for another look; where that does not help, one step is made as planned, and a run that stays blind ends.
 """
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
+from app.camera.posture import Posture
 from app.rehearsal.corrections import beside, carry, corrected, regrasps, shift_of, still_beside
+from app.rehearsal.eyes import Eyes, Picture, kept
 from app.rehearsal.judge import Gate, StepVerdict, judged
 from app.rehearsal.result import Decision
-from app.rehearsal.step_motions import step_motions
-from app.rehearsal.world import Performed, StepMotion, World
-from app.vision.fit_stack import fit_stack
+from app.rehearsal.step_motions import posture_at, step_motions
+from app.rehearsal.world import WITHDRAW, Performed, StepMotion, World
+from app.vision.look_at_stack import Sight
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Point2, Pose2
 from planner.task.plan import Plan
@@ -25,13 +29,20 @@ FAILURES_MAX = 3
 """Times that the rest is planned again before a run is given up."""
 
 
+BLIND_MAX = 1
+"""Steps in a row that are made as planned though it is not known where the cloth lies."""
+
+_WITHDRAW_S = 3.0
+
+
 @dataclass(frozen=True, slots=True)
 class Performance:
-    """The outcome of a plan: verdicts, decisions of the feedback, and the reason of an early end ("" if none)."""
+    """The outcome of a plan: verdicts, decisions of the feedback, the reason of an early end ("" if none), pictures."""
 
     steps: tuple[StepVerdict, ...]
     decisions: tuple[Decision, ...] = ()
     reason: str = ""
+    pictures: tuple[Picture, ...] = ()
 
 
 @dataclass
@@ -53,18 +64,24 @@ class Performer:
     progress: Callable[[float], None] = lambda _: None
     _verdicts: list[StepVerdict] = field(default_factory=list)
     _decisions: list[Decision] = field(default_factory=list)
+    _pictures: list[Picture] = field(default_factory=list)
     _made: int = 0
     _beside: dict[str, Point2] = field(default_factory=dict)
+    _blind: int = 0
+    _posture: Posture | None = None
 
     def performed(self) -> Performance:
         """Perform the plan."""
         motions, number = step_motions(self.plan), 0
+        self._posture = self._begins()
         carried = Isometry()
         while number < len(motions):
             step, motion = self.plan.steps[number], motions[number]
             is_free = all(grip.closes for grip in motion.grips)
             if self.replan is not None and motion.grips and is_free:
-                lies = self._seen(step)
+                lies, blind = self._seen(step)
+                if blind:
+                    return self._ended(blind)
                 carried = carry(step.before.placement, lies)
                 shift_m = shift_of(motion, carried)
                 answer = None
@@ -74,26 +91,69 @@ class Performer:
                 if answer is None:
                     reason = self._planned_again(step, lies, shift_m)
                     if reason:
-                        return Performance(tuple(self._verdicts), tuple(self._decisions), reason)
+                        return self._ended(reason)
                     motions, number, carried = step_motions(self.plan), 0, Isometry()
+                    self._posture = self._begins()
                     continue
             else:
                 answer = self._held_on(corrected(motion, carried), step, carried)
             if motion.is_drag:  # it ends where it should, so the hands that hold on fold where they should
                 carried = Isometry()
             self._judge(motion, step, answer, carried)
+            self._posture = motion.ends
             number += 1
             self._made += 1
             self.progress(number / len(motions))
-        return Performance(tuple(self._verdicts), tuple(self._decisions))
+        return self._ended("")
 
-    def _seen(self, step: PlanStep) -> Pose2:
-        """Return where the stack lies as seen; where nothing is known, where it should lie."""
-        outline = self.world.observe().outline
-        if outline is None:
-            return step.before.placement
-        fit = fit_stack(outline, self.plan.sequence.cloth(step.before.done), step.before.placement)
-        return fit.placement if fit.is_known or fit.others else step.before.placement
+    def _ended(self, reason: str) -> Performance:
+        return Performance(tuple(self._verdicts), tuple(self._decisions), reason, tuple(self._pictures))
+
+    def _begins(self) -> Posture | None:
+        path = self.plan.trajectory
+        return None if path is None else posture_at(path, 0.0)
+
+    @cached_property
+    def _eyes(self) -> Eyes:
+        return Eyes(self.plan.task)
+
+    def _seen(self, step: PlanStep) -> tuple[Pose2, str]:
+        """Return where the stack lies as seen, and why the run must end, "" if it need not.
+
+        Where it is not known where it lies, that is where it should lie.
+        """
+        sight = self._sight(step, is_clear=False)
+        if sight is None:
+            return step.before.placement, ""
+        if sight.unknown is not None and self._posture is not None:
+            away = self._eyes.withdrawn(self._posture)
+            self.world.perform(StepMotion(self._made, WITHDRAW, _WITHDRAW_S, ends=away))
+            self._posture = away
+            sight = self._sight(step, is_clear=True) or sight
+        if sight.fit is not None and sight.unknown is None:
+            self._blind = 0
+            return sight.fit.placement, ""
+        self._blind += 1
+        self._decide("kept_blindly")
+        if self._blind <= BLIND_MAX or sight.unknown is None:
+            return step.before.placement, ""
+        return step.before.placement, f"before step {self._made} the cloth is not to be made out: {sight.unknown.text}"
+
+    def _sight(self, step: PlanStep, *, is_clear: bool) -> Sight | None:
+        """Look once, and note what was seen."""
+        seen, posture = self.world.observe(), self._posture
+        if posture is None:
+            return None
+        stack, near = self.plan.sequence.cloth(step.before.done), step.before.placement
+        sight = self._eyes.sight(seen, stack, near, posture)
+        if sight is None:
+            return None
+        fit = sight.fit
+        numbers = () if fit is None else (("error_m", fit.error_m), ("share_on_outline", fit.share_on_outline))
+        self._decide("seen" if sight.unknown is None else "not_known", *numbers)
+        picture = kept(self._made, seen, sight, is_clear=is_clear)
+        self._pictures += [] if picture is None else [picture]
+        return sight
 
     def _tried(self, motion: StepMotion, step: PlanStep, carried: Isometry) -> Performed | None:
         """Perform a step, and where hands find no cloth again round their grips; None if they never find any."""

@@ -118,8 +118,10 @@ def one_run(
     """Perform a plan once."""
     # Here: they need MuJoCo and the whole planner, which a server that only passes rehearsals on does not load.
     from app.physics.physics_world import PhysicsWorld
+    from app.rehearsal.camera_world import CameraWorld
     from app.rehearsal.noisy_world import NoisyWorld
     from app.rehearsal.perform import Performance, Performer
+    from app.rehearsal.step_motions import posture_at
     from planner.plans import make_plan
 
     def tick() -> None:
@@ -134,13 +136,17 @@ def one_run(
     friction = plan.scene.friction * max(0.0, 1.0 + noise.friction * slip)
     fabric = Fabric(density_kg_m2=plan.garment.areal_density_kg_m2, friction=friction)
     world = PhysicsWorld(plan.task, fabric, options.resolution, seed, placement, tick)
-    seen = world if noise == Noise() else NoisyWorld(world, noise, seed, start.base.pose)
+    assert plan.trajectory is not None
+    camera = CameraWorld(world, plan.task, posture_at(plan.trajectory, 0.0), seed)
+    seen = camera if noise == Noise() else NoisyWorld(camera, noise, seed, start.base.pose)
     performer = Performer(plan, seen, options.gate, make_plan if options.feedback else None, progress)
     try:
         found = performer.performed()
     except FloatingPointError as error:
         found = Performance((), (), str(error))
-    return Run(seed, found.steps, found.decisions, found.reason, world.elapsed_s, process_time() - began)
+    return Run(
+        seed, found.steps, found.decisions, found.reason, world.elapsed_s, process_time() - began, found.pictures
+    )
 
 
 def _share(progress: Callable[[float], None], before: int, runs: int) -> Callable[[float], None]:

@@ -5,6 +5,7 @@ from typing import Any
 
 from scipy.special import betaincinv
 
+from app.rehearsal.eyes import Picture
 from app.rehearsal.judge import StepVerdict
 
 _CONFIDENCE = 0.95
@@ -16,7 +17,7 @@ class Decision:
 
     Attributes:
         step: how many steps had been made.
-        code: "corrected", "regrasped" or "replanned".
+        code: "seen", "not_known", "kept_blindly", "corrected", "regrasped" or "replanned".
         numbers: what it rests on, by name, in SI units.
     """
 
@@ -40,6 +41,7 @@ class Run:
         reason: why it ended early; "" if it did not.
         simulated_s: the time that passed in the world (s).
         cpu_s: the processor time that it took (s).
+        pictures: what was looked at, in order; not in the JSON, since they are large.
     """
 
     seed: int
@@ -48,6 +50,7 @@ class Run:
     reason: str = ""
     simulated_s: float = 0.0
     cpu_s: float = 0.0
+    pictures: tuple[Picture, ...] = ()
 
     @property
     def held(self) -> bool:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from app.camera.posture import Posture
 from app.rehearsal.world import GripMotion, StepMotion
 from planner.errors import UnsolvedPlanError
 from planner.geometry.pose import Point3, Pose2
@@ -32,9 +33,16 @@ def step_motions(plan: Plan) -> tuple[StepMotion, ...]:
             GripMotion(arm, path.times_s, path.points, arm not in held, arm not in after, path.turned_rad)
             for arm, path in closed[number].items()
         )
-        found.append(StepMotion(number, step.kind, step.duration_s, grips, base=_driven(step)))
+        last = path.of_step(number)[-1]
+        ends = posture_at(path, last.start_s + last.duration_s)
+        found.append(StepMotion(number, step.kind, step.duration_s, grips, base=_driven(step), ends=ends))
         held = set(closed[number]) & after
     return tuple(found)
+
+
+def posture_at(path: Trajectory, t_s: float) -> Posture:
+    """Return where the robot stands at a time of the plan (s), and how."""
+    return Posture(path.segment_at(t_s).base_at(t_s), path.joints_at(t_s))
 
 
 def _driven(step: PlanStep) -> Pose2 | None:

@@ -7,6 +7,8 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from app.camera.camera import Camera
+from app.camera.posture import Posture
 from planner.geometry.pose import FloatArray, Point3, Pose2
 
 
@@ -45,18 +47,23 @@ def way_done(points: FloatArray) -> FloatArray:
     return np.asarray(lengths / max(float(lengths[-1]), 1e-9))
 
 
+WITHDRAW = "withdraw"
+"""The kind of a motion in which no hand holds cloth and the arms only get out of the camera's way."""
+
+
 @dataclass(frozen=True, slots=True)
 class StepMotion:
     """The motions of all hands that hold cloth in one step of a plan.
 
     Attributes:
         step: the index of the plan's step.
-        kind: the primitive's name: "fold", "drag", "arm_drag" or "move".
+        kind: the primitive's name: "fold", "drag", "arm_drag" or "move"; `WITHDRAW` where the arms go home for a look.
         duration_s: the step's duration (s).
         grips: the hands that hold cloth in it.
         needs_all: whether it ends at once, hands open and nothing moved, where one of them finds no cloth; if not, the
             others go on.
         base: where the base stands after it has driven in the step; None if it does not drive to another station.
+        ends: where the robot stands after the step, and how; None where nobody has said.
     """
 
     step: int
@@ -65,6 +72,7 @@ class StepMotion:
     grips: tuple[GripMotion, ...] = ()
     needs_all: bool = False
     base: Pose2 | None = None
+    ends: Posture | None = None
 
     @property
     def is_drag(self) -> bool:
@@ -94,32 +102,15 @@ class Performed:
         return not all(self.has_cloth.values())
 
 
-@dataclass(frozen=True, slots=True)
-class Camera:
-    """A pinhole camera.
-
-    Attributes:
-        position: the lens, table frame (m).
-        rotation: its axes as columns in the table frame, x right, y down, z ahead; row by row.
-        focal_px: the focal length (pixels).
-        size_px: the image's width and height (pixels).
-    """
-
-    position: Point3
-    rotation: tuple[Point3, Point3, Point3]
-    focal_px: float
-    size_px: tuple[int, int]
-
-
 @dataclass(frozen=True, slots=True, eq=False)
 class Observation:
     """The sensor data of one moment.
 
     Attributes:
         image: red, green and blue, shape (height, width, 3); None where the world has no camera.
-        camera: the camera that took the image.
-        outline: points on the cloth's outline seen from above, table frame, shape (n, 2), m; None where only an image
-            tells.
+        camera: the camera that took the image, where the robot believes it to be.
+        outline: points on the cloth's outline seen from above, table frame, shape (n, 2), m, of a world that finds the
+            cloth in its pictures itself; None where only an image tells.
     """
 
     image: NDArray[np.uint8] | None = None

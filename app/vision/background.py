@@ -33,15 +33,16 @@ def border_of(shape: tuple[int, ...]) -> BoolArray:
     return border
 
 
-def unlikeness(image: Image, outside: BoolArray) -> FloatImage:
+def unlikeness(image: Image, outside: BoolArray, table: BoolArray) -> FloatImage:
     """Return how many spreads each pixel is from the nearest colour of the table, shape of the picture.
 
     Args:
         image: blue, green, red.
-        outside: which pixels are known not to be cloth, besides those at the border: a sheet of paper.
+        outside: which pixels are known not to be cloth: a sheet of paper.
+        table: which pixels show the table for all that is known: those at the border.
     """
     features = _features(image)
-    border = border_of(image.shape) & ~outside
+    border = table & ~outside
     even = features - _surface(features, border)
     centres, spreads = _border_colours(even[border])
     nearest = np.full(image.shape[:2], np.inf, np.float32)

@@ -53,12 +53,13 @@ class Segmented:
     at_border: float
 
 
-def segment(image: Image, outside: BoolArray | None = None) -> Segmented:
+def segment(image: Image, outside: BoolArray | None = None, table: BoolArray | None = None) -> Segmented:
     """Return the outline of the largest piece of cloth.
 
     Args:
         image: blue, green, red.
         outside: which pixels are known not to be cloth; None for none.
+        table: which pixels show the table for all that is known; None for those at the picture's border.
 
     Raises:
         NothingToldError: nothing stands out from the table.
@@ -67,9 +68,12 @@ def segment(image: Image, outside: BoolArray | None = None) -> Segmented:
     small = np.asarray(cv2.resize(image, None, fx=share, fy=share, interpolation=cv2.INTER_AREA), np.uint8)
     other = np.zeros(image.shape[:2], bool) if outside is None else outside
     away = cv2.resize(other.astype(np.uint8), small.shape[1::-1], interpolation=cv2.INTER_NEAREST) > 0
-    stands_out = _by_threshold(small, away)
+    empty = border_of(small.shape)
+    if table is not None:
+        empty = cv2.resize(table.astype(np.uint8), small.shape[1::-1], interpolation=cv2.INTER_NEAREST) > 0
+    stands_out = _by_threshold(small, away, empty)
     first = _largest(stands_out, 90)
-    second = _by_grab_cut(small, away, first, stands_out)
+    second = _by_grab_cut(small, away | (empty & (first == 0)), first, stands_out)
     both = _overlap(first, second)
     found = second if _is_possible(second) else first
     if not _is_possible(found):
@@ -82,9 +86,9 @@ def segment(image: Image, outside: BoolArray | None = None) -> Segmented:
     return Segmented(line, both, contrast, float(at.mean()))
 
 
-def _by_threshold(image: Image, outside: BoolArray) -> Mask:
-    """Return where the picture is unlike its border."""
-    unlike = unlikeness(image, outside)
+def _by_threshold(image: Image, outside: BoolArray, table: BoolArray) -> Mask:
+    """Return where the picture is unlike the table."""
+    unlike = unlikeness(image, outside, table)
     unlike[outside] = 0.0
     capped = np.asarray(np.minimum(unlike * 12.0, 255.0), np.uint8)
     level, _ = cv2.threshold(capped, 0, 255, cv2.THRESH_BINARY + cv2.THRESH_OTSU)
@@ -105,8 +109,7 @@ def _by_grab_cut(image: Image, outside: BoolArray, first: Mask, stands_out: Mask
     labels[cv2.dilate(first, disc) > 0] = cv2.GC_PR_BGD
     labels[first > 0] = cv2.GC_PR_FGD
     labels[(inner > 0) & (stands_out > 0)] = cv2.GC_FGD
-    thin = border_of(image.shape)
-    labels[(thin & (first == 0)) | outside] = cv2.GC_BGD
+    labels[outside] = cv2.GC_BGD
     if not (labels == cv2.GC_FGD).any():
         labels[first > 0] = cv2.GC_FGD
     lab = np.asarray(cv2.cvtColor(cv2.GaussianBlur(image, (0, 0), 0.8), cv2.COLOR_BGR2Lab), np.uint8)

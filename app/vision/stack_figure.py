@@ -25,6 +25,7 @@ ANGLES = 24
 _COARSE_POINTS, _COARSE_M, _FINE_M = 80, 0.03, 0.005
 _FITTED_COARSELY, _FITTED_FINELY = 24, 6
 _SLID_M = (-0.06, -0.03, 0.03, 0.06)
+_TURNED_RAD = (0.0, -0.15, 0.15)
 _CAPPED_M, _FAR_M = 0.03, 0.1
 
 LEAST_SHARE = 0.6
@@ -137,6 +138,15 @@ class Figure:
         ranked = self._distinct([Fitted(row, self.misfit(row, coarse)) for row in rough])[:_FITTED_FINELY]
         fine = self.finely([one.row for one in ranked], seen)
         return self._distinct([*fine, *self.finely(self._slid(fine[0].row), seen)])
+
+    def near_by(self, seen: FloatArray, near: Pose2) -> list[Fitted]:
+        """Return the placements that the fit ends at from one that is nearly right, the best first."""
+        coarse = seen[:: max(1, len(seen) // _COARSE_POINTS)]
+        start = self.fit_at(near).row
+        turns = [start + turn * np.array([0.0, 0.0, 1.0]) for turn in _TURNED_RAD]
+        rough = [self.fitted(row, coarse, _COARSE_M, 12) for row in turns]
+        best = min(rough, key=lambda row: self.misfit(row, coarse))
+        return self.finely([*rough, *self._slid(best)], seen)
 
     def finely(self, rows: list[FloatArray], seen: FloatArray) -> list[Fitted]:
         """Return the placements that the fine fit ends at, the best first."""

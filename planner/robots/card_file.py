@@ -17,7 +17,7 @@ from planner.errors import RobotError
 from planner.geometry.given import GivenPose, NamedNumbers, NamedPoses
 from planner.geometry.table import Table
 from planner.json_form import STRICT, JsonForm, require_intervals
-from planner.robots.card_parts import Attachment, GripperFile, Length, Mount, Rate, ToolFile, UrdfFile
+from planner.robots.card_parts import Attachment, CameraFile, GripperFile, Length, Mount, Rate, ToolFile, UrdfFile
 
 VERSION = 1
 
@@ -125,6 +125,7 @@ class CardFile:
         base: its base.
         lift: the joint that raises the arms straight up; None without one.
         resting: where all other joints rest (rad, m).
+        camera: what looks at the cloth; None: one over the table.
         scene: the scene that suits it.
     """
 
@@ -141,6 +142,7 @@ class CardFile:
     tools: tuple[Attachment, ...] = ()
     lift: str | None = None
     resting: NamedNumbers = ()
+    camera: CameraFile | None = None
 
     def __post_init__(self) -> None:
         """Refuse a newer version, names that are used twice, and a fixed base with several stations."""

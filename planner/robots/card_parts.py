@@ -179,3 +179,30 @@ class ToolFile:
     def __post_init__(self) -> None:
         if max(map(abs, self.offset_m)) > TOOL_MAX_M:
             raise RobotError("offset_m", f"{list(self.offset_m)} is more than {TOOL_MAX_M:g} m away")
+
+
+@dataclass(frozen=True, slots=True)
+class CameraFile:
+    """A camera: its picture, and its pose in the frame of a link or of the table; z ahead, x right, y down.
+
+    Attributes:
+        x_m, y_m, z_m: the position of its lens.
+        roll_rad, pitch_rad, yaw_rad: the rotation, as in a URDF.
+        width_px, height_px: the size of its picture.
+        field_of_view_rad: the angle between the left and the right edge of the picture.
+        link: the link that carries it; None: it hangs over the table, and the pose is in the table's frame.
+    """
+
+    x_m: _Place = 0.0
+    y_m: _Place = 0.0
+    z_m: _Place = 0.0
+    roll_rad: _Angle = 0.0
+    pitch_rad: _Angle = 0.0
+    yaw_rad: _Angle = 0.0
+    width_px: Annotated[int, Interval(ge=160, le=1920)] = 640
+    height_px: Annotated[int, Interval(ge=120, le=1440)] = 480
+    field_of_view_rad: Annotated[float, Interval(ge=0.1, le=2.6)] = 1.0
+    link: str | None = None
+
+    def __post_init__(self) -> None:
+        require_intervals(self, RobotError)

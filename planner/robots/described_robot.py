@@ -86,6 +86,8 @@ class DescribedRobot:
                 arms.append(_arm(model, card, arm))
             except FieldError as error:
                 raise RobotError(f"arms[{number}].{error.field}", error.says or error.message) from None
+        if card.camera is not None and card.camera.link is not None and not model.existFrame(card.camera.link):
+            raise RobotError("camera.link", f"{card.camera.link!r} is no link of the URDF")
         limits = lift_limits(model, card)
         check_joints(model, card, mimicking(parsed(urdf.encode())))
         if not limits[0] <= card.scene.torso_m <= limits[1]:

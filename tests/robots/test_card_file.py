@@ -1,6 +1,7 @@
 """A robot's card as JSON, and the cards that are shipped."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -9,8 +10,9 @@ import yourdfpy
 
 from planner.errors import RobotError
 from planner.robots.card_file import CardFile
+from planner.robots.card_parts import CameraFile
 from planner.robots.chain import tool_poses
-from planner.robots.described_robot import read_robot, shipped_robots
+from planner.robots.described_robot import DescribedRobot, read_robot, shipped_card, shipped_robots
 from planner.robots.load_robot import load_robot
 
 SHIPPED = ("baxter", "panda-pair", "pr2", "so101-pair", "tiago-pro", "ur5e-pair", "ur5e-single")
@@ -191,3 +193,9 @@ def _written(folder: Path, data: dict) -> Path:
     path = folder / "card.json"
     path.write_text(json.dumps(data))
     return path
+
+
+def test_a_camera_on_a_link_that_is_not_there_is_refused_by_its_field():
+    with pytest.raises(RobotError) as refused:
+        DescribedRobot.of(replace(shipped_card("ur5e-pair"), camera=CameraFile(link="nowhere")), Path())
+    assert refused.value.field == "camera.link"

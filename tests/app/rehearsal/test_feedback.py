@@ -53,7 +53,7 @@ def test_grips_follow_cloth_that_lies_two_centimetres_away():
     world = NotedWorld(outline_at(0.012, -0.016))
     done = Performer(towel_plan(), world, Gate(), no_plan).performed()
     (asked,), (planned,) = world.asked, step_motions(towel_plan())
-    assert [decision.code for decision in done.decisions] == ["corrected"]
+    assert [decision.code for decision in done.decisions] == ["seen", "corrected"]
     for grip, former in zip(asked.grips, planned.grips, strict=True):
         for now, then in zip(grip.points, former.points, strict=True):
             assert np.subtract(now, then) == pytest.approx([0.012, -0.016, 0.0], abs=1e-3)
@@ -78,7 +78,7 @@ def test_a_fold_by_hands_that_hold_on_from_a_drag_is_not_carried_along_again():
 def test_a_hand_that_misses_tries_again_within_the_comfort_radius():
     world = NotedWorld(outline_at(0.0, 0.0), misses=2)
     done = Performer(towel_plan(), world, Gate(), no_plan).performed()
-    assert [decision.code for decision in done.decisions] == ["corrected", "regrasped", "regrasped"]
+    assert [decision.code for decision in done.decisions] == ["seen", "corrected", "regrasped", "regrasped"]
     first, *others = world.asked
     assert not done.reason
     for other in others:

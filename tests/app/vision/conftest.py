@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from bench.photo_look import Look
+from app.camera.look import Look
 from bench.table_photo import Photo, photo
 from planner import load_garment
 from planner.geometry.pose import Pose2

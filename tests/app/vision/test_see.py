@@ -5,6 +5,7 @@ import httpx
 import numpy as np
 import pytest
 
+from app.camera.look import Look
 from app.templates.catalogue import find_template
 from app.vision.like import Like, liken
 from app.vision.outline_edges import OutlineEdges
@@ -13,7 +14,6 @@ from app.vision.scale_said import LengthSaid, MarkerSaid, SheetSaid, read_scale
 from app.vision.seen_garment import Seen, see
 from app.vision.straighten import straighten
 from app.vision.vision_errors import NothingToldError, PictureError, ScaleNeededError
-from bench.photo_look import Look
 from bench.table_photo import Photo, photo
 from planner import load_garment
 from planner.geometry.pose import FloatArray, Pose2

@@ -22,6 +22,7 @@ class Look:
         quality: of the JPEG.
         has_arm: whether an arm reaches into the picture.
         wobble_m: how far the cloth's edge deviates from straight (m).
+        back: the colour of the cloth's back; None: that of its front.
     """
 
     table: tuple[float, float, float]
@@ -36,6 +37,11 @@ class Look:
     quality: int = 85
     has_arm: bool = False
     wobble_m: float = 0.0015
+    back: tuple[float, float, float] | None = None
+
+
+PLAIN = Look((124.0, 143.0, 163.0), (210.0, 230.0, 240.0), noise=3.0, back=(214.0, 195.0, 180.0))
+"""A wooden table, and cloth that is lighter on both sides."""
 
 
 def random_look(rng: np.random.Generator, *, has_arm: bool = False) -> Look:

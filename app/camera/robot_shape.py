@@ -1,0 +1,85 @@
+"""The shape of a robot for its camera: the hull of each part of its links."""
+
+from functools import lru_cache
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from app.camera.camera import Camera
+from app.camera.posture import Posture
+from app.ui.robot_model import Link, Pose3, load_robot_model
+from app.ui.rotation import to_matrix, yaw
+from planner.geometry.pose import BoolArray, FloatArray
+from planner.robots.card import RobotCard
+
+_POINTS = 400
+"""Vertices of a part that its hull is made of at most."""
+
+
+class RobotShape:
+    """The parts of a robot's links, each as some of its points."""
+
+    def __init__(self, links: tuple[Link, ...], floor_z_m: float) -> None:
+        """Take the links, parents first, and the floor's height in the table frame (m), negative."""
+        self._links, self._floor_z_m = links, floor_z_m
+        self._parts = [[_matrix(one.pose) @ _homogeneous(one.vertices).T for one in link.visuals] for link in links]
+
+    def frames(self, posture: Posture) -> dict[str, FloatArray]:
+        """Return the pose of each link in the table frame by its name, shape (4, 4)."""
+        base = posture.base
+        root = _matrix(Pose3((base.x_m, base.y_m, self._floor_z_m), yaw(base.yaw_rad)))
+        nodes: dict[str, FloatArray] = {"": root}
+        for link in self._links:
+            here = _matrix(link.pose_at(posture.joints.get(link.joint or "", 0.0)))
+            nodes[link.node] = nodes[link.node.rpartition("/")[0]] @ here
+        return {link.name: nodes[link.node] for link in self._links}
+
+    def parts(self, posture: Posture) -> list[FloatArray]:
+        """Return the points of each part, table frame, shape (n, 3), m."""
+        frames = self.frames(posture)
+        return [
+            np.asarray((frames[link.name] @ part)[:3].T)
+            for link, parts in zip(self._links, self._parts, strict=True)
+            for part in parts
+        ]
+
+
+@lru_cache(maxsize=4)
+def robot_shape(card: RobotCard, floor_z_m: float) -> RobotShape:
+    """Return the shape of a robot on a floor (m, negative); the same one until its URDF changes."""
+    return RobotShape(load_robot_model(card.urdf_path, card.package_dir), floor_z_m)
+
+
+def outlines(parts: list[FloatArray], camera: Camera) -> list[NDArray[np.int32]]:
+    """Return the convex outline of each part that rises over the table, shape (k, 2), pixels, the highest last."""
+    above = [part[part[:, 2] > 0.0] for part in parts]
+    rising = sorted((part for part in above if len(part) > 2), key=lambda part: float(part[:, 2].mean()))
+    ahead = [part for part in rising if float(camera.depths(part).min()) > 0.0]
+    return [_hull(camera.pixels(part)) for part in ahead]
+
+
+def hidden(parts: list[FloatArray], camera: Camera, beyond_px: int = 0) -> BoolArray:
+    """Return which pixels show the robot, and those up to so many pixels beside it, shape (height, width)."""
+    width, height = camera.size_px
+    mask: NDArray[np.uint8] = np.zeros((height, width), np.uint8)
+    for ring in outlines(parts, camera):
+        cv2.fillConvexPoly(mask, ring, 1)
+    wide = np.ones((2 * beyond_px + 1, 2 * beyond_px + 1), np.uint8)
+    return np.asarray(cv2.dilate(mask, wide) > 0)
+
+
+def _hull(pixels: FloatArray) -> NDArray[np.int32]:
+    return np.asarray(cv2.convexHull(np.round(pixels).astype(np.int32))[:, 0], np.int32)
+
+
+def _homogeneous(vertices: FloatArray) -> FloatArray:
+    some = vertices[:: max(1, len(vertices) // _POINTS)]
+    ends = vertices[np.unique(np.concatenate([vertices.argmin(axis=0), vertices.argmax(axis=0)]))]
+    return np.column_stack([np.vstack([some, ends]), np.ones(len(some) + len(ends))])
+
+
+def _matrix(pose: Pose3) -> FloatArray:
+    found = np.eye(4)
+    found[:3, :3], found[:3, 3] = to_matrix(pose.wxyz), pose.position
+    return found

@@ -1,0 +1,102 @@
+"""The robot's eyes: what it makes of an observation, and the picture with what was fitted to it."""
+
+import base64
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from app.camera.develop import coded
+from app.camera.posture import Posture
+from app.camera.robot_shape import hidden, robot_shape
+from app.rehearsal.world import Observation
+from app.vision.fit_stack import fit_stack
+from app.vision.look_at_stack import Looker, Sight
+from planner.cloth.cloth_state import ClothState
+from planner.geometry.pose import Pose2
+from planner.robots.card import RobotCard
+from planner.robots.load_robot import load_robot
+from planner.task.task import Task
+
+PICTURE_BYTES_MAX = 60_000
+"""Largest size of a picture that is kept (bytes)."""
+
+_BESIDE_ARM_PX = 4
+"""How far beside its arms a robot still expects to see them: base and camera are not quite where it believes."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Picture:
+    """A picture that was looked at.
+
+    Attributes:
+        step: how many steps had been made.
+        is_clear: whether the arms had been withdrawn for it.
+        size_px: its width and height.
+        jpeg: the picture.
+        sight: what was seen in it.
+    """
+
+    step: int
+    is_clear: bool
+    size_px: tuple[int, int]
+    jpeg: bytes
+    sight: Sight
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return it as JSON, the picture in base 64."""
+        return {
+            "step": self.step,
+            "is_clear": self.is_clear,
+            "size_px": list(self.size_px),
+            "jpeg": base64.b64encode(self.jpeg).decode(),
+            **self.sight.to_dict(),
+        }
+
+
+class Eyes:
+    """Looks for the stack that should lie on the table."""
+
+    def __init__(self, task: Task) -> None:
+        """Take the robot, which knows where its own arms are, and the table."""
+        self._table = task.scene.table
+        self._card: RobotCard = load_robot(task.robot).card
+        self._torso_m = task.scene.torso_m
+
+    def sight(self, seen: Observation, stack: ClothState, near: Pose2, posture: Posture) -> Sight | None:
+        """Return where the stack lies; None where the world shows nothing at all.
+
+        Args:
+            seen: what the world shows.
+            stack: the stack, article frame.
+            near: where it ought to lie.
+            posture: how the robot stands.
+        """
+        if seen.outline is not None:
+            fit = fit_stack(seen.outline, stack, near)
+            return Sight(fit, np.empty((0, 2)), np.empty((0, 2)), None if fit.others else fit.unknown)
+        if seen.image is None or seen.camera is None:
+            return None
+        parts = robot_shape(self._card, -self._table.height_m).parts(posture)
+        looker = Looker(seen.camera, self._table, hidden(parts, seen.camera, _BESIDE_ARM_PX))
+        return looker.look(np.ascontiguousarray(seen.image[..., ::-1]), stack, near)
+
+    def withdrawn(self, posture: Posture) -> Posture:
+        """Return how the robot stands with its arms at home."""
+        arms = self._card.arms
+        joints = self._card.joint_values(self._torso_m, [np.array(arm.home) for arm in arms], [0.0] * len(arms))
+        return Posture(posture.base, joints)
+
+
+def kept(step: int, seen: Observation, sight: Sight, *, is_clear: bool) -> Picture | None:
+    """Return the picture of an observation, as good as its largest size allows; None where it has none."""
+    if seen.image is None:
+        return None
+    image = np.ascontiguousarray(seen.image[..., ::-1])
+    jpeg = next((data for data in (coded(image, quality) for quality in (80, 60, 40, 20)) if _fits(data)), None)
+    size_px = (image.shape[1], image.shape[0])
+    return None if jpeg is None else Picture(step, is_clear, size_px, jpeg, sight)
+
+
+def _fits(data: bytes) -> bool:
+    return len(data) <= PICTURE_BYTES_MAX

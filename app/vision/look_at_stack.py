@@ -1,0 +1,139 @@
+"""Look for a known stack in the picture of a camera whose pose is known (paper, section 8).
+
+A robot knows more than a picture shows: where the table is, where its own arms hide it, and about where the stack
+lies. What is off the table or behind an arm is left out, and what is well away from where the stack ought to be shows
+the table's colours. Points of the outline at the table's edge and beside an arm are not of the stack's outline.
+"""
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any
+
+import cv2
+import numpy as np
+
+from app.camera.camera import Camera
+from app.vision.fit_stack import fit_near
+from app.vision.on_table import why_in_doubt
+from app.vision.picture import Image
+from app.vision.segment import Mask, segment
+from app.vision.stack_fit import StackFit
+from app.vision.vision_errors import NothingToldError
+from planner.cloth.cloth_state import ClothState
+from planner.geometry.pose import BoolArray, FloatArray, Pose2
+from planner.geometry.table import Table
+from planner.message import Message
+
+_AWAY_M = 0.1
+"""How far from where the stack ought to be its surroundings count as table (m)."""
+
+_LAYER_M = 0.002
+"""The thickness of a layer, for the height of what is seen at a slant (m)."""
+
+_LEAST_TABLE = 0.03
+"""With less of the picture known to be table, its border counts as such."""
+
+_BESIDE_PX = 5
+"""Points of the outline that near to an arm or the table's edge may be of these (pixels)."""
+
+_LEAST_POINTS = 40
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Sight:
+    """What was seen of a stack.
+
+    Attributes:
+        fit: where it lies; None where nothing was found that could be it.
+        contour: the points of its outline seen, shape (n, 2), pixels.
+        fitted: the fitted outline, shape (m, 2), pixels; empty without a fit.
+        unknown: why it is not known where it lies; None where it is.
+    """
+
+    fit: StackFit | None
+    contour: FloatArray
+    fitted: FloatArray
+    unknown: Message | None
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return it as JSON, outlines to a tenth of a pixel."""
+        return {
+            "fit": None if self.fit is None else self.fit.to_dict(),
+            "fitted_px": np.round(self.fitted, 1).tolist(),
+            "unknown": None if self.unknown is None else self.unknown.to_dict(),
+        }
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Looker:
+    """Looks for stacks on a table with a camera.
+
+    Attributes:
+        camera: the camera, as it is believed to be.
+        table: the table.
+        hidden: which pixels show the robot, shape of the picture.
+    """
+
+    camera: Camera
+    table: Table
+    hidden: BoolArray
+
+    def look(self, image: Image, stack: ClothState, near: Pose2) -> Sight:
+        """Return where a stack lies.
+
+        Args:
+            image: blue, green, red.
+            stack: the stack, article frame.
+            near: where it ought to lie.
+        """
+        height_m = _LAYER_M * len(stack.layers) / 2.0
+        expected = [self._pixels(near.to_outer(ring), height_m) for ring in stack.silhouette.rings]
+        away = ~self._painted([self._pixels(np.array(self.table.corners), 0.0)]) | self.hidden
+        reach = math.ceil(_AWAY_M * self.camera.focal_px / self.camera.position[2])
+        disc = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * reach + 1, 2 * reach + 1))
+        near_by = cv2.dilate(self._painted(expected).astype(np.uint8), disc) > 0
+        part = _round(near_by, reach)
+        table = (~near_by & ~away)[part]
+        try:
+            seen = segment(image[part], away[part], table if table.mean() > _LEAST_TABLE else None)
+        except NothingToldError as error:
+            return _blind(Message.plain(str(error)))
+        contour = seen.contour + np.array([part[1].start, part[0].start])
+        contour = contour[~self._is_beside(contour, away)]
+        if len(contour) < _LEAST_POINTS:
+            return _blind(Message.plain("almost all of the outline is hidden"))
+        fit = fit_near(self.camera.on_plane(contour, height_m), stack, near)
+        doubt = why_in_doubt(replace(seen, at_border=0.0), None)
+        rings = [self._pixels(fit.placement.to_outer(ring), height_m) for ring in stack.silhouette.rings]
+        return Sight(fit, contour, max(rings, key=len), fit.unknown or doubt)
+
+    def _pixels(self, points: FloatArray, height_m: float) -> FloatArray:
+        return self.camera.pixels(np.column_stack([points, np.full(len(points), height_m)]))
+
+    def _painted(self, rings: list[FloatArray]) -> BoolArray:
+        width, height = self.camera.size_px
+        mask: Mask = np.zeros((height, width), np.uint8)
+        cv2.fillPoly(mask, [np.round(ring).astype(np.int32) for ring in rings], 1)
+        return mask > 0
+
+    def _is_beside(self, pixels: FloatArray, away: BoolArray) -> BoolArray:
+        """Return which pixels are at the edge of what is not looked at, shape (n,)."""
+        size = 2 * _BESIDE_PX + 1
+        wide = cv2.dilate(away.astype(np.uint8), np.ones((size, size), np.uint8)) > 0
+        width, height = self.camera.size_px
+        columns, rows = np.clip(np.round(pixels).astype(np.int64), 0, [width - 1, height - 1]).T
+        return np.asarray(wide[rows, columns])
+
+
+def _round(mask: BoolArray, margin: int) -> tuple[slice, slice]:
+    """Return the rows and columns of a mask's box, wider all round by a margin (pixels)."""
+    rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
+    spans = [
+        slice(max(0, int(one[0]) - margin), min(size, int(one[-1]) + 1 + margin)) if len(one) else slice(0, size)
+        for one, size in zip((rows, columns), mask.shape, strict=True)
+    ]
+    return spans[0], spans[1]
+
+
+def _blind(why: Message) -> Sight:
+    return Sight(None, np.empty((0, 2)), np.empty((0, 2)), why)
