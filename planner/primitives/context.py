@@ -88,7 +88,7 @@ class Context:
     _tables: dict[tuple[int, int], TableInArticle] = field(default_factory=dict)
     _extents: dict[int, tuple[FloatArray, FloatArray]] = field(default_factory=dict)
     _placed: dict[Point2, Pose2] = field(default_factory=dict)
-    _bases: dict[tuple[int, int], Pose2] = field(default_factory=dict)
+    _bases: dict[tuple[int, float], Pose2] = field(default_factory=dict)
     _kept: dict[Callable[["Context"], object], object] = field(default_factory=dict)
     _met: set[str] = field(default_factory=set)
 
@@ -133,7 +133,7 @@ class Context:
         """Return a station's base pose, table frame."""
         return self.scene.stations[station][1]
 
-    def base_pose(self, station: int, standoff: int) -> Pose2:
+    def base_pose(self, station: int, standoff: float) -> Pose2:
         """Return the base's pose at a station and a standoff (grid steps), table frame."""
         key = (station, standoff)
         if key not in self._bases:
