@@ -17,6 +17,7 @@ from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.pose import FloatArray, Point2, Pose2
 from planner.geometry.shortfall import never
 from planner.geometry.tolerance import LENGTH_M, grid_key
+from planner.primitives.drive_time import ACCELERATION_M_S2, DriveTime
 from planner.primitives.obstacle import Obstacles
 from planner.primitives.reach import Reach
 from planner.primitives.state import State
@@ -71,6 +72,7 @@ class Context:
         obstacles: why primitives were not possible, collected for the reasons.
         patience: the limit of the time that somebody waits for the answer.
         is_fixed: whether the base cannot drive at all: then there is one station and no standoff.
+        base_acceleration_m_s2: the base's top acceleration.
     """
 
     sequence: FoldSequence
@@ -84,6 +86,7 @@ class Context:
     obstacles: Obstacles = field(default_factory=Obstacles)
     patience: Patience = field(default_factory=Patience)
     is_fixed: bool = False
+    base_acceleration_m_s2: float = ACCELERATION_M_S2
     _unrest: dict[tuple[int, int, int], Unrest | None] = field(default_factory=dict)
     _tables: dict[tuple[int, int], TableInArticle] = field(default_factory=dict)
     _extents: dict[int, tuple[FloatArray, FloatArray]] = field(default_factory=dict)
@@ -145,8 +148,13 @@ class Context:
         name, pose = self.scene.stations[state.station]
         return BaseStop.at(name or None, pose, state.standoff / STANDOFFS_PER_M)
 
+    @property
+    def drive_time(self) -> DriveTime:
+        """The time of a base that drives from rest to rest."""
+        return DriveTime(self.scene.base_speed_m_s, self.scene.base_turn_rad_s, self.base_acceleration_m_s2)
+
     def drive_s(self, steps: float) -> float:
-        """Return the time to drive a number of steps of the grid of standoffs (s)."""
+        """Return the time to drive a number of steps of the grid of standoffs at top speed (s)."""
         return steps / STANDOFFS_PER_M / self.scene.base_speed_m_s
 
     def in_base(self, station: int, points: FloatArray) -> FloatArray:
