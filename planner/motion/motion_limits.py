@@ -6,14 +6,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from planner.geometry.pose import FloatArray
+from planner.primitives.drive_time import TURN_ACCELERATION_RAD_S2
 from planner.robots.card import ArmCard, RobotCard
 from planner.task.scene import Scene
 
 RISE_S = 0.25
 """The time in which a joint comes to its top speed, where a card gives no acceleration (s); the URDF never does."""
-
-BASE_TURN_ACCELERATION_RAD_S2 = 1.0
-"""The base's angular acceleration (rad/s2)."""
 
 BASE_NAMES = ("base_x_m", "base_y_m", "base_yaw_rad")
 """The base's part of a motion."""
@@ -50,7 +48,7 @@ class MotionLimits:
         return MotionLimits(
             (*joints, *BASE_NAMES),
             np.array([*speeds, scene.base_speed_m_s, scene.base_speed_m_s, scene.base_turn_rad_s]),
-            np.array([*hard, base_hard, base_hard, BASE_TURN_ACCELERATION_RAD_S2]),
+            np.array([*hard, base_hard, base_hard, TURN_ACCELERATION_RAD_S2]),
         )
 
     def bounded(self, values: FloatArray) -> FloatArray:

@@ -178,7 +178,9 @@ class TransferPlanner:
         if isinstance(carried, NoPath):
             return None
         least, first, last = self.transits.needed_s(carried.joints), carried.first, carried.last
-        timing = TransferTiming.of(candidate.carrying, candidate.moments, least[first:last], self.dwell_s)
+        driven_m = np.linalg.norm(np.diff(carried.bases[first : last + 1, :2], axis=0), axis=1)
+        held_s = np.maximum(least[first:last], driven_m / self._context.scene.base_speed_m_s)
+        timing = TransferTiming.of(candidate.carrying, candidate.moments, held_s, self.dwell_s)
         reach = self._reach(candidate.steps, carried, timing.borrowed_s)
         if reach is None:
             return None

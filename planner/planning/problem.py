@@ -100,7 +100,16 @@ class Problem:
         behind = context.behind_max_m if behind_max_m is None else behind_max_m
         apart = context.grips_apart_m if grips_apart_m is None else grips_apart_m
         limits = (context.circle_m, behind, apart)
-        fresh = Context(sequence, wanted, reach, changed.start.placement, *limits, start, is_fixed=context.is_fixed)
+        fresh = Context(
+            sequence,
+            wanted,
+            reach,
+            changed.start.placement,
+            *limits,
+            start,
+            is_fixed=context.is_fixed,
+            base_acceleration_m_s2=context.base_acceleration_m_s2,
+        )
         return Problem(changed, fresh, machine, TransferPlanner(fresh, machine))
 
     def tightened(self, scene: Scene | None = None, comfort_m: float | None = None) -> "Problem":
@@ -141,15 +150,8 @@ class Problem:
     def _with_reach(self, reach: Reach) -> "Problem":
         context = self.context
         limits = (context.circle_m, context.behind_max_m, context.grips_apart_m)
-        fresh = Context(
-            context.sequence,
-            context.scene,
-            reach,
-            context.placement,
-            *limits,
-            context.start,
-            is_fixed=context.is_fixed,
-        )
+        given = (context.sequence, context.scene, reach, context.placement, *limits, context.start)
+        fresh = Context(*given, is_fixed=context.is_fixed, base_acceleration_m_s2=context.base_acceleration_m_s2)
         return Problem(self.task, fresh, self.robot, TransferPlanner(fresh, self.robot))
 
     @staticmethod
@@ -165,7 +167,14 @@ class Problem:
         reach = machine.reach(scene.torso_m, task.limits.comfort_radius_m)
         card = machine.card
         context = Context(
-            sequence, scene, reach, task.start.placement, card.base_radius_m, start=start, is_fixed=card.is_fixed
+            sequence,
+            scene,
+            reach,
+            task.start.placement,
+            card.base_radius_m,
+            start=start,
+            is_fixed=card.is_fixed,
+            base_acceleration_m_s2=card.base_acceleration_m_s2,
         )
         return Problem(task, context, machine, TransferPlanner(context, machine))
 

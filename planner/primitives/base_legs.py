@@ -97,12 +97,12 @@ def _remaining(strip: NDArray[np.uint32], end: int, count: int) -> list[list[int
 def _next_stand(mask: int, remaining: list[list[int]], waypoint: int, at: int) -> int:
     """Return the nearest standoff at which to leave a waypoint such that the way stays shortest."""
     total, after = remaining[waypoint][at], remaining[waypoint + 1]
-    ways = [j for j in _within_reach(mask, at) if after[j] + abs(j - at) == total]
+    ways = [j for j in stands_beside(mask, at) if after[j] + abs(j - at) == total]
     return min(ways, key=lambda j: (abs(j - at), j))
 
 
-def _within_reach(mask: int, at: int) -> list[int]:
-    """Return the standoffs to which the base can drive from `at` without leaving the mask."""
+def stands_beside(mask: int, at: int) -> list[int]:
+    """Return the standoffs to which the base can drive from `at` without leaving the mask, rising."""
     low = high = at
     while low > 0 and mask >> (low - 1) & 1:
         low -= 1

@@ -2,7 +2,7 @@
 
 The base backs out until the circle round it is clear of the table and turns in place. It then drives the shortest
 polyline outside the table grown by that circle (with square corners), turning at each bend. Finally it turns to the
-station's heading and drives in.
+station's heading and drives in. Each of these legs goes from rest to rest.
 """
 
 import math
@@ -41,8 +41,7 @@ class MoveStep:
 
     @cached_property
     def _durations_s(self) -> tuple[float, ...]:
-        scene = self.context.scene
-        return self.route.durations_s(scene.base_speed_m_s, scene.base_turn_rad_s)
+        return self.route.durations_s(self.context.drive_time)
 
     @cached_property
     def duration_s(self) -> float:
@@ -130,10 +129,10 @@ class BaseMove:
 
     def _later(self, state: State, station: int) -> Deferred[MoveStep]:
         """Return a deferred move whose lower bound ignores all obstacles: the straight drive and the turn."""
-        scene, start = self._context.scene, self._context.base_pose(state.station, state.standoff)
+        time, start = self._context.drive_time, self._context.base_pose(state.station, state.standoff)
         goal = self._context.station_pose(station)
-        drive_s = math.dist(place_of(start), place_of(goal)) / scene.base_speed_m_s
-        turn_s = abs(wrapped_angle(goal.yaw_rad - start.yaw_rad)) / scene.base_turn_rad_s
+        drive_s = time.driving_s(math.dist(place_of(start), place_of(goal)))
+        turn_s = time.turning_s(abs(wrapped_angle(goal.yaw_rad - start.yaw_rad)))
         after = State(state.done, state.offset, station, 0)
         return Deferred(drive_s + turn_s, after, partial(self.to, state, station), is_there=True)
 

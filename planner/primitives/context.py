@@ -18,6 +18,7 @@ from planner.geometry.pose import FloatArray, Point2, Pose2
 from planner.geometry.shortfall import never
 from planner.geometry.tolerance import LENGTH_M, grid_key
 from planner.primitives.cloth_memory import ClothMemory, cloth_memory
+from planner.primitives.drive_time import ACCELERATION_M_S2, DriveTime
 from planner.primitives.obstacle import Obstacles
 from planner.primitives.reach import Reach
 from planner.primitives.state import State
@@ -72,6 +73,7 @@ class Context:
         obstacles: why primitives were not possible, collected for the reasons.
         patience: the limit of the time that somebody waits for the answer.
         is_fixed: whether the base cannot drive at all: then there is one station and no standoff.
+        base_acceleration_m_s2: the base's top acceleration.
     """
 
     sequence: FoldSequence
@@ -85,7 +87,8 @@ class Context:
     obstacles: Obstacles = field(default_factory=Obstacles)
     patience: Patience = field(default_factory=Patience)
     is_fixed: bool = False
-    _bases: dict[tuple[int, int], Pose2] = field(default_factory=dict)
+    base_acceleration_m_s2: float = ACCELERATION_M_S2
+    _bases: dict[tuple[int, float], Pose2] = field(default_factory=dict)
     _kept: dict[Callable[["Context"], object], object] = field(default_factory=dict)
     _met: set[str] = field(default_factory=set)
 
@@ -125,7 +128,7 @@ class Context:
         """Return a station's base pose, table frame."""
         return self.scene.stations[station][1]
 
-    def base_pose(self, station: int, standoff: int) -> Pose2:
+    def base_pose(self, station: int, standoff: float) -> Pose2:
         """Return the base's pose at a station and a standoff (grid steps), table frame."""
         key = (station, standoff)
         if key not in self._bases:
@@ -137,8 +140,13 @@ class Context:
         name, pose = self.scene.stations[state.station]
         return BaseStop.at(name or None, pose, state.standoff / STANDOFFS_PER_M)
 
+    @property
+    def drive_time(self) -> DriveTime:
+        """The time of a base that drives from rest to rest."""
+        return DriveTime(self.scene.base_speed_m_s, self.scene.base_turn_rad_s, self.base_acceleration_m_s2)
+
     def drive_s(self, steps: float) -> float:
-        """Return the time to drive a number of steps of the grid of standoffs (s)."""
+        """Return the time to drive a number of steps of the grid of standoffs at top speed (s)."""
         return steps / STANDOFFS_PER_M / self.scene.base_speed_m_s
 
     def in_base(self, station: int, points: FloatArray) -> FloatArray:

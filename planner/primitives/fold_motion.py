@@ -1,7 +1,11 @@
-"""The motion of a fold: the hands follow the path of the cloth, and the base drives at some waypoints."""
+"""The motion of a fold: the hands follow the path of the cloth, and the base drives along meanwhile.
+
+What the base drives takes the time that the cost model says, as if the hands rested meanwhile. But they need not rest:
+both move at once, each the slower for it, so that the base has time to speed up and to slow down.
+"""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import accumulate, pairwise
 
@@ -9,8 +13,8 @@ import numpy as np
 
 from planner.geometry.pose import Approach, FloatArray, Point3, Pose2
 from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M, nearest_whole
-from planner.primitives.base_legs import legs
 from planner.primitives.context import Context
+from planner.primitives.drive_line import Corner, drive_line
 from planner.primitives.fold_way import FoldWay
 from planner.primitives.state import State
 from planner.task.phase import ClothMotion, Hand, Phase
@@ -21,15 +25,15 @@ _DENSE_SWEEP = 0.02
 
 @dataclass(frozen=True, slots=True)
 class _Piece:
-    """A part of the path during which either the sweep or the standoff stays constant.
+    """A part of the path during which sweep and standoff change evenly.
 
     Attributes:
         sweeps: the sweep at the start and at the end.
-        stands: the standoff at the start and at the end.
+        stands: the standoff at the start and at the end, in steps of the grid.
     """
 
     sweeps: tuple[float, float]
-    stands: tuple[int, int]
+    stands: tuple[float, float]
 
     @property
     def moments(self) -> FloatArray:
@@ -86,33 +90,33 @@ class FoldMotion:
         )
 
     def _pieces(self) -> Iterator[_Piece]:
-        """Yield the pieces of even motion, split at the apex and where the base drives, and the base's drives."""
-        at, sweep = self.first_stand, 0.0
-        for waypoint, stand in zip(self.way.trial.sweeps.tolist(), self._stands(), strict=True):
-            if stand != at or abs(waypoint - 1.0) <= ANGLE_RAD:
-                if waypoint > sweep:
-                    yield _Piece((sweep, waypoint), (at, at))
-                sweep = waypoint
-            if stand != at:
-                yield _Piece((sweep, sweep), (at, stand))
-                at = stand
-        if sweep < 2.0:
-            yield _Piece((sweep, 2.0), (at, at))
+        """Yield the pieces of even motion, split at the apex and where the base begins to drive otherwise."""
+        for start, end in pairwise(self._corners()):
+            if start.sweep < 1.0 - ANGLE_RAD and end.sweep > 1.0 + ANGLE_RAD:
+                share = (1.0 - start.sweep) / (end.sweep - start.sweep)
+                apex = Corner(1.0, start.stand + share * (end.stand - start.stand))
+                yield from (_Piece(*zip(a, b, strict=True)) for a, b in ((start, apex), (apex, end)))
+            else:
+                yield _Piece(*zip(start, end, strict=True))
 
-    def _stands(self) -> Sequence[int]:
-        """Return the standoff of the base when the hands leave each waypoint."""
+    def _corners(self) -> tuple[Corner, ...]:
+        """Return the corners of the line along which the base drives."""
         if self.driven == 0:
-            return (self.first_stand,) * len(self.way.trial.sweeps)
+            return (Corner(0.0, self.first_stand), Corner(2.0, self.first_stand))
         strip = self.way.strip(self.context, self.before.station)
-        return legs(strip, self.first_stand, self.end, self.context.standoffs)
+        # Hands nearer to the line than the rest of the cloth wait for it, and wait again once they lie.
+        waiting = np.concatenate([strip[:1], strip, strip[-1:]])
+        sweeps = [0.0, *self.way.trial.sweeps.tolist(), 2.0]
+        return drive_line(waiting, sweeps, self.first_stand, self.end, self.context.standoffs)
 
     def _phase(self, piece: _Piece, points: "list[_Points]") -> Phase:
         (start, end), (stand, next_stand) = piece.sweeps, piece.stands
         base, hands, cloth = (self._base(stand), self._base(next_stand)), self._hands(points), self._cloth(start, end)
-        if stand != next_stand:
-            return Phase(self.context.drive_s(abs(next_stand - stand)), base, hands, cloth)
-        duration = (end - start) * self.context.scene.arm_motion_s
-        return Phase(duration, base, hands, cloth, motion=0 if start < 1.0 else 1)
+        driving_s = self.context.drive_s(abs(next_stand - stand))
+        if end == start:
+            return Phase(driving_s, base, hands, cloth)
+        duration_s = (end - start) * self.context.scene.arm_motion_s + driving_s
+        return Phase(duration_s, base, hands, cloth, motion=0 if start < 1.0 - ANGLE_RAD else 1)
 
     def _hands(self, points: "list[_Points]", *, is_reaching: bool = False) -> tuple[Hand | None, ...]:
         hands: list[Hand | None] = [None] * len(self.context.reach.arm_names)
@@ -149,7 +153,7 @@ class FoldMotion:
     def _approach(self, grip: int) -> Approach:
         return self.context.reach.approaches[self.way.approaches[grip]]
 
-    def _base(self, standoff: int) -> Pose2:
+    def _base(self, standoff: float) -> Pose2:
         return self.context.base_pose(self.before.station, standoff)
 
     def _cloth(self, start: float, end: float) -> ClothMotion:

@@ -15,6 +15,7 @@ import networkx as nx
 from planner.geometry.pose import Point2, Pose2, wrapped_angle
 from planner.geometry.table import Table
 from planner.geometry.tolerance import LENGTH_M
+from planner.primitives.drive_time import DriveTime
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,17 +24,17 @@ class Route:
 
     Attributes:
         waypoints: base poses from start to end, table frame; between two waypoints the base either drives straight or
-            turns in place.
+            turns in place, from rest to rest.
     """
 
     waypoints: tuple[Pose2, ...]
 
-    def durations_s(self, speed_m_s: float, turn_rad_s: float) -> tuple[float, ...]:
+    def durations_s(self, time: DriveTime) -> tuple[float, ...]:
         """Return the time that each leg takes (s)."""
         legs = zip(self.waypoints[:-1], self.waypoints[1:], strict=True)
         return tuple(
-            math.dist((a.x_m, a.y_m), (b.x_m, b.y_m)) / speed_m_s
-            + abs(wrapped_angle(b.yaw_rad - a.yaw_rad)) / turn_rad_s
+            time.driving_s(math.dist((a.x_m, a.y_m), (b.x_m, b.y_m)))
+            + time.turning_s(abs(wrapped_angle(b.yaw_rad - a.yaw_rad)))
             for a, b in legs
         )
 

@@ -1,4 +1,8 @@
-"""The base's way round the table. Default scene: 1.6 x 0.98 m, grown by 0.47 m to 2.54 x 1.92 m."""
+"""The base's way round the table. Default scene: 1.6 x 0.98 m, grown by 0.47 m to 2.54 x 1.92 m.
+
+The base drives at 0.25 m/s and turns at 0.5 rad/s; it comes to these speeds with 0.5 m/s2 and 1 rad/s2, in 0.5 s each.
+So every leg of more than 0.125 m and every turn of more than 0.25 rad takes 0.5 s more than at top speed throughout.
+"""
 
 import itertools
 import math
@@ -9,6 +13,7 @@ import pytest
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
 from planner.primitives.base_move import BaseMove
+from planner.primitives.drive_time import DriveTime
 from planner.primitives.route import Route, clear_of_table, route_along, shortest_way
 from planner.primitives.state import Held, State
 from planner.task.scene import Scene
@@ -18,6 +23,8 @@ from tests.replay.way_round import require_way_round
 TABLE = Table(1.6, 0.98, 0.79)
 HALF_X, HALF_Y = 0.8 + CIRCLE_M, 0.49 + CIRCLE_M
 QUARTER = math.pi / 2
+RISE_S = 0.5
+TIME = DriveTime(0.25, 0.5)
 TOWEL = garment(rectangle_points(0.4, 0.3))
 
 
@@ -32,9 +39,9 @@ def move(start: str, goal: str, standoff: int = 0, scene: Scene | None = None):
 def test_from_front_to_left_by_hand():
     # Back from x = -0.95 to the grown edge at -1.27 (0.32 m), turn to +y (90 deg), along it to the corner
     # (-1.27, 0.96) (0.96 m), turn to +x (90), along the long side to x = 0.45 (1.72 m), turn to -y (90), drive in
-    # from y = 0.96 to 0.64 (0.32 m): 3.32 m and 270 degrees, 13.28 s + 3 x 3.1416 s.
+    # from y = 0.96 to 0.64 (0.32 m): 3.32 m and 270 degrees, 13.28 s + 3 x 3.1416 s; 4 legs and 3 turns, 7 x 0.5 s.
     step = move("front", "left")
-    assert step.duration_s == pytest.approx(3.32 / 0.25 + 3 * QUARTER / 0.5)
+    assert step.duration_s == pytest.approx(3.32 / 0.25 + 3 * QUARTER / 0.5 + 7 * RISE_S)
     expected = [
         (-0.95, 0.0, 0.0),
         (-1.27, 0.0, 0.0),
@@ -51,11 +58,13 @@ def test_from_front_to_left_by_hand():
 
 def test_along_one_side_the_base_backs_out_drives_by_and_drives_in():
     # front_left to left: 0.32 out, 0.55 along, 0.32 in; a quarter turn before and one after.
-    assert move("front_left", "left").duration_s == pytest.approx(1.19 / 0.25 + 2 * QUARTER / 0.5)
+    assert move("front_left", "left").duration_s == pytest.approx(1.19 / 0.25 + 2 * QUARTER / 0.5 + 5 * RISE_S)
 
 
 def test_a_base_that_has_backed_off_has_less_to_go_out():
-    assert move("front", "left").duration_s - move("front", "left", standoff=4).duration_s == pytest.approx(0.2 / 0.25)
+    # 0.32 m take 1.28 s + 0.5 s; the 0.12 m that are left are too short for the top speed: 2 sqrt(0.12 / 0.5) s.
+    saved_s = 0.32 / 0.25 + RISE_S - 2.0 * math.sqrt(0.12 / 0.5)
+    assert move("front", "left").duration_s - move("front", "left", standoff=4).duration_s == pytest.approx(saved_s)
 
 
 def test_a_base_backed_off_beyond_the_grown_table_need_not_back_out():
@@ -63,7 +72,7 @@ def test_a_base_backed_off_beyond_the_grown_table_need_not_back_out():
     step = move("front", "left", standoff=8)
     driven = math.hypot(0.08, 0.96) + 1.72 + 0.32
     turned = math.atan2(0.96, 0.08) + math.atan2(0.96, 0.08) + QUARTER
-    assert step.duration_s == pytest.approx(driven / 0.25 + turned / 0.5)
+    assert step.duration_s == pytest.approx(driven / 0.25 + turned / 0.5 + 6 * RISE_S)
 
 
 def test_there_is_one_move_to_each_other_station_and_it_ends_not_backed_off():
@@ -124,7 +133,7 @@ def test_a_way_along_the_grown_edge_is_not_through_it():
 def test_from_a_place_to_itself_there_is_nothing_to_drive():
     assert shortest_way((2.0, 0.0), (2.0, 0.0), TABLE, CIRCLE_M) == ((2.0, 0.0),)
     pose = Pose2(2.0, 0.0, 0.3)
-    assert route_along(pose, pose, ((2.0, 0.0),), pose, pose).durations_s(0.25, 0.5) == (0.0,)
+    assert route_along(pose, pose, ((2.0, 0.0),), pose, pose).durations_s(TIME) == (0.0,)
 
 
 def test_ways_are_as_long_there_as_back():
@@ -145,4 +154,4 @@ def test_ways_are_as_long_there_as_back():
 
 def test_driving_and_turning_take_their_time():
     route = Route((Pose2(0, 0, 0), Pose2(1, 0, 0), Pose2(1, 0, -QUARTER)))
-    assert route.durations_s(0.25, 0.5) == pytest.approx((4.0, math.pi))
+    assert route.durations_s(TIME) == pytest.approx((4.0 + RISE_S, math.pi + RISE_S))

@@ -10,6 +10,7 @@ from tests.replay.flat import Place
 
 Pose = tuple[float, float, float]
 CIRCLE_M = 0.47
+DRIVE_M_S2, TURN_RAD_S2 = 0.5, 1.0
 SLACK = 1e-4
 
 
@@ -24,7 +25,8 @@ def require_way_round(primitive: dict[str, Any], start: Pose, goal: Pose, scene:
     seconds = 0.0
     for a, b in pairwise(poses):
         drive, turn = math.dist(a[:2], b[:2]), abs(math.remainder(b[2] - a[2], math.tau))
-        seconds += drive / scene["base_speed_m_s"] + turn / scene["base_turn_rad_s"]
+        seconds += _from_rest_to_rest_s(drive, scene["base_speed_m_s"], DRIVE_M_S2)
+        seconds += _from_rest_to_rest_s(turn, scene["base_turn_rad_s"], TURN_RAD_S2)
         assert drive < SLACK or turn < SLACK, f"the base turns while it drives from {a} to {b}"
         if turn > SLACK:
             assert not inside.contains(Point(a[:2])), f"the base turns at {a[:2]}, too near the table"
@@ -37,6 +39,13 @@ def require_way_round(primitive: dict[str, Any], start: Pose, goal: Pose, scene:
     driven = sum(math.dist(a, b) for a, b in pairwise(middle))
     best = _shortest(middle[0], middle[-1], half_x, half_y)
     assert abs(driven - best) < 10 * SLACK, f"the way round is {driven:.3f} m, the shortest {best:.3f} m"
+
+
+def _from_rest_to_rest_s(way: float, speed: float, acceleration: float) -> float:
+    """Return the time of a way as twice that to its middle, reached at the speed there or at top speed."""
+    there = min(speed, math.sqrt(acceleration * way))
+    ramp = there * there / (2.0 * acceleration)
+    return 2.0 * (there / acceleration + (way / 2.0 - ramp) / speed)
 
 
 def _backed_out(poses: list[Pose], inside: Any) -> int:

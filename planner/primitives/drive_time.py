@@ -1,0 +1,37 @@
+"""The time of a base that drives or turns from rest to rest."""
+
+import math
+from dataclasses import dataclass
+
+ACCELERATION_M_S2, TURN_ACCELERATION_RAD_S2 = 0.5, 1.0
+"""Accelerations of a base whose card gives none; no card gives that of turning."""
+
+
+@dataclass(frozen=True, slots=True)
+class DriveTime:
+    """What a base's times follow from.
+
+    Attributes:
+        speed_m_s, turn_rad_s: its top speeds.
+        acceleration_m_s2, turn_acceleration_rad_s2: its top accelerations, slowing down included.
+    """
+
+    speed_m_s: float
+    turn_rad_s: float
+    acceleration_m_s2: float = ACCELERATION_M_S2
+    turn_acceleration_rad_s2: float = TURN_ACCELERATION_RAD_S2
+
+    def driving_s(self, distance_m: float) -> float:
+        """Return the least time to drive straight over a distance (m), from rest to rest."""
+        return _rest_to_rest_s(distance_m, self.speed_m_s, self.acceleration_m_s2)
+
+    def turning_s(self, angle_rad: float) -> float:
+        """Return the least time to turn in place by an angle (rad), from rest to rest."""
+        return _rest_to_rest_s(angle_rad, self.turn_rad_s, self.turn_acceleration_rad_s2)
+
+
+def _rest_to_rest_s(way: float, speed: float, acceleration: float) -> float:
+    """Return the time of a way: speed up evenly, go on at top speed if that is reached, slow down evenly."""
+    if way * acceleration >= speed**2:
+        return way / speed + speed / acceleration
+    return 2.0 * math.sqrt(way / acceleration)
