@@ -34,7 +34,9 @@ def shares_of(phase: Phase) -> FloatArray:
     for hand in hands:
         if len(hand.points) > 1:
             points = np.array(hand.points)
-            _need(wanted, (np.sqrt(((points[1:] - points[:-1]) ** 2).sum(axis=1)) - LENGTH_M) / STEP_M)
+            gone = np.sqrt(((points[1:] - points[:-1]) ** 2).sum(axis=1))
+            # Seen from the base, a tool also goes as far as the base drives meanwhile.
+            _need(wanted, (gone + drive / len(gone) - LENGTH_M) / STEP_M)
         if len(hand.rolls_rad) > 1:
             rolls = np.array(hand.rolls_rad)
             _need(wanted, (np.abs(rolls[1:] - rolls[:-1]) - EDGE_RAD) / STEP_RAD)
