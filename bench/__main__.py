@@ -25,6 +25,7 @@ from bench.reach import reach
 from bench.rehearsal import LETTER, rehearsal
 from bench.report import Report
 from bench.robot_plans import robot_plans
+from bench.sights import sights
 from bench.studies import studies
 from bench.two_at_once import two_at_once
 from bench.vision import vision
@@ -52,9 +53,12 @@ BENCHMARKS: Final[Mapping[str, Benchmark]] = {
     "two-at-once": two_at_once,
     "studies": studies,
     "vision": vision,
+    "sights": sights,
     "rehearsal": rehearsal,
 }
-APART: Final = frozenset({"reach", "any-robot", "growth", "hand", "crowd", "load", "two-at-once", "studies", "vision"})
+APART: Final = frozenset(
+    {"reach", "any-robot", "growth", "hand", "crowd", "load", "two-at-once", "studies", "vision", "sights"}
+)
 """Tables left out if garments are named and these are not: they have no garment, or need a browser or a server."""
 
 ASKED: Final = frozenset({"rehearsal"})

@@ -1,0 +1,30 @@
+"""The table of landmarks in rendered pictures, from sights whose figures are known."""
+
+import math
+
+import pytest
+
+from bench.sights import row_of
+from bench.stack_sights import Sighted, overhead_bench
+
+
+def sighted(*off_m: float, doubt: str | None = None, error_m: float = 0.01) -> Sighted:
+    return Sighted("towel", 1, doubt, off_m, error_m, 0.1, 0.5)
+
+
+def test_landmarks_count_where_the_place_of_the_stack_is_told_as_known():
+    row = row_of("kind", [sighted(0.002, 0.004), sighted(0.006, 0.03), sighted(0.5, doubt="hidden")])
+    assert (row.data["pictures"], row.data["known"]) == (3, 2)
+    # Of .002, .004, .006 and .03 m three are within a centimetre; the told centimetre covers the first stack alone.
+    assert (row.data["near"], row.data["covers"], row.data["worst_m"]) == (0.75, 0.5, 0.03)
+
+
+def test_where_nothing_is_known_no_landmark_is_told():
+    row = row_of("kind", [sighted(doubt="hidden", error_m=math.inf)])
+    assert row.data["near"] is None
+    assert row.lines[0][3] == "-"
+
+
+def test_a_sight_tells_every_landmark_and_how_far_off_it_may_be():
+    seen = overhead_bench().sight(0, is_plain=True, has_arm=False)
+    assert seen.doubt is not None or (0.0 < max(seen.off_m) < math.inf and seen.error_m == pytest.approx(0.0, abs=0.1))
