@@ -4,6 +4,8 @@ VENV := .venv
 BIN := $(VENV)/bin
 NODE := $(CURDIR)/$(BIN)/node
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
+# Bytecode is written by whoever first imports a module: most of the modules installed are never imported.
+INSTALL := $(PIP) install --no-compile
 PYTEST := $(BIN)/python -m pytest
 # How many tests run at once: two more than cores, for tests of servers and browsers wait for a third of their time.
 # Each wants some 2 GB with its server and its browser; where that is too much: make test JOBS=2
@@ -108,8 +110,8 @@ $(BIN)/python:
 
 $(READY): requirements.txt pyproject.toml | $(BIN)/python
 	@echo "Setting up $(VENV): a minute or two, once"
-	@$(PIP) install --require-hashes -r requirements.txt
-	@$(PIP) install --no-deps --no-build-isolation -e .
+	@$(INSTALL) --require-hashes -r requirements.txt
+	@$(INSTALL) --no-deps --no-build-isolation -e .
 	@touch $@
 
 # So that the first plan does not wait for the compiler, nor several tests at once for the same. A minute or two; seconds
@@ -121,7 +123,7 @@ $(KERNELS): $(READY) $(shell find planner -name '*.py')
 
 $(READY_DEV): requirements-dev.txt $(READY)
 	@echo "Setting up the tools for tests"
-	@$(PIP) install --require-hashes -r requirements-dev.txt
+	@$(INSTALL) --require-hashes -r requirements-dev.txt
 	@touch $@
 
 # Scripts of packages are not run: none of these needs one.
@@ -133,5 +135,5 @@ $(READY_JS): tests/js/package-lock.json $(READY_DEV)
 # What Pleat is compared with. Only the benchmark wants it, and does without where there is no wheel for this machine.
 $(READY_BENCH): requirements-bench.txt $(READY)
 	@echo "Setting up what Pleat is compared with"
-	@if $(PIP) install --require-hashes --only-binary :all: -r requirements-bench.txt; then touch $@; \
+	@if $(INSTALL) --require-hashes --only-binary :all: -r requirements-bench.txt; then touch $@; \
 	else echo "Left out: what Pleat is compared with cannot be installed here"; fi

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.test_imports import IMPORTS, ROOT, is_within
+from tests.test_imports import ROOT, all_imports, is_within
 
 DOOR = (
     "planner.robots.arm_paths",
@@ -165,7 +165,7 @@ def test_nothing_is_unpacked_into_a_left_and_a_right_hand():
 def test_others_enter_the_room_of_robots_by_its_door():
     wrong = [
         str(one)
-        for one in IMPORTS
+        for one in all_imports()
         if is_within(one.target, "planner.robots")
         and not is_within(one.module, "planner.robots")
         and one.target not in DOOR

@@ -2,6 +2,7 @@
 
 import ast
 from collections.abc import Iterator, Mapping
+from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
@@ -103,7 +104,10 @@ def imports_of(module: str, path: Path) -> Iterator[Import]:
                 yield Import(module, path, node.lineno, inner if inner in SOURCES else source)
 
 
-IMPORTS = [one for module, path in sorted(SOURCES.items()) for one in imports_of(module, path)]
+@cache
+def all_imports() -> tuple[Import, ...]:
+    """Return every import of the sources, read when a test first asks: each worker of the tests collects this file."""
+    return tuple(one for module, path in sorted(SOURCES.items()) for one in imports_of(module, path))
 
 
 def is_within(module: str, room: str) -> bool:
@@ -124,7 +128,7 @@ def test_a_room_imports_only_rooms_further_down_the_ladder(room: str):
     allowed = MAY_SEE[room] | {room}
     wrong = [
         str(one)
-        for one in IMPORTS
+        for one in all_imports()
         if is_within(one.module, room)
         and is_within(one.target, "planner")
         and not any(is_within(one.target, seen) for seen in allowed)
@@ -133,7 +137,7 @@ def test_a_room_imports_only_rooms_further_down_the_ladder(room: str):
 
 
 def test_the_planner_knows_nothing_of_the_app():
-    wrong = [str(one) for one in IMPORTS if is_within(one.module, "planner") and is_within(one.target, "app")]
+    wrong = [str(one) for one in all_imports() if is_within(one.module, "planner") and is_within(one.target, "app")]
     assert not wrong, wrong
 
 
@@ -142,7 +146,7 @@ def test_a_library_is_imported_only_where_it_lives(library: str):
     homes = LIBRARY_HOMES[library]
     wrong = [
         str(one)
-        for one in IMPORTS
+        for one in all_imports()
         if is_within(one.target, library) and not any(is_within(one.module, home) for home in homes)
     ]
     assert not wrong, f"{library} lives in {', '.join(homes)}: {wrong}"
@@ -150,7 +154,7 @@ def test_a_library_is_imported_only_where_it_lives(library: str):
 
 def test_no_modules_import_each_other_in_a_circle():
     below: dict[str, list[str]] = {module: [] for module in SOURCES}
-    for one in IMPORTS:
+    for one in all_imports():
         if one.target in SOURCES and one.target != one.module:
             below[one.module].append(one.target)
     finished: set[str] = set()

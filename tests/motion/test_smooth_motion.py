@@ -1,6 +1,7 @@
 """A smooth motion goes through the plan's keyframes, keeps its limits, and rests between steps."""
 
 from dataclasses import replace
+from functools import cache
 from itertools import islice
 
 import numpy as np
@@ -17,7 +18,6 @@ from tests.small_plan import CARD, one_armed, small_plan, unsolved
 
 PLAN = small_plan()
 LIMITS = MotionLimits.of(CARD, PLAN.scene)
-STEPS = list(smooth_steps(PLAN, LIMITS))
 PATH = PLAN.trajectory
 JOINTS = slice(0, len(PATH.arms.names)) if PATH else slice(0)
 BETWEEN = 5e-3
@@ -40,7 +40,18 @@ def askew(plan: Plan, angle: float) -> Plan:
     return replace(plan, trajectory=replace(path, segments=tuple(segment(one) for one in path.segments)))
 
 
-each_step = pytest.mark.parametrize("step", STEPS, ids=lambda step: f"step {step.number}")
+@cache
+def steps() -> tuple[SmoothStep, ...]:
+    """Return the steps, made when a test first asks: each worker of the tests collects this file."""
+    return tuple(smooth_steps(PLAN, LIMITS))
+
+
+@pytest.fixture
+def step(request: pytest.FixtureRequest) -> SmoothStep:
+    return steps()[request.param]
+
+
+each_step = pytest.mark.parametrize("step", range(len(PLAN.steps)), ids=lambda number: f"step {number}", indirect=True)
 
 
 @each_step
@@ -106,8 +117,8 @@ def test_between_keyframes_it_is_as_near_to_the_plan_as_it_says(step: SmoothStep
 
 
 def test_steps_follow_each_other_and_take_no_less_than_planned():
-    assert STEPS[1].start_s == pytest.approx(STEPS[0].duration_s)
-    for step, planned in zip(STEPS, PLAN.steps, strict=True):
+    assert steps()[1].start_s == pytest.approx(steps()[0].duration_s)
+    for step, planned in zip(steps(), PLAN.steps, strict=True):
         assert step.duration_s >= planned.duration_s - 1e-9
 
 
