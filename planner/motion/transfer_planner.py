@@ -2,9 +2,8 @@
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
-from typing import TypeAlias
 
 import numpy as np
 
@@ -14,7 +13,6 @@ from planner.geometry.tolerance import TIME_S
 from planner.motion.blocking_contacts import BlockingContacts
 from planner.motion.carried import Carried
 from planner.motion.joint_trajectory import CLOSED_M, OPEN_M
-from planner.motion.known_motions import forget_motions, motions_known
 from planner.motion.lying_cloth import LyingCloth, LyingCloths
 from planner.motion.moments import Moments, moments_of
 from planner.motion.robot_port import Collisions, RobotPort
@@ -41,8 +39,19 @@ Lines = tuple[FloatArray | None, FloatArray | None]
 """The lines away from grips and to grips that a path connects, each of shape (n, joints); None at home."""
 
 
-KnownTransfers: TypeAlias = dict[tuple[object, ...], tuple[Transfer | None, NoPath | None]]
-"""The transfers of a task, by their steps' motions: None where there is none, and where it was blocked, if anywhere."""
+@dataclass(frozen=True, slots=True, eq=False)
+class KnownTransfers:
+    """What is known of the transfers of a task, by their steps' motions; tightened tasks share it.
+
+    Attributes:
+        can_be_there: whether the arms have free postures where the steps begin and end.
+        candidates: the candidates that steps make.
+        made: the transfer of each candidate, None where it has none, and the moments at which it was blocked, if any.
+    """
+
+    can_be_there: dict[tuple[object, ...], bool] = field(default_factory=dict)
+    candidates: dict[tuple[object, ...], Candidate] = field(default_factory=dict)
+    made: dict[tuple[object, ...], tuple[Transfer | None, NoPath | None]] = field(default_factory=dict)
 
 
 class TransferPlanner:
@@ -69,10 +78,7 @@ class TransferPlanner:
         self._context = context
         self._paths = paths
         self._blocked = BlockedMoments()
-        self.known: KnownTransfers = {} if known is None else known
-        self._motions = motions_known(
-            machine, context.sequence.garment, scene, context.placement, context.reach.comfort_m
-        )
+        self.known = known or KnownTransfers()
         self._candidates: dict[tuple[object, ...], Candidate] = {}
         self._made: dict[Candidate, Transfer | None] = {}
         self.glances = self.tries = 0
@@ -122,24 +128,22 @@ class TransferPlanner:
         """Return whether the arms have free postures when each step takes hold and when its motions end."""
         self.glances += 1
         key = motion_of(steps)
-        can = self._motions.can_be_there.get(key)
-        if can is None:
+        known = self.known.can_be_there
+        if key not in known:
             phases = [phase for step in steps for phase in step.extremes()]
             moments = moments_of(phases, self._context.scene.table.height_m, only_ends=True)
             ends = np.flatnonzero(np.diff(moments.phases, append=moments.phases[-1] + 1))
-            can = self._paths.postures.can_hold_at(moments, [0, *ends[::-1].tolist()])
-            self._motions.keep_glance(key, can)
-        return can
+            known[key] = self._paths.postures.can_hold_at(moments, [0, *ends[::-1].tolist()])
+        return known[key]
 
     def candidate(self, steps: tuple[Step, ...]) -> "Candidate":
         """Return the candidate that some steps make, whether or not it is valid. Cached."""
         key = motion_of(steps)
         if key not in self._candidates:
-            found = self._motions.candidates.get(key)
-            if found is None:
-                found = self._candidate(steps, key)
-                self._motions.keep_candidate(found)
-            self._candidates[key] = replace(found, steps=steps)
+            known = self.known.candidates
+            if key not in known:
+                known[key] = self._candidate(steps, key)
+            self._candidates[key] = replace(known[key], steps=steps)
         return self._candidates[key]
 
     def _candidate(self, steps: tuple[Step, ...], key: tuple[object, ...]) -> "Candidate":
@@ -157,7 +161,7 @@ class TransferPlanner:
         return self._made[candidate]
 
     def _made_or_known(self, candidate: "Candidate") -> Transfer | None:
-        known = self.known
+        known = self.known.made
         if candidate.motion not in known:
             found = self._paths.carried(candidate.moments, candidate.cloths)
             known[candidate.motion] = (self._transfer(candidate, found), found if isinstance(found, NoPath) else None)
@@ -237,6 +241,5 @@ def _transfer_paths(machine: RobotPort, table: Table, torso_m: float) -> tuple[T
 
 
 def forget_paths() -> None:
-    """Clear the caches of motions, joint paths and transits, so that benchmarks measure their computation."""
+    """Clear the cache of joint paths and transits, so that benchmarks measure their computation."""
     _transfer_paths.cache_clear()
-    forget_motions()
