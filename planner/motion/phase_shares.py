@@ -26,7 +26,8 @@ def shares_of(phase: Phase) -> FloatArray:
     """
     hands = [hand for hand in phase.hands if hand is not None]
     pieces = max((len(hand.points) - 1 for hand in hands), default=1) or 1
-    drive = math.dist((phase.base[0].x_m, phase.base[0].y_m), (phase.base[1].x_m, phase.base[1].y_m))
+    way = np.array([phase.base[1].x_m - phase.base[0].x_m, phase.base[1].y_m - phase.base[0].y_m, 0.0])
+    drive = math.hypot(way[0], way[1])
     if all(len(hand.points) == 1 for hand in hands):
         count = max(math.ceil((drive - LENGTH_M) / STEP_M), 1)
         return np.arange(count + 1) / count
@@ -34,9 +35,10 @@ def shares_of(phase: Phase) -> FloatArray:
     for hand in hands:
         if len(hand.points) > 1:
             points = np.array(hand.points)
-            gone = np.sqrt(((points[1:] - points[:-1]) ** 2).sum(axis=1))
-            # Seen from the base, a tool also goes as far as the base drives meanwhile.
-            _need(wanted, (gone + drive / len(gone) - LENGTH_M) / STEP_M)
+            gone = points[1:] - points[:-1]
+            # Over the table, and seen from the base, which drives meanwhile: a drag's tools rest on it.
+            for seen in (gone, gone - way / len(gone)):
+                _need(wanted, (np.sqrt((seen**2).sum(axis=1)) - LENGTH_M) / STEP_M)
         if len(hand.rolls_rad) > 1:
             rolls = np.array(hand.rolls_rad)
             _need(wanted, (np.abs(rolls[1:] - rolls[:-1]) - EDGE_RAD) / STEP_RAD)
