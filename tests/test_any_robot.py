@@ -17,6 +17,7 @@ DOOR = (
     "planner.robots.arm_paths",
     "planner.robots.card",
     "planner.robots.card_file",
+    "planner.robots.card_parts",
     "planner.robots.collision.contact",
     "planner.robots.collision.described_parts",
     "planner.robots.described_robot",

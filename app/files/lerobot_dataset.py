@@ -16,6 +16,7 @@ import pyarrow.parquet as pq
 from app.files.folder_file import zipped
 from planner.errors import UnsolvedPlanError
 from planner.geometry.pose import FloatArray
+from planner.geometry.tolerance import TIME_S
 from planner.motion.motion_limits import BASE_NAMES, MotionLimits
 from planner.motion.smooth_motion import planned_values, smooth_steps
 from planner.robots.card import RobotCard
@@ -67,7 +68,7 @@ def _states(plan: Plan, card: RobotCard) -> tuple[list[str], FloatArray]:
     shown = [n for n, name in enumerate(limits.names) if not (card.is_fixed and name in BASE_NAMES)]
     steps = list(smooth_steps(plan, limits))
     ends_s = [*(step.start_s for step in steps[1:]), math.inf]
-    frames_s = np.arange(int(steps[-1].end_s * FPS) + 2) / FPS if steps else np.zeros(0)
+    frames_s = np.arange(math.ceil(steps[-1].end_s * FPS - TIME_S) + 1) / FPS if steps else np.zeros(0)
     parts = [
         step.at(frames_s[(frames_s >= step.start_s) & (frames_s < end_s)] - step.start_s)
         for step, end_s in zip(steps, ends_s, strict=False)

@@ -3,13 +3,12 @@
 import math
 from dataclasses import replace
 
-import numpy as np
 import pytest
 
 from planner import Scene, Task
 from planner.geometry.pose import Pose2
 from planner.motion.transfer_candidate import ways_of
-from planner.motion.transfer_planner import TransferPlanner, forget_paths
+from planner.motion.transfer_planner import TransferPlanner
 from planner.motion.tries import QUICK
 from planner.planning.problem import Problem
 from planner.primitives.primitive import Step
@@ -60,24 +59,3 @@ def test_ways_that_cannot_be_quicker_than_one_that_was_found_are_not_led(monkeyp
     monkeypatch.setattr(maker, "made", lambda candidate: led.append(candidate.steps) or made(candidate))
     assert maker.first_valid([first, *slower], QUICK) is quick
     assert led == [first]
-
-
-def test_the_next_planner_of_a_task_knows_its_motions_and_looks_at_its_own_steps():
-    maker, first, _ = some_fold()
-    one = maker.candidate(first)
-    next_maker, _, again = some_fold()
-    other = next_maker.candidate(again)
-    assert other.moments is one.moments
-    assert other.steps == again and other.steps[0] is again[0]
-    slower, slow, _ = some_fold(arm_motion_s=4.0)
-    assert slower.candidate(slow).moments is not one.moments
-
-
-def test_motions_that_are_known_give_the_transfer_that_was_found_anew():
-    maker, first, _ = some_fold()
-    forget_paths()
-    anew = some_fold()[0].validated(first)
-    known = maker.validated(first)
-    assert anew is not None and known is not None
-    assert known.durations_at_most_s() == anew.durations_at_most_s()
-    np.testing.assert_array_equal(known.carried.joints, anew.carried.joints)
