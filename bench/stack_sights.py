@@ -43,7 +43,7 @@ _SUPPORT_RAD = Scene().support_angle_rad
 
 @dataclass(frozen=True, slots=True)
 class Sighted:
-    """What was told of a stack in a picture, beside the truth.
+    """The result of a look at a rendered stack, beside the truth.
 
     Attributes:
         garment: its name.

@@ -9,7 +9,7 @@ from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray, Point3
 
 _AHEAD_M = 1e-3
-"""What is nearer to the lens than that, or behind it, counts as being that far ahead (m)."""
+"""The least distance ahead of the lens; what is nearer or behind it counts as that far ahead (m)."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -41,7 +41,7 @@ _LEAST_POINTS = 40
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Sight:
-    """What was seen of a stack.
+    """The result of a look at a stack.
 
     Attributes:
         fit: where it lies; None where nothing was found that could be it.
