@@ -17,7 +17,7 @@ export PYTHONDONTWRITEBYTECODE :=
 # Stamps: newer than the pinned requirements when what they ask for is installed.
 READY := $(VENV)/.ready
 READY_DEV := $(VENV)/.ready-dev
-KERNELS := $(VENV)/.kernels
+KERNELS := $(VENV)/.kernels-pr2 $(VENV)/.kernels-so101-pair
 READY_JS := tests/js/node_modules/.ready
 READY_BENCH := $(VENV)/.ready-bench
 
@@ -115,10 +115,10 @@ $(READY): requirements.txt pyproject.toml | $(BIN)/python
 	@touch $@
 
 # So that the first plan does not wait for the compiler, nor several tests at once for the same. A minute or two; seconds
-# where it has been done.
-$(KERNELS): $(READY) $(shell find planner -name '*.py')
-	@echo "Compiling the kernels"
-	@$(BIN)/python -c "from planner.planning.warm_up import compile_kernels; compile_kernels(); compile_kernels('so101-pair')"
+# where it has been done. The arms of one robot are in closed form, those of the other are mapped: few kernels are both's.
+$(KERNELS): $(VENV)/.kernels-%: $(READY) $(shell find planner -name '*.py')
+	@echo "Compiling the kernels for $*"
+	@$(BIN)/python -c "from planner.planning.warm_up import compile_kernels; compile_kernels('$*')"
 	@touch $@
 
 $(READY_DEV): requirements-dev.txt $(READY)
