@@ -22,7 +22,7 @@ READY_JS := tests/js/node_modules/.ready
 READY_BENCH := $(VENV)/.ready-bench
 
 .DEFAULT_GOAL := help
-.PHONY: help run check format lint types page-types imports kernels test-quick test test-long browser bench figures lock clean
+.PHONY: help run check format lint types page-types imports kernels test-quick test test-long browser nginx bench figures lock clean
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1 ~\2/p' Makefile | while IFS='~' read -r target text; do \
@@ -61,10 +61,10 @@ kernels: $(KERNELS)
 test-quick: $(READY_DEV) $(KERNELS) ## the tests that are quick and need no browser
 	$(PYTEST) -n $(JOBS) --dist loadfile --no-loadscope-reorder -m "not browser and not slow"
 
-test: $(READY_DEV) $(KERNELS) browser ## every test, the property laws on a few hundred random cases
+test: $(READY_DEV) $(KERNELS) browser nginx ## every test, the property laws on a few hundred random cases
 	$(PYTEST) -n $(JOBS) --dist loadfile --no-loadscope-reorder
 
-test-long: $(READY_DEV) $(KERNELS) browser ## every test, the laws on thousands of random cases
+test-long: $(READY_DEV) $(KERNELS) browser nginx ## every test, the laws on thousands of random cases
 	$(PYTEST) -n $(JOBS) --dist loadfile --no-loadscope-reorder --hypothesis-profile=long
 
 bench: $(READY) $(KERNELS) $(READY_BENCH) ## the benchmark tables, also as JSON under bench/out/; draws docs/growth.svg
@@ -82,6 +82,12 @@ browser: $(READY_DEV)
 	    $$sudo env DEBIAN_FRONTEND=noninteractive apt-get install -qq -y --no-install-recommends chromium; \
 	fi; \
 	test -x /usr/bin/chromium || $(BIN)/python -m playwright install chromium
+
+# The proxy of the tests, unpacked and not installed: as a package it would start a server. They are skipped without it.
+nginx: | $(BIN)/python browser
+	@test -x /usr/sbin/nginx || test -x $(VENV)/nginx/usr/sbin/nginx || \
+	{ command -v apt-get >/dev/null && cd $(VENV) && apt-get download -qq -o APT::Sandbox::User=root nginx && dpkg -x nginx_*.deb nginx && rm nginx_*.deb; } || \
+	echo "There is no nginx here: its tests are left out"
 
 # Pins for every machine: the versions of `requirements-dev.txt` hold for `requirements.txt` too.
 COMPILE := $(BIN)/pip-compile --quiet --strip-extras --allow-unsafe --build-deps-for editable --generate-hashes \
