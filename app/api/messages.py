@@ -168,6 +168,20 @@ class PlanFrom(StrictModel):
     step: Annotated[int, Field(ge=-1, le=10_000)] | None
 
 
+class PlanFromState(StrictModel):
+    """Plan what is left from a state of the world, as `start` of a plan request."""
+
+    do: Literal["plan_from_state"]
+    start: StartField
+
+
+class ShowTrace(StrictModel):
+    """Have the stage show the cloth of a rehearsed run along with the plan, by the id of its trace; null: no more."""
+
+    do: Literal["show_trace"]
+    trace: Annotated[str, Field(max_length=64)] | None
+
+
 class Preview(StrictModel):
     """Have the stage show a plan by its id, that of a suggestion; null: the document's own again."""
 
@@ -188,7 +202,9 @@ Command: TypeAlias = (
     | PlanAgain
     | LookLonger
     | PlanFrom
+    | PlanFromState
     | Preview
+    | ShowTrace
 )
 AnyCommand = Annotated[Command, Field(discriminator="do")]
 COMMANDS: TypeAdapter[Command] = TypeAdapter(AnyCommand)

@@ -6,7 +6,7 @@ the table's colours. Points of the outline at the table's edge and beside an arm
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import cv2
@@ -17,7 +17,7 @@ from app.vision.fit_stack import fit_near
 from app.vision.on_table import why_in_doubt
 from app.vision.picture import Image
 from app.vision.segment import Mask, segment
-from app.vision.stack_fit import StackFit
+from app.vision.stack_fit import StackFit, unknown_json
 from app.vision.vision_errors import NothingToldError
 from planner.cloth.cloth_state import ClothState
 from planner.geometry.pose import BoolArray, FloatArray, Pose2
@@ -48,19 +48,22 @@ class Sight:
         contour: the points of its outline seen, shape (n, 2), pixels.
         fitted: the fitted outline, shape (m, 2), pixels; empty without a fit.
         unknown: why it is not known where it lies; None where it is.
+        expected: the outline where it ought to lie, shape (k, 2), pixels.
     """
 
     fit: StackFit | None
     contour: FloatArray
     fitted: FloatArray
     unknown: Message | None
+    expected: FloatArray = field(default_factory=lambda: np.empty((0, 2)))
 
     def to_dict(self) -> dict[str, Any]:
         """Return it as JSON, outlines to a tenth of a pixel."""
         return {
             "fit": None if self.fit is None else self.fit.to_dict(),
             "fitted_px": np.round(self.fitted, 1).tolist(),
-            "unknown": None if self.unknown is None else self.unknown.to_dict(),
+            "expected_px": np.round(self.expected, 1).tolist(),
+            **unknown_json(self.unknown),
         }
 
 
@@ -88,6 +91,7 @@ class Looker:
         """
         height_m = _LAYER_M * len(stack.layers) / 2.0
         expected = [self._pixels(near.to_outer(ring), height_m) for ring in stack.silhouette.rings]
+        ought = max(expected, key=len)
         away = ~self._painted([self._pixels(np.array(self.table.corners), 0.0)]) | self.hidden
         reach = math.ceil(_AWAY_M * self.camera.focal_px / self.camera.position[2])
         disc = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * reach + 1, 2 * reach + 1))
@@ -97,15 +101,15 @@ class Looker:
         try:
             seen = segment(image[part], away[part], table if table.mean() > _LEAST_TABLE else None)
         except NothingToldError as error:
-            return _blind(Message.plain(str(error)))
+            return _blind(error.says, ought)
         contour = seen.contour + np.array([part[1].start, part[0].start])
         contour = contour[~self._is_beside(contour, away)]
         if len(contour) < _LEAST_POINTS:
-            return _blind(Message.plain("almost all of the outline is hidden"))
+            return _blind(Message("outline_hidden", "almost all of the outline is hidden"), ought)
         fit = fit_near(self.camera.on_plane(contour, height_m), stack, near)
         doubt = why_in_doubt(replace(seen, at_border=0.0), None)
         rings = [self._pixels(fit.placement.to_outer(ring), height_m) for ring in stack.silhouette.rings]
-        return Sight(fit, contour, max(rings, key=len), fit.unknown or doubt)
+        return Sight(fit, contour, max(rings, key=len), fit.unknown or doubt, ought)
 
     def _pixels(self, points: FloatArray, height_m: float) -> FloatArray:
         return self.camera.pixels(np.column_stack([points, np.full(len(points), height_m)]))
@@ -135,5 +139,5 @@ def _round(mask: BoolArray, margin: int) -> tuple[slice, slice]:
     return spans[0], spans[1]
 
 
-def _blind(why: Message) -> Sight:
-    return Sight(None, np.empty((0, 2)), np.empty((0, 2)), why)
+def _blind(why: Message, ought: FloatArray) -> Sight:
+    return Sight(None, np.empty((0, 2)), np.empty((0, 2)), why, ought)
