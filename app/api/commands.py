@@ -3,8 +3,6 @@
 from dataclasses import replace
 from typing import Any
 
-from pydantic import ValidationError
-
 from app.api.asked import asked_start
 from app.api.messages import (
     COMMANDS,
@@ -34,18 +32,13 @@ from app.drawing.robot_drawing import with_robot
 from app.rehearsal.trace import RunTrace
 from app.workspace import Workspace
 from planner.cloth.garment import Garment
-from planner.errors import RequestError
 from planner.robots.known_robots import require_name
 from planner.robots.load_robot import robot_card_file
-from planner.strict_model import first_error
 
 
 def command_of(data: Any) -> Command:  # noqa: ANN401
     """Return the command that JSON describes; raises `RequestError`."""
-    try:
-        return COMMANDS.validate_python(data)
-    except ValidationError as error:
-        raise first_error(error, RequestError) from None
+    return COMMANDS.read(data)
 
 
 def obey(command: Command, workspace: Workspace, document: Document) -> None:

@@ -1,16 +1,17 @@
 """The bodies of requests, and the page's commands."""
 
 from dataclasses import dataclass
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import Annotated, Any, Literal, TypeAlias, cast
 
 from annotated_types import Interval
-from pydantic import Field, PlainValidator, TypeAdapter
+from pydantic import Field, PlainValidator
 from pydantic_core import PydanticCustomError
 
 from app.language import Language
 from app.playback import SPEED_MAX, SPEED_MIN
 from planner.cloth.garment import FOLDS_MAX, Garment
 from planner.geometry.given import GivenPose
+from planner.json_form import JsonForm
 from planner.planning.robot_task import with_robots_scene
 from planner.strict_model import LARGEST_M, Bounded, StrictModel
 from planner.task.scene import Scene
@@ -207,4 +208,4 @@ Command: TypeAlias = (
     | ShowTrace
 )
 AnyCommand = Annotated[Command, Field(discriminator="do")]
-COMMANDS: TypeAdapter[Command] = TypeAdapter(AnyCommand)
+COMMANDS: JsonForm[Command] = JsonForm(cast("type[Command]", AnyCommand))

@@ -20,10 +20,23 @@ class FilmedWorld:
         frames: where the points of the cloth are, by the time of the plan (s).
     """
 
-    def __init__(self, plan: Plan, begun: Callable[[Tick], PhysicsWorld]) -> None:
-        """Take a plan, and a function that returns the world, given what that calls after every time step."""
+    def __init__(
+        self,
+        plan: Plan,
+        begun: Callable[[Tick], PhysicsWorld],
+        progress: Callable[[float], None] = lambda _: None,
+    ) -> None:
+        """Film a world.
+
+        Args:
+            plan: the plan.
+            begun: returns the world, given what that calls after every time step.
+            progress: told the fraction of the plan's steps that is done.
+        """
         self.frames: list[tuple[float, Frames]] = []
         self._plan: Plan | None = plan
+        self._progress = progress
+        self._step = 0
         self._next_s: float | None = None
         self._starts_s = self._ends_s = 0.0
         self._world = begun(self._tick)
@@ -49,6 +62,7 @@ class FilmedWorld:
         step = self._plan.steps[motion.step]
         first_s = step.start_s + min(grip.times_s[0] for grip in motion.grips)
         self.frames = [frame for frame in self.frames if frame[0] < first_s]
+        self._step = motion.step
         self._starts_s, self._ends_s = first_s - self._world.elapsed_s, step.end_s
         self._keep(first_s)
         self._next_s = self._world.elapsed_s + _PERIOD_S
@@ -65,7 +79,11 @@ class FilmedWorld:
         if self._next_s is None or self._world.elapsed_s < self._next_s:
             return
         self._next_s += _PERIOD_S
-        self._keep(min(self._starts_s + self._world.elapsed_s, self._ends_s))
+        t_s = min(self._starts_s + self._world.elapsed_s, self._ends_s)
+        self._keep(t_s)
+        if self._plan is not None:
+            step = self._plan.steps[self._step]
+            self._progress((self._step + (t_s - step.start_s) / step.duration_s) / len(self._plan.steps))
 
     def _keep(self, t_s: float) -> None:
         """Keep a frame; it takes the place of those that are not earlier."""

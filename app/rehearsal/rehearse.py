@@ -149,19 +149,27 @@ def one_run(
         world.end()
         return make_plan(task)
 
-    world = FilmedWorld(plan, begun)
+    most = 0.0
+
+    def told(share: float) -> None:
+        nonlocal most
+        if share > most:  # a step that is tried again goes back
+            most = share
+            progress(share)
+
+    world = FilmedWorld(plan, begun, told)
     assert plan.trajectory is not None
     camera = CameraWorld(world, plan.task, posture_at(plan.trajectory, 0.0), seed)
     seen = camera if noise == Noise() else NoisyWorld(camera, noise, seed, start.base.pose)
-    performer = Performer(plan, seen, options.gate, planned_again if options.feedback else None, progress)
+    performer = Performer(plan, seen, options.gate, planned_again if options.feedback else None, told)
     try:
         found = performer.performed()
     except FloatingPointError as error:
         found = Performance((), (), str(error))
     trace = None
     if seed - options.seed < options.traced:
-        told = [{**one.to_dict(), "of_plan": looked_before(plan, one.before)} for one in found.pictures]
-        trace = traced(plan, world.truth(), world.frames, found.cloths, told)
+        looks = [{**one.to_dict(), "of_plan": looked_before(plan, one.before)} for one in found.pictures]
+        trace = traced(plan, world.truth(), world.frames, found.cloths, looks)
     took_s = process_time() - began
     return Run(seed, found.steps, found.decisions, found.reason, world.elapsed_s, took_s, found.pictures, trace)
 

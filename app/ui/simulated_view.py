@@ -18,6 +18,9 @@ _OPACITY = 0.8
 _OFF_M = Gate().mean_mm / 1000.0
 """The distance from where it is planned from which cloth is shaded (m): the mean error up to which a step holds."""
 
+_ABOVE = np.array([0.0, 0.0, 0.003])
+"""How much higher it is drawn (m), so that planned cloth at the same place does not hide it."""
+
 _NO_POINTS = np.zeros((3, 3))
 _NO_TRIANGLES = np.zeros((1, 3), dtype=np.int64)
 
@@ -62,7 +65,7 @@ class SimulatedView:
         for mesh, triangles in ((self._near, trace.triangles[~is_off]), (self._off, trace.triangles[is_off])):
             mesh.visible = len(triangles) > 0
             if len(triangles):
-                mesh.vertices = positions.astype(np.float32)
+                mesh.vertices = (positions + _ABOVE).astype(np.float32)
                 mesh.faces = triangles.astype(np.uint32)
 
 

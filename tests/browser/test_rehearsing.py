@@ -15,6 +15,9 @@ from tests.browser.napkin import napkin
 from tests.browser.status_pill import expect_planned
 
 JOB = {"id": "7", "kind": "rehearsals", "progress": 0.4, "message": "", "created": "2026-01-01T00:00:00Z"}
+SIMULATED_MS = 600_000
+"""Patience with a rehearsal: jobs give way to all else."""
+
 PHONE = {"width": 390, "height": 844}
 
 
@@ -273,7 +276,8 @@ def test_on_a_phone_the_pictures_are_in_the_sheet(chromium: Browser, new_sheet: 
 
 def test_a_small_napkin_is_rehearsed(page: Page, new_sheet: Callable[[Garment], Sheet]) -> None:
     opened(page, new_sheet({**NAPKIN, "title": "Small napkin"})).click()
-    expect(page.locator(".rehearsing")).to_contain_text("Every step holds in simulated physics")
+    told = "Every step holds in simulated physics"
+    expect(page.locator(".rehearsing")).to_contain_text(told, timeout=SIMULATED_MS)
     expect(page.locator(".mark")).to_have_count(1)
     page.locator(".mark").click()
     card = page.get_by_role("region", name="Pictures of the rehearsal")

@@ -17,6 +17,8 @@ import { inAWord } from "./words.js";
 /** @import { Look, TraceStep } from "pleat" */
 
 const INSTANT_S = 1e-3;
+/** On a lower stage the pictures are folded away until they are asked for (px). */
+const OPEN_FROM_PX = 320;
 
 export class RehearsalCard {
   /**
@@ -31,14 +33,19 @@ export class RehearsalCard {
     this.rehearsal = rehearsal;
     /** What is shown. */
     this.shown = "";
-    this.isOpen = true;
-    this.fold = button("icon-button is-dense", () => this.toggle(), icon("back"));
+    /** Whether somebody chose to see the pictures, or not to; null before. @type {boolean|null} */
+    this.chosen = null;
+    this.fold = button("rehearsal-fold", () => this.toggle(), element("span", "", say("rehearsal.pictures")), icon("back"));
     this.pictures = element("div", "rehearsal-pictures");
     this.root = element("section", "rehearsal-card", this.fold, this.pictures);
     this.root.setAttribute("aria-label", say("rehearsal.pictures"));
-    const phone = matchMedia(PHONE);
-    const stand = () => (phone.matches ? box : byId("stage-pane")).append(this.root);
-    phone.addEventListener("change", stand);
+    this.phone = matchMedia(PHONE);
+    const stand = () => {
+      (this.phone.matches ? box : byId("stage-pane")).append(this.root);
+      this.draw();
+    };
+    this.phone.addEventListener("change", stand);
+    addEventListener("resize", () => this.draw());
     stand();
     rehearsal.addEventListener("change", () => this.show());
     clock.addEventListener("tick", () => this.show());
@@ -47,8 +54,12 @@ export class RehearsalCard {
   }
 
   toggle() {
-    this.isOpen = !this.isOpen;
+    this.chosen = !this.isOpen;
     this.draw();
+  }
+
+  get isOpen() {
+    return this.chosen ?? (this.phone.matches || byId("stage-pane").clientHeight >= OPEN_FROM_PX);
   }
 
   get steps() {

@@ -11,7 +11,7 @@ export class Marks {
   /** @param {(t_s: number) => void} onSeek */
   constructor(onSeek) {
     this.onSeek = onSeek;
-    this.name = element("span", "lane-name", element("span", "", say("rehearsal.lane")));
+    this.name = element("span", "lane-name", element("b", "arm", "\u2713"), element("span", "", say("rehearsal.lane")));
     this.lane = element("div", "lane marks");
     this.lane.setAttribute("role", "group");
     this.lane.setAttribute("aria-label", say("rehearsal.lane"));

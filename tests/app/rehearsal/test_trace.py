@@ -1,5 +1,6 @@
 """The trace of a run: the cloth along the plan's time, beside the cloth as planned."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -48,8 +49,8 @@ class Lifted:
         return self._truth
 
 
-def filmed(plan: Plan) -> FilmedWorld:
-    return FilmedWorld(plan, lambda tick: Lifted(plan, tick))  # type: ignore[arg-type, return-value]
+def filmed(plan: Plan, progress: Callable[[float], None] = lambda _: None) -> FilmedWorld:
+    return FilmedWorld(plan, lambda tick: Lifted(plan, tick), progress)  # type: ignore[arg-type, return-value]
 
 
 def height_m(frame: np.ndarray) -> float:
@@ -57,9 +58,11 @@ def height_m(frame: np.ndarray) -> float:
 
 
 def test_a_film_runs_along_the_plan_and_is_still_while_nothing_is_held(letter: Plan):
-    world = filmed(letter)
+    told: list[float] = []
+    world = filmed(letter, told.append)
     for motion in step_motions(letter):
         world.perform(motion)
+    assert told == sorted(told) and 0.0 < told[0] < 0.5 < told[-1] <= 1.0
     times = [t_s for t_s, _ in world.frames]
     assert times == sorted(set(times)) and times[0] == 0.0 and times[-1] <= letter.cost_s
     first = step_motions(letter)[0].grips[0].times_s[0]
