@@ -14,7 +14,7 @@ from planner.task.plan_step import PlanStep
 
 ROOT = "/simulated"
 
-_OPACITY = 0.8
+_OPACITY = 0.65
 _OFF_M = Gate().mean_mm / 1000.0
 """The distance from where it is planned from which cloth is shaded (m): the mean error up to which a step holds."""
 

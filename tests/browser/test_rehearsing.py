@@ -122,7 +122,7 @@ def test_a_rehearsal_tells_of_each_step_what_became_of_it(page: Page, new_sheet:
     for one in (in_row, mark):
         expect(one).to_have_text("slid 12 mm")
     expect(page.get_by_role("group", name="Rehearsed").get_by_role("button", name="After step 1")).to_be_visible()
-    expect(pill).not_to_contain_text("rehearsed")
+    expect(pill).not_to_contain_text("Rehearsed")
 
     server.begun_by(begin)
     expect(mark).to_have_count(0)
@@ -130,11 +130,11 @@ def test_a_rehearsal_tells_of_each_step_what_became_of_it(page: Page, new_sheet:
     expect(said).to_contain_text("Lost at step 1: the cloth is 31 mm off on average.")
     for one in (in_row, mark):
         expect(one).to_have_text("lost")
-    expect(pill).to_contain_text("rehearsed: lost at step 1")
+    expect(pill).to_contain_text("Rehearsed: lost at step 1. Planned:")
     said.get_by_role("button", name="Close").click()
     for one in (in_row, mark):
         expect(one).to_have_count(0)
-    expect(pill).not_to_contain_text("rehearsed")
+    expect(pill).not_to_contain_text("Rehearsed")
 
 
 def test_a_mark_leads_to_the_end_of_its_step(page: Page, new_sheet: Callable[[Garment], Sheet]) -> None:
