@@ -1,4 +1,3 @@
-import asyncio
 import base64
 import math
 from typing import Any
@@ -9,6 +8,7 @@ import pytest
 from app.api.rehearsal_routes import TraceAnswer, TraceClothAnswer
 from tests.app.rehearsal.towel import towel_plan
 from tests.app.test_described_answers import assert_described
+from tests.app.test_job_routes import ended
 from tests.app.test_live import listening
 
 NAPKIN = {
@@ -20,13 +20,6 @@ NAPKIN = {
 """A cloth of a fifth of a towel, so that it is soon rehearsed."""
 
 pytestmark = pytest.mark.anyio
-
-
-async def ended(client: httpx.AsyncClient, path: str) -> dict[str, Any]:
-    """Wait until a job has ended, and return it."""
-    while (job := (await client.get(path)).json())["status"] in ("queued", "running"):
-        await asyncio.sleep(0.05)
-    return dict(job)
 
 
 async def test_the_trace_of_a_run_can_be_read_by_its_id_and_shown_on_the_stage(client: httpx.AsyncClient):
