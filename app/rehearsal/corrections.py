@@ -1,17 +1,29 @@
 """Change the motions of a step to fit the cloth as it lies: moved with it, or taken at another point of it."""
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 
 import numpy as np
 
 from app.rehearsal.world import GripMotion, StepMotion, way_done
+from app.vision.seen_stack import SeenStack
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray, Point2, Point3, Pose2
+from planner.geometry.region import Region
+from planner.task.grip import Holding
 
 REGRASPS = 8
 """Points round a grip at which a grasp that missed is tried again (paper, section 9)."""
+
+_NEAR = 1.0 / 3.0
+"""The share of the radius at which it is tried first: most fingers that miss have closed just beside an edge."""
+
+INWARDS_M = 0.012
+"""How far inside of the outline hands take hold (m).
+
+Layers end up to a centimetre or two inside of each other; fingers that close at the outermost corner miss the others.
+"""
 
 
 def carry(start: Pose2, end: Pose2) -> Isometry:
@@ -39,20 +51,22 @@ def corrected(motion: StepMotion, carried: Isometry) -> StepMotion:
     return replace(motion, grips=tuple(_along(grip, carried_along(np.array(grip.points))) for grip in motion.grips))
 
 
-def regrasps(motion: StepMotion, arms: frozenset[str], radius_m: float, fold: Isometry | None) -> Iterator[StepMotion]:
+def regrasps(
+    motion: StepMotion, arms: frozenset[str], radius_m: float, offsets: Mapping[str, Point2], fold: Isometry | None
+) -> Iterator[StepMotion]:
     """Yield the step with some hands at other points round their grips, first at those further into the cloth.
 
     Args:
         motion: the step.
         arms: the arms that found no cloth.
-        radius_m: how far from their grips (m): within the comfort radius everything is in reach.
+        radius_m: how far from their grips at most (m): within the comfort radius everything is in reach.
+        offsets: how far beside its grip each hand took the cloth at first (m).
         fold: the reflection of the cloth by the step's fold, table frame; None if it makes none.
     """
-    for number in range(REGRASPS):
-        turn = math.pi / 4.0 * ((number + 1) // 2) * (-1.0 if number % 2 else 1.0)
-        yield beside(
-            motion, {grip.arm: _round(grip, radius_m, turn) for grip in motion.grips if grip.arm in arms}, fold
-        )
+    turns = [math.pi / 4.0 * ((number + 1) // 2) * (-1.0 if number % 2 else 1.0) for number in range(REGRASPS - 1)]
+    for away_m, turn in ((_NEAR * radius_m, 0.0), *((radius_m, turn) for turn in turns)):
+        tried = {grip.arm: _round(grip, away_m, turn) for grip in motion.grips if grip.arm in arms}
+        yield beside(motion, {**offsets, **tried}, fold)
 
 
 def beside(motion: StepMotion, offsets: Mapping[str, Point2], fold: Isometry | None) -> StepMotion:
@@ -73,6 +87,32 @@ def beside(motion: StepMotion, offsets: Mapping[str, Point2], fold: Isometry | N
         return _along(grip, points)
 
     return replace(motion, grips=tuple(moved(grip) if grip.arm in offsets else grip for grip in motion.grips))
+
+
+def taken_inwards(
+    holdings: Iterable[Holding], piece: Region, lies: Pose2, seen: SeenStack | None, radius_m: float
+) -> dict[str, Point2]:
+    """Return how far beside its grip each hand should take the cloth, table frame (m).
+
+    That is some way inside of the outline, and where a part that moved lies beside its place, there.
+
+    Args:
+        holdings: the grips.
+        piece: the part of the stack that is taken, article frame.
+        lies: where the stack lies.
+        seen: how the stack was seen; None where it was not.
+        radius_m: how far at most (m).
+    """
+    return {one.arm: _inwards(one.point, piece, lies, seen, radius_m) for one in holdings}
+
+
+def _inwards(point: Point2, piece: Region, lies: Pose2, seen: SeenStack | None, radius_m: float) -> Point2:
+    offset = INWARDS_M * np.array(piece.inward_bisector(point) or (0.0, 0.0))
+    if seen is not None:
+        offset = offset + seen.beside(np.array([point]))[0]
+    offset = offset * min(1.0, radius_m / max(float(np.hypot(*offset)), 1e-9))
+    x, y = Pose2(0.0, 0.0, lies.yaw_rad).to_outer(offset[None])[0].tolist()
+    return (x, y)
 
 
 def still_beside(planned: StepMotion, made: StepMotion) -> dict[str, Point2]:

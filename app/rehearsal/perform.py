@@ -6,20 +6,25 @@ and holds the cloth beside it for as long as it holds on. Where it is not known 
 for another look; where that does not help, one step is made as planned, and a run that stays blind ends.
 """
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
+import numpy as np
+
 from app.camera.posture import Posture
-from app.rehearsal.corrections import beside, carry, corrected, regrasps, shift_of, still_beside
+from app.rehearsal.corrections import beside, carry, corrected, regrasps, shift_of, still_beside, taken_inwards
 from app.rehearsal.eyes import Eyes, Picture, kept
 from app.rehearsal.judge import Gate, StepVerdict, judged
 from app.rehearsal.result import Decision
 from app.rehearsal.step_motions import posture_at, step_motions
 from app.rehearsal.world import WITHDRAW, Performed, StepMotion, World
 from app.vision.look_at_stack import Sight
+from app.vision.seen_stack import SeenStack
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Point2, Pose2
+from planner.geometry.table_top import TableTop
 from planner.task.plan import Plan
 from planner.task.plan_step import PlanStep
 from planner.task.task import Task
@@ -27,7 +32,6 @@ from planner.task.world_state import WorldState
 
 FAILURES_MAX = 3
 """Times that the rest is planned again before a run is given up."""
-
 
 BLIND_MAX = 1
 """Steps in a row that are made as planned though it is not known where the cloth lies."""
@@ -67,6 +71,7 @@ class Performer:
     _pictures: list[Picture] = field(default_factory=list)
     _made: int = 0
     _beside: dict[str, Point2] = field(default_factory=dict)
+    _stack: SeenStack | None = None
     _blind: int = 0
     _posture: Posture | None = None
 
@@ -87,7 +92,8 @@ class Performer:
                 answer = None
                 if shift_m <= self.plan.task.limits.comfort_radius_m:
                     self._decide("corrected", ("shift_m", shift_m))
-                    answer = self._tried(replace(corrected(motion, carried), needs_all=True), step, carried)
+                    spare_m = self.plan.task.limits.comfort_radius_m - shift_m
+                    answer = self._tried(replace(corrected(motion, carried), needs_all=True), step, carried, spare_m)
                 if answer is None:
                     reason = self._planned_again(step, lies, shift_m)
                     if reason:
@@ -122,7 +128,7 @@ class Performer:
 
         Where it is not known where it lies, that is where it should lie.
         """
-        sight = self._sight(step, is_clear=False)
+        sight, self._stack = self._sight(step, is_clear=False), None
         if sight is None:
             return step.before.placement, ""
         if sight.unknown is not None and self._posture is not None:
@@ -131,7 +137,7 @@ class Performer:
             self._posture = away
             sight = self._sight(step, is_clear=True) or sight
         if sight.fit is not None and sight.unknown is None:
-            self._blind = 0
+            self._blind, self._stack = 0, sight.stack
             return sight.fit.placement, ""
         self._blind += 1
         self._decide("kept_blindly")
@@ -144,8 +150,8 @@ class Performer:
         seen, posture = self.world.observe(), self._posture
         if posture is None:
             return None
-        stack, near = self.plan.sequence.cloth(step.before.done), step.before.placement
-        sight = self._eyes.sight(seen, stack, near, posture)
+        folds, near = step.before.folds_done, step.before.placement
+        sight = self._eyes.sight(seen, self.plan.sequence, folds, near, posture)
         if sight is None:
             return None
         fit = sight.fit
@@ -155,18 +161,32 @@ class Performer:
         self._pictures += [] if picture is None else [picture]
         return sight
 
-    def _tried(self, motion: StepMotion, step: PlanStep, carried: Isometry) -> Performed | None:
-        """Perform a step, and where hands find no cloth again round their grips; None if they never find any."""
-        answer, made = self.world.perform(motion), motion
+    def _tried(self, motion: StepMotion, step: PlanStep, carried: Isometry, spare_m: float) -> Performed | None:
+        """Perform a step, and where hands find no cloth again round their grips; None if they never find any.
+
+        Hands take the cloth some way inside of its outline, `spare_m` at most.
+        """
+        fold, offsets = self._reflection(step, carried), self._inwards(step, carried, spare_m)
+        made = beside(motion, offsets, fold)
+        answer = self.world.perform(made)
         missing = frozenset(arm for arm, has in answer.has_cloth.items() if not has)
-        radius_m, fold = self.plan.task.limits.comfort_radius_m, self._reflection(step, carried)
-        for made in regrasps(motion, missing, radius_m, fold) if missing else ():
+        radius_m = self.plan.task.limits.comfort_radius_m
+        for made in regrasps(motion, missing, radius_m, offsets, fold) if missing else ():
             self._decide("regrasped", ("radius_m", radius_m))
             answer = self.world.perform(made)
             if not answer.is_missing_cloth:
                 break
         self._beside = still_beside(motion, made)
         return None if answer.is_missing_cloth else answer
+
+    def _inwards(self, step: PlanStep, carried: Isometry, spare_m: float) -> dict[str, Point2]:
+        """Return how far beside their grips hands take the cloth (m); that beside the table is taken at its edge."""
+        lies, sequence = step.before.placement, self.plan.sequence
+        piece = sequence.cloth(step.before.done).silhouette if step.fold is None else sequence.moving(step.fold)
+        top = TableTop.of(self.plan.scene.table)
+        lying = [one for one in step.holdings if top.covers(lies.to_outer(np.array([one.point])))]
+        turned = replace(lies, yaw_rad=lies.yaw_rad + math.atan2(carried.c, carried.a))
+        return taken_inwards(lying, piece, turned, self._stack, spare_m)
 
     def _held_on(self, motion: StepMotion, step: PlanStep, carried: Isometry) -> Performed:
         """Perform a step with the hands where they hold the cloth, be that beside their grips."""
