@@ -1,17 +1,14 @@
 """Change the motions of a step to fit the cloth as it lies: moved with it, or taken at another point of it."""
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 import numpy as np
 
 from app.rehearsal.world import GripMotion, StepMotion, way_done
-from app.vision.seen_stack import SeenStack
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray, Point2, Point3, Pose2
-from planner.geometry.region import Region
-from planner.task.grip import Holding
 
 REGRASPS = 8
 """Points round a grip at which a grasp that missed is tried again (paper, section 9)."""
@@ -19,10 +16,11 @@ REGRASPS = 8
 _NEAR = 1.0 / 3.0
 """The share of the radius at which it is tried first: most fingers that miss have closed just beside an edge."""
 
-INWARDS_M = 0.012
-"""How far inside of the outline hands take hold (m).
+SHORT_M = 0.008
+"""How far short of its place an edge is laid down that comes to lie upon the stack, not at its outline (m).
 
-Layers end up to a centimetre or two inside of each other; fingers that close at the outermost corner miss the others.
+Cloth turns over in a loop: with the edge at its place the crease would come to lie inside of its line by half of that
+(`app.vision.fit_creased`), or push the layers below aside.
 """
 
 
@@ -89,30 +87,17 @@ def beside(motion: StepMotion, offsets: Mapping[str, Point2], fold: Isometry | N
     return replace(motion, grips=tuple(moved(grip) if grip.arm in offsets else grip for grip in motion.grips))
 
 
-def taken_inwards(
-    holdings: Iterable[Holding], piece: Region, lies: Pose2, seen: SeenStack | None, radius_m: float
-) -> dict[str, Point2]:
-    """Return how far beside its grip each hand should take the cloth, table frame (m).
+def landing_short(motion: StepMotion, arms: frozenset[str], short_m: float) -> StepMotion:
+    """Return a fold in which some hands land short of where they should, from the apex on (m)."""
 
-    That is some way inside of the outline, and where a part that moved lies beside its place, there.
+    def moved(grip: GripMotion) -> GripMotion:
+        points = np.array(grip.points)
+        way = points[0, :2] - points[-1, :2]
+        late = np.clip(2.0 * way_done(points) - 1.0, 0.0, 1.0)[:, None]
+        points[:, :2] += short_m * late * way / max(float(np.hypot(*way)), short_m)
+        return _along(grip, points)
 
-    Args:
-        holdings: the grips.
-        piece: the part of the stack that is taken, article frame.
-        lies: where the stack lies.
-        seen: how the stack was seen; None where it was not.
-        radius_m: how far at most (m).
-    """
-    return {one.arm: _inwards(one.point, piece, lies, seen, radius_m) for one in holdings}
-
-
-def _inwards(point: Point2, piece: Region, lies: Pose2, seen: SeenStack | None, radius_m: float) -> Point2:
-    offset = INWARDS_M * np.array(piece.inward_bisector(point) or (0.0, 0.0))
-    if seen is not None:
-        offset = offset + seen.beside(np.array([point]))[0]
-    offset = offset * min(1.0, radius_m / max(float(np.hypot(*offset)), 1e-9))
-    x, y = Pose2(0.0, 0.0, lies.yaw_rad).to_outer(offset[None])[0].tolist()
-    return (x, y)
+    return replace(motion, grips=tuple(moved(grip) if grip.arm in arms else grip for grip in motion.grips))
 
 
 def still_beside(planned: StepMotion, made: StepMotion) -> dict[str, Point2]:

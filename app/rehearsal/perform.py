@@ -6,16 +6,23 @@ and holds the cloth beside it for as long as it holds on. Where it is not known 
 for another look; where that does not help, one step is made as planned, and a run that stays blind ends.
 """
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
-import numpy as np
-
 from app.camera.posture import Posture
-from app.rehearsal.corrections import beside, carry, corrected, regrasps, shift_of, still_beside, taken_inwards
+from app.rehearsal.corrections import (
+    SHORT_M,
+    beside,
+    carry,
+    corrected,
+    landing_short,
+    regrasps,
+    shift_of,
+    still_beside,
+)
 from app.rehearsal.eyes import Eyes, Picture, kept
+from app.rehearsal.grasp_points import inwards, laid_upon
 from app.rehearsal.judge import Gate, StepVerdict, judged
 from app.rehearsal.result import Decision
 from app.rehearsal.step_motions import posture_at, step_motions
@@ -24,7 +31,6 @@ from app.vision.look_at_stack import Sight
 from app.vision.seen_stack import SeenStack
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Point2, Pose2
-from planner.geometry.table_top import TableTop
 from planner.task.plan import Plan
 from planner.task.plan_step import PlanStep
 from planner.task.task import Task
@@ -166,7 +172,8 @@ class Performer:
 
         Hands take the cloth some way inside of its outline, `spare_m` at most.
         """
-        fold, offsets = self._reflection(step, carried), self._inwards(step, carried, spare_m)
+        fold, offsets = self._reflection(step, carried), inwards(self.plan, step, carried, self._stack, spare_m)
+        motion = landing_short(motion, laid_upon(self.plan, step), SHORT_M)
         made = beside(motion, offsets, fold)
         answer = self.world.perform(made)
         missing = frozenset(arm for arm, has in answer.has_cloth.items() if not has)
@@ -179,18 +186,10 @@ class Performer:
         self._beside = still_beside(motion, made)
         return None if answer.is_missing_cloth else answer
 
-    def _inwards(self, step: PlanStep, carried: Isometry, spare_m: float) -> dict[str, Point2]:
-        """Return how far beside their grips hands take the cloth (m); that beside the table is taken at its edge."""
-        lies, sequence = step.before.placement, self.plan.sequence
-        piece = sequence.cloth(step.before.done).silhouette if step.fold is None else sequence.moving(step.fold)
-        top = TableTop.of(self.plan.scene.table)
-        lying = [one for one in step.holdings if top.covers(lies.to_outer(np.array([one.point])))]
-        turned = replace(lies, yaw_rad=lies.yaw_rad + math.atan2(carried.c, carried.a))
-        return taken_inwards(lying, piece, turned, self._stack, spare_m)
-
     def _held_on(self, motion: StepMotion, step: PlanStep, carried: Isometry) -> Performed:
         """Perform a step with the hands where they hold the cloth, be that beside their grips."""
         held = {grip.arm: self._beside[grip.arm] for grip in motion.grips if grip.arm in self._beside}
+        motion = landing_short(motion, laid_upon(self.plan, step), 0.0 if self.replan is None else SHORT_M)
         made = beside(motion, held, self._reflection(step, carried))
         self._beside = still_beside(motion, made)
         return self.world.perform(made)

@@ -186,7 +186,8 @@ class Creased:
         distances, derivatives = self._residuals(found.x), self._derivatives(found.x)
         weights = 1.0 / (1.0 + (distances / _SCALE_M) ** 2)
         normal = (derivatives * weights[:, None]).T @ derivatives / scale_m**2 + np.diag(1.0 / self._sds**2)
-        return _Minimum(found.x, 2.0 * float(found.cost) / scale_m**2, np.linalg.inv(normal), distances)
+        covariance = np.asarray(np.linalg.inv(normal), dtype=np.float64)
+        return _Minimum(found.x, 2.0 * float(found.cost) / scale_m**2, covariance, distances)
 
 
 def _loss(squares: FloatArray, count: int) -> FloatArray:

@@ -1,19 +1,21 @@
 """Feedback in a world that only notes what it is asked for: cloth that lies elsewhere, and hands that miss."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from app.rehearsal.corrections import (
-    INWARDS_M,
     REGRASPS,
+    SHORT_M,
     carry,
     corrected,
+    landing_short,
     regrasps,
     shift_of,
-    taken_inwards,
 )
+from app.rehearsal.grasp_points import INWARDS_M, inwards, laid_upon
 from app.rehearsal.judge import Gate
 from app.rehearsal.noise import Noise
 from app.rehearsal.noisy_world import NoisyWorld
@@ -77,23 +79,34 @@ def test_grips_follow_cloth_that_lies_two_centimetres_away():
 
 def test_hands_take_cloth_inside_of_its_outline_and_at_the_part_that_moved_last_where_that_lies():
     plan = make_plan(Task.of(load_garment("letter-towel")))
-    (first, *_), lies = plan.steps, plan.task.start.placement
-    piece = plan.sequence.moving(0)
-    offsets = taken_inwards(first.holdings, piece, lies, None, 0.03)
+    first = replace(plan.steps[0], details={"fold": 0})
+    lies, moving = first.before.placement, plan.sequence.moving(0)
+    offsets = inwards(plan, first, Isometry(), None, 0.03)
     for one in first.holdings:
-        taken = np.array(one.point) + Pose2(0.0, 0.0, lies.yaw_rad).to_inner(np.array([offsets[one.arm]]))[0]
-        assert piece.contains((float(taken[0]), float(taken[1])), 0.99 * INWARDS_M / math.sqrt(2.0))
+        x, y = (np.array(one.point) + Pose2(0.0, 0.0, lies.yaw_rad).to_inner(np.array([offsets[one.arm]]))[0]).tolist()
+        assert moving.contains((x, y), 0.99 * INWARDS_M / math.sqrt(2.0))
         assert math.hypot(*offsets[one.arm]) == pytest.approx(INWARDS_M)
+    assert inwards(plan, plan.steps[0], Isometry(), None, 0.03) == {}  # it is lifted again by the same hands
+    # The near half was folded up at y = .25 m. With its crease 4 mm to the left of the line, towards y = 0, its edge is
+    # 8 mm short. The article is turned by -90 degrees: its -y is -x of the table.
     folded = FoldedOutline(plan.sequence, 0, 0)
     seen = SeenStack(Figure.of(plan.sequence.cloth(1)), folded, np.array([0, 0, 0, 0.004, 0, 0.0]), np.eye(6))
-    on_flap, off_flap = (Holding("left", point, ()) for point in ((0.4, 0.5), (0.4, 0.25)))
-    (x, y), (x0, y0) = (
-        taken_inwards([one], piece, lies, of, 0.03)["left"] for one, of in ((on_flap, seen), (on_flap, None))
-    )
-    # The near half was folded up at y = .25 m. With its crease 4 mm to the left of the line, towards y = 0, its
-    # edge lies 8 mm short. The article lies turned by -90 degrees: its -y is -x of the table.
-    assert (x - x0, y - y0) == pytest.approx((-0.008, 0.0), abs=1e-6)
-    assert taken_inwards([off_flap], piece, lies, seen, 0.0)["left"] == pytest.approx((0.0, 0.0))
+    on_flap = replace(first, holdings=(Holding("left", (0.4, 0.5), ()),))
+    assert inwards(plan, on_flap, Isometry(), seen, 0.03)["left"] == pytest.approx((-0.008, 0.0), abs=1e-6)
+    assert inwards(plan, on_flap, Isometry(), seen, 0.0)["left"] == pytest.approx((0.0, 0.0))
+
+
+def test_an_edge_laid_upon_the_stack_lands_short_and_one_at_the_outline_where_it_should():
+    plan = make_plan(Task.of(load_garment("letter-towel")))
+    assert laid_upon(plan, plan.steps[0]) == frozenset()  # edge upon edge
+    assert laid_upon(plan, plan.steps[1]) == {"left", "right"}  # from y = .5 back to .28 m; the stack begins at .25 m
+    red = step_motions(plan)[1]
+    for grip, former in zip(landing_short(red, frozenset({"left"}), SHORT_M).grips, red.grips, strict=True):
+        assert grip.points[0] == former.points[0]
+        short = np.subtract(grip.points[-1], former.points[-1])
+        back = np.subtract(former.points[0], former.points[-1])
+        expected = SHORT_M if grip.arm == "left" else 0.0
+        assert short == pytest.approx(expected * back / np.linalg.norm(back), abs=1e-4)
 
 
 def test_a_fold_by_hands_that_hold_on_from_a_drag_is_not_carried_along_again():
@@ -169,7 +182,8 @@ def test_a_hand_that_took_the_cloth_beside_its_grip_holds_it_there_in_the_red_fo
     for before, after in zip(blue.grips, red.grips, strict=True):
         assert math.dist(before.points[-1][:2], after.points[0][:2]) < 1e-3
     offsets = [math.dist(a.points[-1], b.points[-1]) for a, b in zip(red.grips, planned[1].grips, strict=True)]
-    assert sorted(offsets) == pytest.approx([0.01, INWARDS_M], abs=2e-3)  # the miss was tried again 1 cm further in
+    # The miss was tried again 1 cm further in, so that hand ends 1 cm less far; both land short.
+    assert sorted(offsets) == pytest.approx([SHORT_M, 0.01 + SHORT_M], abs=2e-3)
 
 
 def test_a_correction_carries_a_step_along_and_its_shift_is_that_of_the_furthest_grip():
