@@ -37,7 +37,7 @@ _HELD = 'solref="0.01 1" solimp="0.9999 0.9999 0.001"'
 _LOOP = 0.907
 """The height of the loop of a heavy strip folded over, in bending lengths."""
 
-_OPEN = 0.8
+_OPEN = 0.5
 """The share of a loop's width that is kept open: less, so that cloth whose rows are near enough bends by itself."""
 
 _BESIDE = 0.2
