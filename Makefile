@@ -17,12 +17,12 @@ export PYTHONDONTWRITEBYTECODE :=
 # Stamps: newer than the pinned requirements when what they ask for is installed.
 READY := $(VENV)/.ready
 READY_DEV := $(VENV)/.ready-dev
-KERNELS := $(VENV)/.kernels
+KERNELS := $(VENV)/.kernels-pr2 $(VENV)/.kernels-so101-pair
 READY_JS := tests/js/node_modules/.ready
 READY_BENCH := $(VENV)/.ready-bench
 
 .DEFAULT_GOAL := help
-.PHONY: help run check format lint types page-types imports kernels test-quick test test-long browser bench figures lock clean
+.PHONY: help run check format lint types page-types imports kernels test-quick test test-long browser nginx bench figures lock clean
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1 ~\2/p' Makefile | while IFS='~' read -r target text; do \
@@ -61,10 +61,10 @@ kernels: $(KERNELS)
 test-quick: $(READY_DEV) $(KERNELS) ## the tests that are quick and need no browser
 	$(PYTEST) -n $(JOBS) --dist loadfile --no-loadscope-reorder -m "not browser and not slow"
 
-test: $(READY_DEV) $(KERNELS) browser ## every test, the property laws on a few hundred random cases
+test: $(READY_DEV) $(KERNELS) browser nginx ## every test, the property laws on a few hundred random cases
 	$(PYTEST) -n $(JOBS) --dist loadfile --no-loadscope-reorder
 
-test-long: $(READY_DEV) $(KERNELS) browser ## every test, the laws on thousands of random cases
+test-long: $(READY_DEV) $(KERNELS) browser nginx ## every test, the laws on thousands of random cases
 	$(PYTEST) -n $(JOBS) --dist loadfile --no-loadscope-reorder --hypothesis-profile=long
 
 bench: $(READY) $(KERNELS) $(READY_BENCH) ## the benchmark tables, also as JSON under bench/out/; draws docs/growth.svg
@@ -82,6 +82,12 @@ browser: $(READY_DEV)
 	    $$sudo env DEBIAN_FRONTEND=noninteractive apt-get install -qq -y --no-install-recommends chromium; \
 	fi; \
 	test -x /usr/bin/chromium || $(BIN)/python -m playwright install chromium
+
+# The proxy of the tests, unpacked and not installed: as a package it would start a server. They are skipped without it.
+nginx: | $(BIN)/python browser
+	@test -x /usr/sbin/nginx || test -x $(VENV)/nginx/usr/sbin/nginx || \
+	{ command -v apt-get >/dev/null && cd $(VENV) && apt-get download -qq -o APT::Sandbox::User=root nginx && dpkg -x nginx_*.deb nginx && rm nginx_*.deb; } || \
+	echo "There is no nginx here: its tests are left out"
 
 # Pins for every machine: the versions of `requirements-dev.txt` hold for `requirements.txt` too.
 COMPILE := $(BIN)/pip-compile --quiet --strip-extras --allow-unsafe --build-deps-for editable --generate-hashes \
@@ -115,10 +121,10 @@ $(READY): requirements.txt pyproject.toml | $(BIN)/python
 	@touch $@
 
 # So that the first plan does not wait for the compiler, nor several tests at once for the same. A minute or two; seconds
-# where it has been done.
-$(KERNELS): $(READY) $(shell find planner -name '*.py')
-	@echo "Compiling the kernels"
-	@$(BIN)/python -c "from planner.planning.warm_up import compile_kernels; compile_kernels(); compile_kernels('so101-pair')"
+# where it has been done. The arms of one robot are in closed form, those of the other are mapped: few kernels are both's.
+$(KERNELS): $(VENV)/.kernels-%: $(READY) $(shell find planner -name '*.py')
+	@echo "Compiling the kernels for $*"
+	@$(BIN)/python -c "from planner.planning.warm_up import compile_kernels; compile_kernels('$*')"
 	@touch $@
 
 $(READY_DEV): requirements-dev.txt $(READY)

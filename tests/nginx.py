@@ -4,6 +4,7 @@ import os
 import re
 import socket
 import subprocess
+import sys
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -11,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-PROGRAM = Path("/usr/sbin/nginx")
+PROGRAM = next(filter(Path.exists, (Path("/usr/sbin/nginx"), Path(sys.prefix, "nginx/usr/sbin/nginx"))), None)
 PREFIX = "/pleat"
 PATIENCE_S = 30.0
 
@@ -47,8 +48,8 @@ def documented_location() -> str:
 @contextmanager
 def nginx_before(server_port: int, folder: Path) -> Iterator[str]:
     """Return the address of the server below the prefix; skip where there is no nginx."""
-    if not PROGRAM.exists():
-        pytest.skip(f"there is no {PROGRAM}")
+    if PROGRAM is None:
+        pytest.skip("there is no nginx")
     with socket.create_server(("127.0.0.1", 0)) as free:
         port = free.getsockname()[1]
     location = documented_location()

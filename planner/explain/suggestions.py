@@ -185,14 +185,18 @@ class _Lane:
         return self._told > 0
 
     def go_on(self, budget: TrialBudget, on_trial: Callable[[Trial], None]) -> Iterator[Suggestion]:
-        """Plan the next trial, and yield the suggestions that result."""
-        begun_s = budget.spent_s
-        found = [] if self._trial is not None else list(self._told_of(None))
+        """Plan the next trial, and yield each suggestion that results as soon as it is there.
+
+        Between two trials the search may take long, as where the maps of another robot are built.
+        """
+        if self._trial is None:
+            yield from self._told_of(None)
         if self._trial is not None and not self.is_done:
             on_trial(self._trial)
-            found += self._told_of(budget.plan(self._trial.task, by_folds_alone=self._trial.by_folds_alone))
-        self.spent_s += budget.spent_s - begun_s
-        yield from found
+            begun_s = budget.spent_s
+            plan = budget.plan(self._trial.task, by_folds_alone=self._trial.by_folds_alone)
+            self.spent_s += budget.spent_s - begun_s
+            yield from self._told_of(plan)
 
     def last_words(self) -> Iterator[Suggestion]:
         """Yield the suggestions left when there is no time for trials."""

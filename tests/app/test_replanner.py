@@ -96,7 +96,7 @@ def test_undo_finds_its_plan_again_at_once(desk: Desk) -> None:
     desk.rest()
     desk.document.undo()
     desk.rest()
-    assert desk.document.state.answer.plan is first
+    assert desk.document.state.answer.plan == first
 
 
 def test_a_drawing_that_was_spoilt_and_is_fixed_has_its_plan_and_playback_again(desk: Desk) -> None:

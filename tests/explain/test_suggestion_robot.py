@@ -107,6 +107,17 @@ def test_a_robot_that_needs_no_maps_has_its_turn_first(monkeypatch: pytest.Monke
     assert turns == ["pr2", "baxter", "panda-pair"]
 
 
+def test_a_robot_is_told_before_the_next_is_loaded(monkeypatch: pytest.MonkeyPatch) -> None:
+    # The maps of the next may take a minute to build; whoever waits for a robot that can had to wait for them too.
+    def prepared(name: str, _: Any) -> None:
+        assert name == "pr2", "told too late"
+
+    monkeypatch.setattr("planner.explain.suggestion_robot.prepare_robot", prepared)
+    task = task_for(LONG, robot=SHORT, work_limit_s=2.0, time_limit_s=60.0)
+    search = suggestions(task, other_robots=("pr2", "baxter"))
+    assert next(one for one in search if one.kind == "robot").change["robot"] == "pr2"
+
+
 def test_no_robot_is_loaded_where_no_time_is_left_for_it(monkeypatch: pytest.MonkeyPatch) -> None:
     # To load a robot takes seconds, which no limit of work counts: a search of 2 s took 9 s, and 30 s without maps.
     def never(name: str) -> Any:
