@@ -12,7 +12,7 @@ from app.camera.robot_shape import hidden, robot_shape
 from app.rehearsal.world import Observation
 from app.vision.fit_stack import fit_stack
 from app.vision.look_at_stack import Looker, Sight
-from planner.cloth.cloth_state import ClothState
+from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.pose import Pose2
 from planner.robots.card import RobotCard
 from planner.robots.load_robot import load_robot
@@ -73,23 +73,26 @@ class Eyes:
         self._card: RobotCard = load_robot(task.robot).card
         self._torso_m = task.scene.torso_m
 
-    def sight(self, seen: Observation, stack: ClothState, near: Pose2, posture: Posture) -> Sight | None:
+    def sight(
+        self, seen: Observation, sequence: FoldSequence, folds: tuple[int, ...], near: Pose2, posture: Posture
+    ) -> Sight | None:
         """Return where the stack lies; None where the world shows nothing at all.
 
         Args:
             seen: what the world shows.
-            stack: the stack, article frame.
+            sequence: the garment's folds.
+            folds: those done, in the order in which they were made.
             near: where it ought to lie.
             posture: how the robot stands.
         """
         if seen.outline is not None:
-            fit = fit_stack(seen.outline, stack, near)
+            fit = fit_stack(seen.outline, sequence.cloth(sum(1 << fold for fold in folds)), near)
             return Sight(fit, np.empty((0, 2)), np.empty((0, 2)), None if fit.others else fit.unknown)
         if seen.image is None or seen.camera is None:
             return None
         parts = robot_shape(self._card, -self._table.height_m).parts(posture)
         looker = Looker(seen.camera, self._table, hidden(parts, seen.camera, _BESIDE_ARM_PX))
-        return looker.look(np.ascontiguousarray(seen.image[..., ::-1]), stack, near)
+        return looker.look(np.ascontiguousarray(seen.image[..., ::-1]), sequence, folds, near)
 
     def withdrawn(self, posture: Posture) -> Posture:
         """Return how the robot stands with its arms at home."""

@@ -11,14 +11,25 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from app.camera.posture import Posture
-from app.rehearsal.corrections import beside, carry, corrected, regrasps, shift_of, still_beside
+from app.rehearsal.corrections import (
+    SHORT_M,
+    beside,
+    carry,
+    corrected,
+    landing_short,
+    regrasps,
+    shift_of,
+    still_beside,
+)
 from app.rehearsal.eyes import Eyes, Picture, kept
+from app.rehearsal.grasp_points import inwards, laid_upon
 from app.rehearsal.judge import Gate, StepVerdict, judged
 from app.rehearsal.result import Decision
 from app.rehearsal.step_motions import posture_at, step_motions
 from app.rehearsal.trace import ClothAfter, counterpart
 from app.rehearsal.world import WITHDRAW, Performed, StepMotion, World
 from app.vision.look_at_stack import Sight
+from app.vision.seen_stack import SeenStack
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Point2, Pose2
 from planner.task.plan import Plan
@@ -28,7 +39,6 @@ from planner.task.world_state import WorldState
 
 FAILURES_MAX = 3
 """Times that the rest is planned again before a run is given up."""
-
 
 BLIND_MAX = 1
 """Steps in a row that are made as planned though it is not known where the cloth lies."""
@@ -72,6 +82,7 @@ class Performer:
     _pictures: list[Picture] = field(default_factory=list)
     _made: int = 0
     _beside: dict[str, Point2] = field(default_factory=dict)
+    _stack: SeenStack | None = None
     _blind: int = 0
     _posture: Posture | None = None
     _cloths: list[ClothAfter] = field(default_factory=list)
@@ -97,7 +108,8 @@ class Performer:
                 answer = None
                 if shift_m <= self.plan.task.limits.comfort_radius_m:
                     self._decide("corrected", ("shift_m", shift_m))
-                    answer = self._tried(replace(corrected(motion, carried), needs_all=True), step, carried)
+                    spare_m = self.plan.task.limits.comfort_radius_m - shift_m
+                    answer = self._tried(replace(corrected(motion, carried), needs_all=True), step, carried, spare_m)
                 if answer is None:
                     reason = self._planned_again(step, lies, shift_m)
                     if reason:
@@ -133,7 +145,7 @@ class Performer:
 
         Where it is not known where it lies, that is where it should lie.
         """
-        sight = self._sight(step, is_clear=False)
+        sight, self._stack = self._sight(step, is_clear=False), None
         if sight is None:
             return step.before.placement, ""
         if sight.unknown is not None and self._posture is not None:
@@ -142,7 +154,7 @@ class Performer:
             self._posture = away
             sight = self._sight(step, is_clear=True) or sight
         if sight.fit is not None and sight.unknown is None:
-            self._blind = 0
+            self._blind, self._stack = 0, sight.stack
             return sight.fit.placement, ""
         self._blind += 1
         self._decide("kept_blindly")
@@ -155,8 +167,8 @@ class Performer:
         seen, posture = self.world.observe(), self._posture
         if posture is None:
             return None
-        stack, near = self.plan.sequence.cloth(step.before.done), step.before.placement
-        sight = self._eyes.sight(seen, stack, near, posture)
+        folds, near = step.before.folds_done, step.before.placement
+        sight = self._eyes.sight(seen, self.plan.sequence, folds, near, posture)
         if sight is None:
             return None
         fit = sight.fit
@@ -166,12 +178,18 @@ class Performer:
         self._pictures += [] if picture is None else [picture]
         return sight
 
-    def _tried(self, motion: StepMotion, step: PlanStep, carried: Isometry) -> Performed | None:
-        """Perform a step, and where hands find no cloth again round their grips; None if they never find any."""
-        answer, made = self.world.perform(motion), motion
+    def _tried(self, motion: StepMotion, step: PlanStep, carried: Isometry, spare_m: float) -> Performed | None:
+        """Perform a step, and where hands find no cloth again round their grips; None if they never find any.
+
+        Hands take the cloth some way inside of its outline, `spare_m` at most.
+        """
+        fold, offsets = self._reflection(step, carried), inwards(self.plan, step, carried, self._stack, spare_m)
+        motion = landing_short(motion, laid_upon(self.plan, step), SHORT_M)
+        made = beside(motion, offsets, fold)
+        answer = self.world.perform(made)
         missing = frozenset(arm for arm, has in answer.has_cloth.items() if not has)
-        radius_m, fold = self.plan.task.limits.comfort_radius_m, self._reflection(step, carried)
-        for made in regrasps(motion, missing, radius_m, fold) if missing else ():
+        radius_m = self.plan.task.limits.comfort_radius_m
+        for made in regrasps(motion, missing, radius_m, offsets, fold) if missing else ():
             self._decide("regrasped", ("radius_m", radius_m))
             answer = self.world.perform(made)
             if not answer.is_missing_cloth:
@@ -182,6 +200,7 @@ class Performer:
     def _held_on(self, motion: StepMotion, step: PlanStep, carried: Isometry) -> Performed:
         """Perform a step with the hands where they hold the cloth, be that beside their grips."""
         held = {grip.arm: self._beside[grip.arm] for grip in motion.grips if grip.arm in self._beside}
+        motion = landing_short(motion, laid_upon(self.plan, step), 0.0 if self.replan is None else SHORT_M)
         made = beside(motion, held, self._reflection(step, carried))
         self._beside = still_beside(motion, made)
         return self.world.perform(made)
