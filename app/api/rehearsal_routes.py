@@ -41,6 +41,14 @@ class StackFitAnswer(BaseModel):
     says: Says | None
 
 
+class CreaseAnswer(BaseModel):
+    """How the last fold lies as seen: how far left of its line, how far turned, and creases how far inside of theirs."""
+
+    offset_m: float
+    turn_rad: float
+    inset_m: float
+
+
 class LookAnswer(BaseModel):
     """A picture that the robot took before step `of_plan` of the plan: a JPEG in base 64, outlines in its pixels.
 
@@ -60,6 +68,7 @@ class LookAnswer(BaseModel):
     known: bool
     reason: str | None
     says: Says | None
+    crease: CreaseAnswer | None
     start: WorldState | None
 
 
