@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.geometry.pose import BoolArray, FloatArray, Point3
+from planner.geometry.tolerance import LENGTH_M
 from planner.motion.phase_stretches import Stretch, StretchSampler, rolls_of
 from planner.task.phase import Phase
 
@@ -55,6 +56,14 @@ class Moments:
         return np.asarray(
             self.is_held & ~np.append(self.is_held[:, 1:], np.zeros((len(self.is_held), 1), bool), axis=1)
         )
+
+    @property
+    def is_still(self) -> BoolArray:
+        """Whether no tool moves in the base frame from the moment before to the moment after, shape (n,)."""
+        moved_m, turned = (np.abs(np.nan_to_num(np.diff(each, axis=1))) for each in (self.positions, self.rotations))
+        stays = (moved_m.max(axis=(0, 2)) < LENGTH_M) & (turned.max(axis=(0, 2, 3)) < LENGTH_M)
+        stays &= (self.is_held[:, 1:] == self.is_held[:, :-1]).all(axis=0)
+        return np.asarray(np.append(False, stays) & np.append(stays, False))
 
     @property
     def progress(self) -> FloatArray:
