@@ -14,7 +14,7 @@ from planner.motion.blocking_contacts import BlockingContacts
 from planner.motion.carried import Carried
 from planner.motion.joint_trajectory import CLOSED_M, OPEN_M
 from planner.motion.lying_cloth import LyingCloth, LyingCloths
-from planner.motion.moments import Moments, moments_of
+from planner.motion.moments import Moments, forget_moments, moments_of
 from planner.motion.robot_port import Collisions, RobotPort
 from planner.motion.transfer import ReachTime, Transfer, is_carrying
 from planner.motion.transfer_candidate import BlockedMoments, Candidate, motion_of, ways_of
@@ -243,3 +243,4 @@ def _transfer_paths(machine: RobotPort, table: Table, torso_m: float) -> tuple[T
 def forget_paths() -> None:
     """Clear the cache of joint paths and transits, so that benchmarks measure their computation."""
     _transfer_paths.cache_clear()
+    forget_moments()
