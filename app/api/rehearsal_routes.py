@@ -42,7 +42,7 @@ class StackFitAnswer(BaseModel):
 
 
 class CreaseAnswer(BaseModel):
-    """How the last fold lies as seen: how far left of its line, how far turned, and creases how far inside of theirs."""
+    """How the last fold lies as seen: how far left of its line and turned, and creases how far inside of theirs."""
 
     offset_m: float
     turn_rad: float
