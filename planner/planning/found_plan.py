@@ -4,6 +4,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
+from planner.geometry.tolerance import TIME_S
 from planner.motion.act import Act
 from planner.motion.trajectory_maker import trajectory
 from planner.planning.problem import Problem
@@ -46,7 +47,9 @@ class FoundPlan:
     ) -> "FoundPlan":
         """Make a plan of the acts that were found."""
         path = trajectory(problem.context, problem.robot.card, problem.maker, acts) if status == "solved" else None
-        steps = tuple(_scheduled(problem, acts, path)) if path is not None else ()
+        steps = () if path is None else tuple(_scheduled(problem, acts, path))
+        if path is not None and steps:
+            path = replace(path, duration_s=steps[-1].end_s)
         plan = Plan(problem.task, status, steps, path, reasons, statistics, is_exhaustive)
         return FoundPlan(plan, problem.context, acts)
 
@@ -73,12 +76,13 @@ def _rank(found: FoundPlan) -> tuple[bool, float, bool]:
 
 
 def _scheduled(problem: Problem, acts: Sequence[Act], path: Trajectory) -> Iterator[PlanStep]:
-    """Yield the steps; each lasts as long as its motion."""
+    """Yield the steps; each lasts as long as its motion: what was validated, or longer for a transit before it."""
     now, before = 0.0, problem.task.start
     for act in acts:
-        for number, step in enumerate(act.steps, start=act.first):
+        for number, (step, validated_s) in enumerate(zip(act.steps, act.durations_s(), strict=True), start=act.first):
             segments = path.of_step(number)
-            duration_s = segments[-1].start_s + segments[-1].duration_s - now
+            lasts_s = segments[-1].start_s + segments[-1].duration_s - segments[0].start_s
+            duration_s = validated_s if abs(lasts_s - validated_s) <= TIME_S else lasts_s
             after = _world_after(problem.context, step, before)
             yield PlanStep(
                 step.kind,
