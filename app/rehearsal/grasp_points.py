@@ -5,19 +5,24 @@ import math
 import numpy as np
 
 from app.vision.seen_stack import SeenStack
+from planner.cloth.cloth_state import ClothState
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray, Point2, Pose2
 from planner.geometry.region import Region
 from planner.geometry.table_top import TableTop
 from planner.geometry.tolerance import LENGTH_M
+from planner.task.grip import Holding
 from planner.task.plan import Plan
 from planner.task.plan_step import PlanStep
 
 INWARDS_M = 0.012
-"""How far inside of the outline hands take hold (m).
+"""How far inside of the outline hands take a corner of several layers (m).
 
 Layers end up to a centimetre or two inside of each other; fingers that close at the outermost corner miss the others.
 """
+
+_CORNER_M = 0.02
+"""A hand whose vertices are all nearer holds a corner (m): of a longer edge, what is beyond the hand would crumple."""
 
 _AHEAD_M = 0.02
 """With so much of the stack ahead of it, an edge laid down is not at the outline (m)."""
@@ -28,9 +33,9 @@ def inwards(
 ) -> dict[str, Point2]:
     """Return how far beside their grips hands take the cloth, table frame (m).
 
-    That is some way inside of the outline, and where a part that moved last lies beside its place, there. Cloth beside
-    the table is taken at its edge, and so is a part that is lifted again from where it is laid down: the edge ahead of
-    the fingers would hang down there, and hook into what it lies on.
+    Corners of several layers are taken some way inside of the outline, and a part that moved last where it lies. Cloth
+    beside the table is taken at its edge, and so is a part that is lifted again from where it is laid down: the edge
+    ahead of the fingers would hang down there, and hook into what it lies on.
 
     Args:
         plan: the plan.
@@ -47,7 +52,8 @@ def inwards(
     found: dict[str, Point2] = {}
     for one in step.holdings:
         if top.covers(lies.to_outer(np.array([one.point]))):
-            x, y = turned.to_outer(_inwards(one.point, piece, seen, radius_m)[None])[0].tolist()
+            deep_m = INWARDS_M if _is_corner_of_layers(one, plan.sequence.cloth(step.before.done)) else 0.0
+            x, y = turned.to_outer(_inwards(one.point, deep_m, piece, seen, radius_m)[None])[0].tolist()
             found[one.arm] = (x, y)
     return found
 
@@ -62,8 +68,14 @@ def laid_upon(plan: Plan, step: PlanStep) -> frozenset[str]:
     return frozenset(one.arm for one, gap_m in zip(step.holdings, gaps.tolist(), strict=True) if gap_m <= LENGTH_M)
 
 
-def _inwards(point: Point2, piece: Region, seen: SeenStack | None, radius_m: float) -> FloatArray:
-    offset = INWARDS_M * np.array(piece.inward_bisector(point) or (0.0, 0.0))
+def _is_corner_of_layers(holding: Holding, stack: ClothState) -> bool:
+    at = np.array([holding.point])
+    layers = sum(float(layer.region.distances_to(at)[0]) <= LENGTH_M for layer in stack.layers)
+    return layers > 1 and all(math.dist(vertex, holding.point) <= _CORNER_M for vertex in holding.vertices)
+
+
+def _inwards(point: Point2, deep_m: float, piece: Region, seen: SeenStack | None, radius_m: float) -> FloatArray:
+    offset = deep_m * np.array(piece.inward_bisector(point) or (0.0, 0.0))
     if seen is not None:
         offset = offset + seen.beside(np.array([point]))[0]
     return np.asarray(offset * min(1.0, radius_m / max(float(np.hypot(*offset)), 1e-9)))
