@@ -120,7 +120,7 @@ class Looker:
         fit = creased.told(found, whole)
         doubt = why_in_doubt(replace(seen, at_border=0.0), None)
         rings = [self._pixels(fit.placement.to_outer(ring), height_m) for ring in stack.silhouette.rings]
-        return Sight(fit, contour, max(rings, key=len), fit.unknown or doubt, ought, found)
+        return Sight(fit, contour, max(rings, key=len), fit.unknown or doubt, expected=ought, stack=found)
 
     def _pixels(self, points: FloatArray, height_m: float) -> FloatArray:
         return self.camera.pixels(np.column_stack([points, np.full(len(points), height_m)]))
@@ -151,4 +151,4 @@ def _round(mask: BoolArray, margin: int) -> tuple[slice, slice]:
 
 
 def _blind(why: Message, ought: FloatArray) -> Sight:
-    return Sight(None, np.empty((0, 2)), np.empty((0, 2)), why, ought)
+    return Sight(None, np.empty((0, 2)), np.empty((0, 2)), why, expected=ought)
