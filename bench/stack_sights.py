@@ -50,7 +50,7 @@ class Sighted:
         done: the folds done, as a bit mask.
         doubt: why it is not known where the stack lies; None where it is.
         off_m: how far each landmark is off (m); empty where nothing was found.
-        error_m: how far off they may be as it was told (m).
+        told_m: how far off each may be as it was told (m).
         drawn_s: CPU time of the picture (s).
         looked_s: CPU time of the look (s).
     """
@@ -59,7 +59,7 @@ class Sighted:
     done: int
     doubt: str | None
     off_m: tuple[float, ...]
-    error_m: float
+    told_m: tuple[float, ...]
     drawn_s: float
     looked_s: float
 
@@ -87,15 +87,17 @@ class Bench:
         began = process_time()
         image = picture(self.camera, self.table, ClothSeen(pattern, positions, triangles), robot, look, number)
         drawn = process_time()
-        seen = Looker(self.camera, self.table, hidden(robot, self.camera)).look(image, sequence.cloth(done), near)
+        folds = tuple(fold for fold in range(len(sequence.folds)) if done >> fold & 1)
+        seen = Looker(self.camera, self.table, hidden(robot, self.camera)).look(image, sequence, folds, near)
         looked_s, drawn_s = process_time() - drawn, drawn - began
         doubt = None if seen.unknown is None else seen.unknown.text
-        if seen.fit is None:
-            return Sighted(sequence.garment.name, done, doubt, (), math.inf, drawn_s, looked_s)
+        if seen.stack is None:
+            return Sighted(sequence.garment.name, done, doubt, (), (), drawn_s, looked_s)
         marks = landmarks(sequence, done)
         there = planned_positions(really, on_pattern(sequence, done, marks), done, lies, self.table, 0.0)
-        off = np.hypot(*(seen.fit.placement.to_outer(marks) - there[:, :2]).T)
-        return Sighted(sequence.garment.name, done, doubt, tuple(off.tolist()), seen.fit.error_m, drawn_s, looked_s)
+        off = np.hypot(*(seen.stack.places(marks) - there[:, :2]).T)
+        told = seen.stack.errors(marks)
+        return Sighted(sequence.garment.name, done, doubt, tuple(off.tolist()), tuple(told.tolist()), drawn_s, looked_s)
 
     def _arm(self, hull: FloatArray, rng: np.random.Generator) -> list[FloatArray]:
         """Return the points of an arm, 8 cm thick, whose hand is over a corner of the stack."""

@@ -13,6 +13,16 @@ from planner.geometry.pose import FloatArray, Point2, Point3, Pose2
 REGRASPS = 8
 """Points round a grip at which a grasp that missed is tried again (paper, section 9)."""
 
+_NEAR = 1.0 / 3.0
+"""The share of the radius at which it is tried first: most fingers that miss have closed just beside an edge."""
+
+SHORT_M = 0.008
+"""How far short of its place an edge is laid down that comes to lie upon the stack, not at its outline (m).
+
+Cloth turns over in a loop: with the edge at its place the crease would come to lie inside of its line by half of that
+(`app.vision.fit_creased`), or push the layers below aside.
+"""
+
 
 def carry(start: Pose2, end: Pose2) -> Isometry:
     """Return the isometry that carries an article from one placement to another, table frame."""
@@ -39,20 +49,22 @@ def corrected(motion: StepMotion, carried: Isometry) -> StepMotion:
     return replace(motion, grips=tuple(_along(grip, carried_along(np.array(grip.points))) for grip in motion.grips))
 
 
-def regrasps(motion: StepMotion, arms: frozenset[str], radius_m: float, fold: Isometry | None) -> Iterator[StepMotion]:
+def regrasps(
+    motion: StepMotion, arms: frozenset[str], radius_m: float, offsets: Mapping[str, Point2], fold: Isometry | None
+) -> Iterator[StepMotion]:
     """Yield the step with some hands at other points round their grips, first at those further into the cloth.
 
     Args:
         motion: the step.
         arms: the arms that found no cloth.
-        radius_m: how far from their grips (m): within the comfort radius everything is in reach.
+        radius_m: how far from their grips at most (m): within the comfort radius everything is in reach.
+        offsets: how far beside its grip each hand took the cloth at first (m).
         fold: the reflection of the cloth by the step's fold, table frame; None if it makes none.
     """
-    for number in range(REGRASPS):
-        turn = math.pi / 4.0 * ((number + 1) // 2) * (-1.0 if number % 2 else 1.0)
-        yield beside(
-            motion, {grip.arm: _round(grip, radius_m, turn) for grip in motion.grips if grip.arm in arms}, fold
-        )
+    turns = [math.pi / 4.0 * ((number + 1) // 2) * (-1.0 if number % 2 else 1.0) for number in range(REGRASPS - 1)]
+    for away_m, turn in ((_NEAR * radius_m, 0.0), *((radius_m, turn) for turn in turns)):
+        tried = {grip.arm: _round(grip, away_m, turn) for grip in motion.grips if grip.arm in arms}
+        yield beside(motion, {**offsets, **tried}, fold)
 
 
 def beside(motion: StepMotion, offsets: Mapping[str, Point2], fold: Isometry | None) -> StepMotion:
@@ -73,6 +85,19 @@ def beside(motion: StepMotion, offsets: Mapping[str, Point2], fold: Isometry | N
         return _along(grip, points)
 
     return replace(motion, grips=tuple(moved(grip) if grip.arm in offsets else grip for grip in motion.grips))
+
+
+def landing_short(motion: StepMotion, arms: frozenset[str], short_m: float) -> StepMotion:
+    """Return a fold in which some hands land short of where they should, from the apex on (m)."""
+
+    def moved(grip: GripMotion) -> GripMotion:
+        points = np.array(grip.points)
+        way = points[0, :2] - points[-1, :2]
+        late = np.clip(2.0 * way_done(points) - 1.0, 0.0, 1.0)[:, None]
+        points[:, :2] += short_m * late * way / max(float(np.hypot(*way)), short_m)
+        return _along(grip, points)
+
+    return replace(motion, grips=tuple(moved(grip) if grip.arm in arms else grip for grip in motion.grips))
 
 
 def still_beside(planned: StepMotion, made: StepMotion) -> dict[str, Point2]:

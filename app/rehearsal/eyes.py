@@ -1,7 +1,7 @@
 """The robot's eyes: what it makes of an observation, and the picture with what was fitted to it."""
 
 import base64
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -12,11 +12,12 @@ from app.camera.robot_shape import hidden, robot_shape
 from app.rehearsal.world import Observation
 from app.vision.fit_stack import fit_stack
 from app.vision.look_at_stack import Looker, Sight
-from planner.cloth.cloth_state import ClothState
+from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.pose import Pose2
 from planner.robots.card import RobotCard
 from planner.robots.load_robot import load_robot
 from planner.task.task import Task
+from planner.task.world_state import WorldState
 
 PICTURE_BYTES_MAX = 60_000
 """Largest size of a picture that is kept (bytes)."""
@@ -35,6 +36,7 @@ class Picture:
         size_px: its width and height.
         jpeg: the picture.
         sight: what was seen in it.
+        before: the world as planned when it was taken.
     """
 
     step: int
@@ -42,6 +44,13 @@ class Picture:
     size_px: tuple[int, int]
     jpeg: bytes
     sight: Sight
+    before: WorldState
+
+    @property
+    def start(self) -> WorldState | None:
+        """The world as seen, from which can be planned; None where it is not known where the stack lies."""
+        fit = self.sight.fit
+        return None if fit is None or self.sight.unknown else replace(self.before, placement=fit.placement)
 
     def to_dict(self) -> dict[str, Any]:
         """Return it as JSON, the picture in base 64."""
@@ -50,6 +59,7 @@ class Picture:
             "is_clear": self.is_clear,
             "size_px": list(self.size_px),
             "jpeg": base64.b64encode(self.jpeg).decode(),
+            "start": None if self.start is None else self.start.to_dict(),
             **self.sight.to_dict(),
         }
 
@@ -63,23 +73,26 @@ class Eyes:
         self._card: RobotCard = load_robot(task.robot).card
         self._torso_m = task.scene.torso_m
 
-    def sight(self, seen: Observation, stack: ClothState, near: Pose2, posture: Posture) -> Sight | None:
+    def sight(
+        self, seen: Observation, sequence: FoldSequence, folds: tuple[int, ...], near: Pose2, posture: Posture
+    ) -> Sight | None:
         """Return where the stack lies; None where the world shows nothing at all.
 
         Args:
             seen: what the world shows.
-            stack: the stack, article frame.
+            sequence: the garment's folds.
+            folds: those done, in the order in which they were made.
             near: where it ought to lie.
             posture: how the robot stands.
         """
         if seen.outline is not None:
-            fit = fit_stack(seen.outline, stack, near)
+            fit = fit_stack(seen.outline, sequence.cloth(sum(1 << fold for fold in folds)), near)
             return Sight(fit, np.empty((0, 2)), np.empty((0, 2)), None if fit.others else fit.unknown)
         if seen.image is None or seen.camera is None:
             return None
         parts = robot_shape(self._card, -self._table.height_m).parts(posture)
         looker = Looker(seen.camera, self._table, hidden(parts, seen.camera, _BESIDE_ARM_PX))
-        return looker.look(np.ascontiguousarray(seen.image[..., ::-1]), stack, near)
+        return looker.look(np.ascontiguousarray(seen.image[..., ::-1]), sequence, folds, near)
 
     def withdrawn(self, posture: Posture) -> Posture:
         """Return how the robot stands with its arms at home."""
@@ -88,14 +101,14 @@ class Eyes:
         return Posture(posture.base, joints)
 
 
-def kept(step: int, seen: Observation, sight: Sight, *, is_clear: bool) -> Picture | None:
+def kept(step: int, before: WorldState, seen: Observation, sight: Sight, *, is_clear: bool) -> Picture | None:
     """Return the picture of an observation, as good as its largest size allows; None where it has none."""
     if seen.image is None:
         return None
     image = np.ascontiguousarray(seen.image[..., ::-1])
     jpeg = next((data for data in (coded(image, quality) for quality in (80, 60, 40, 20)) if _fits(data)), None)
     size_px = (image.shape[1], image.shape[0])
-    return None if jpeg is None else Picture(step, is_clear, size_px, jpeg, sight)
+    return None if jpeg is None else Picture(step, is_clear, size_px, jpeg, sight, before)
 
 
 def _fits(data: bytes) -> bool:

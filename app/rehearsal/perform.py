@@ -11,13 +11,25 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from app.camera.posture import Posture
-from app.rehearsal.corrections import beside, carry, corrected, regrasps, shift_of, still_beside
+from app.rehearsal.corrections import (
+    SHORT_M,
+    beside,
+    carry,
+    corrected,
+    landing_short,
+    regrasps,
+    shift_of,
+    still_beside,
+)
 from app.rehearsal.eyes import Eyes, Picture, kept
+from app.rehearsal.grasp_points import inwards, laid_upon
 from app.rehearsal.judge import Gate, StepVerdict, judged
 from app.rehearsal.result import Decision
 from app.rehearsal.step_motions import posture_at, step_motions
+from app.rehearsal.trace import ClothAfter, counterpart
 from app.rehearsal.world import WITHDRAW, Performed, StepMotion, World
 from app.vision.look_at_stack import Sight
+from app.vision.seen_stack import SeenStack
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Point2, Pose2
 from planner.task.plan import Plan
@@ -28,7 +40,6 @@ from planner.task.world_state import WorldState
 FAILURES_MAX = 3
 """Times that the rest is planned again before a run is given up."""
 
-
 BLIND_MAX = 1
 """Steps in a row that are made as planned though it is not known where the cloth lies."""
 
@@ -37,12 +48,16 @@ _WITHDRAW_S = 3.0
 
 @dataclass(frozen=True, slots=True)
 class Performance:
-    """The outcome of a plan: verdicts, decisions of the feedback, the reason of an early end ("" if none), pictures."""
+    """The outcome of a plan: verdicts, decisions of the feedback, the reason of an early end ("" if none), pictures.
+
+    `cloths` is the cloth after each judged step that has its counterpart in the plan as it was at first.
+    """
 
     steps: tuple[StepVerdict, ...]
     decisions: tuple[Decision, ...] = ()
     reason: str = ""
     pictures: tuple[Picture, ...] = ()
+    cloths: tuple[ClothAfter, ...] = ()
 
 
 @dataclass
@@ -67,8 +82,14 @@ class Performer:
     _pictures: list[Picture] = field(default_factory=list)
     _made: int = 0
     _beside: dict[str, Point2] = field(default_factory=dict)
+    _stack: SeenStack | None = None
     _blind: int = 0
     _posture: Posture | None = None
+    _cloths: list[ClothAfter] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        """Note the plan as it is at first."""
+        self._first = self.plan
 
     def performed(self) -> Performance:
         """Perform the plan."""
@@ -87,7 +108,8 @@ class Performer:
                 answer = None
                 if shift_m <= self.plan.task.limits.comfort_radius_m:
                     self._decide("corrected", ("shift_m", shift_m))
-                    answer = self._tried(replace(corrected(motion, carried), needs_all=True), step, carried)
+                    spare_m = self.plan.task.limits.comfort_radius_m - shift_m
+                    answer = self._tried(replace(corrected(motion, carried), needs_all=True), step, carried, spare_m)
                 if answer is None:
                     reason = self._planned_again(step, lies, shift_m)
                     if reason:
@@ -107,7 +129,8 @@ class Performer:
         return self._ended("")
 
     def _ended(self, reason: str) -> Performance:
-        return Performance(tuple(self._verdicts), tuple(self._decisions), reason, tuple(self._pictures))
+        pictures, cloths = tuple(self._pictures), tuple(self._cloths)
+        return Performance(tuple(self._verdicts), tuple(self._decisions), reason, pictures, cloths)
 
     def _begins(self) -> Posture | None:
         path = self.plan.trajectory
@@ -122,7 +145,7 @@ class Performer:
 
         Where it is not known where it lies, that is where it should lie.
         """
-        sight = self._sight(step, is_clear=False)
+        sight, self._stack = self._sight(step, is_clear=False), None
         if sight is None:
             return step.before.placement, ""
         if sight.unknown is not None and self._posture is not None:
@@ -131,7 +154,7 @@ class Performer:
             self._posture = away
             sight = self._sight(step, is_clear=True) or sight
         if sight.fit is not None and sight.unknown is None:
-            self._blind = 0
+            self._blind, self._stack = 0, sight.stack
             return sight.fit.placement, ""
         self._blind += 1
         self._decide("kept_blindly")
@@ -144,23 +167,29 @@ class Performer:
         seen, posture = self.world.observe(), self._posture
         if posture is None:
             return None
-        stack, near = self.plan.sequence.cloth(step.before.done), step.before.placement
-        sight = self._eyes.sight(seen, stack, near, posture)
+        folds, near = step.before.folds_done, step.before.placement
+        sight = self._eyes.sight(seen, self.plan.sequence, folds, near, posture)
         if sight is None:
             return None
         fit = sight.fit
         numbers = () if fit is None else (("error_m", fit.error_m), ("share_on_outline", fit.share_on_outline))
         self._decide("seen" if sight.unknown is None else "not_known", *numbers)
-        picture = kept(self._made, seen, sight, is_clear=is_clear)
+        picture = kept(self._made, step.before, seen, sight, is_clear=is_clear)
         self._pictures += [] if picture is None else [picture]
         return sight
 
-    def _tried(self, motion: StepMotion, step: PlanStep, carried: Isometry) -> Performed | None:
-        """Perform a step, and where hands find no cloth again round their grips; None if they never find any."""
-        answer, made = self.world.perform(motion), motion
+    def _tried(self, motion: StepMotion, step: PlanStep, carried: Isometry, spare_m: float) -> Performed | None:
+        """Perform a step, and where hands find no cloth again round their grips; None if they never find any.
+
+        Hands take the cloth some way inside of its outline, `spare_m` at most.
+        """
+        fold, offsets = self._reflection(step, carried), inwards(self.plan, step, carried, self._stack, spare_m)
+        motion = landing_short(motion, laid_upon(self.plan, step), SHORT_M)
+        made = beside(motion, offsets, fold)
+        answer = self.world.perform(made)
         missing = frozenset(arm for arm, has in answer.has_cloth.items() if not has)
-        radius_m, fold = self.plan.task.limits.comfort_radius_m, self._reflection(step, carried)
-        for made in regrasps(motion, missing, radius_m, fold) if missing else ():
+        radius_m = self.plan.task.limits.comfort_radius_m
+        for made in regrasps(motion, missing, radius_m, offsets, fold) if missing else ():
             self._decide("regrasped", ("radius_m", radius_m))
             answer = self.world.perform(made)
             if not answer.is_missing_cloth:
@@ -171,6 +200,7 @@ class Performer:
     def _held_on(self, motion: StepMotion, step: PlanStep, carried: Isometry) -> Performed:
         """Perform a step with the hands where they hold the cloth, be that beside their grips."""
         held = {grip.arm: self._beside[grip.arm] for grip in motion.grips if grip.arm in self._beside}
+        motion = landing_short(motion, laid_upon(self.plan, step), 0.0 if self.replan is None else SHORT_M)
         made = beside(motion, held, self._reflection(step, carried))
         self._beside = still_beside(motion, made)
         return self.world.perform(made)
@@ -205,7 +235,9 @@ class Performer:
         verdict = judged(
             truth, self._made, self.plan.sequence, step.after, carried, self.plan.scene.table, self.gate, empty
         )
-        self._verdicts.append(verdict)
+        of_plan = counterpart(self._first, step)
+        self._verdicts.append(replace(verdict, of_plan=of_plan))
+        self._cloths += [] if of_plan is None else [ClothAfter(of_plan, truth.positions)]
 
     def _decide(self, code: str, *numbers: tuple[str, float]) -> None:
         self._decisions.append(Decision(self._made, code, numbers))

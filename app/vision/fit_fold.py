@@ -79,6 +79,27 @@ class FoldedOutline:
         """Return the isometry from where the part that moved should lie to where it lies, article frame."""
         return Isometry.reflection(self.crease(offset_m, turn_rad)).after(Isometry.reflection(self._line))
 
+    def on_other_sides(self, figure: Figure, row: FloatArray) -> list[FloatArray]:
+        """Return placements and creases that may fit as well: of halved cloth either half may be the one that moved.
+
+        Args:
+            figure: the outline as planned.
+            row: x, y, yaw, the crease's offset and its turn.
+        """
+        x, y, yaw_rad, offset_m, turn_rad = row.tolist()
+        astray = self.astray(offset_m, turn_rad)
+        middle = figure.pose(row).to_outer(astray.apply(figure.middle))
+        return [
+            np.array([*middle, yaw_rad + 2.0 * turn_rad, -offset_m, -turn_rad]),
+            np.array([x, y, yaw_rad, offset_m, -turn_rad]),
+            np.array([x, y, yaw_rad, -offset_m, turn_rad]),
+        ]
+
+    @cached_property
+    def landed(self) -> Region:
+        """What the part that moved covers where it should lie."""
+        return self._moving.moved(Isometry.reflection(self._line))
+
     @property
     def _line(self) -> Segment:
         return self.sequence.folds[self.index].line
@@ -131,7 +152,7 @@ def fit_fold(contour: FloatArray, sequence: FoldSequence, done: int, index: int,
     middle = fit.figure.fit_at(whole.placement).row
     found = [fit.fitted(np.array([*middle, offset_m, 0.0])) for offset_m in _STARTS_M]
     best = min(found, key=lambda one: one.misfit_m)
-    found += [fit.fitted(row) for row in fit.on_other_sides(best.row)]
+    found += [fit.fitted(row) for row in fit.folded.on_other_sides(fit.figure, best.row)]
     best = min(found, key=lambda one: one.misfit_m)
     alike = [one for one in found if one.misfit_m <= 1.1 * best.misfit_m + _ALIKE_M]
     kept = fit.figure.fit_at(whole.placement if near is None else near)
@@ -167,17 +188,6 @@ class _CreaseFit:
             for step in np.diag(_STEP)
         ]
         return distances, np.column_stack([by_pose, *by_crease])
-
-    def on_other_sides(self, row: FloatArray) -> list[FloatArray]:
-        """Return placements and creases that may fit as well: of halved cloth either half may be the one that moved."""
-        x, y, yaw_rad, offset_m, turn_rad = row.tolist()
-        astray = self.folded.astray(offset_m, turn_rad)
-        middle = self.figure.pose(row).to_outer(astray.apply(self.figure.middle))
-        return [
-            np.array([*middle, yaw_rad + 2.0 * turn_rad, -offset_m, -turn_rad]),
-            np.array([x, y, yaw_rad, offset_m, -turn_rad]),
-            np.array([x, y, yaw_rad, -offset_m, turn_rad]),
-        ]
 
     def fitted(self, start: FloatArray) -> Fitted:
         """Return what the least squares reach from a start, shape (5,)."""

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from planner.geometry.pose import FloatArray
 from planner.geometry.region import Region
@@ -48,21 +49,28 @@ class OutlineEdges:
 
         Distances have shape (n,), m, and are negative inside; the vectors have shape (n, 2).
         """
-        along = self.ends - self.starts
-        squares = (along**2).sum(axis=1)
-        from_start = points[:, None] - self.starts
-        share = np.clip((from_start * along).sum(axis=2) / squares, 0.0, 1.0)
-        apart = from_start - share[:, :, None] * along
-        far2 = (apart**2).sum(axis=2)
-        nearest = far2.argmin(axis=1)
-        rows = np.arange(len(points))
-        away, distance = apart[rows, nearest], np.sqrt(far2[rows, nearest])
+        away, nearest = self._apart(points)
+        distance = np.hypot(*away.T)
+        along = (self.ends - self.starts)[nearest]
         sign = np.where(self._contain(points), -1.0, 1.0)
-        edge = along[nearest] / np.sqrt(squares[nearest])[:, None]
+        edge = along / np.hypot(*along.T)[:, None]
         normal = np.column_stack([edge[:, 1], -edge[:, 0]])
         is_on = distance < _HAIR_M
         outwards = np.where(is_on[:, None], normal, sign[:, None] * away / np.maximum(distance, _HAIR_M)[:, None])
         return sign * distance, outwards
+
+    def gaps(self, points: FloatArray) -> FloatArray:
+        """Return how far points, shape (n, 2), are from the nearest edge, shape (n,), m."""
+        return np.asarray(np.hypot(*self._apart(points)[0].T))
+
+    def _apart(self, points: FloatArray) -> tuple[FloatArray, NDArray[np.int64]]:
+        """Return the vectors to points from the nearest of the edges, shape (n, 2), and which edges, shape (n,)."""
+        along = self.ends - self.starts
+        from_start = points[:, None] - self.starts
+        share = np.clip((from_start * along).sum(axis=2) / (along**2).sum(axis=1), 0.0, 1.0)
+        apart = from_start - share[:, :, None] * along
+        nearest = (apart**2).sum(axis=2).argmin(axis=1)
+        return apart[np.arange(len(points)), nearest], nearest
 
     def _contain(self, points: FloatArray) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
         """Return which points lie inside: a ray to the right crosses an odd number of edges."""

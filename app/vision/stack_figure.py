@@ -189,12 +189,20 @@ class Figure:
             is_ambiguous = self.apart(alike[0], start) > 0.5 * self.apart(alike[1], start)
         return self.told(alike[0].row, seen, [self.pose(one.row) for one in alike[1:]], is_ambiguous=is_ambiguous)
 
-    def told(self, row: FloatArray, seen: FloatArray, others: list[Pose2], *, is_ambiguous: bool) -> StackFit:
-        """Return what is known of a placement."""
+    def told(
+        self,
+        row: FloatArray,
+        seen: FloatArray,
+        others: list[Pose2],
+        *,
+        is_ambiguous: bool,
+        error_m: float | None = None,
+    ) -> StackFit:
+        """Return what is known of a placement; its error is that of the outline alone where none is given (m)."""
         distances, derivatives = self.residuals(row, seen)
         pose = self.pose(row)
-        covariance = covariance_of(distances, derivatives, self.edges.length)
-        error_m = self._corner_error(covariance, pose)
+        if error_m is None:
+            error_m = self._corner_error(covariance_of(distances, derivatives, self.edges.length), pose)
         residual_m = float(np.median(np.abs(distances)))
         on = float((np.abs(distances) <= ON_OUTLINE_M).mean())
         is_seen = float((gaps(pose.to_outer(self.spaced), seen) <= ON_OUTLINE_M + self._spacing(seen)).mean())

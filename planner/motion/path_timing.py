@@ -303,7 +303,7 @@ def _gap(
     """Return the time over an interval with paces cut at `most`; between two rests the least time of a cubic (s)."""
     total = min(paces[i], most) + min(paces[i + 1], most)
     if total > 0.0:
-        return 2.0 * (at[i + 1] - at[i]) / total
+        return float(2.0 * (at[i + 1] - at[i]) / total)
     least_s = 0.0
     for j in range(values.shape[1]):
         way = abs(values[i + 1, j] - values[i, j])

@@ -16,7 +16,7 @@ from planner.motion.carried import Carried
 from planner.motion.joint_trajectory import finger_run_s
 from planner.motion.line import Line
 from planner.motion.lying_cloth import LyingCloth, LyingCloths
-from planner.motion.moments import Moments, moments_of
+from planner.motion.moments import Moments, forget_moments, moments_of
 from planner.motion.pacing import needed_s
 from planner.motion.robot_port import Collisions, RobotPort
 from planner.motion.transfer import ReachTime, Transfer, is_carrying
@@ -268,3 +268,4 @@ def _transfer_paths(machine: RobotPort, table: Table, torso_m: float) -> tuple[T
 def forget_paths() -> None:
     """Clear the cache of joint paths and transits, so that benchmarks measure their computation."""
     _transfer_paths.cache_clear()
+    forget_moments()

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from app.physics.fabric import Fabric, Resolution
+from app.physics.model import two_rows_apart
 from app.physics.pinch import pinched
 from app.physics.simulation import ClothSimulation
 from planner.geometry.table import Table
@@ -89,6 +90,34 @@ def test_the_loop_at_a_fold_is_as_high_as_an_elastica_makes_it():
     loop = places[:, 2].max() - fabric.thickness_m / 2.0
     assert loop == pytest.approx(0.907 * bending, rel=0.15)
     assert np.abs(places[:, 0] + np.abs(flat[:, 0])).mean() < 0.005
+
+
+def test_a_crease_folded_flat_rolls_on_when_the_upper_layer_is_pulled():
+    # The upper layer is pulled by 3 cm, so the crease rolls by 1.5 cm, over a row of the mesh. The lower layer, twice
+    # as long, is held by friction of .6 times the weight of both; the upper one drags it with .5 times its own at most.
+    fabric, edge, pulled_m, duration = Fabric(friction=0.6), 0.02, 0.03, 0.5
+    cloth = lying(0.3, 0.04, fabric, edge, -0.2)
+    places = cloth.positions
+    crease = float(places[np.abs(places[:, 0]).argmin(), 0])
+    is_over = places[:, 0] > crease + 1e-6
+    places[is_over, 0] = 2.0 * crease - places[is_over, 0]
+    places[is_over, 2] += fabric.thickness_m
+    cloth.put(places)
+    end, still = np.flatnonzero(is_over & (places[:, 0] < places[is_over, 0].min() + 1e-6)), places[:, 0] < -0.15
+    for share in np.arange(0.0, 1.0, cloth.step_s / duration):
+        cloth.hold({int(i): places[i] - np.array([pulled_m * share, 0.0, 0.0]) for i in end})
+        cloth.step()
+    assert np.abs(cloth.positions - places)[still].max() < 0.002
+    assert cloth.positions[:, 0].max() == pytest.approx(crease - pulled_m / 2.0, abs=0.007)
+
+
+def test_vertices_two_rows_apart_have_one_between_them_along_or_across_the_threads():
+    points, triangles = woven_mesh(rectangle(0.1, 0.1), 0.02)
+    pairs = two_rows_apart(points, triangles)
+    along = np.abs(points[pairs[:, 0]] - points[pairs[:, 1]])
+    in_rows = (along.min(axis=1) < 1e-3) & (np.abs(along.max(axis=1) - 0.04) < 1e-3)
+    assert in_rows.sum() > 10
+    assert np.hypot(*along.T).max() < 0.075
 
 
 def test_fingers_pinch_all_layers_at_their_place_and_nothing_beside_the_cloth():

@@ -1,0 +1,85 @@
+"""A stack as it was seen: where its points lie, those of its last fold too, and how far off they may be."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from app.vision.fit_fold import FoldedOutline
+from app.vision.stack_figure import Figure
+from planner.geometry.pose import FloatArray, Pose2
+
+_MOVED_M = 1e-4
+"""A point of the stack nearer to the part that moved than that is of it (m)."""
+
+_NUDGES = np.array([1e-4, 1e-4, 1e-3, 1e-4, 1e-3, 1e-4])
+
+_LEAST_ERROR_M = 0.002
+"""The systematic error that no fit shows: the camera's own, or an outline that is wider or narrower all round (m)."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class SeenStack:
+    """The placement of a stack and of its last fold.
+
+    Attributes:
+        figure: the outline as planned.
+        folded: its last fold; None of spread-out cloth.
+        row: x and y of the figure's middle (m), its yaw (rad), how far the last crease is to the left of its line (m)
+            and turned (rad), and how far inside of their lines creases lie (m); of spread-out cloth the first three.
+        covariance: of these numbers.
+    """
+
+    figure: Figure
+    folded: FoldedOutline | None
+    row: FloatArray
+    covariance: FloatArray
+
+    @property
+    def placement(self) -> Pose2:
+        """The article frame in the table frame."""
+        return self.figure.pose(self.row)
+
+    def beside(self, points: FloatArray) -> FloatArray:
+        """Return how far points of the part that moved last are beside where they should lie, shape (n, 2), m.
+
+        Of points, article frame, that are not of that part it is 0.
+        """
+        return self._beside(self.row, points)
+
+    def places(self, points: FloatArray) -> FloatArray:
+        """Return where points of the stack, article frame, lie, shape (n, 2), table frame, m."""
+        return self._places(self.row, points)
+
+    def errors(self, points: FloatArray) -> FloatArray:
+        """Return how far off each of these places may be, at 95 of 100, shape (n,), m."""
+        return self._errors(points, len(self.row))
+
+    @property
+    def placement_error_m(self) -> float:
+        """How far off the corners may be, at 95 of 100, with the last fold just where it was seen (m)."""
+        return float(self._errors(self.figure.corners, 3).max())
+
+    def to_dict(self) -> dict[str, Any] | None:
+        """Return how the last fold lies as JSON; None of spread-out cloth."""
+        names = ("offset_m", "turn_rad", "inset_m")
+        return None if self.folded is None else dict(zip(names, self.row[3:].tolist(), strict=True))
+
+    def _errors(self, points: FloatArray, count: int) -> FloatArray:
+        """Return the errors of points for those of the first numbers of the row alone."""
+        there = self.places(points)
+        steps = np.diag(_NUDGES[: len(self.row)])[:count]
+        by_row = np.array([(self._places(self.row + step, points) - there) / step.sum() for step in steps])
+        derivatives = by_row.transpose(1, 2, 0)
+        squares = np.linalg.eigvalsh(derivatives @ self.covariance[:count, :count] @ derivatives.transpose(0, 2, 1))
+        return np.asarray(np.hypot(2.0 * np.sqrt(squares[:, -1]), _LEAST_ERROR_M))
+
+    def _places(self, row: FloatArray, points: FloatArray) -> FloatArray:
+        return self.figure.pose(row).to_outer(points + self._beside(row, points))
+
+    def _beside(self, row: FloatArray, points: FloatArray) -> FloatArray:
+        if self.folded is None:
+            return np.zeros_like(points)
+        is_moved = self.folded.landed.distances_to(points) <= _MOVED_M
+        gone = self.folded.astray(float(row[3]), float(row[4])).apply(points) - points
+        return np.where(is_moved[:, None], gone, 0.0)

@@ -1,0 +1,73 @@
+"""Stacks that lie about where they ought to, with a last fold beside its line, and creases inside of theirs."""
+
+import numpy as np
+import pytest
+
+from app.vision.crease_edges import CreaseEdges
+from app.vision.fit_creased import Creased
+from app.vision.fit_fold import FoldedOutline
+from app.vision.fit_stack import fit_near
+from app.vision.seen_stack import SeenStack
+from planner import load_garment
+from planner.folds.fold_sequence import FoldSequence, replayed
+from planner.geometry.pose import FloatArray, Pose2
+from tests.app.vision.outlines_seen import most_off, seen
+
+LIES = Pose2(0.05, -0.1, -1.2)
+NEAR = Pose2(0.062, -0.092, -1.17)
+
+
+def fitted(contour: FloatArray, sequence: FoldSequence, folds: tuple[int, ...]) -> SeenStack:
+    whole = fit_near(contour, sequence.cloth(sum(1 << fold for fold in folds)), NEAR)
+    return Creased.of(contour, sequence, folds, NEAR).fitted(whole.placement)
+
+
+def test_creases_and_edges_of_a_towel_folded_in_half_are_told_apart():
+    sequence = replayed(load_garment("hand-towel"))  # .686 x .419 m, its near half folded up at y = .2095 m
+    edges = CreaseEdges.of(sequence.cloth(1), sequence.garment.pattern)
+    points = np.array([(0.3, 0.2095), (0.3, 0.2095 - 0.004), (0.3, 0.419), (0.0, 0.3)])
+    assert edges.are_creases(points).tolist() == [True, False, False, False]
+    assert edges.are_creases(points, 0.003).tolist() == [True, True, False, False]
+    flat = CreaseEdges.of(sequence.cloth(0), sequence.garment.pattern)
+    assert not flat.are_creases(points).any()
+
+
+def test_a_flap_that_landed_short_is_found_and_the_stack_under_it_stays_where_it_is():
+    sequence = replayed(load_garment("t-shirt"))
+    folded = FoldedOutline(sequence, 0b11, 2)
+    stack = fitted(seen(folded.region(0.007, 0.0), LIES), sequence, (0, 1, 2))
+    assert most_off(sequence.cloth(0b111).silhouette, stack.placement, LIES) < 0.003
+    assert stack.row[3] == pytest.approx(0.007, abs=0.002)
+    corners = folded.landed.hull
+    assert stack.beside(corners) == pytest.approx(folded.astray(0.007, 0.0).apply(corners) - corners, abs=0.005)
+    assert not stack.beside(np.array([[0.4, 0.02]])).any()  # on the right side, which nothing has moved
+
+
+def test_creases_that_turn_over_in_a_loop_do_not_pull_the_stack_along():
+    # The towel's crease is at y = .2095 m; seen 6 mm inside of it, the far edge and the sides where they were put.
+    sequence = replayed(load_garment("hand-towel"))
+    points = seen(sequence.cloth(1).silhouette, LIES)
+    inner = LIES.to_inner(points)
+    at_crease = inner[:, 1] < 0.2095 + 0.006
+    inner[at_crease, 1] = np.maximum(inner[at_crease, 1], 0.2095) + 0.006
+    stack = fitted(LIES.to_outer(inner), sequence, (0,))
+    assert most_off(sequence.cloth(1).silhouette, stack.placement, LIES) < 0.0025
+    assert stack.row[5] - stack.row[3] == pytest.approx(0.006, abs=0.0025)
+
+
+def test_the_edge_of_a_flap_that_lies_upon_an_equal_one_is_told_to_be_unsure():
+    sequence, corner = replayed(load_garment("hand-towel")), np.array([[0.0, 0.419]])
+    halved = fitted(seen(sequence.cloth(1).silhouette, LIES), sequence, (0,))
+    flat = fitted(seen(sequence.cloth(0).silhouette, LIES), sequence, ())
+    assert halved.errors(corner)[0] > 2.0 * flat.errors(corner)[0]
+
+
+def test_errors_told_cover_outlines_of_much_noise():
+    sequence = replayed(load_garment("jeans"))
+    corners = sequence.cloth(0).silhouette.hull
+    covered = 0
+    for seed in range(12):
+        stack = fitted(seen(sequence.cloth(0).silhouette, LIES, seed, 0.004), sequence, ())
+        off = np.hypot(*(stack.places(corners) - LIES.to_outer(corners)).T)
+        covered += bool((off <= stack.errors(corners)).all())
+    assert covered >= 11
