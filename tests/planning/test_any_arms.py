@@ -64,7 +64,7 @@ def test_one_arm_is_told_that_a_towel_takes_two_hands(found_for: Planning):
 
 
 def test_arms_of_eight_and_of_seven_joints_do_what_those_of_a_pr2_do(found_for: Planning):
-    plan, usual = found_for(UNLIKE, load_garment("hand-towel")).plan, planned("hand-towel").answer
+    usual, plan = planned("hand-towel").answer, found_for(UNLIKE, load_garment("hand-towel")).plan
     require_performed(plan, UNLIKE)
     assert len(plan.trajectory.arms.names) == 15
     assert plan.cost_s == pytest.approx(usual.cost_s)
