@@ -19,6 +19,7 @@ from app.drawing.edit import Edit, OvertakenError, StaleVersionError
 from app.jobs.courtesy import Courtesy
 from app.language import Language
 from app.playback import Playback
+from app.rehearsal.trace import RunTrace
 from app.watched import Listener, Watched
 from planner.errors import FoldingError
 from planner.task.plan import Plan
@@ -176,6 +177,14 @@ class Document:
         """Plan the rest after a step of the plan shown; raise `RequestError` if there is none. -1: before the first."""
         self._start_at(lambda state: state.start_after(step))
 
+    def plan_from_state(self, start_of: Callable[[Task], WorldState]) -> None:
+        """Plan the rest from a state of the world, made from the task as drawn.
+
+        Raises:
+            RequestError: the drawing has problems, or it cannot be planned from there.
+        """
+        self._start_at(lambda state: state.start_in(start_of))
+
     def plan_from_start(self) -> None:
         """Plan all folds again, from the drawing's own start."""
         self._start_at(lambda _: None)
@@ -226,6 +235,10 @@ class Document:
     def preview(self, plan: Plan | None) -> None:
         """Have the stage show the plan of a change that is pointed at; None shows the document's own again."""
         self._watched.change(lambda state: state.previewing(plan))
+
+    def show_trace(self, trace: RunTrace | None) -> None:
+        """Have the stage show the cloth of a rehearsed run along with the plan on show; None: no more."""
+        self._watched.change(lambda state: state.tracing(trace))
 
     def stop_at_end(self) -> None:
         """Pause if the plan has been played to its end."""

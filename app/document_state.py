@@ -1,5 +1,6 @@
 """The state of a document at one instant: a drawing and its history, the answer to it, and the playback."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -9,6 +10,7 @@ from app.drawing.drawing import Drawing
 from app.drawing.solution import Solution
 from app.language import ENGLISH, Language
 from app.playback import Playback
+from app.rehearsal.trace import RunTrace
 from planner.errors import RequestError
 from planner.geometry.pose import Point2
 from planner.motion.timeline import Timeline
@@ -54,6 +56,19 @@ class ShownPlan:
     version: int
     plan: Plan
     timeline: Timeline
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Rehearsed:
+    """A rehearsed run of a plan.
+
+    Attributes:
+        plan: the plan.
+        trace: the run.
+    """
+
+    plan: Plan
+    trace: RunTrace
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,6 +121,7 @@ class DocumentState:
         work_s: the limit on the work of a search (s on the machine of `planner.planning.budget`), None for the usual
             one; decided in the same way.
         preview: the plan of a change that is pointed at; the stage shows it in place of `shown`.
+        rehearsed: a run whose cloth the stage shows along with its plan.
     """
 
     version: int
@@ -124,6 +140,7 @@ class DocumentState:
     language: Language = ENGLISH
     work_s: float | None = None
     preview: ShownPlan | None = None
+    rehearsed: Rehearsed | None = None
 
     @property
     def solution(self) -> Solution:
@@ -161,6 +178,12 @@ class DocumentState:
         answer = self.answer
         is_shown = answer is not None and self.is_answered and not answer.is_final
         return answer.plan if answer is not None and is_shown and answer.plan.is_solved else None
+
+    @property
+    def trace(self) -> RunTrace | None:
+        """The rehearsed run of the plan on show, if it is to be shown."""
+        is_of_plan = self.shown is not None and self.rehearsed is not None and self.rehearsed.plan is self.shown.plan
+        return self.rehearsed.trace if self.rehearsed is not None and is_of_plan else None
 
     @property
     def may_look_longer(self) -> bool:
@@ -206,6 +229,13 @@ class DocumentState:
         except RequestError as error:
             raise RequestError("step", error.message) from None
 
+    def start_in(self, start_of: Callable[[Task], WorldState]) -> WorldState:
+        """Return a start that is made from the task as drawn; raise `RequestError` if it cannot be one."""
+        task = replace(self, start=None).task
+        if task is None:
+            raise RequestError("start", "the drawing has problems, which come first")
+        return replace(task, start=start_of(task)).start
+
     def started_at(self, start: WorldState | None, now_s: float) -> "DocumentState":
         """Return the state planned from another world state, None for the drawing's start, at a wall-clock time (s)."""
         if start == self.start:
@@ -234,6 +264,12 @@ class DocumentState:
         if plan is None:
             return self if self.preview is None else replace(self, preview=None)
         return replace(self, preview=ShownPlan(self.version, plan, Timeline.of(plan)))
+
+    def tracing(self, trace: RunTrace | None) -> "DocumentState":
+        """Return the state in which the stage shows a run of the plan on show; None: none."""
+        if trace is None or self.shown is None:
+            return self if self.rehearsed is None else replace(self, rehearsed=None)
+        return replace(self, rehearsed=Rehearsed(self.shown.plan, trace))
 
     def answered(self, answer: Answer) -> "DocumentState":
         """Return the state with an answer; keep an answer to a committed drawing for comparison with the next."""

@@ -137,7 +137,7 @@ class Player:
             self._set(state.shown.plan.task.robot, state.shown.plan.scene)
             self._stage.show_plan(state.shown.plan)
         self._spread = self._bare = self._waits_until_s = None
-        self._stage.show(state.shown.timeline.at(self._document.t_s))
+        self._stage.show(state.shown.timeline.at(self._document.t_s), state.trace)
         self._document.stop_at_end()
 
     def _is_previewing(self, now_s: float) -> bool:

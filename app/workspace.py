@@ -25,6 +25,7 @@ from app.store.older.take_over import take_over
 from app.store.plan_store import PlanStore
 from app.store.robot_repository import RobotRepository
 from app.store.share_repository import ShareRepository
+from app.store.trace_store import TraceStore
 from planner.errors import FoldingError
 from planner.robots.own_robots import use_robots_folder
 
@@ -61,6 +62,7 @@ class Workspace:
         documents: the document repository.
         shares: the links to documents.
         plans: the plans made so far.
+        traces: the traces of rehearsed runs.
         lanes: the workers for everything that takes time.
         database: the database.
         jobs: the jobs, running and ended.
@@ -76,8 +78,9 @@ class Workspace:
         self.documents = DocumentRepository(self.database)
         self.shares = ShareRepository(self.database)
         self.plans = PlanStore(self.database)
+        self.traces = TraceStore(self.database)
         self.lanes = Lanes()
-        stores = Stores(self.garments, self.plans, self.folder.studies)
+        stores = Stores(self.garments, self.plans, self.folder.studies, self.traces)
         self.jobs = JobDesk(kinds, stores, JobRepository(self.database), self.lanes.jobs)
         self._of_client_max = settings.open_documents
         self._open: dict[str, OpenDocument] = {}

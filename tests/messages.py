@@ -162,6 +162,10 @@ MESSAGES: list[dict[str, Any]] = [
     {"code": "seen_does_not_fit", "share": 0.4, "residual_m": 0.02},
     {"code": "too_little_seen", "share": 0.3},
     {"code": "too_uncertain", "error_m": 0.03},
+    {"code": "looks_alike", "placements": 2},
+    {"code": "outline_hidden"},
+    {"code": "no_cloth_seen"},
+    {"code": "physics_missing"},
 ]
 
 

@@ -24,8 +24,8 @@ def one_armed() -> tuple[Plan, RobotCard]:
     assert plan.trajectory is not None
     path = plan.trajectory
     count = len(arm.joint_names)
-    rows = tuple(row[:count] for row in path.arms.positions)
-    arms = replace(path.arms, names=arm.joint_names, positions=rows)
+    rows, rates = (tuple(row[:count] for row in each) for each in (path.arms.positions, path.arms.velocities))
+    arms = replace(path.arms, names=arm.joint_names, positions=rows, velocities=rates)
     card = replace(CARD, arms=(arm,), lift_joint=None, base_kind="fixed")
     return replace(plan, trajectory=replace(path, arms=arms, grippers=path.grippers[:1])), card
 

@@ -82,7 +82,7 @@ def asked_task(within: HasGarments, wanted: PlanRequest, limit: TimeLimit) -> Ta
     if wanted.start_station is not None:
         options["start_station"] = wanted.start_station
     task = task_for(asked_garment(within, wanted.garment), wanted.scene, **options)
-    return task if wanted.start is None else replace(task, start=_asked_start(task, wanted.start))
+    return task if wanted.start is None else replace(task, start=asked_start(task, wanted.start))
 
 
 def asked_places(within: HasGarments, wanted: PlacementsRequest, limit: TimeLimit) -> Task:
@@ -91,7 +91,7 @@ def asked_places(within: HasGarments, wanted: PlacementsRequest, limit: TimeLimi
     return Task.of(garment, time_limit_s=limit.left_s, work_limit_s=wanted.work_limit_s)
 
 
-def _asked_start(task: Task, wanted: StartField) -> WorldState:
+def asked_start(task: Task, wanted: StartField) -> WorldState:
     """Return the state from which a request plans; fields left out have the task's defaults."""
     return WorldState(
         wanted.folds_done,

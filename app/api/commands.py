@@ -3,8 +3,7 @@
 from dataclasses import replace
 from typing import Any
 
-from pydantic import ValidationError
-
+from app.api.asked import asked_start
 from app.api.messages import (
     COMMANDS,
     Choose,
@@ -13,6 +12,7 @@ from app.api.messages import (
     Pause,
     PlanAgain,
     PlanFrom,
+    PlanFromState,
     Play,
     Preview,
     Seek,
@@ -20,6 +20,7 @@ from app.api.messages import (
     SetLanguage,
     SetSpeed,
     SetTheme,
+    ShowTrace,
     Stop,
 )
 from app.document import Document
@@ -28,20 +29,16 @@ from app.drawing.arcs import with_arcs
 from app.drawing.edit import Edit
 from app.drawing.garment_drawing import drawing_of
 from app.drawing.robot_drawing import with_robot
+from app.rehearsal.trace import RunTrace
 from app.workspace import Workspace
 from planner.cloth.garment import Garment
-from planner.errors import RequestError
 from planner.robots.known_robots import require_name
 from planner.robots.load_robot import robot_card_file
-from planner.strict_model import first_error
 
 
 def command_of(data: Any) -> Command:  # noqa: ANN401
     """Return the command that JSON describes; raises `RequestError`."""
-    try:
-        return COMMANDS.validate_python(data)
-    except ValidationError as error:
-        raise first_error(error, RequestError) from None
+    return COMMANDS.read(data)
 
 
 def obey(command: Command, workspace: Workspace, document: Document) -> None:
@@ -71,12 +68,18 @@ def obey(command: Command, workspace: Workspace, document: Document) -> None:
             document.plan_from_start()
         case PlanFrom(step=int(step)):
             document.plan_from(step)
+        case PlanFromState(start=start):
+            document.plan_from_state(lambda task: asked_start(task, start))
         case Stop():
             document.stop_planning()
         case Preview(plan=None):
             document.preview(None)
         case Preview(plan=str(plan_id)):
             document.preview(workspace.plans.plan(plan_id))
+        case ShowTrace(trace=None):
+            document.show_trace(None)
+        case ShowTrace(trace=str(trace_id)):
+            document.show_trace(RunTrace.unpacked(workspace.traces.content(trace_id)))
 
 
 def put_garment(

@@ -1,16 +1,17 @@
 """The bodies of requests, and the page's commands."""
 
 from dataclasses import dataclass
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import Annotated, Any, Literal, TypeAlias, cast
 
 from annotated_types import Interval
-from pydantic import Field, PlainValidator, TypeAdapter
+from pydantic import Field, PlainValidator
 from pydantic_core import PydanticCustomError
 
 from app.language import Language
 from app.playback import SPEED_MAX, SPEED_MIN
 from planner.cloth.garment import FOLDS_MAX, Garment
 from planner.geometry.given import GivenPose
+from planner.json_form import JsonForm
 from planner.planning.robot_task import with_robots_scene
 from planner.strict_model import LARGEST_M, Bounded, StrictModel
 from planner.task.scene import Scene
@@ -168,6 +169,20 @@ class PlanFrom(StrictModel):
     step: Annotated[int, Field(ge=-1, le=10_000)] | None
 
 
+class PlanFromState(StrictModel):
+    """Plan what is left from a state of the world, as `start` of a plan request."""
+
+    do: Literal["plan_from_state"]
+    start: StartField
+
+
+class ShowTrace(StrictModel):
+    """Have the stage show the cloth of a rehearsed run along with the plan, by the id of its trace; null: no more."""
+
+    do: Literal["show_trace"]
+    trace: Annotated[str, Field(max_length=64)] | None
+
+
 class Preview(StrictModel):
     """Have the stage show a plan by its id, that of a suggestion; null: the document's own again."""
 
@@ -188,7 +203,9 @@ Command: TypeAlias = (
     | PlanAgain
     | LookLonger
     | PlanFrom
+    | PlanFromState
     | Preview
+    | ShowTrace
 )
 AnyCommand = Annotated[Command, Field(discriminator="do")]
-COMMANDS: TypeAdapter[Command] = TypeAdapter(AnyCommand)
+COMMANDS: JsonForm[Command] = JsonForm(cast("type[Command]", AnyCommand))

@@ -25,6 +25,7 @@ from app.store.document_errors import BrokenDocumentError, NewerDocumentError, U
 from app.store.job_repository import UnknownJobError
 from app.store.plan_store import UnknownPlanError
 from app.store.storage_error import ForbiddenStorageError, FullStorageError, StorageError, storage_error
+from app.store.trace_store import UnknownTraceError
 from app.studies.study_job import UnknownStudyError
 from planner.errors import (
     FieldError,
@@ -57,6 +58,7 @@ _STATUS_OF: dict[type[FoldingError], int] = {
     UnknownGarmentError: 404,
     UnknownRobotError: 404,
     UnknownPlanError: 404,
+    UnknownTraceError: 404,
     UnknownDocumentError: 404,
     EndedDocumentError: 404,
     UnknownJobError: 404,

@@ -1,7 +1,7 @@
 """All exports of a document: the kinds of file, and how each is made.
 
-What needs a library that takes long to load imports it when the file is made: toppra alone takes 0.7 s, and no command
-but `export` should wait for that.
+What needs a library that takes long to load imports it when the file is made: no command but `export` should wait for
+that.
 """
 
 import json

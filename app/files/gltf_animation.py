@@ -1,13 +1,13 @@
 """Writes a plan's animation as one glTF file: the robot, the table and the cloth, for any viewer of 3-D models.
 
-A link of the robot is a node below its parent's, turned by keyframes of its joint; between them the joint moves evenly,
-as in the plan, and so does the node. Cloth is cut anew wherever it bends, so that its triangles change from moment to
+A link of the robot is a node below its parent's, turned by keyframes of its joint, so many that it may go evenly
+between them. Cloth is cut anew wherever it bends, so that its triangles change from moment to
 moment and no morph target could follow them: there is a mesh for each of its shapes, all in one place, of which an
 animated scale shows one at a time.
 """
 
 import math
-from collections.abc import Hashable, Mapping
+from collections.abc import Hashable, Iterable, Mapping
 
 import numpy as np
 
@@ -25,6 +25,12 @@ from planner.robots.card import RobotCard
 from planner.robots.load_robot import load_robot
 from planner.task.plan import Plan
 from planner.task.trajectory import Trajectory
+
+JOINTS_HZ = 60.0
+"""Keyframes of joints and base in a second, besides the plan's own."""
+
+_APART_S = 1e-3
+"""The least time between two keyframes (s)."""
 
 CLOTH_HZ = 15.0
 """The most shapes of the cloth in a second."""
@@ -81,16 +87,27 @@ def _robot(writer: GltfWriter, world: int, plan: Plan, path: Trajectory, card: R
 
 
 def _tracks(path: Trajectory) -> Mapping[str, tuple[FloatArray, FloatArray]]:
-    """Return the times (s) and the positions (rad, m) of the keyframes of each joint that moves."""
-    arms = {name: (np.array(path.arms.times_s), path.arms.rows[:, n]) for n, name in enumerate(path.arms.names)}
-    fingers = {track.joint: (np.array(track.times_s), np.array(track.positions)) for track in path.grippers}
-    return arms | fingers
+    """Return times (s) and the positions (rad, m) then of each joint that moves."""
+    times = _dense(path, path.arms.times_s)
+    rows = np.array([path.arms.at(t) for t in times])
+    tracks = {name: (np.array(times), rows[:, n]) for n, name in enumerate(path.arms.names)}
+    for track in path.grippers:
+        times = _dense(path, track.times_s)
+        tracks[track.joint] = np.array(times), np.array([track.position_at(t) for t in times])
+    return tracks
+
+
+def _dense(path: Trajectory, keyframes_s: Iterable[float]) -> list[float]:
+    """Return the times of keyframes, and more in between where these are far apart (s)."""
+    count = math.ceil(path.duration_s * JOINTS_HZ) + 1
+    times = np.union1d(list(keyframes_s), np.linspace(0.0, path.duration_s, count))
+    kept = times[np.append(np.diff(times) > _APART_S, True)]  # written as single floats, which must grow
+    return [0.0, *kept[kept > _APART_S].tolist()]
 
 
 def _base(writer: GltfWriter, world: int, path: Trajectory, floor_m: float) -> int:
     """Add the node of the whole robot, which drives from pose to pose."""
-    times = [part.start_s + t for part in path.segments for t in part.times_s[:-1]] + [path.duration_s]
-    times = sorted(set(times))
+    times = _dense(path, (part.start_s + t for part in path.segments for t in part.times_s[:-1]))
     poses = [path.segment_at(t).base_at(t) for t in times]
     at = writer.numbers(np.array(times), is_bounded=True)
     turned = np.array([(z, w) for w, _, _, z in (yaw(pose.yaw_rad) for pose in poses)])

@@ -1,7 +1,7 @@
 """Writes a plan's motion as a LeRobot dataset of one episode (format 3.0), for learning from demonstrations.
 
 A frame's state is where arms, fingers and base are, its action where they are to be at the next frame, as a leader arm
-would ask. The motion is the smooth one that a controller is sent. There are no cameras.
+would ask. The motion is the one that a controller is sent. There are no cameras.
 """
 
 import io
@@ -18,7 +18,7 @@ from planner.errors import UnsolvedPlanError
 from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import TIME_S
 from planner.motion.motion_limits import BASE_NAMES, MotionLimits
-from planner.motion.smooth_motion import planned_values, smooth_steps
+from planner.motion.motion_values import positions_at
 from planner.robots.card import RobotCard
 from planner.robots.load_robot import load_robot
 from planner.task.plan import Plan
@@ -66,15 +66,8 @@ def _states(plan: Plan, card: RobotCard) -> tuple[list[str], FloatArray]:
         raise UnsolvedPlanError(plan.status)
     limits = MotionLimits.of(card, plan.scene)
     shown = [n for n, name in enumerate(limits.names) if not (card.is_fixed and name in BASE_NAMES)]
-    steps = list(smooth_steps(plan, limits))
-    ends_s = [*(step.start_s for step in steps[1:]), math.inf]
-    frames_s = np.arange(math.ceil(steps[-1].end_s * FPS - TIME_S) + 1) / FPS if steps else np.zeros(0)
-    parts = [
-        step.at(frames_s[(frames_s >= step.start_s) & (frames_s < end_s)] - step.start_s)
-        for step, end_s in zip(steps, ends_s, strict=False)
-    ]
-    states = np.concatenate(parts) if parts else planned_values(plan.trajectory, np.zeros(1))
-    return [limits.names[n] for n in shown], states[:, shown]
+    frames_s = np.arange(math.ceil(plan.trajectory.duration_s * FPS - TIME_S) + 1) / FPS
+    return [limits.names[n] for n in shown], positions_at(plan.trajectory, frames_s)[:, shown]
 
 
 def _info(plan: Plan, names: list[str], columns: dict[str, np.ndarray[Any, Any]]) -> dict[str, Any]:

@@ -16,11 +16,15 @@ from rosbags.typesys import Stores, get_typestore
 from rosbags.typesys.store import Typestore
 
 from app.step_words import step_words
+from planner.errors import UnsolvedPlanError
 from planner.geometry.pose import FloatArray
+from planner.geometry.tolerance import TIME_S
 from planner.motion.motion_limits import BASE_NAMES, MotionLimits
-from planner.motion.smooth_motion import SmoothStep, smooth_steps
+from planner.motion.motion_values import accelerations_at, positions_at, velocities_at
 from planner.robots.card import RobotCard
 from planner.task.plan import Plan
+from planner.task.plan_step import PlanStep
+from planner.task.trajectory import Trajectory
 
 RATE_HZ = 50.0
 """Points a second of each message."""
@@ -28,7 +32,7 @@ RATE_HZ = 50.0
 TABLE_FRAME = "table"
 """The frame of the base's path: the middle of the table's top, z up."""
 
-_VERSION = 1
+_VERSION = 2
 _TRAJECTORY, _PATH = "trajectory_msgs/msg/JointTrajectory", "nav_msgs/msg/Path"
 _NS = 1_000_000_000
 
@@ -56,7 +60,7 @@ class RosMotion:
 
     Attributes:
         messages: the messages, step by step.
-        about: what they are, as JSON: the clock, the limits, and where each step of the plan is on it.
+        about: what they are, as JSON: the limits, and when each step of the plan begins.
     """
 
     messages: tuple[RosMessage, ...]
@@ -74,28 +78,30 @@ def ros_motion(plan: Plan, card: RobotCard) -> RosMotion:
     Raises:
         UnsolvedPlanError: the plan is not solved.
     """
+    if plan.trajectory is None:
+        raise UnsolvedPlanError(plan.status)
     limits = MotionLimits.of(card, plan.scene)
-    steps = list(smooth_steps(plan, limits))
-    writer = _Writer(plan, card, limits, message_types())
-    messages = tuple(message for step in steps for message in writer.messages(step))
-    return RosMotion(messages, _about(plan, limits, steps))
+    writer = _Writer(plan, plan.trajectory, card, limits, message_types())
+    messages = tuple(message for step in plan.steps for message in writer.messages(step))
+    return RosMotion(messages, _about(plan, limits))
 
 
 class _Writer:
     """Writes the messages of one plan."""
 
-    def __init__(self, plan: Plan, card: RobotCard, limits: MotionLimits, types: Typestore) -> None:
-        self._plan, self._card, self._limits, self._types = plan, card, limits, types
+    def __init__(self, plan: Plan, path: Trajectory, card: RobotCard, limits: MotionLimits, types: Typestore) -> None:
+        self._plan, self._motion, self._card, self._limits, self._types = plan, path, card, limits, types
 
-    def messages(self, step: SmoothStep) -> Iterator[RosMessage]:
+    def messages(self, step: PlanStep) -> Iterator[RosMessage]:
         """Yield the messages of a step."""
-        times = step.times_s(RATE_HZ)
-        orders = [step.at(times, order) for order in range(3)]
+        times = np.linspace(0.0, step.duration_s, max(math.ceil(step.duration_s * RATE_HZ - TIME_S), 1) + 1)
+        path, at = self._motion, step.start_s + times
+        orders = [positions_at(path, at), velocities_at(path, at), accelerations_at(path, at, step.end_s)]
         for arm in self._card.arms:
             for part, joints in (("arm", arm.joint_names), ("gripper", (arm.gripper.joint_name,))):
                 yield self._trajectory(f"{arm.name}_{part}", step, times, joints, self._columns(orders, joints))
-        if self._card.lift_joint is not None and self._plan.trajectory is not None:
-            still = np.full((2, 1), self._plan.trajectory.torso_m)
+        if self._card.lift_joint is not None:
+            still = np.full((2, 1), path.torso_m)
             resting = [still, np.zeros((2, 1)), np.zeros((2, 1))]
             yield self._trajectory("lift", step, times[[0, -1]], (self._card.lift_joint,), resting)
         if not self._card.is_fixed:
@@ -106,7 +112,7 @@ class _Writer:
         return [values[:, which] for values in orders]
 
     def _trajectory(
-        self, name: str, step: SmoothStep, times: FloatArray, joints: tuple[str, ...], orders: list[FloatArray]
+        self, name: str, step: PlanStep, times: FloatArray, joints: tuple[str, ...], orders: list[FloatArray]
     ) -> RosMessage:
         """Return a message for the controller of some joints: their positions, velocities and accelerations."""
         point = self._types.types["trajectory_msgs/msg/JointTrajectoryPoint"]
@@ -119,7 +125,7 @@ class _Writer:
         message = self._types.types[_TRAJECTORY](self._header(_ns(step.start_s), ""), list(joints), points)
         return self._message(topic, _TRAJECTORY, step, message)
 
-    def _path(self, step: SmoothStep, times: FloatArray, poses: FloatArray) -> RosMessage:
+    def _path(self, step: PlanStep, times: FloatArray, poses: FloatArray) -> RosMessage:
         types = self._types.types
         floor_m = -self._plan.scene.table.height_m
         stamped = [
@@ -135,7 +141,7 @@ class _Writer:
         message = types[_PATH](self._header(_ns(step.start_s), TABLE_FRAME), stamped)
         return self._message("/base_path", _PATH, step, message)
 
-    def _message(self, topic: str, type_name: str, step: SmoothStep, message: Any) -> RosMessage:  # noqa: ANN401
+    def _message(self, topic: str, type_name: str, step: PlanStep, message: Any) -> RosMessage:  # noqa: ANN401
         data = bytes(self._types.serialize_cdr(message, type_name))
         return RosMessage(topic, type_name, _ns(step.start_s), data)
 
@@ -144,29 +150,25 @@ class _Writer:
         return self._types.types["std_msgs/msg/Header"](time, frame)
 
 
-def _about(plan: Plan, limits: MotionLimits, steps: list[SmoothStep]) -> dict[str, Any]:
+def _about(plan: Plan, limits: MotionLimits) -> dict[str, Any]:
     """Return what a reader must know besides the messages."""
     return {
         "version": _VERSION,
         "garment": plan.garment.name,
         "robot": plan.task.robot,
-        "clock": "smooth motion: bounded accelerations, each step from rest to rest; plan_*_s is the plan's own time",
-        "duration_s": steps[-1].end_s if steps else 0.0,
-        "plan_duration_s": plan.cost_s,
-        "deviation": max((step.deviation for step in steps), default=0.0),
+        "clock": "the plan's own: each step goes from rest to rest, with bounded speeds and accelerations",
+        "duration_s": plan.cost_s,
         "speeds": dict(zip(limits.names, limits.speeds.tolist(), strict=True)),
         "accelerations": dict(zip(limits.names, limits.accelerations.tolist(), strict=True)),
         "steps": [
             {
-                "step": smooth.number,
+                "step": number,
                 "kind": step.kind,
                 "what": step_words(step, plan.garment),
-                "start_s": smooth.start_s,
-                "duration_s": smooth.duration_s,
-                "plan_start_s": step.start_s,
-                "plan_duration_s": step.duration_s,
+                "start_s": step.start_s,
+                "duration_s": step.duration_s,
             }
-            for smooth, step in zip(steps, plan.steps, strict=True)
+            for number, step in enumerate(plan.steps)
         ],
     }
 

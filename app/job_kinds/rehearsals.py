@@ -4,11 +4,15 @@ from dataclasses import dataclass
 from typing import Any
 
 from app.files.import_file import LARGEST_PLAN_FILE
-from app.jobs.job_kind import JobKind, Progress, Stores, as_it_is
-from app.rehearsal.rehearse import RehearsalOptions, rehearse, require_physics
-from planner.errors import FieldError, UnsolvedPlanError
+from app.jobs.job_kind import JobKind, Progress, Stores
+from app.rehearsal.rehearse import PhysicsMissingError, RehearsalOptions, rehearse, require_physics
+from planner.errors import FieldError, RequestError, UnsolvedPlanError
 from planner.json_form import STRICT
+from planner.message import Message
 from planner.task.plan import Plan
+
+TRACED = 10
+"""The number of the first runs of which a trace is kept."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +37,7 @@ class RehearsalRequest:
 
 
 def _prepare(stores: Stores, wanted: RehearsalRequest) -> tuple[Plan, RehearsalOptions]:
-    options = RehearsalOptions(wanted.runs, wanted.seed, wanted.noise, wanted.feedback)
+    options = RehearsalOptions(wanted.runs, wanted.seed, wanted.noise, wanted.feedback, traced=TRACED)
     if isinstance(wanted.plan, str):
         plan = stores.plans.plan(wanted.plan)
     else:
@@ -43,13 +47,26 @@ def _prepare(stores: Stores, wanted: RehearsalRequest) -> tuple[Plan, RehearsalO
             raise error.within("plan") from None
     if not plan.is_solved:
         raise UnsolvedPlanError(plan.status)
-    require_physics()
+    try:
+        require_physics()
+    except PhysicsMissingError as error:
+        raise RequestError("", Message("physics_missing", str(error))) from None
     return plan, options
 
 
-def _work(asked: tuple[Plan, RehearsalOptions], progress: Progress) -> dict[str, Any]:
+def _work(asked: tuple[Plan, RehearsalOptions], progress: Progress) -> tuple[dict[str, Any], list[bytes]]:
+    """Return the result as JSON, and the traces of the first runs."""
     plan, options = asked
-    return rehearse(plan, options, lambda share: progress(share, "rehearsing")).to_dict()
+    result = rehearse(plan, options, lambda share: progress(share, "rehearsing"))
+    return result.to_dict(), [run.trace.packed() for run in result.runs if run.trace is not None]
+
+
+def _finish(stores: Stores, answer: tuple[dict[str, Any], list[bytes]]) -> dict[str, Any]:
+    result, traces = answer
+    kept = [stores.traces.add(trace) for trace in traces]
+    for number, run in enumerate(result["runs"]):
+        run["trace"] = kept[number] if number < len(kept) else None
+    return result
 
 
 REHEARSALS = JobKind(
@@ -59,7 +76,7 @@ REHEARSALS = JobKind(
     example={"plan": "0123456789abcdef", "runs": 1, "noise": "none"},
     prepare=_prepare,
     work=_work,
-    finish=as_it_is,
+    finish=_finish,
     path="/api/rehearsals",
     largest_body=LARGEST_PLAN_FILE,
     may_begin_anew=True,

@@ -14,6 +14,7 @@ from typing import Any, Generic, TypeAlias, TypeVar
 
 from app.store.garment_repository import GarmentRepository
 from app.store.plan_store import PlanStore
+from app.store.trace_store import TraceStore
 from planner.json_form import JsonForm
 
 Body = TypeVar("Body")
@@ -29,17 +30,19 @@ LARGEST_BODY = 1 << 20
 
 @dataclass(frozen=True, slots=True)
 class Stores:
-    """The repositories that a kind's functions may read, and the store of plans, to which they may add.
+    """The repositories that a kind's functions may read, and the stores of plans and traces, to which they may add.
 
     Attributes:
         garments: the garments.
         plans: the plans made so far.
         studies: the folder of studies.
+        traces: the traces of rehearsed runs.
     """
 
     garments: GarmentRepository
     plans: PlanStore
     studies: Path
+    traces: TraceStore
 
 
 @dataclass(frozen=True)

@@ -1,7 +1,7 @@
 """The robot's eyes: what it makes of an observation, and the picture with what was fitted to it."""
 
 import base64
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -17,6 +17,7 @@ from planner.geometry.pose import Pose2
 from planner.robots.card import RobotCard
 from planner.robots.load_robot import load_robot
 from planner.task.task import Task
+from planner.task.world_state import WorldState
 
 PICTURE_BYTES_MAX = 60_000
 """Largest size of a picture that is kept (bytes)."""
@@ -35,6 +36,7 @@ class Picture:
         size_px: its width and height.
         jpeg: the picture.
         sight: what was seen in it.
+        before: the world as planned when it was taken.
     """
 
     step: int
@@ -42,6 +44,13 @@ class Picture:
     size_px: tuple[int, int]
     jpeg: bytes
     sight: Sight
+    before: WorldState
+
+    @property
+    def start(self) -> WorldState | None:
+        """The world as seen, from which can be planned; None where it is not known where the stack lies."""
+        fit = self.sight.fit
+        return None if fit is None or self.sight.unknown else replace(self.before, placement=fit.placement)
 
     def to_dict(self) -> dict[str, Any]:
         """Return it as JSON, the picture in base 64."""
@@ -50,6 +59,7 @@ class Picture:
             "is_clear": self.is_clear,
             "size_px": list(self.size_px),
             "jpeg": base64.b64encode(self.jpeg).decode(),
+            "start": None if self.start is None else self.start.to_dict(),
             **self.sight.to_dict(),
         }
 
@@ -91,14 +101,14 @@ class Eyes:
         return Posture(posture.base, joints)
 
 
-def kept(step: int, seen: Observation, sight: Sight, *, is_clear: bool) -> Picture | None:
+def kept(step: int, before: WorldState, seen: Observation, sight: Sight, *, is_clear: bool) -> Picture | None:
     """Return the picture of an observation, as good as its largest size allows; None where it has none."""
     if seen.image is None:
         return None
     image = np.ascontiguousarray(seen.image[..., ::-1])
     jpeg = next((data for data in (coded(image, quality) for quality in (80, 60, 40, 20)) if _fits(data)), None)
     size_px = (image.shape[1], image.shape[0])
-    return None if jpeg is None else Picture(step, is_clear, size_px, jpeg, sight)
+    return None if jpeg is None else Picture(step, is_clear, size_px, jpeg, sight, before)
 
 
 def _fits(data: bytes) -> bool:

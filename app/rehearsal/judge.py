@@ -18,7 +18,7 @@ from planner.task.world_state import WorldState
 
 _MM = 1000.0
 
-_GAP_M = 0.002
+GAP_M = 0.002
 """The height of a layer above the one below (m)."""
 
 _UPRIGHT_M2 = 1e-8
@@ -59,6 +59,8 @@ class StepVerdict:
         turned_rad: how far the cloth has turned as a whole (rad).
         empty: the arms that found no cloth.
         held: whether it meets the gate.
+        of_plan: the index of the step of the plan as it was at first that leaves the cloth folded alike; None where
+            none does, since the rest was planned again.
     """
 
     step: int
@@ -70,6 +72,7 @@ class StepVerdict:
     turned_rad: float
     empty: tuple[str, ...] = field(default=())
     held: bool = True
+    of_plan: int | None = None
 
     def to_dict(self) -> dict[str, Any]:
         """Return the verdict as JSON."""
@@ -124,12 +127,12 @@ def judged(
         empty: the arms that found no cloth.
     """
     lies = _carried(state.placement, carried)
-    planned = planned_positions(sequence, truth.pattern, state.done, lies, table, _GAP_M)
+    planned = planned_positions(sequence, truth.pattern, state.done, lies, table, GAP_M)
     slide = slide_of(planned[:, :2], truth.positions[:, :2])
     back = slide.isometry.inverse
     places = np.column_stack([back.apply(truth.positions[:, :2]), truth.positions[:, 2]])
     errors = _MM * np.linalg.norm(places - planned, axis=1)
-    covered, seen = (_silhouette(points[:, :2], truth.triangles) for points in (planned, places))
+    covered, seen = (silhouette(points[:, :2], truth.triangles) for points in (planned, places))
     shared = covered.intersection(seen).area
     either = covered.area + seen.area - shared
     outline = _MM * (either - shared) / covered.outline_length
@@ -138,7 +141,7 @@ def judged(
     return StepVerdict(step, shared / either, outline, mean, p95, _MM * slide.slid_m, slide.turned_rad, empty, held)
 
 
-def _silhouette(points: FloatArray, triangles: NDArray[np.int64]) -> Region:
+def silhouette(points: FloatArray, triangles: NDArray[np.int64]) -> Region:
     """Return what a mesh covers, seen from above; its points have the shape (n, 2), m.
 
     The planned cloth is seen by the same mesh: one without a row on a crease ends short of it. Measured against the

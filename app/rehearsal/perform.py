@@ -26,6 +26,7 @@ from app.rehearsal.grasp_points import laid_short, on_the_flap
 from app.rehearsal.judge import Gate, StepVerdict, judged
 from app.rehearsal.result import Decision
 from app.rehearsal.step_motions import posture_at, step_motions
+from app.rehearsal.trace import ClothAfter, counterpart
 from app.rehearsal.world import WITHDRAW, Performed, StepMotion, World
 from app.vision.look_at_stack import Sight
 from app.vision.seen_stack import SeenStack
@@ -47,12 +48,16 @@ _WITHDRAW_S = 3.0
 
 @dataclass(frozen=True, slots=True)
 class Performance:
-    """The outcome of a plan: verdicts, decisions of the feedback, the reason of an early end ("" if none), pictures."""
+    """The outcome of a plan: verdicts, decisions of the feedback, the reason of an early end ("" if none), pictures.
+
+    `cloths` is the cloth after each judged step that has its counterpart in the plan as it was at first.
+    """
 
     steps: tuple[StepVerdict, ...]
     decisions: tuple[Decision, ...] = ()
     reason: str = ""
     pictures: tuple[Picture, ...] = ()
+    cloths: tuple[ClothAfter, ...] = ()
 
 
 @dataclass
@@ -80,6 +85,11 @@ class Performer:
     _stack: SeenStack | None = None
     _blind: int = 0
     _posture: Posture | None = None
+    _cloths: list[ClothAfter] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        """Note the plan as it is at first."""
+        self._first = self.plan
 
     def performed(self) -> Performance:
         """Perform the plan."""
@@ -119,7 +129,8 @@ class Performer:
         return self._ended("")
 
     def _ended(self, reason: str) -> Performance:
-        return Performance(tuple(self._verdicts), tuple(self._decisions), reason, tuple(self._pictures))
+        pictures, cloths = tuple(self._pictures), tuple(self._cloths)
+        return Performance(tuple(self._verdicts), tuple(self._decisions), reason, pictures, cloths)
 
     def _begins(self) -> Posture | None:
         path = self.plan.trajectory
@@ -163,7 +174,7 @@ class Performer:
         fit = sight.fit
         numbers = () if fit is None else (("error_m", fit.error_m), ("share_on_outline", fit.share_on_outline))
         self._decide("seen" if sight.unknown is None else "not_known", *numbers)
-        picture = kept(self._made, seen, sight, is_clear=is_clear)
+        picture = kept(self._made, step.before, seen, sight, is_clear=is_clear)
         self._pictures += [] if picture is None else [picture]
         return sight
 
@@ -224,7 +235,9 @@ class Performer:
         verdict = judged(
             truth, self._made, self.plan.sequence, step.after, carried, self.plan.scene.table, self.gate, empty
         )
-        self._verdicts.append(verdict)
+        of_plan = counterpart(self._first, step)
+        self._verdicts.append(replace(verdict, of_plan=of_plan))
+        self._cloths += [] if of_plan is None else [ClothAfter(of_plan, truth.positions)]
 
     def _decide(self, code: str, *numbers: tuple[str, float]) -> None:
         self._decisions.append(Decision(self._made, code, numbers))

@@ -18,6 +18,7 @@ from app.rehearsal.noise import NOISE, Noise
 from app.rehearsal.result import RehearsalResult, Run
 from planner.errors import FoldingError, RequestError, UnsolvedPlanError
 from planner.task.plan import Plan
+from planner.task.task import Task
 
 RUNS_MAX = 1000
 _LOOK_S = 0.2
@@ -50,6 +51,7 @@ class RehearsalOptions:
         resolution: how finely the world is simulated.
         gate: what counts as held.
         workers: processes at most; None for two, or one on a machine with one core.
+        traced: the number of the first runs of which a trace is kept.
     """
 
     runs: int = 1
@@ -59,6 +61,7 @@ class RehearsalOptions:
     resolution: Resolution = field(default_factory=Resolution)
     gate: Gate = field(default_factory=Gate)
     workers: int | None = None
+    traced: int = 0
 
     def __post_init__(self) -> None:
         """Check the fields; raises `RequestError`."""
@@ -119,14 +122,12 @@ def one_run(
     # Here: they need MuJoCo and the whole planner, which a server that only passes rehearsals on does not load.
     from app.physics.physics_world import PhysicsWorld
     from app.rehearsal.camera_world import CameraWorld
+    from app.rehearsal.filmed_world import FilmedWorld, Tick
     from app.rehearsal.noisy_world import NoisyWorld
     from app.rehearsal.perform import Performance, Performer
     from app.rehearsal.step_motions import posture_at
+    from app.rehearsal.trace import looked_before, traced
     from planner.plans import make_plan
-
-    def tick() -> None:
-        if is_cancelled():
-            raise CancelledError
 
     began, noise, start = process_time(), NOISE[options.noise], plan.task.start
     rng = np.random.default_rng(seed)
@@ -135,18 +136,42 @@ def one_run(
     placement = replace(placement, yaw_rad=placement.yaw_rad + noise.placement_rad * turn)
     friction = plan.scene.friction * max(0.0, 1.0 + noise.friction * slip)
     fabric = Fabric(density_kg_m2=plan.garment.areal_density_kg_m2, friction=friction)
-    world = PhysicsWorld(plan.task, fabric, options.resolution, seed, placement, tick)
+
+    def begun(film: Tick) -> PhysicsWorld:
+        def tick() -> None:
+            if is_cancelled():
+                raise CancelledError
+            film()
+
+        return PhysicsWorld(plan.task, fabric, options.resolution, seed, placement, tick)
+
+    def planned_again(task: Task) -> Plan:
+        world.end()
+        return make_plan(task)
+
+    most = 0.0
+
+    def told(share: float) -> None:
+        nonlocal most
+        if share > most:  # a step that is tried again goes back
+            most = share
+            progress(share)
+
+    world = FilmedWorld(plan, begun, told)
     assert plan.trajectory is not None
     camera = CameraWorld(world, plan.task, posture_at(plan.trajectory, 0.0), seed)
     seen = camera if noise == Noise() else NoisyWorld(camera, noise, seed, start.base.pose)
-    performer = Performer(plan, seen, options.gate, make_plan if options.feedback else None, progress)
+    performer = Performer(plan, seen, options.gate, planned_again if options.feedback else None, told)
     try:
         found = performer.performed()
     except FloatingPointError as error:
         found = Performance((), (), str(error))
-    return Run(
-        seed, found.steps, found.decisions, found.reason, world.elapsed_s, process_time() - began, found.pictures
-    )
+    trace = None
+    if seed - options.seed < options.traced:
+        looks = [{**one.to_dict(), "of_plan": looked_before(plan, one.before)} for one in found.pictures]
+        trace = traced(plan, world.truth(), world.frames, found.cloths, looks)
+    took_s = process_time() - began
+    return Run(seed, found.steps, found.decisions, found.reason, world.elapsed_s, took_s, found.pictures, trace)
 
 
 def _share(progress: Callable[[float], None], before: int, runs: int) -> Callable[[float], None]:

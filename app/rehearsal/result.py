@@ -7,6 +7,7 @@ from scipy.special import betaincinv
 
 from app.rehearsal.eyes import Picture
 from app.rehearsal.judge import StepVerdict
+from app.rehearsal.trace import RunTrace
 
 _CONFIDENCE = 0.95
 
@@ -42,6 +43,7 @@ class Run:
         simulated_s: the time that passed in the world (s).
         cpu_s: the processor time that it took (s).
         pictures: what was looked at, in order; not in the JSON, since they are large.
+        trace: the cloth and the pictures, for people to look at; None unless asked for, and not in the JSON.
     """
 
     seed: int
@@ -51,6 +53,7 @@ class Run:
     simulated_s: float = 0.0
     cpu_s: float = 0.0
     pictures: tuple[Picture, ...] = ()
+    trace: RunTrace | None = None
 
     @property
     def held(self) -> bool:

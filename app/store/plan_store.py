@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from sqlalchemy import delete, insert, select
 
 from app.store.database import Database
+from app.store.newest import drop_oldest
 from app.store.packed_plan import PackedPlan, unpacked
 from app.store.schema import PlanRow
 from planner.errors import FoldingError
@@ -158,11 +159,5 @@ class PlanStore:
             with self._lock:
                 self._added += 1
                 is_due = self._added % min(_DROP_EVERY, self._capacity) == 0
-            if not is_due:
-                return
-            kept, total = 0, 0
-            for number, size in session.execute(select(PlanRow.number, PlanRow.size).order_by(PlanRow.number.desc())):
-                kept, total = kept + 1, total + size
-                if kept > self._capacity or total > self._capacity_bytes:
-                    session.execute(delete(PlanRow).where(PlanRow.number <= number))
-                    return
+            if is_due:
+                drop_oldest(session, PlanRow, self._capacity, self._capacity_bytes)

@@ -99,6 +99,18 @@ class PlanRow(Table):
     content: Mapped[bytes] = mapped_column(LargeBinary)
 
 
+class TraceRow(Table):
+    """The trace of a rehearsed run, packed (`app.rehearsal.trace`), and its size (bytes); `number` grows."""
+
+    __tablename__ = "traces"
+    __table_args__ = ({"sqlite_autoincrement": True},)
+
+    number: Mapped[int] = mapped_column(primary_key=True, autoincrement=True)
+    id: Mapped[str] = mapped_column(unique=True)
+    size: Mapped[int]
+    content: Mapped[bytes] = mapped_column(LargeBinary)
+
+
 class ShareRow(Table):
     """A link to look at a document: the hash of its token, and when it was made (s since the epoch)."""
 

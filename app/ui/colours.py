@@ -22,6 +22,8 @@ class Palette:
     cloth_front: Rgb = rgb("F0E6D2")
     cloth_back: Rgb = rgb("B4C3D6")
     cloth_edge: Rgb = rgb("6E6453")
+    cloth_simulated: Rgb = rgb("8C929B")
+    cloth_off: Rgb = rgb("2E3238")
     fold_blue: Rgb = rgb("0047A3")
     fold_red: Rgb = rgb("B33600")
     table: Rgb = rgb("A3917F")
@@ -42,6 +44,8 @@ DARK = Palette(
     cloth_front=rgb("5A5142"),
     cloth_back=rgb("2C3B50"),
     cloth_edge=rgb("B5A98F"),
+    cloth_simulated=rgb("8E959E"),
+    cloth_off=rgb("E4E4DF"),
     fold_blue=rgb("7CC0FF"),
     fold_red=rgb("FFA070"),
     table=rgb("36312C"),

@@ -13,6 +13,7 @@ import viser
 from viser.infra import StateSerializer
 
 from app.language import ENGLISH, Language
+from app.rehearsal.trace import RunTrace
 from app.ui.cloth_view import ClothView
 from app.ui.colours import DARK, LIGHT
 from app.ui.fold_view import FoldView
@@ -21,6 +22,7 @@ from app.ui.lighting import add_lights
 from app.ui.opening import opening
 from app.ui.robot_box import waiting_box
 from app.ui.robot_view import RobotView
+from app.ui.simulated_view import SimulatedView
 from app.ui.table_view import TableView
 from app.ui.viewpoint import Viewpoint
 from app.ui.viser_patches import start_private_viser
@@ -62,6 +64,7 @@ class Stage:
             self._table = self._bring_table()
             self._cloth = ClothView(self._server.scene)
             self._folds = FoldView(self._server)
+            self._simulated = SimulatedView(self._server.scene)
             self._bring_robot()
         self._palette = LIGHT
         self._caption: viser.LabelHandle | None = None
@@ -102,7 +105,7 @@ class Stage:
         self._palette = palette = DARK if is_dark else LIGHT
         with self._server.atomic():
             self._server.gui.configure_theme(show_logo=False, show_share_button=False, dark_mode=is_dark)
-            for view in (self._table, self._cloth, self._folds, self._robot, self._grips):
+            for view in (self._table, self._cloth, self._folds, self._simulated, self._robot, self._grips):
                 view.recolour(palette)
         self._server.flush()
 
@@ -160,11 +163,12 @@ class Stage:
         with self._server.atomic():
             self._begin(plan.garment, plan.steps)
 
-    def show(self, frame: Sample) -> None:
-        """Show one sample of the plan."""
+    def show(self, frame: Sample, trace: RunTrace | None = None) -> None:
+        """Show one sample of the plan, and the cloth of a rehearsed run of it at that time."""
         with self._server.atomic():
             self._robot.pose(frame.base, frame.joints)
             self._cloth.show(frame.cloth)
+            self._simulated.show(trace, self._steps, frame.t_s)
             if self._steps:
                 self._show_step(frame)
         self._server.flush()
@@ -219,6 +223,7 @@ class Stage:
         self._steps = steps
         self._marked = None
         self._grips.show(None)
+        self._simulated.show(None, steps, 0.0)
 
     def _show_step(self, frame: Sample) -> None:
         step = self._steps[frame.primitive]

@@ -6,7 +6,7 @@ the table's colours. Points of the outline at the table's edge and beside an arm
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import cv2
@@ -19,7 +19,7 @@ from app.vision.on_table import why_in_doubt
 from app.vision.picture import Image
 from app.vision.seen_stack import SeenStack
 from app.vision.segment import Mask, segment
-from app.vision.stack_fit import StackFit
+from app.vision.stack_fit import StackFit, unknown_json
 from app.vision.vision_errors import NothingToldError
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.pose import BoolArray, FloatArray, Pose2
@@ -50,6 +50,7 @@ class Sight:
         contour: the points of its outline seen, shape (n, 2), pixels.
         fitted: the fitted outline, shape (m, 2), pixels; empty without a fit.
         unknown: why it is not known where it lies; None where it is.
+        expected: the outline where it ought to lie, shape (k, 2), pixels.
         stack: where its points lie, those of its last fold too; None without a fit, or where no picture was looked at.
     """
 
@@ -57,6 +58,7 @@ class Sight:
     contour: FloatArray
     fitted: FloatArray
     unknown: Message | None
+    expected: FloatArray = field(default_factory=lambda: np.empty((0, 2)))
     stack: SeenStack | None = None
 
     def to_dict(self) -> dict[str, Any]:
@@ -64,7 +66,8 @@ class Sight:
         return {
             "fit": None if self.fit is None else self.fit.to_dict(),
             "fitted_px": np.round(self.fitted, 1).tolist(),
-            "unknown": None if self.unknown is None else self.unknown.to_dict(),
+            "expected_px": np.round(self.expected, 1).tolist(),
+            **unknown_json(self.unknown),
             "crease": None if self.stack is None else self.stack.to_dict(),
         }
 
@@ -95,6 +98,7 @@ class Looker:
         stack = sequence.cloth(sum(1 << fold for fold in folds))
         height_m = _LAYER_M * len(stack.layers) / 2.0
         expected = [self._pixels(near.to_outer(ring), height_m) for ring in stack.silhouette.rings]
+        ought = max(expected, key=len)
         away = ~self._painted([self._pixels(np.array(self.table.corners), 0.0)]) | self.hidden
         reach = math.ceil(_AWAY_M * self.camera.focal_px / self.camera.position[2])
         disc = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * reach + 1, 2 * reach + 1))
@@ -104,11 +108,11 @@ class Looker:
         try:
             seen = segment(image[part], away[part], table if table.mean() > _LEAST_TABLE else None)
         except NothingToldError as error:
-            return _blind(Message.plain(str(error)))
+            return _blind(error.says, ought)
         contour = seen.contour + np.array([part[1].start, part[0].start])
         contour = contour[~self._is_beside(contour, away)]
         if len(contour) < _LEAST_POINTS:
-            return _blind(Message.plain("almost all of the outline is hidden"))
+            return _blind(Message("outline_hidden", "almost all of the outline is hidden"), ought)
         on_table = self.camera.on_plane(contour, height_m)
         whole = fit_near(on_table, stack, near)
         creased = Creased.of(on_table, sequence, folds, near)
@@ -116,7 +120,7 @@ class Looker:
         fit = creased.told(found, whole)
         doubt = why_in_doubt(replace(seen, at_border=0.0), None)
         rings = [self._pixels(fit.placement.to_outer(ring), height_m) for ring in stack.silhouette.rings]
-        return Sight(fit, contour, max(rings, key=len), fit.unknown or doubt, found)
+        return Sight(fit, contour, max(rings, key=len), fit.unknown or doubt, expected=ought, stack=found)
 
     def _pixels(self, points: FloatArray, height_m: float) -> FloatArray:
         return self.camera.pixels(np.column_stack([points, np.full(len(points), height_m)]))
@@ -146,5 +150,5 @@ def _round(mask: BoolArray, margin: int) -> tuple[slice, slice]:
     return spans[0], spans[1]
 
 
-def _blind(why: Message) -> Sight:
-    return Sight(None, np.empty((0, 2)), np.empty((0, 2)), why)
+def _blind(why: Message, ought: FloatArray) -> Sight:
+    return Sight(None, np.empty((0, 2)), np.empty((0, 2)), why, expected=ought)

@@ -77,7 +77,9 @@ def segment(image: Image, outside: BoolArray | None = None, table: BoolArray | N
     both = _overlap(first, second)
     found = second if _is_possible(second) else first
     if not _is_possible(found):
-        raise NothingToldError(Message.plain("nothing in the picture stands out from the table as a piece of cloth"))
+        raise NothingToldError(
+            Message("no_cloth_seen", "nothing in the picture stands out from the table as a piece of cloth")
+        )
     outline = (_outline(found) + 0.5) / share - 0.5
     line, contrast = snapped(image, outline, reach=2.0 / share + 3.0)
     height, width = image.shape[:2]

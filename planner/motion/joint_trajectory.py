@@ -1,13 +1,29 @@
-"""Joint trajectories of all arms and grippers, as keyframes between which everything moves evenly."""
+"""Joint trajectories of all arms and grippers, as keyframes with velocities: cubics in between."""
 
 from dataclasses import dataclass, field
 
 import numpy as np
 
+from planner.geometry.keyframes import values_at
 from planner.geometry.pose import FloatArray
+from planner.geometry.ramps import least_s
+from planner.geometry.tolerance import TIME_S
+from planner.motion.line import Keyframes
+from planner.robots.card import FINGER_RISE_S, GripperCard
 
 OPEN_M, CLOSED_M = 0.04, 0.004
 """The gripper's opening when it is empty and when it holds cloth (m)."""
+
+
+def finger_limits(gripper: GripperCard) -> tuple[float, float]:
+    """Return the top speed and acceleration of fingers that close or open, as fractions of their way (1/s, 1/s2)."""
+    evenly_s = gripper.least_s(OPEN_M, CLOSED_M)
+    return 1.0 / evenly_s, 1.0 / (evenly_s * FINGER_RISE_S)
+
+
+def finger_run_s(gripper: GripperCard) -> float:
+    """Return the least time in which fingers close or open, from rest to rest (s)."""
+    return least_s(1.0, *finger_limits(gripper))
 
 
 @dataclass(slots=True)
@@ -17,17 +33,20 @@ class JointTrajectory:
     Attributes:
         times_s: the times of the keyframes (s), rising.
         joints: the joints of all arms at each (rad), shape (joints,) each.
+        velocities: their velocities (rad/s), alike.
     """
 
     times_s: list[float]
     joints: list[FloatArray]
+    velocities: list[FloatArray]
     _grip_times_s: list[list[float]] = field(default_factory=list)
     _openings_m: list[list[float]] = field(default_factory=list)
 
     @staticmethod
-    def at_rest(joints: FloatArray, arms: int) -> "JointTrajectory":
+    def at_rest(joints: FloatArray, arms: int, start_s: float = 0.0) -> "JointTrajectory":
         """Return a trajectory of some arms that begins at their joints, shape (joints,), with all grippers open."""
-        return JointTrajectory([0.0], [joints], [[0.0] for _ in range(arms)], [[OPEN_M] for _ in range(arms)])
+        times, openings = [[0.0] for _ in range(arms)], [[OPEN_M] for _ in range(arms)]
+        return JointTrajectory([start_s], [joints], [np.zeros_like(joints)], times, openings)
 
     @property
     def last(self) -> FloatArray:
@@ -36,23 +55,19 @@ class JointTrajectory:
 
     def joints_at(self, times_s: FloatArray) -> FloatArray:
         """Return all arms' joints at some times (rad), shape (n,) -> (n, joints)."""
-        knots, joints = np.array(self.times_s), np.array(self.joints)
-        after = np.searchsorted(knots, times_s, side="right").clip(1, max(len(knots) - 1, 1))
-        if len(knots) == 1:
-            return joints.repeat(len(times_s), axis=0)
-        shares = ((times_s - knots[after - 1]) / (knots[after] - knots[after - 1])).clip(0.0, 1.0)[:, None]
-        return np.asarray((1.0 - shares) * joints[after - 1] + shares * joints[after])
+        return values_at(np.array(self.times_s), np.array(self.joints), np.array(self.velocities), times_s)
 
     def openings(self, arm: int) -> tuple[list[float], list[float]]:
         """Return a gripper's keyframes: their times (s) and openings (m)."""
         return self._grip_times_s[arm], self._openings_m[arm]
 
-    def add(self, times_s: FloatArray, joints: FloatArray) -> None:
-        """Add keyframes, shapes (n,) and (n, joints); skip those no later than the last."""
-        for t, here in zip(times_s.tolist(), joints, strict=True):
-            if t > self.times_s[-1]:
+    def add(self, keyframes: Keyframes) -> None:
+        """Add keyframes; skip those no later than the last."""
+        for t, here, velocity in zip(keyframes.times_s.tolist(), keyframes.joints, keyframes.velocities, strict=True):
+            if t > self.times_s[-1] + TIME_S:
                 self.times_s.append(t)
                 self.joints.append(here)
+                self.velocities.append(velocity)
 
     def begin_closed(self, arm: int) -> None:
         """Have a gripper hold cloth from the beginning."""

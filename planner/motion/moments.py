@@ -8,11 +8,13 @@ little from one moment to the next.
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from planner.geometry.pose import BoolArray, FloatArray, Point3
+from planner.geometry.tolerance import LENGTH_M
 from planner.motion.phase_stretches import Stretch, StretchSampler, rolls_of
 from planner.task.phase import Phase
 
@@ -57,6 +59,14 @@ class Moments:
         )
 
     @property
+    def is_still(self) -> BoolArray:
+        """Whether no tool moves in the base frame from the moment before to the moment after, shape (n,)."""
+        moved_m, turned = (np.abs(np.nan_to_num(np.diff(each, axis=1))) for each in (self.positions, self.rotations))
+        stays = (moved_m.max(axis=(0, 2)) < LENGTH_M) & (turned.max(axis=(0, 2, 3)) < LENGTH_M)
+        stays &= (self.is_held[:, 1:] == self.is_held[:, :-1]).all(axis=0)
+        return np.asarray(np.append(False, stays) & np.append(stays, False))
+
+    @property
     def progress(self) -> FloatArray:
         """The progress of the whole at each, 0 to 1, every phase counting the same, shape (n,)."""
         done = self.phases + self.fractions
@@ -67,12 +77,15 @@ class Moments:
         return len(self.phases)
 
 
+_MOMENTS_KEPT = 256
+"""Moments kept, up to some 45 kB each, most of them with the transfers that are kept as well."""
+
 _NOWHERE: Point3 = (math.nan, math.nan, math.nan)
 """Where an empty hand counts as being."""
 
 
 def moments_of(phases: Sequence[Phase], height_m: float, *, only_ends: bool = False) -> Moments:
-    """Return the moments of phases in which no hand is reaching.
+    """Return the moments of phases in which no hand is reaching; they are kept and must not be changed.
 
     Where a hand that holds on is to take another orientation, it turns in its grip before that phase begins.
 
@@ -81,6 +94,17 @@ def moments_of(phases: Sequence[Phase], height_m: float, *, only_ends: bool = Fa
         height_m: the table top's height above the floor (m).
         only_ends: whether only the beginning and the end of each phase are wanted.
     """
+    return _known_moments(tuple(phases), height_m, only_ends)
+
+
+def forget_moments() -> None:
+    """Drop the moments that are kept, so that benchmarks measure their computation."""
+    _known_moments.cache_clear()
+
+
+@lru_cache(_MOMENTS_KEPT)
+def _known_moments(phases: tuple[Phase, ...], height_m: float, only_ends: bool) -> Moments:
+    """Return what `moments_of` does: plans of similar tasks, and tightened tasks, ask for the same again."""
     sampler = StretchSampler(len(phases[0].hands), only_ends)
     stretches = [stretch for number, phase in enumerate(phases) for stretch in sampler.stretches(number, phase)]
     lengths = [len(stretch.shares) for stretch in stretches]

@@ -1,8 +1,7 @@
-"""Time the steps of a path: at an even pace where the joints can follow, slower where they cannot.
+"""Pace the steps of a path: evenly where the joints can follow, slower where they cannot.
 
-Only the joints' speeds are limited, because the robot's description names no accelerations, so there is nothing to
-optimise: a step may not be shorter than its slowest joint needs, and the remaining time is spread evenly. A library for
-time-optimal paths would need accelerations that nobody has measured.
+Only speeds are limited here: a step may not be shorter than its slowest joint needs, and the remaining time is spread
+evenly. What accelerations take is up to `planner.motion.path_timing`.
 """
 
 import numpy as np
@@ -46,20 +45,3 @@ def paced_s(nominal_s: FloatArray, least_s: FloatArray, rest_s: float = 0.0) -> 
         return float(np.maximum(least_s, pace * nominal_s).sum()) - total
 
     return np.asarray(np.maximum(least_s, brentq(excess, 0.0, 1.0) * nominal_s))
-
-
-def eased(shares: FloatArray, easing: float) -> FloatArray:
-    """Return the fraction of the way done at fractions of its time, with even acceleration at both ends.
-
-    Args:
-        shares: the fractions of the time, shape (n,), 0..1.
-        easing: the fraction of the time that is spent speeding up, and again slowing down, 0..0.5. The top speed is 1 /
-            (1 - easing) times the mean.
-    """
-    if easing <= 0.0:
-        return shares
-    top = 1.0 / (1.0 - easing)
-    rising = 0.5 * top * shares**2 / easing
-    falling = 1.0 - 0.5 * top * (1.0 - shares) ** 2 / easing
-    cruising = top * (shares - 0.5 * easing)
-    return np.where(shares < easing, rising, np.where(shares > 1.0 - easing, falling, cruising))

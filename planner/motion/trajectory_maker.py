@@ -5,33 +5,40 @@ While cloth is held, the joints are those of the acts. Between two acts the hand
 """
 
 from collections.abc import Iterator, Sequence
-from itertools import accumulate
+from dataclasses import replace
+from itertools import accumulate, pairwise
 
 import numpy as np
+from scipy.interpolate import CubicHermiteSpline
 
 from planner.geometry.pose import FloatArray
+from planner.geometry.ramps import ramps
 from planner.geometry.table_top import TableTop
+from planner.geometry.tolerance import TIME_S
 from planner.motion.act import Act
-from planner.motion.joint_trajectory import JointTrajectory
+from planner.motion.joint_trajectory import JointTrajectory, finger_limits
+from planner.motion.line import Keyframes, Line
 from planner.motion.lying_cloth import LyingCloth
 from planner.motion.timed_phase import TimedPhase
 from planner.motion.transfer import Transfer
 from planner.motion.transfer_planner import TransferPlanner
 from planner.motion.transit_paths import TransitPaths
-from planner.motion.transit_planner import Line, TransitPlanner
+from planner.motion.transit_planner import TransitPlanner
 from planner.motion.transit_time import TransitTime
 from planner.primitives.context import Context
+from planner.primitives.drive_time import DriveTime
 from planner.robots.card import ArmCard, RobotCard
 from planner.task.phase import ClothMotion, Phase
 from planner.task.trajectory import ArmTrack, GripperTrack, Segment, Trajectory
 
 _FINGER_KNOTS = 8
-"""Keyframes while fingers close or open: they swing on links, so their joint does not move evenly."""
+"""Keyframes while fingers close or open: they swing on links, so their joint does not move as the opening does."""
+
+_NEAR_M = 1e-6
+"""The distance between openings by which the joint's change with the opening is told (m)."""
 
 
-def trajectory(
-    context: Context, card: RobotCard, maker: TransferPlanner, acts: Sequence[Act], duration_s: float
-) -> Trajectory:
+def trajectory(context: Context, card: RobotCard, maker: TransferPlanner, acts: Sequence[Act]) -> Trajectory:
     """Return the trajectory of robot and cloth in a plan's acts.
 
     Args:
@@ -39,17 +46,16 @@ def trajectory(
         card: the robot.
         maker: the planner that made the acts' joint paths.
         acts: the acts, one after the other.
-        duration_s: their total duration (s).
     """
-    builder = _TrajectoryBuilder(maker.transits, maker.dwell_s)
+    builder = _TrajectoryBuilder(context.drive_time, maker.transits, maker.dwell_s)
     segments = tuple(builder.segments(acts, _standing(context)))
     track = builder.track
-    rows = np.array(track.joints)
+    rows, velocities = np.array(track.joints), np.array(track.velocities)
     names = tuple(name for arm in card.arms for name in arm.joint_names)
     return Trajectory(
-        duration_s,
+        segments[-1].start_s + segments[-1].duration_s,
         segments,
-        ArmTrack(names, tuple(track.times_s), tuple(map(tuple, rows.tolist()))),
+        ArmTrack(names, tuple(track.times_s), *(tuple(map(tuple, each.tolist())) for each in (rows, velocities))),
         tuple(_gripper_track(arm, *track.openings(number)) for number, arm in enumerate(card.arms)),
         0.0 if card.lift_joint is None else context.scene.torso_m,
         card.still_values(context.scene.torso_m),
@@ -58,18 +64,21 @@ def trajectory(
 
 def _gripper_track(arm: ArmCard, times_s: Sequence[float], openings_m: Sequence[float]) -> GripperTrack:
     """Return a gripper's keyframes, with additional ones wherever it moves."""
-    knots = np.linspace(0.0, 1.0, _FINGER_KNOTS + 1)[1:]
-    times, openings = [np.array(times_s[:1])], [np.array(openings_m[:1])]
-    for number in range(1, len(times_s)):
-        start, end = openings_m[number - 1 : number + 1]
-        shares = knots if start != end else knots[-1:]
-        times.append(times_s[number - 1] + shares * (times_s[number] - times_s[number - 1]))
-        openings.append((1.0 - shares) * start + shares * end)
-    opening = np.concatenate(openings).tolist()
-    positions = tuple(arm.gripper.angle(one) for one in opening)
-    return GripperTrack(
-        arm.name, arm.gripper.joint_name, tuple(np.concatenate(times).tolist()), tuple(opening), positions
-    )
+    hand = arm.gripper
+    keyframes = [(times_s[0], openings_m[0], 0.0)]
+    for (begin, start), (until, end) in pairwise(zip(times_s, openings_m, strict=True)):
+        run = ramps(until - begin, 1.0, *finger_limits(hand))
+        knots = np.array(run.times_s) if start == end else np.linspace(0.0, until - begin, _FINGER_KNOTS + 1)
+        since = np.union1d(run.times_s, knots)[1:]
+        since = since[np.append(np.diff(since) > TIME_S, True)]
+        curve = CubicHermiteSpline(run.times_s, run.fractions, run.rates)
+        opened, faster = start + curve(since) * (end - start), curve(since, 1) * (end - start)
+        keyframes += zip((begin + since).tolist(), opened.tolist(), faster.tolist(), strict=True)
+    times, openings, rates = (tuple(column) for column in zip(*keyframes, strict=True))
+    positions = tuple(hand.angle(opening) for opening in openings)
+    swings = [(hand.angle(one + _NEAR_M) - hand.angle(one - _NEAR_M)) / (2.0 * _NEAR_M) for one in openings]
+    velocities = tuple(swing * rate for swing, rate in zip(swings, rates, strict=True))
+    return GripperTrack(arm.name, hand.joint_name, times, openings, positions, rates, velocities)
 
 
 def _standing(context: Context) -> Phase:
@@ -83,13 +92,15 @@ def _standing(context: Context) -> Phase:
 class _TrajectoryBuilder:
     """Joins transfers and moves into one trajectory."""
 
-    def __init__(self, transits: TransitPaths, dwell_s: float) -> None:
+    def __init__(self, time: DriveTime, transits: TransitPaths, dwell_s: float) -> None:
         """Begin with all arms at home.
 
         Args:
+            time: the time that the base takes.
             transits: the paths of empty hands.
             dwell_s: the time that fingers take to close and to open (s).
         """
+        self._time = time
         self._transits = transits
         self._dwell_s = dwell_s
         self._hands = TransitPlanner(transits, dwell_s)
@@ -108,19 +119,25 @@ class _TrajectoryBuilder:
                 continue
             for number, step in enumerate(act.steps):
                 lasting = (phase for phase in step.phases() if phase.duration_s > 0.0)
-                self._free += [TimedPhase.even(act.first + number, phase, phase.duration_s) for phase in lasting]
+                self._free += [TimedPhase.driven(act.first + number, phase, self._time) for phase in lasting]
         self._timed_phases += self._free
         if not self._timed_phases:
             self._timed_phases.append(TimedPhase.even(0, rest, 0.0))
         starts = accumulate((timed.duration_s for timed in self._timed_phases), initial=0.0)
         for timed, start_s in zip(self._timed_phases, starts, strict=False):
             times, fractions = tuple(timed.times_s.tolist()), tuple(timed.fractions.tolist())
-            yield Segment(timed.primitive, start_s, timed.phase, times, fractions)
+            rates, base_rates = tuple(timed.rates.tolist()), tuple(timed.base_rates.tolist())
+            yield Segment(timed.primitive, start_s, timed.phase, times, fractions, rates, base_rates)
 
     def _add_transfer(self, primitive: int, transfer: Transfer) -> None:
+        lost_s = 0.0  # by a base that speeds up and slows down: the reach that follows makes up for it
         for phase in transfer.free_phases:
-            extra = transfer.reach_late_s if any(phase.hands) else 0.0
-            self._free.append(TimedPhase.even(primitive, phase, phase.duration_s + extra))
+            if any(phase.hands):
+                reach_s = phase.duration_s + transfer.reach_late_s - lost_s
+                self._free.append(TimedPhase.even(primitive, phase, reach_s))
+            else:
+                self._free.append(TimedPhase.driven(primitive, phase, self._time))
+                lost_s += self._free[-1].duration_s - phase.duration_s
         if transfer.carried.cloths[0] is None:
             self._begin_holding(transfer)
         else:
@@ -128,12 +145,9 @@ class _TrajectoryBuilder:
         held = self._now
         timing = transfer.timing
         for timed in timing.timed_phases:
-            self._timed_phases.append(
-                TimedPhase(primitive + timed.primitive, timed.phase, timed.times_s, timed.fractions)
-            )
-        self.track.add(
-            held + timing.times_s, transfer.carried.joints[transfer.carried.first + timing.moments] + self._turns
-        )
+            self._timed_phases.append(replace(timed, primitive=primitive + timed.primitive))
+        joints = transfer.carried.joints[transfer.carried.first + timing.moments] + self._turns
+        self.track.add(Keyframes(held + timing.times_s, joints, timing.velocities))
         is_last = transfer.carried.moments.is_last_held
         for arm in np.flatnonzero(transfer.carried.moments.is_used).tolist():
             opens = held + timing.first_s(int(np.argmax(is_last[arm])))
@@ -156,16 +170,16 @@ class _TrajectoryBuilder:
         """Add the transit to a transfer's grips, past the cloth on the table."""
         tail, start = self._tail(), transfer.carried.joints[0]
         self._turns = self._transits.unwound(start, tail.joints[-1]) - start
-        lead = Line(transfer.carried.joints[: transfer.carried.first + 1] + self._turns, transfer.lead_s)
+        lead = transfer.lead.moved(self._turns)
         between = TransitTime(self._free, self._now, cloth)
         free, keyframes = self._hands.keyframes(between, tail, lead)
-        self.track.add(keyframes.times_s, keyframes.joints)
+        self.track.add(keyframes)
+        self._turns = keyframes.joints[-1] - transfer.lead.joints[-1]
         self._timed_phases += free.timed_phases
         self._now = free.end_s
 
     def _tail(self) -> Line:
         """Return the line on which the hands withdraw from the transfer before."""
         if self._before is None:
-            return Line(self.track.last[None], np.empty(0))
-        joints = self._before.carried.joints[self._before.carried.last :]
-        return Line(joints + (self.track.last - joints[0]), self._before.tail_s)
+            return self._transits.line(self.track.last[None])
+        return self._before.tail.moved(self.track.last - self._before.tail.joints[0])

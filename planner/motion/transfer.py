@@ -2,9 +2,9 @@
 
 from dataclasses import dataclass, replace
 
-from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import TIME_S
 from planner.motion.carried import Carried
+from planner.motion.line import Line
 from planner.motion.transfer_timing import TransferTiming
 from planner.primitives.primitive import Step
 from planner.task.phase import Phase
@@ -18,6 +18,8 @@ def is_carrying(phase: Phase) -> bool:
 @dataclass(frozen=True, slots=True)
 class ReachTime:
     """The time of a reach: hands go home from the transfer before, come to their grips, and close their fingers.
+
+    The times are those that the joints' speeds allow; a transit that must also speed up and slow down may take longer.
 
     Attributes:
         coming_s: the time they need from home to the grips (s).
@@ -53,16 +55,16 @@ class Transfer:
         steps: the primitives, as steps of the plan.
         carried: the joint paths.
         timing: the timing while cloth is held.
-        lead_s: the least time for each step that leads to the grips, shape (steps before the moments,).
-        tail_s: the least time for each step away from them, shape (steps after the moments,).
+        lead: the quickest way straight to the grips.
+        tail: the quickest way straight from them.
         reach: the time that hands need before and after it, and the time available for that.
     """
 
     steps: tuple[Step, ...]
     carried: Carried
     timing: TransferTiming
-    lead_s: FloatArray
-    tail_s: FloatArray
+    lead: Line
+    tail: Line
     reach: ReachTime
 
     @property

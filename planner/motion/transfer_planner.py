@@ -11,32 +11,35 @@ from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.table import Table
 from planner.geometry.tolerance import TIME_S
 from planner.motion.blocking_contacts import BlockingContacts
+from planner.motion.calmed import calmed
 from planner.motion.carried import Carried
-from planner.motion.joint_trajectory import CLOSED_M, OPEN_M
+from planner.motion.joint_trajectory import finger_run_s
+from planner.motion.line import Line
 from planner.motion.lying_cloth import LyingCloth, LyingCloths
-from planner.motion.moments import Moments, moments_of
+from planner.motion.moments import Moments, forget_moments, moments_of
+from planner.motion.pacing import needed_s
 from planner.motion.robot_port import Collisions, RobotPort
 from planner.motion.transfer import ReachTime, Transfer, is_carrying
 from planner.motion.transfer_candidate import BlockedMoments, Candidate, motion_of, ways_of
 from planner.motion.transfer_paths import TransferPaths
-from planner.motion.transfer_timing import TransferTiming
+from planner.motion.transfer_timing import TransferLimits, TransferTiming
 from planner.motion.transit_paths import TransitPaths
 from planner.motion.tries import QUICK, Tries
 from planner.primitives.context import Context
 from planner.primitives.obstacle import BlockingContact
 from planner.primitives.primitive import Step
+from planner.robots.joint_layout import JointLayout
 from planner.robots.tool_path import NoPath
 from planner.task.phase import Phase
 
 MARGIN_M = 0.001
 """The distance kept between bodies that must not touch, at the moments tested (m)."""
 
+_CALMED = 30
+"""How often joints are calmed while a base drags."""
+
 _HALF = 0.5
 """The share of a reach's time, fingers closed, in which hands must be able to go home after the transfer before."""
-
-
-Lines = tuple[FloatArray | None, FloatArray | None]
-"""The lines away from grips and to grips that a path connects, each of shape (n, joints); None at home."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -77,14 +80,16 @@ class TransferPlanner:
         paths, self.transits, collisions = _transfer_paths(machine, scene.table, scene.torso_m)
         self._context = context
         self._paths = paths
+        self._collisions = collisions
         self._blocked = BlockedMoments()
         self.known = known or KnownTransfers()
         self._candidates: dict[tuple[object, ...], Candidate] = {}
         self._made: dict[Candidate, Transfer | None] = {}
         self.glances = self.tries = 0
         self._contacts = BlockingContacts(machine, collisions, scene.torso_m, scene.table.height_m)
-        self.dwell_s = max(scene.grip_dwell_s, *(arm.gripper.least_s(OPEN_M, CLOSED_M) for arm in machine.card.arms))
+        self.dwell_s = max(scene.grip_dwell_s, *(finger_run_s(arm.gripper) for arm in machine.card.arms))
         self._cloths = LyingCloths(context, collisions)
+        self._limits = _limits(self.transits.layout, context, self.dwell_s)
 
     def validated(self, steps: Sequence[Step], tries: Tries = QUICK) -> Transfer | None:
         """Return the transfer of a few primitives, none but the last of which lets go; None if none was found."""
@@ -181,14 +186,24 @@ class TransferPlanner:
     def _transfer(self, candidate: "Candidate", carried: Carried | NoPath) -> Transfer | None:
         if isinstance(carried, NoPath):
             return None
-        least, first, last = self.transits.needed_s(carried.joints), carried.first, carried.last
-        driven_m = np.linalg.norm(np.diff(carried.bases[first : last + 1, :2], axis=0), axis=1)
-        held_s = np.maximum(least[first:last], driven_m / self._context.scene.base_speed_m_s)
-        timing = TransferTiming.of(candidate.carrying, candidate.moments, held_s, self.dwell_s)
-        reach = self._reach(candidate.steps, carried, timing.borrowed_s)
-        if reach is None:
-            return None
-        return Transfer(candidate.steps, carried, timing, least[:first], least[last:], reach)
+        carried = self._calmed(carried)
+        joints, first, last = carried.joints, carried.first, carried.last
+        timing = TransferTiming.of(candidate.carrying, candidate.moments, joints[first : last + 1], self._limits)
+        lead, tail = self.transits.line(joints[: first + 1]), self.transits.line(joints[last:])
+        reach = self._reach(candidate.steps, carried, lead, tail, timing.borrowed_s)
+        return None if reach is None else Transfer(candidate.steps, carried, timing, lead, tail, reach)
+
+    def _calmed(self, carried: Carried) -> Carried:
+        """Return a transfer's joints without the kinks that slow it down where all tools stand still.
+
+        Seen from the base, that is: while it drags.
+        """
+        is_still = np.zeros(len(carried.joints), dtype=np.bool_)
+        is_still[carried.first : carried.last + 1] = carried.moments.is_still
+        joints = calmed(carried.joints, _CALMED, is_still)
+        if not is_still.any() or not self._collisions.are_all_free(carried.bases[is_still], joints[is_still]):
+            return carried
+        return replace(carried, joints=joints)
 
     def _moments(self, phases: Sequence[Phase]) -> Moments:
         return moments_of(phases, self._context.scene.table.height_m)
@@ -198,15 +213,16 @@ class TransferPlanner:
         phases = [phase for step in steps for phase in step.phases() if phase.duration_s > 0.0 and is_carrying(phase)]
         return self._contacts.of(self._moments(phases))
 
-    def _reach(self, steps: Sequence[Step], carried: Carried, borrowed_s: float) -> ReachTime | None:
+    def _reach(
+        self, steps: Sequence[Step], carried: Carried, lead: Line, tail: Line, borrowed_s: float
+    ) -> ReachTime | None:
         """Return the time that hands need to come from home and to go there; None without a path.
 
         As long as the transfer before is unknown, the time left once the fingers have closed is shared evenly between
         going home from it and coming. Before the first transfer hands wait at home, and after the last fold they need
-        not go there.
+        not go there. What accelerations take is known only once the transit is planned.
         """
-        home, motion_s = self.transits.home, self._context.scene.arm_motion_s
-        lead, tail = carried.joints[: carried.first + 1], carried.joints[carried.last :]
+        motion_s = self._context.scene.arm_motion_s
         share_s = _HALF * max(motion_s - self.dwell_s, 0.0)
         room_s = motion_s - self.dwell_s - borrowed_s
         start, before = self._context.start, steps[0].before
@@ -214,22 +230,31 @@ class TransferPlanner:
         is_last = steps[-1].after.done == (1 << len(self._context.sequence.folds)) - 1
         came_s: float | None = 0.0
         if carried.cloths[0] is not None:
-            came_s = self._needed_s(carried.bases[0], (home, lead[0]), (None, lead), carried.cloths[0])
+            came_s = self._needed_s(carried.bases[0], None, lead, carried.cloths[0])
         left_s: float | None = 0.0
         if came_s is not None and not is_last:
-            left_s = self._needed_s(carried.bases[-1], (tail[-1], home), (tail, None), carried.cloths[1])
+            left_s = self._needed_s(carried.bases[-1], tail, None, carried.cloths[1])
         if came_s is None or left_s is None:
             return None
         return ReachTime(came_s, left_s, room_s, share_s, 0.0 if is_first else share_s)
 
-    def _needed_s(
-        self, base: FloatArray, ends: tuple[FloatArray, FloatArray], lines: Lines, cloth: LyingCloth
-    ) -> float | None:
-        """Return the least time for a path and the lines that it connects (s); None without a path."""
-        way = self.transits.way(Pose2.of(base), *ends, cloth, self.transits.spared(*lines))
+    def _needed_s(self, base: FloatArray, tail: Line | None, lead: Line | None, cloth: LyingCloth) -> float | None:
+        """Return the time from home or a tail to home or a lead, as speeds allow (s); None without a path."""
+        home = self.transits.home
+        start, goal = home if tail is None else tail.joints[-1], home if lead is None else lead.joints[0]
+        spared = self.transits.spared(*(None if line is None else line.joints for line in (tail, lead)))
+        way = self.transits.way(Pose2.of(base), start, goal, cloth, spared)
         if way is None:
             return None
-        return sum(float(self.transits.needed_s(one).sum()) for one in (way, *lines) if one is not None)
+        lines = (way, *(line.joints for line in (tail, lead) if line is not None))
+        return sum(float(needed_s(line, self.transits.layout.speeds_rad_s).sum()) for line in lines)
+
+
+def _limits(layout: JointLayout, context: Context, rest_s: float) -> TransferLimits:
+    time = context.drive_time
+    base = (time.speed_m_s, time.speed_m_s, time.turn_rad_s)
+    hard = (time.acceleration_m_s2, time.acceleration_m_s2, time.turn_acceleration_rad_s2)
+    return TransferLimits(np.append(layout.speeds_rad_s, base), np.append(layout.accelerations, hard), rest_s)
 
 
 @lru_cache(maxsize=4)
@@ -243,3 +268,4 @@ def _transfer_paths(machine: RobotPort, table: Table, torso_m: float) -> tuple[T
 def forget_paths() -> None:
     """Clear the cache of joint paths and transits, so that benchmarks measure their computation."""
     _transfer_paths.cache_clear()
+    forget_moments()

@@ -1,7 +1,8 @@
 """Time a transfer: the time of every moment, and the rests in which fingers open.
 
 Fingers close and open while everything rests, and cloth is released only once it lies. A rest is part of the arm motion
-before it, which becomes that much quicker; if there is none before it, as in a drag, the rest is part of the reach.
+before it, which becomes that much quicker; if there is none before it, as in a drag, the rest is part of the reach. All
+rests between two steps too, so that each can be performed alone.
 """
 
 from collections.abc import Iterator, Sequence
@@ -11,13 +12,33 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.geometry.pose import BoolArray, FloatArray
+from planner.geometry.tolerance import LENGTH_M
 from planner.motion.moments import Moments
-from planner.motion.pacing import paced_s
+from planner.motion.pacing import needed_s, paced_s
+from planner.motion.path_timing import UNBOUNDED, PathTiming, timed
 from planner.motion.timed_phase import TimedPhase
 from planner.task.phase import Phase
 
 Carrying = Sequence[tuple[int, Phase]]
 """The phases of a transfer in which cloth is held, each with its primitive's number."""
+
+_BASE, _CLOTH = slice(-4, -1), -1
+"""The columns of what moves: before them come the joints."""
+
+
+@dataclass(frozen=True, slots=True)
+class TransferLimits:
+    """The speeds and accelerations that a transfer keeps.
+
+    Attributes:
+        speeds: the top speeds of the joints, then of the base ahead, aside and turning, shape (joints + 3,).
+        accelerations: their top accelerations, alike.
+        rest_s: the time that fingers take to open (s).
+    """
+
+    speeds: FloatArray
+    accelerations: FloatArray
+    rest_s: float
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -28,32 +49,43 @@ class TransferTiming:
         times_s: times since the first grip, rising (s), shape (n,).
         moments: the moment at each time, shape (n,); a moment after which a hand lets go appears twice, with a rest in
             between.
+        velocities: the joints' velocities at each time, shape (n, joints), rad/s.
         timed_phases: the timed phases; their primitives are counted within the transfer.
         borrowed_s: the rests that are part of the reach before (s).
     """
 
     times_s: FloatArray
     moments: NDArray[np.int64]
+    velocities: FloatArray
     timed_phases: tuple[TimedPhase, ...]
     borrowed_s: float
 
     @staticmethod
-    def of(carrying: Carrying, moments: Moments, least_s: FloatArray, rest_s: float) -> "TransferTiming":
-        """Return the quickest even timing.
+    def of(carrying: Carrying, moments: Moments, joints: FloatArray, limits: TransferLimits) -> "TransferTiming":
+        """Return the evenest timing of the least duration.
 
         Args:
             carrying: the phases.
             moments: their moments.
-            least_s: the least time from each moment to the next (s), shape (moments - 1,).
-            rest_s: the time that fingers take to open (s).
+            joints: the arms' joints at each moment, shape (moments, joints), rad.
+            limits: what the motion keeps.
         """
         is_last = np.asarray(moments.is_last_held.any(axis=0))
-        rests, borrowed_s = _rests(carrying, moments, is_last, rest_s)
-        steps = np.append(0.0, _paced(carrying, moments, least_s, rests))
+        rests, borrowed_s = _rests(carrying, moments, is_last, limits.rest_s)
+        way = np.column_stack([joints, _base_way(moments.bases), _cloth_way(carrying, moments)])
+        steps = np.append(0.0, _paced(carrying, moments, needed_s(way[:, :_CLOTH], limits.speeds), rests))
+        primitives = np.array([primitive for primitive, _ in carrying])[moments.phases]
+        is_rest = is_last | np.append(primitives[1:] != primitives[:-1], True)
+        is_rest[0] = True
+        planned_s = np.bincount(primitives, steps).astype(float)
+        most = np.append(limits.speeds, UNBOUNDED), np.append(limits.accelerations, UNBOUNDED)
+        path = timed(np.cumsum(steps), way, is_rest, primitives, planned_s, most)
         rows = np.repeat(np.arange(len(moments)), 1 + is_last)
-        is_rest = np.append(False, rows[1:] == rows[:-1])
-        times = np.cumsum(np.where(is_rest, rest_s, steps[rows]))
-        return TransferTiming(times, rows, tuple(_cues(carrying, moments, rows, times)), borrowed_s)
+        is_second = np.append(False, rows[1:] == rows[:-1])
+        gaps = np.diff(path.times_s, prepend=0.0)[rows]
+        times = np.cumsum(np.where(is_second, limits.rest_s, gaps))
+        timed_phases = tuple(_cues(carrying, moments, rows, times, path))
+        return TransferTiming(times, rows, path.velocities[rows, : joints.shape[1]], timed_phases, borrowed_s)
 
     def first_s(self, moment: int) -> float:
         """Return when a moment is reached (s)."""
@@ -83,7 +115,7 @@ def _motions(carrying: Carrying) -> list[tuple[int, int | None]]:
 def _paced(
     carrying: Carrying, moments: Moments, least_s: FloatArray, rests: dict[tuple[int, int | None], float]
 ) -> FloatArray:
-    """Return the duration of each step from moment to moment (s), shape (moments - 1,).
+    """Return the duration of each step from moment to moment (s), as speeds alone allow, shape (moments - 1,).
 
     The phases of one arm motion share its time, less its rests; a drive keeps its nominal speed, even in parts.
     """
@@ -96,13 +128,44 @@ def _paced(
     return found
 
 
-def _cues(carrying: Carrying, moments: Moments, rows: NDArray[np.int64], times: FloatArray) -> Iterator[TimedPhase]:
-    start, phases, fractions = 0.0, moments.phases[rows], moments.fractions[rows]
+def _base_way(bases: FloatArray) -> FloatArray:
+    """Return how far the base is ahead, aside (m) and turned (rad) from where it begins, shape (moments, 3)."""
+    x, y, turned = (bases - bases[0]).T
+    cos, sin = np.cos(bases[0, 2]), np.sin(bases[0, 2])
+    return np.column_stack([cos * x + sin * y, cos * y - sin * x, turned])
+
+
+def _cloth_way(carrying: Carrying, moments: Moments) -> FloatArray:
+    """Return how far the cloth has moved: sweeps of folds and distances of drags (m), shape (moments,)."""
+    ways = np.array([phase.cloth.way for _, phase in carrying])
+    gone = np.append(0.0, np.cumsum(ways)[:-1])
+    return np.asarray(gone[moments.phases] + moments.fractions * ways[moments.phases])
+
+
+def _cues(
+    carrying: Carrying, moments: Moments, rows: NDArray[np.int64], times: FloatArray, path: PathTiming
+) -> Iterator[TimedPhase]:
+    start, before, phases, fractions = 0.0, 0, moments.phases[rows], moments.fractions[rows]
+    base, cloth = _base_way(moments.bases), _cloth_way(carrying, moments)
     for number, (primitive, phase) in enumerate(carrying):
         own = np.flatnonzero((phases == number) & (times > start))
         if len(own) == 0:
             # In a motion slower than its estimate, a phase through which the hands rest takes no time at all.
             yield TimedPhase.even(primitive, phase, 0.0)
             continue
-        yield TimedPhase(primitive, phase, np.append(start, times[own]) - start, np.append(0.0, fractions[own]))
-        start = float(times[own[-1]])
+        begin, end, at = rows[before], rows[own[-1]], np.append(rows[before], rows[own])
+        yield TimedPhase(
+            primitive,
+            phase,
+            np.append(start, times[own]) - start,
+            np.append(0.0, fractions[own]),
+            _rates(path.velocities[at, _CLOTH:], cloth[[end]] - cloth[begin]),
+            _rates(path.velocities[at, _BASE], base[end] - base[begin]),
+        )
+        start, before = float(times[own[-1]]), int(own[-1])
+
+
+def _rates(velocities: FloatArray, way: FloatArray) -> FloatArray:
+    """Return the fraction of a way done in a second with velocities along it, shape (n, k) and (k,) -> (n,)."""
+    square = float(way @ way)
+    return np.asarray(velocities @ way / square) if square > LENGTH_M**2 else np.zeros(len(velocities))

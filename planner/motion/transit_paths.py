@@ -11,9 +11,12 @@ from itertools import pairwise, product
 import numpy as np
 
 from planner.geometry.pose import FloatArray, Pose2
+from planner.geometry.ramps import ramps
 from planner.motion.answer_memory import AnswerMemory
+from planner.motion.line import Keyframes, Line
 from planner.motion.lying_cloth import NEAR_GRIP_M, LyingCloth
 from planner.motion.pacing import needed_s
+from planner.motion.path_timing import quickest
 from planner.motion.robot_port import Collisions, RobotPort
 from planner.robots.joint_layout import JointLayout
 
@@ -74,8 +77,28 @@ class TransitPaths:
         return near, near
 
     def needed_s(self, way: FloatArray) -> FloatArray:
-        """Return the least time for each line of a path (s)."""
-        return needed_s(way, self.layout.speeds_rad_s)
+        """Return the least time for each straight line of a path, from rest to rest (s)."""
+        turns = np.abs(np.diff(way, axis=0))
+        slow = (turns / self.layout.speeds_rad_s).max(axis=1, initial=0.0)
+        hard = (turns / self.layout.accelerations).max(axis=1, initial=0.0)
+        is_long = slow**2 >= hard
+        return np.asarray(np.where(is_long, slow + hard / np.where(slow > 0.0, slow, 1.0), 2.0 * np.sqrt(hard)))
+
+    def eased(self, start: FloatArray, goal: FloatArray, lasts_s: float) -> Keyframes:
+        """Return keyframes of a straight line from rest to rest over a time, at least the least one (s)."""
+        turns = np.abs(goal - start)
+        slow = float((turns / self.layout.speeds_rad_s).max(initial=0.0))
+        hard = float((turns / self.layout.accelerations).max(initial=0.0))
+        if slow == 0.0:
+            return Keyframes.still(goal, lasts_s)
+        run = ramps(lasts_s, 1.0, 1.0 / slow, 1.0 / hard)
+        shares, rates = np.array(run.fractions)[:, None], np.array(run.rates)[:, None]
+        return Keyframes(np.array(run.times_s), start + shares * (goal - start), rates * (goal - start))
+
+    def line(self, joints: FloatArray) -> Line:
+        """Return the quickest run, from rest to rest, along lines of small steps, shape (n, joints)."""
+        at = np.append(0.0, np.cumsum(needed_s(joints, self.layout.speeds_rad_s)))
+        return Line(joints, quickest(joints, at, (self.layout.speeds_rad_s, self.layout.accelerations)))
 
     def unwound(self, joints: FloatArray, near: FloatArray) -> FloatArray:
         """Return a configuration with its continuous joints within half a turn of another's."""

@@ -5,16 +5,19 @@ next grips (the *lead* of the next transfer). If the straight path is not clear 
 first; if that is not clear either, the base waits until they are there.
 """
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from functools import partial
 from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
+from scipy.optimize import brentq
 
 from planner.geometry.pose import FloatArray
+from planner.geometry.tolerance import TIME_S
+from planner.motion.calmed import calmed
 from planner.motion.joint_trajectory import JointTrajectory
-from planner.motion.pacing import eased
+from planner.motion.line import Keyframes, Line
 from planner.motion.transit_paths import TransitPaths
 from planner.motion.transit_time import TransitTime
 
@@ -27,41 +30,41 @@ _CHECK_S = 0.04
 _CHECKS_MAX = 1000
 """The most moments tested: hands that take minutes for a path move less from one moment to the next."""
 
-_KEYFRAMES = 12
-"""The keyframes of an eased line of empty hands."""
+_CALMED, _BLENDED = 3, 10
+"""How often the lines of hands that come late are calmed, and paths without stops at their corners."""
 
-_EASING = 0.3
-"""The fraction of a line's time that is spent speeding up, and again slowing down, if there is time."""
-
-
-class Keyframes(NamedTuple):
-    """Joint positions of all arms over time.
-
-    Attributes:
-        times_s: rising, shape (n,).
-        joints: all arms' joints at each time (rad), shape (n, joints).
-    """
-
-    times_s: FloatArray
-    joints: FloatArray
+_CUT_RAD = 0.1
+"""The largest angle from one keyframe to the next on such a path (rad)."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Line:
-    """A straight line of the hands to grips or from them, as part of a transfer.
+class _Late(NamedTuple):
+    """A run that takes longer than there is time.
 
     Attributes:
-        joints: all arms' joints (rad), shape (n, joints).
-        least_s: the least time for each of its steps (s), shape (n - 1,).
+        late_s: by how much (s).
+        run: returns its keyframes in a transit that lasts so much longer, None if that is not clear.
     """
 
-    joints: FloatArray
-    least_s: FloatArray
+    late_s: float
+    run: Callable[[TransitTime], Keyframes | None]
 
-    @property
-    def shortest_s(self) -> float:
-        """The least time for all of it (s)."""
-        return float(self.least_s.sum())
+
+class _Homeward(NamedTuple):
+    """The way home from a tail and the way from home to a lead.
+
+    Attributes:
+        away, back: the two paths, shape (n, joints), rad.
+        leave_s, back_s: the least time for each of their lines (s).
+        wait_s: the time after which the hands are home, the tail included (s).
+        late_s: the time by which the hands come late if the base waits for them (s).
+    """
+
+    away: FloatArray
+    leave_s: FloatArray
+    back: FloatArray
+    back_s: FloatArray
+    wait_s: float
+    late_s: float
 
 
 class TransitPlanner:
@@ -73,19 +76,64 @@ class TransitPlanner:
         self._transits = transits
 
     def keyframes(self, free: TransitTime, tail: Line, lead: Line) -> tuple[TransitTime, Keyframes]:
-        """Return the hands' keyframes from a tail to a lead, and the transit's time, changed if the base must wait."""
-        keyframes = self._overlapping(free, tail, lead)
-        return self._waiting(free, tail, lead) if keyframes is None else (free, keyframes)
+        """Return the hands' keyframes from a tail to a lead, and the transit's time.
 
-    def _overlapping(self, free: TransitTime, tail: Line, lead: Line) -> Keyframes | None:
-        """Return keyframes of hands that travel while the base drives; None if that is not clear."""
+        That has changed where the base must wait, or where the hands need longer: then by as little as was found. They
+        may end whole turns of endless joints away from the lead.
+        """
+        late: list[_Late] = []
         for way in self._ways(free, tail, lead):
-            # Beside a base that drives at once, hands that withdraw quickly are high before they have been swept along.
-            for tail_s in (_TAIL_S, 0.0):
-                keyframes = self._timed(free, tail, way, lead, tail_s)
-                if keyframes is not None and self._is_clear(free, tail, keyframes):
-                    return keyframes
+            late_s = self._late_s(free, tail, way, lead)
+            if late_s > TIME_S:
+                late += self._quicker(free, tail, way, lead)
+            elif (keyframes := self._overlapping(tail, way, lead, free)) is not None:
+                return free, keyframes
+        waiting = self._homeward(free, tail, lead)
+        if waiting.late_s > TIME_S:
+            turned = lead.moved(waiting.back[-1] - lead.joints[0])
+            late += self._quicker(free, tail, np.concatenate([waiting.away, waiting.back[1:]]), turned)
+        for late_s, run in sorted(late, key=lambda one: one.late_s):
+            if late_s >= waiting.late_s:
+                break
+            longer = free.longer(late_s)
+            keyframes = run(longer)
+            if keyframes is not None:
+                return longer, keyframes
+        return self._waiting(free.longer(waiting.late_s), tail, lead, waiting)
+
+    def _quicker(self, free: TransitTime, tail: Line, way: FloatArray, lead: Line) -> Iterator["_Late"]:
+        """Yield runs along a path that takes too long: as it is, with calm lines, and without stops at corners."""
+        calm_tail, calm_lead = (self._transits.line(calmed(line.joints, _CALMED)) for line in (tail, lead))
+        for one, other in ((tail, lead), (calm_tail, calm_lead)):
+            yield _Late(self._late_s(free, one, way, other), partial(self._overlapping, one, way, other))
+        if not free.borders_s:
+            rows = [tail.joints, *(_cut(a, b)[1:] for a, b in pairwise(way)), lead.joints[1:]]
+            line = self._transits.line(calmed(np.concatenate(rows), _BLENDED))
+            yield _Late(max(line.shortest_s - self._time_s(free), 0.0), partial(self._along, line))
+
+    def _along(self, line: Line, free: TransitTime) -> Keyframes | None:
+        """Return keyframes along one line from grips to grips; None if that is not clear."""
+        run = line.over(self._time_s(free)).later(free.start_s)
+        keyframes = Keyframes.joined([run, Keyframes.still(line.joints[-1], free.end_s)])
+        return keyframes if self._is_clear(free, line, keyframes) else None
+
+    def _time_s(self, free: TransitTime) -> float:
+        """Return the time in which hands can move (s)."""
+        return free.end_s - self._dwell_s - free.start_s
+
+    def _overlapping(self, tail: Line, way: FloatArray, lead: Line, free: TransitTime) -> Keyframes | None:
+        """Return keyframes of hands that travel along a path while the base drives; None if that is not clear."""
+        # Beside a base that drives at once, hands that withdraw quickly are high before they have been swept along.
+        for tail_s in (_TAIL_S, 0.0):
+            keyframes = self._timed(free, tail, way, lead, tail_s)
+            if keyframes is not None and self._is_clear(free, tail, keyframes):
+                return keyframes
         return None
+
+    def _late_s(self, free: TransitTime, tail: Line, way: FloatArray, lead: Line) -> float:
+        """Return the time by which the hands would come late along a path (s)."""
+        needed_s = tail.shortest_s + lead.shortest_s + float(self._transits.needed_s(way).sum())
+        return max(needed_s - self._time_s(free), 0.0)
 
     def _ways(self, free: TransitTime, tail: Line, lead: Line) -> Iterator[FloatArray]:
         """Yield paths from a tail to a lead: straight, free where the base will stand, by way of home.
@@ -101,33 +149,32 @@ class TransitPlanner:
         yield np.array([start, self._transits.unwound(self._transits.home, start), goal])
 
     def _timed(self, free: TransitTime, tail: Line, way: FloatArray, lead: Line, tail_s: float) -> Keyframes | None:
-        """Return keyframes that withdraw, travel and come to the grips in time; None if there is too little."""
+        """Return keyframes that withdraw, travel and come to the grips in time.
+
+        There must be time enough; None where none is left for resting between the plan's steps.
+        """
         needed = self._transits.needed_s(way)
         arrives = free.end_s - self._dwell_s
-        spare = arrives - free.start_s - (tail.shortest_s + lead.shortest_s + float(needed.sum()))
-        if spare < 0.0:
+        spare = max(arrives - free.start_s - (tail.shortest_s + lead.shortest_s + float(needed.sum())), 0.0)
+        leaves = free.start_s + max(tail.shortest_s, min(tail_s, tail.shortest_s + spare / 4))
+        comes = arrives - max(lead.shortest_s, min(_LEAD_S, lead.shortest_s + spare / 4))
+        travel = self._travel(way, needed, (leaves, comes), free.borders_s)
+        if travel is None:
             return None
-        out = _stretched(tail.least_s, min(tail_s, tail.shortest_s + spare / 4))
-        down = _stretched(lead.least_s, min(_LEAD_S, lead.shortest_s + spare / 4))
-        leaves, comes = free.start_s + float(out.sum()), arrives - float(down.sum())
-        travel_t, travel = _travel(way, needed, leaves, comes)
-        times = [free.start_s + np.cumsum(out), travel_t, comes + np.cumsum(down), np.array([free.end_s])]
-        return _keyframes(times, tail, [travel], lead)
+        out, down = tail.over(leaves - free.start_s), lead.over(arrives - comes)
+        return _joined(free.start_s, out, travel, comes, down, Keyframes.still(lead.joints[-1], free.end_s))
 
     def _is_clear(self, free: TransitTime, tail: Line, keyframes: Keyframes) -> bool:
         """Return whether hands that go on from a tail touch nothing while the base drives, nor pass low over cloth."""
-        track = JointTrajectory([free.start_s], [tail.joints[0]])
-        track.add(keyframes.times_s, keyframes.joints)
+        track = JointTrajectory.at_rest(tail.joints[0], len(self._transits.layout.arms), free.start_s)
+        track.add(keyframes)
         count = min(int(np.ceil((free.end_s - free.start_s) / _CHECK_S)), _CHECKS_MAX)
         moments = np.linspace(free.start_s, free.end_s, count + 1)
         bases, there = free.bases_at(moments), track.joints_at(moments)
         return self._transits.is_clear(free.cloth, bases, there)
 
-    def _waiting(self, free: TransitTime, tail: Line, lead: Line) -> tuple[TransitTime, Keyframes]:
-        """Return keyframes for a base that waits until the hands are home; they set out again when it has arrived.
-
-        The waiting is taken from the reach, which lasts long enough for both: see `ReachTime`.
-        """
+    def _homeward(self, free: TransitTime, tail: Line, lead: Line) -> "_Homeward":
+        """Return the ways home and from there, beside a base that stands."""
         home = self._transits.unwound(self._transits.home, tail.joints[-1])
         first, last = free.first, free.last
         away = self._transits.way(first, tail.joints[-1], home, free.cloth, self._transits.spared(tail.joints, None))
@@ -138,43 +185,81 @@ class TransitPlanner:
             "a transfer that was validated can be left and reached by way of home"
         )
         leave_s, back_s = self._transits.needed_s(away), self._transits.needed_s(back)
-        wait_s = tail.shortest_s + float(leave_s.sum())
-        waited = free.after_waiting(wait_s)
-        arrives = waited.end_s - self._dwell_s
-        begins = arrives - (lead.shortest_s + float(back_s.sum()))
+        wait_s, come_s = tail.shortest_s + float(leave_s.sum()), float(back_s.sum()) + lead.shortest_s
+        late_s = max(wait_s + come_s + self._dwell_s - free.reach_s, 0.0)
+        return _Homeward(away, leave_s, back, back_s, wait_s, late_s)
+
+    def _waiting(self, free: TransitTime, tail: Line, lead: Line, ways: "_Homeward") -> tuple[TransitTime, Keyframes]:
+        """Return keyframes for a base that waits until the hands are home; they set out again when it has arrived.
+
+        The waiting is taken from the reach, which must last long enough for both.
+        """
+        waited, lead = free.after_waiting(ways.wait_s), lead.moved(ways.back[-1] - lead.joints[0])
+        comes = waited.end_s - self._dwell_s - lead.shortest_s
+        begins = comes - float(ways.back_s.sum())
         travel = [
-            _travel(away, leave_s, waited.start_s + tail.shortest_s, waited.start_s + wait_s),
-            (np.array([begins]), home[None]),
-            _travel(back, back_s, begins, arrives - lead.shortest_s),
+            *self._lines(ways.away, ways.leave_s, waited.start_s + tail.shortest_s),
+            Keyframes.still(ways.away[-1], begins),
+            *self._lines(ways.back, ways.back_s, begins),
         ]
-        come = travel[-1][0][-1] + np.cumsum(lead.least_s)
-        times = [waited.start_s + np.cumsum(tail.least_s), *(t for t, _ in travel), come, np.array([waited.end_s])]
-        return waited, _keyframes(times, tail, [joints for _, joints in travel], lead)
+        still = Keyframes.still(lead.joints[-1], waited.end_s)
+        out, down = tail.over(tail.shortest_s), lead.over(lead.shortest_s)
+        return waited, _joined(waited.start_s, out, travel, comes, down, still)
+
+    def _travel(
+        self, way: FloatArray, needed: FloatArray, span: tuple[float, float], borders_s: tuple[float, ...]
+    ) -> list[Keyframes] | None:
+        """Return keyframes along a path within a span of time, each of its lines from rest to rest.
+
+        The hands rest where one step of the plan ends and the next begins; None if there is no time for that.
+        """
+        (start, end), total = span, float(needed.sum())
+        within = [border for border in borders_s if start + TIME_S < border < end - TIME_S]
+        if any(border < start - TIME_S or border > end + TIME_S for border in borders_s):
+            return None
+        if total <= 0.0:
+            return [Keyframes.still(way[-1], end)]
+        begins = start + (end - start) * np.append(0.0, np.cumsum(needed)) / total
+        found: list[Keyframes] = []
+        for (a, b), begin, until in zip(pairwise(way), begins, begins[1:], strict=False):
+            for border in (border for border in within if begin + TIME_S < border < until - TIME_S):
+                middle = self._middle(a, b, border - begin, until - border)
+                if self._least_s(a, middle) > border - begin or self._least_s(middle, b) > until - border:
+                    return None
+                found.append(self._transits.eased(a, middle, border - begin).later(begin))
+                a, begin = middle, border
+            found.append(self._transits.eased(a, b, until - begin).later(begin))
+        return found
+
+    def _middle(self, start: FloatArray, end: FloatArray, before_s: float, after_s: float) -> FloatArray:
+        """Return where on a line to rest so that the ways before and after take equal shares of their times."""
+
+        def hurry(share: float) -> float:
+            middle = start + share * (end - start)
+            return self._least_s(start, middle) * after_s - self._least_s(middle, end) * before_s
+
+        return np.asarray(start + brentq(hurry, 0.0, 1.0) * (end - start))
+
+    def _least_s(self, start: FloatArray, end: FloatArray) -> float:
+        return float(self._transits.needed_s(np.array([start, end])).sum())
+
+    def _lines(self, way: FloatArray, needed: FloatArray, start_s: float) -> list[Keyframes]:
+        """Return keyframes along a path, each of its lines as quickly as it can be."""
+        begins = start_s + np.append(0.0, np.cumsum(needed))
+        return [
+            self._transits.eased(a, b, need).later(begin)
+            for (a, b), begin, need in zip(pairwise(way), begins, needed.tolist(), strict=False)
+        ]
 
 
-def _keyframes(times: list[FloatArray], tail: Line, travel: list[FloatArray], lead: Line) -> Keyframes:
+def _joined(
+    start_s: float, out: Keyframes, travel: list[Keyframes], comes_s: float, down: Keyframes, still: Keyframes
+) -> Keyframes:
     """Return keyframes on a tail, on the path from it to a lead, on that, and once more at its end."""
-    joints = np.concatenate([tail.joints[1:], *travel, lead.joints[1:], lead.joints[-1:]])
-    return Keyframes(np.concatenate(times), joints)
+    return Keyframes.joined([out.later(start_s), *travel, down.later(comes_s), still])
 
 
-def _travel(way: FloatArray, needed: FloatArray, start: float, end: float) -> tuple[FloatArray, FloatArray]:
-    """Return keyframes along a path, each of its lines eased."""
-    total = float(needed.sum())
-    if total <= 0.0:
-        return np.array([end]), way[-1:]
-    pace = (end - start) / total
-    easing = min(_EASING, max(0.0, 1.0 - 1.0 / pace))
-    shares = np.linspace(0.0, 1.0, _KEYFRAMES + 1)[1:]
-    times, joints = [], []
-    for (a, b), begin, need in zip(pairwise(way), np.cumsum(needed) - needed, needed, strict=True):
-        times.append(start + pace * (begin + shares * need))
-        joints.append(a + eased(shares, easing)[:, None] * (b - a))
-    return np.concatenate(times), np.concatenate(joints)
-
-
-def _stretched(steps_s: FloatArray, total_s: float) -> FloatArray:
-    """Return the steps lengthened to a total duration, none of them shorter than it needs (s)."""
-    if not len(steps_s):
-        return steps_s
-    return np.asarray(steps_s + max(0.0, total_s - float(steps_s.sum())) / len(steps_s))
+def _cut(start: FloatArray, end: FloatArray) -> FloatArray:
+    """Return a straight line in steps, its ends included."""
+    count = max(1, int(np.ceil(np.abs(end - start).max() / _CUT_RAD)))
+    return np.asarray(start + np.linspace(0.0, 1.0, count + 1)[:, None] * (end - start))

@@ -1,6 +1,7 @@
 """The time of a transit: the motion of base and cloth while no hand holds cloth."""
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -30,6 +31,21 @@ class TransitTime:
         return self.start_s + sum(timed.duration_s for timed in self.timed_phases)
 
     @property
+    def borders_s(self) -> tuple[float, ...]:
+        """The times at which one step of the plan ends and the next begins (s)."""
+        ends = np.cumsum([self.start_s, *(timed.duration_s for timed in self.timed_phases)]).tolist()
+        return tuple(
+            end
+            for end, (one, other) in zip(ends[1:], pairwise(self.timed_phases), strict=False)
+            if one.primitive != other.primitive
+        )
+
+    @property
+    def reach_s(self) -> float:
+        """The duration of the reach at its end (s)."""
+        return self.timed_phases[-1].duration_s
+
+    @property
     def first(self) -> Pose2:
         """The base's pose at the beginning."""
         return self.timed_phases[0].phase.base[0]
@@ -49,12 +65,20 @@ class TransitTime:
             bases[own] = timed.bases_at(times_s[own] - ends[number])
         return bases
 
-    def after_waiting(self, wait_s: float) -> "TransitTime":
-        """Return the transit with a wait of the base before it (s), taken from the reach at its end."""
+    def longer(self, by_s: float) -> "TransitTime":
+        """Return the transit with a longer reach at its end (s)."""
         *driving, reach = self.timed_phases
-        waiting = TimedPhase(
-            reach.primitive, _resting(self.timed_phases[0].phase), np.array([0.0, wait_s]), np.array([0.0, 1.0])
-        )
+        longer = TimedPhase.even(reach.primitive, reach.phase, reach.duration_s + by_s)
+        return TransitTime([*driving, longer], self.start_s, self.cloth)
+
+    def after_waiting(self, wait_s: float) -> "TransitTime":
+        """Return the transit with a wait of the base before it (s), taken from the reach at its end.
+
+        The wait is part of the first step.
+        """
+        *driving, reach = self.timed_phases
+        first = self.timed_phases[0]
+        waiting = TimedPhase.even(first.primitive, _resting(first.phase), wait_s)
         shorter = TimedPhase.even(reach.primitive, reach.phase, reach.duration_s - wait_s)
         return TransitTime([waiting, *driving, shorter], self.start_s, self.cloth)
 

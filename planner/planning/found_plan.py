@@ -4,6 +4,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
+from planner.geometry.tolerance import TIME_S
 from planner.motion.act import Act
 from planner.motion.trajectory_maker import trajectory
 from planner.planning.problem import Problem
@@ -15,6 +16,7 @@ from planner.task.plan_step import PlanStep
 from planner.task.reason import Reason
 from planner.task.statistics import Statistics
 from planner.task.task import Task
+from planner.task.trajectory import Trajectory
 from planner.task.world_state import HeldPoint, WorldState
 
 
@@ -44,11 +46,11 @@ class FoundPlan:
         is_exhaustive: bool,
     ) -> "FoundPlan":
         """Make a plan of the acts that were found."""
-        steps = tuple(_scheduled(problem, acts))
-        plan = Plan(problem.task, status, steps, None, reasons, statistics, is_exhaustive)
-        if plan.cost_s is not None:
-            path = trajectory(problem.context, problem.robot.card, problem.maker, acts, plan.cost_s)
-            plan = Plan(problem.task, status, steps, path, reasons, statistics, is_exhaustive)
+        path = trajectory(problem.context, problem.robot.card, problem.maker, acts) if status == "solved" else None
+        steps = () if path is None else tuple(_scheduled(problem, acts, path))
+        if path is not None and steps:
+            path = replace(path, duration_s=steps[-1].end_s)
+        plan = Plan(problem.task, status, steps, path, reasons, statistics, is_exhaustive)
         return FoundPlan(plan, problem.context, acts)
 
     def or_quicker(self, other: "FoundPlan") -> "FoundPlan":
@@ -73,10 +75,14 @@ def _rank(found: FoundPlan) -> tuple[bool, float, bool]:
     return cost_s is None, 0.0 if cost_s is None else cost_s, found.plan.status == "infeasible"
 
 
-def _scheduled(problem: Problem, acts: Sequence[Act]) -> Iterator[PlanStep]:
+def _scheduled(problem: Problem, acts: Sequence[Act], path: Trajectory) -> Iterator[PlanStep]:
+    """Yield the steps; each lasts as long as its motion: what was validated, or longer for a transit before it."""
     now, before = 0.0, problem.task.start
     for act in acts:
-        for step, duration_s in zip(act.steps, act.durations_s(), strict=True):
+        for number, (step, validated_s) in enumerate(zip(act.steps, act.durations_s(), strict=True), start=act.first):
+            segments = path.of_step(number)
+            lasts_s = segments[-1].start_s + segments[-1].duration_s - segments[0].start_s
+            duration_s = validated_s if abs(lasts_s - validated_s) <= TIME_S else lasts_s
             after = _world_after(problem.context, step, before)
             yield PlanStep(
                 step.kind,

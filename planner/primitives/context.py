@@ -149,6 +149,10 @@ class Context:
         """Return the time to drive a number of steps of the grid of standoffs at top speed (s)."""
         return steps / STANDOFFS_PER_M / self.scene.base_speed_m_s
 
+    def drag_s(self, steps: int) -> float:
+        """Return the time to drive a number of steps of the grid of standoffs from rest to rest, as in a drag (s)."""
+        return self.drive_time.driving_s(steps / STANDOFFS_PER_M)
+
     def in_base(self, station: int, points: FloatArray) -> FloatArray:
         """Return tool points of the table frame, shape (n, 3), in the base frame at standoff 0 (m)."""
         above_floor = points + np.array([0.0, 0.0, self.scene.table.height_m])

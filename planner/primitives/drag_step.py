@@ -56,7 +56,7 @@ class DragStep:
     @property
     def dragging_s(self) -> float:
         """The time from the grips to where the cloth is let go (s)."""
-        return self.context.drive_s(self.after.standoff - self.first_stand)
+        return self.context.drag_s(self.after.standoff - self.first_stand)
 
     @property
     def towards(self) -> Point2:

@@ -1,7 +1,8 @@
 """The time of a base that drives or turns from rest to rest."""
 
-import math
 from dataclasses import dataclass
+
+from planner.geometry.ramps import Ramps, least_s, ramps
 
 ACCELERATION_M_S2, TURN_ACCELERATION_RAD_S2 = 0.5, 1.0
 """Accelerations of a base whose card gives none; no card gives that of turning."""
@@ -23,15 +24,17 @@ class DriveTime:
 
     def driving_s(self, distance_m: float) -> float:
         """Return the least time to drive straight over a distance (m), from rest to rest."""
-        return _rest_to_rest_s(distance_m, self.speed_m_s, self.acceleration_m_s2)
+        return least_s(distance_m, self.speed_m_s, self.acceleration_m_s2)
 
     def turning_s(self, angle_rad: float) -> float:
         """Return the least time to turn in place by an angle (rad), from rest to rest."""
-        return _rest_to_rest_s(angle_rad, self.turn_rad_s, self.turn_acceleration_rad_s2)
+        return least_s(angle_rad, self.turn_rad_s, self.turn_acceleration_rad_s2)
 
-
-def _rest_to_rest_s(way: float, speed: float, acceleration: float) -> float:
-    """Return the time of a way: speed up evenly, go on at top speed if that is reached, slow down evenly."""
-    if way * acceleration >= speed**2:
-        return way / speed + speed / acceleration
-    return 2.0 * math.sqrt(way / acceleration)
+    def ramps(self, distance_m: float, angle_rad: float) -> Ramps:
+        """Return how far a leg is done over the least time for it; a leg is driven, or turned in place."""
+        driving_s, turning_s = self.driving_s(distance_m), self.turning_s(angle_rad)
+        if driving_s >= turning_s:
+            way, limits = distance_m, (self.speed_m_s, self.acceleration_m_s2)
+        else:
+            way, limits = angle_rad, (self.turn_rad_s, self.turn_acceleration_rad_s2)
+        return ramps(driving_s + turning_s, way, *limits)

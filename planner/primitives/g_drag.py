@@ -47,7 +47,7 @@ class GDrag:
     def _later(self, state: State, count: int, towards: State) -> Iterator[Deferred[DragStep]]:
         """Yield deferred drags of at least `count` steps of the grid; the hands hold on if they do in `towards`."""
         if count <= self._longest:
-            duration = self._context.scene.arm_motion_s + self._context.drive_s(count * STEPS_PER_DRAG)
+            duration = self._context.scene.arm_motion_s + self._context.drag_s(count * STEPS_PER_DRAG)
             yield Deferred(duration, towards, partial(self._steps, state, count, towards))
 
     def _steps(self, state: State, count: int, towards: State) -> Iterator[DragStep | Deferred[DragStep]]:

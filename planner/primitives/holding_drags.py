@@ -156,5 +156,6 @@ class HoldingDrags:
         is_spare: bool = False,
     ) -> Deferred[DragStep]:
         """Return deferred steps that drive `driven` steps in all: before, with and after the drag."""
-        duration_s = self._context.scene.arm_motion_s + self._context.drive_s(driven)
+        dragging_s, other_s = self._context.drag_s(drag.driven), self._context.drive_s(driven - drag.driven)
+        duration_s = self._context.scene.arm_motion_s + dragging_s + other_s
         return Deferred(duration_s, drag.leads.first, steps, is_spare)

@@ -26,6 +26,7 @@ class Sites(NamedTuple):
 
     Attributes:
         drags: for each site and each drag, in order of length, the site to which it leads; shape (sites, drags).
+        drag_s: the time for which the base drives in each drag (s), shape (drags,).
         moves: for each site and station the site to which a move leads, shape (sites, stations).
         move_s: a lower bound on the move's duration from each standoff (s), shape (sites, stations, standoffs).
         may_hold: at which sites hands that hold on after a drag may be of use to a fold, shape (sites,).
@@ -35,6 +36,7 @@ class Sites(NamedTuple):
     """
 
     drags: NDArray[np.int64]
+    drag_s: FloatArray
     moves: NDArray[np.int64]
     move_s: FloatArray
     may_hold: BoolArray
@@ -111,7 +113,7 @@ def _relax(sites: Sites, here: FloatArray, site: int) -> bool:
             go_on = 0.0 if goal == OUTSIDE else here[FREE, goal, start + steps] + sites.motion_s
             if goal >= 0 and sites.may_hold[goal]:
                 go_on = min(go_on, here[HELD, goal, start + steps])
-            least = min(least, steps * sites.step_s + go_on)
+            least = min(least, sites.drag_s[count] + go_on)
         for station in range(sites.moves.shape[1]):
             goal = sites.moves[site, station]
             if goal != NOWHERE:

@@ -90,15 +90,16 @@ class SiteMap:
                 if station != site.station:
                     moves[number, station] = numbers.get(Site(site.offset, station).key, OUTSIDE)
                     move_s[number, station] = self._move_s(site.station, station)
-        step_s = context.drive_s(1)
-        return Sites(drags, moves, move_s, may_hold, context.scene.arm_motion_s, step_s, STEPS_PER_DRAG)
+        drag_s = np.array([context.drag_s(count * STEPS_PER_DRAG) for count in range(1, self._longest + 1)])
+        motion_s, step_s = context.scene.arm_motion_s, context.drive_s(1)
+        return Sites(drags, drag_s, moves, move_s, may_hold, motion_s, step_s, STEPS_PER_DRAG)
 
     def _beside(self, site: Site) -> Iterator[tuple[Site, float]]:
         """Yield the neighbours of a site, with a lower bound on the time to get there (s)."""
         context = self._context
         for count, goal in enumerate(self._dragged(site), start=1):
             is_held = self._service.is_possible(goal.offset, goal.station)
-            yield goal, context.drive_s(count * STEPS_PER_DRAG) + (0.0 if is_held else context.scene.arm_motion_s)
+            yield goal, context.drag_s(count * STEPS_PER_DRAG) + (0.0 if is_held else context.scene.arm_motion_s)
         for station in range(len(context.scene.stations)):
             if station != site.station:
                 yield Site(site.offset, station), float(self._move_s(site.station, station).min())

@@ -8,6 +8,12 @@ from typing import Protocol
 
 from planner.geometry.pose import FloatArray
 
+RISE_S = 0.25
+"""The time in which a joint comes to its top speed, where a card gives no acceleration (s); a URDF never does."""
+
+FINGER_RISE_S = 0.08
+"""The same for the joint that drives fingers, which weigh little."""
+
 
 class GripperCard(Protocol):
     """A gripper of two fingers that one joint drives."""
@@ -137,6 +143,11 @@ class ArmCard:
     lifting: tuple[str, ...] = ()
     is_mirrored: bool = False
     accelerations: tuple[float, ...] | None = None
+
+    @property
+    def kept_accelerations(self) -> tuple[float, ...]:
+        """The accelerations that motions keep: the given ones, or those with which joints rise in `RISE_S`."""
+        return self.accelerations or tuple(speed / RISE_S for speed in self.speeds_rad_s)
 
 
 @dataclass(frozen=True, slots=True)

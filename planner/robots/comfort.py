@@ -41,7 +41,7 @@ ROWS, QUERIES = 0, 1
 
 KNOWN, GOOD, TESTED, PASSED = range(4)
 """Indices of a row's bits: which places this plan has asked about, and which of them are within the comfort radius; and
-the same of all plans that have had the memory."""
+the same of all plans that have had the memory. A place that passed without a test is beyond the arm's length."""
 
 YES, NO = 5, 1
 """Queries charged for a place: all five if it is within the comfort radius; if not, mostly one tells. A plan is charged
@@ -83,13 +83,16 @@ def no_hints() -> FloatArray:
 
 
 @njit(cache=True, nogil=True)
-def row_slot(ask: Question, keys: NDArray[np.int64], counts: NDArray[np.int64], place: Place) -> int:
-    """Return the slot in the memory of the row of a place; begin the row if there is none yet."""
+def row_slot(label: int, step: int, keys: NDArray[np.int64], counts: NDArray[np.int64], place: Place) -> int:
+    """Return the slot in the memory of the row of a place; begin the row if there is none yet.
+
+    `step` is the distance between standoffs, in steps of `LENGTH_M`.
+    """
     half = 1 << (COORDINATE_BITS - 1)
-    if abs(place.y) >= half or abs(place.z) >= half or ask.step % ROW_STEP != 0:
+    if abs(place.y) >= half or abs(place.z) >= half or step % ROW_STEP != 0:
         return FORGETFUL
     key = ((((place.x % ROW_STEP) << COORDINATE_BITS) + place.y + half) << COORDINATE_BITS) + place.z + half
-    key = (key << LABEL_BITS) + ask.label
+    key = (key << LABEL_BITS) + label
     scattered = key * _SCATTER
     slot = (scattered ^ (scattered >> 29) ^ (scattered >> 45)) & (len(keys) - 1)
     while keys[slot] != key:
@@ -123,6 +126,35 @@ def from_cell(bits: int, cell: int) -> int:
     return bits >> min(cell, 63) if cell >= 0 else bits << min(-cell, 63)
 
 
+@njit(cache=True, nogil=True)
+def recall(bits: NDArray[np.int64], counts: NDArray[np.int64], slot: int, cells: int, comfort: float) -> None:
+    """Let this plan know what others have found out about cells of a row, and charge it for that.
+
+    All at once: one by one takes ten times as long.
+
+    Args:
+        bits: the memory's rows.
+        counts: its counts.
+        slot: the row's slot.
+        cells: the bits of cells that this plan has not asked about yet and others have.
+        comfort: the comfort radius (m).
+    """
+    tested = bits[slot, TESTED] & cells
+    good = tested & bits[slot, PASSED]
+    bits[slot, KNOWN] |= cells
+    bits[slot, GOOD] |= good
+    counts[QUERIES] += NO * _count_of(tested & ~good) + (YES if comfort > 0.0 else NO) * _count_of(good)
+
+
+@njit(cache=True, nogil=True)
+def _count_of(bits: int) -> int:
+    count = 0
+    while bits:
+        bits &= bits - 1
+        count += 1
+    return count
+
+
 @njit(cache=True, nogil=True, inline="always")
 def is_comfortable_at(
     ask: Question, memory: Memory, room: Room, space: Space, slot: int, place: Place, standoff: int
@@ -137,14 +169,16 @@ def is_comfortable_at(
     bit = 1 << cell if slot != FORGETFUL and 0 <= cell < ROW_CELLS else 0
     if memory.bits[slot, KNOWN] & bit != 0:
         return bool(memory.bits[slot, GOOD] & bit != 0)
-    answer = False
-    if is_in_length(ask, place, standoff):
-        if memory.bits[slot, TESTED] & bit != 0:
-            answer = memory.bits[slot, PASSED] & bit != 0
-        else:
+    answer, is_tested = False, memory.bits[slot, TESTED] & bit != 0
+    if is_tested:
+        answer = memory.bits[slot, PASSED] & bit != 0
+    elif memory.bits[slot, PASSED] & bit == 0:
+        is_tested = is_in_length(ask, place, standoff)
+        if is_tested:
             answer = is_had(ask, memory.hints, room, space, place, standoff)
             memory.bits[slot, TESTED] |= bit
-            memory.bits[slot, PASSED] |= bit if answer else 0
+        memory.bits[slot, PASSED] |= bit if answer or not is_tested else 0
+    if is_tested:
         memory.counts[QUERIES] += YES if answer and ask.comfort > 0.0 else NO
     if bit != 0:
         memory.bits[slot, KNOWN] |= bit

@@ -29,7 +29,7 @@ class Memories:
             memory = self._left.pop()
         except IndexError:
             return empty_memory()
-        memory.bits[:, [KNOWN, GOOD]] = 0
+        memory.bits[:, KNOWN : GOOD + 1] = 0
         memory.counts[QUERIES] = 0
         return memory._replace(hints=no_hints())
 

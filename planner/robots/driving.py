@@ -23,13 +23,13 @@ from numpy.typing import NDArray
 from planner.geometry.driving import IMPOSSIBLE
 from planner.robots.arm_question import Space, space_for
 from planner.robots.driving_incumbents import EVERY, UNBEATEN, Incumbents, least_steps, no_incumbents, tell_useful
-from planner.robots.driving_task import Task, ask_each, at_extremes, remembered
+from planner.robots.driving_task import Task, ask_each, at_extremes, recalled, remembered
 
 
 @njit(cache=True, nogil=True)
 def _follow(task: Task, space: Space, chosen: NDArray[np.int64], best: Incumbents, answer: NDArray[np.int64]) -> bool:
     """Follow the paths in one choice of approaches and record improved ends; return whether more steps may help."""
-    bits, slots, cells, useful = task.memory.bits, task.slots, task.cells, best.useful
+    bits, counts, slots, cells, useful = task.memory.bits, task.memory.counts, task.slots, task.cells, best.useful
     reached, last_begun = np.zeros(cells.shape[1], dtype=np.int64), 0
     for level in range(len(best.begun)):
         before, has_grown = best.begun[level], best.begun[level] != last_begun
@@ -41,7 +41,9 @@ def _follow(task: Task, space: Space, chosen: NDArray[np.int64], best: Incumbent
             new = (before | here << 1 | here >> 1) & ~here & useful[level]
             for hand in range(len(chosen) if new else 0):
                 approach = chosen[hand]
-                found = remembered(bits, slots[hand, approach, waypoint], cells[hand, waypoint], new)
+                slot, cell = slots[hand, approach, waypoint], cells[hand, waypoint]
+                found = remembered(bits, slot, cell, new)
+                found = found if found >= 0 else recalled(bits, counts, slot, cell, new, task.comfort)
                 new = found if found >= 0 else ask_each(task, space, hand, approach, waypoint, new)
             reached[waypoint] = before = here | new
             has_grown = has_grown or new != 0

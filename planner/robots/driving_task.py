@@ -16,11 +16,14 @@ from planner.robots.comfort import (
     FORGETFUL,
     GOOD,
     KNOWN,
+    PASSED,
     ROW_CELLS,
     ROW_STEP,
+    TESTED,
     Memory,
     from_cell,
     is_comfortable_at,
+    recall,
     row_slot,
 )
 from planner.robots.place import Place
@@ -68,18 +71,21 @@ class Task(NamedTuple):
 def ask_each(task: Task, space: Space, hand: int, approach: int, waypoint: int, wanted: int) -> int:
     """Return which of the wanted standoffs have one hand within the comfort radius, testing them one by one."""
     x, y, z = task.places[hand, waypoint]
-    place = Place(x, y, z)
-    ask = question(task.numbers, task.shoulder, task.axes, task.labels[hand, approach], task.comfort, task.step)
-    slot, found, standoff = row_slot(ask, task.memory.keys, task.memory.counts, place), 0, 0
+    place, label, memory = Place(x, y, z), task.labels[hand, approach], task.memory
+    slot, found, standoff = row_slot(label, task.step, memory.keys, memory.counts, place), 0, 0
     if task.step == ROW_STEP:
         task.slots[hand, approach, waypoint] = slot
         if slot != FORGETFUL:
-            bits, cell = task.memory.bits[slot], task.cells[hand, waypoint]
-            found = wanted & from_cell(bits[GOOD], cell)
-            wanted &= ~from_cell(bits[KNOWN], cell)
+            cell = task.cells[hand, waypoint]
+            found = recalled(memory.bits, memory.counts, slot, cell, wanted, task.comfort)
+            if found >= 0:
+                return found
+            found = wanted & from_cell(memory.bits[slot, GOOD], cell)
+            wanted &= ~from_cell(memory.bits[slot, KNOWN], cell)
+    ask = question(task.numbers, task.shoulder, task.axes, label, task.comfort, task.step)
     while wanted >> standoff:
         is_wanted = (wanted >> standoff) & 1 == 1
-        if is_wanted and is_comfortable_at(ask, task.memory, task.room, space, slot, place, standoff):
+        if is_wanted and is_comfortable_at(ask, memory, task.room, space, slot, place, standoff):
             found |= 1 << standoff
         standoff += 1
     return found
@@ -94,19 +100,38 @@ def remembered(bits: NDArray[np.int64], slot: int, cell: int, wanted: int) -> in
 
 
 @njit(cache=True, nogil=True)
+def recalled(
+    bits: NDArray[np.int64], counts: NDArray[np.int64], slot: int, cell: int, wanted: int, comfort: float
+) -> int:
+    """Return what `remembered` does, if this plan and others together have asked about all of it; else -1.
+
+    The plan is charged for what it learns by it. It takes few arguments: passing a task on costs more than all this.
+    """
+    if slot < 0:
+        return -1
+    new = wanted & from_cell(_WHOLE_ROW & ~bits[slot, KNOWN], cell)
+    if new & ~from_cell(bits[slot, TESTED] | bits[slot, PASSED], cell):
+        return -1
+    recall(bits, counts, slot, new << cell if cell >= 0 else new >> -cell, comfort)
+    return wanted & from_cell(bits[slot, GOOD], cell)
+
+
+@njit(cache=True, nogil=True)
 def at_extremes(task: Task, space: Space, hand: int, near: int) -> NDArray[np.int64]:
     """Return the near standoffs within the comfort radius at the beginning, apex and end of a hand's path.
 
     Shape (k, 3), for each approach; all 0 where one of them is.
     """
     last = task.places.shape[1] - 1
-    bits, slots, cells = task.memory.bits, task.slots[hand], task.cells[hand]
+    bits, counts, slots, cells = task.memory.bits, task.memory.counts, task.slots[hand], task.cells[hand]
     masks = np.zeros((task.labels.shape[1], 3), dtype=np.int64)
     for approach in range(task.labels.shape[1]):
         if task.labels[hand, approach] == 0:
             break
         for number, waypoint in ((1, (last + 1) // 2), (2, last), (0, 0)):
-            found = remembered(bits, slots[approach, waypoint], cells[waypoint], near)
+            slot, cell = slots[approach, waypoint], cells[waypoint]
+            found = remembered(bits, slot, cell, near)
+            found = found if found >= 0 else recalled(bits, counts, slot, cell, near, task.comfort)
             found = found if found >= 0 else ask_each(task, space, hand, approach, waypoint, near)
             masks[approach, number] = found
             if found == 0:

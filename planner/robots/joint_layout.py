@@ -24,6 +24,7 @@ class JointLayout:
         owners: the arm of each joint, shape (joints,).
         home: all arms out of the way (rad), shape (joints,).
         speeds_rad_s: the top speeds, shape (joints,).
+        accelerations: the top accelerations (rad/s2), shape (joints,).
         is_continuous: which joints turn without end, shape (joints,).
         is_lifting: which joints raise an arm's elbow and hand, shape (joints,).
     """
@@ -32,6 +33,7 @@ class JointLayout:
     owners: NDArray[np.int64]
     home: FloatArray
     speeds_rad_s: FloatArray
+    accelerations: FloatArray
     is_continuous: BoolArray
     is_lifting: BoolArray
 
@@ -46,6 +48,7 @@ class JointLayout:
             np.repeat(np.arange(len(counts)), counts),
             np.array([q for arm in card.arms for q in arm.home], dtype=float),
             np.array([speed for arm in card.arms for speed in arm.speeds_rad_s], dtype=float),
+            np.array([own for arm in card.arms for own in arm.kept_accelerations], dtype=float),
             np.array([turns for arm in card.arms for turns in arm.is_continuous], dtype=np.bool_),
             np.array(lifting, dtype=np.bool_),
         )

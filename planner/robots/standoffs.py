@@ -35,7 +35,7 @@ def _is_out_of_reach(ask: Question, memory: Memory, room: Room, space: Space, pl
     """Return whether no standoff reaches a place."""
     if not is_in_height(ask, place):
         return True
-    slot, standoff = row_slot(ask, memory.keys, memory.counts, place), 0
+    slot, standoff = row_slot(ask.label, ask.step, memory.keys, memory.counts, place), 0
     if slot != FORGETFUL and ask.step == ROW_STEP:
         wanted = cells_of(place.x, count)
         if memory.bits[slot, GOOD] & wanted != 0:
@@ -53,7 +53,7 @@ def _arrivals(ask: Question, memory: Memory, room: Room, space: Space, place: Pl
 
     These are the standoffs it came from that reach the place too, and those to which it can drive on from there.
     """
-    mask, slot = 0, row_slot(ask, memory.keys, memory.counts, place)
+    mask, slot = 0, row_slot(ask.label, ask.step, memory.keys, memory.counts, place)
     for standoff in range(count):
         is_next = standoff > 0 and (mask >> (standoff - 1)) & 1 == 1
         if (before >> standoff) & 1 == 1 or is_next:

@@ -83,6 +83,13 @@ class ClothMotion:
     fold: int | None = None
     sweep: tuple[float, float] = (0.0, 0.0)
 
+    @property
+    def way(self) -> float:
+        """How far it moves: the sweep of a fold, or the distance by which it is carried (m)."""
+        if self.fold is not None:
+            return self.sweep[1] - self.sweep[0]
+        return math.dist((self.start.x_m, self.start.y_m), (self.end.x_m, self.end.y_m))
+
 
 @dataclass(frozen=True, slots=True)
 class Phase:

@@ -1,6 +1,8 @@
-"""The trajectory of a plan: keyframes of every joint, the base and the cloth, with linear interpolation between them.
+"""The trajectory of a plan: keyframes of every joint, the base and the cloth, each with its velocity.
 
-It describes the motion completely: stage, exports, simulation and checks read nothing else.
+Between two keyframes everything moves on a cubic, so that velocities are continuous. Plans from before velocities were
+kept have none: there everything goes straight from keyframe to keyframe. The trajectory describes the motion
+completely: stage, exports, simulation and checks read nothing else.
 """
 
 from bisect import bisect_right
@@ -10,7 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from planner.geometry.pose import FloatArray, Pose2
+from planner.geometry.keyframes import acceleration_at, rate_at, value_at
+from planner.geometry.pose import FloatArray, Pose2, wrapped_angle
 from planner.json_form import STRICT
 from planner.task.phase import Phase
 
@@ -25,6 +28,8 @@ class Segment:
         phase: the motion of base, hands and cloth.
         times_s: the time since its start, rising from 0 to its duration (s).
         fractions: the fraction of the phase that is done at each of these times, 0 to 1.
+        rates: its change for the cloth at each (1/s); empty: it goes straight from time to time.
+        base_rates: its change for the base, alike: cloth and base keep their own velocities from phase to phase.
     """
 
     step: int
@@ -32,6 +37,8 @@ class Segment:
     phase: Phase
     times_s: tuple[float, ...]
     fractions: tuple[float, ...]
+    rates: tuple[float, ...] = ()
+    base_rates: tuple[float, ...] = ()
 
     @property
     def duration_s(self) -> float:
@@ -39,12 +46,27 @@ class Segment:
         return self.times_s[-1]
 
     def fraction_at(self, t_s: float) -> float:
-        """Return the fraction of the phase that is done at a time of the plan (s)."""
-        return float(np.interp(t_s - self.start_s, self.times_s, self.fractions))
+        """Return the fraction of the phase that is done at a time of the plan (s): what its cloth does."""
+        return float(value_at(self.times_s, self.fractions, self.rates, t_s - self.start_s))
 
     def base_at(self, t_s: float) -> Pose2:
         """Return the base's pose at a time of the plan (s), table frame."""
-        return self.phase.base[0].between(self.phase.base[1], self.fraction_at(t_s))
+        fraction = float(value_at(self.times_s, self.fractions, self.base_rates, t_s - self.start_s))
+        return self.phase.base[0].between(self.phase.base[1], fraction)
+
+    def base_velocity_at(self, t_s: float) -> FloatArray:
+        """Return the base's velocity at a time of the plan: x, y (m/s) and yaw (rad/s), table frame, shape (3,)."""
+        return float(rate_at(self.times_s, self.fractions, self.base_rates, t_s - self.start_s)) * self._base_way
+
+    def base_acceleration_at(self, t_s: float) -> FloatArray:
+        """Return the base's acceleration at a time of the plan, alike (m/s2, rad/s2)."""
+        found = acceleration_at(self.times_s, self.fractions, self.base_rates, t_s - self.start_s)
+        return float(found) * self._base_way
+
+    @property
+    def _base_way(self) -> FloatArray:
+        start, end = self.phase.base
+        return np.array([end.x_m - start.x_m, end.y_m - start.y_m, wrapped_angle(end.yaw_rad - start.yaw_rad)])
 
     def placement_at(self, t_s: float) -> Pose2:
         """Return the article's placement at a time of the plan (s)."""
@@ -60,26 +82,25 @@ class ArmTrack:
         names: the joints' URDF names, arm by arm.
         times_s: the times of the keyframes, rising (s).
         positions: the joints at each (rad; m for prismatic ones), one row for each keyframe.
+        velocities: their velocities, alike (rad/s, m/s); empty: they go straight from keyframe to keyframe.
     """
 
     names: tuple[str, ...]
     times_s: tuple[float, ...]
     positions: tuple[tuple[float, ...], ...]
+    velocities: tuple[tuple[float, ...], ...] = ()
 
     def at(self, t_s: float) -> FloatArray:
         """Return the joints at a time (s), shape (joints,)."""
-        after = bisect_right(self.times_s, t_s)
-        if after == 0 or after == len(self.times_s):
-            return np.asarray(self.rows[max(after - 1, 0)])
-        start, end = self.times_s[after - 1], self.times_s[after]
-        share = (t_s - start) / (end - start)
-        return np.asarray((1.0 - share) * self.rows[after - 1] + share * self.rows[after])
+        return np.asarray(value_at(self.times_s, self.rows, self.rates, t_s))
 
     def velocities_at(self, t_s: float) -> FloatArray:
         """Return the joints' velocities just after a time, at the end just before it, shape (joints,), rad/s."""
-        if len(self.times_s) < 2 or not self.times_s[0] <= t_s <= self.times_s[-1]:
-            return np.zeros(len(self.names))
-        return np.asarray(self.velocities[min(bisect_right(self.times_s, t_s), len(self.times_s) - 1) - 1])
+        return np.asarray(rate_at(self.times_s, self.rows, self.rates, t_s))
+
+    def accelerations_at(self, t_s: float) -> FloatArray:
+        """Return the joints' accelerations just after a time, at the end just before it, shape (joints,), rad/s2."""
+        return np.asarray(acceleration_at(self.times_s, self.rows, self.rates, t_s))
 
     def __getstate__(self) -> dict[str, Any]:
         """Return the fields without the arrays cached from them."""
@@ -91,9 +112,9 @@ class ArmTrack:
         return np.array(self.positions)
 
     @cached_property
-    def velocities(self) -> FloatArray:
-        """The velocities between the keyframes, shape (keyframes - 1, joints), rad/s."""
-        return np.asarray(np.diff(self.rows, axis=0) / np.diff(self.times_s)[:, None])
+    def rates(self) -> FloatArray:
+        """The velocities as an array, shape (keyframes, joints), rad/s; empty without them."""
+        return np.array(self.velocities)
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,6 +127,8 @@ class GripperTrack:
         times_s: the times of the keyframes, rising (s).
         openings_m: the distance between the fingers at each (m).
         positions: the joint's position at each (rad).
+        opening_rates: the change of the opening at each (m/s); empty: it goes straight from keyframe to keyframe.
+        velocities: the joint's velocity at each (rad/s), alike.
     """
 
     arm: str
@@ -113,22 +136,24 @@ class GripperTrack:
     times_s: tuple[float, ...]
     openings_m: tuple[float, ...]
     positions: tuple[float, ...]
+    opening_rates: tuple[float, ...] = ()
+    velocities: tuple[float, ...] = ()
 
     def opening_at(self, t_s: float) -> float:
         """Return the opening at a time (m)."""
-        return float(np.interp(t_s, self.times_s, self.openings_m))
+        return float(value_at(self.times_s, self.openings_m, self.opening_rates, t_s))
 
     def position_at(self, t_s: float) -> float:
         """Return the joint's position at a time (rad)."""
-        return float(np.interp(t_s, self.times_s, self.positions))
+        return float(value_at(self.times_s, self.positions, self.velocities, t_s))
 
     def velocity_at(self, t_s: float) -> float:
         """Return the joint's velocity just after a time, at the end just before it (rad/s)."""
-        if len(self.times_s) < 2 or not self.times_s[0] <= t_s <= self.times_s[-1]:
-            return 0.0
-        after = min(bisect_right(self.times_s, t_s), len(self.times_s) - 1)
-        turned = self.positions[after] - self.positions[after - 1]
-        return turned / (self.times_s[after] - self.times_s[after - 1])
+        return float(rate_at(self.times_s, self.positions, self.velocities, t_s))
+
+    def acceleration_at(self, t_s: float) -> float:
+        """Return the joint's acceleration just after a time, at the end just before it (rad/s2)."""
+        return float(acceleration_at(self.times_s, self.positions, self.velocities, t_s))
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
 import { byId } from "./dom.js";
 import { say } from "./language/say.js";
 
-const PHONE = "(max-width: 720px)";
+export const PHONE = "(max-width: 720px)";
 const PULL_PX = 24;
 
 export function mountPhone() {

@@ -18,6 +18,7 @@ from app.store.database import Database
 from app.store.garment_repository import GarmentRepository
 from app.store.job_repository import JobRepository, StoredJob
 from app.store.plan_store import PlanStore
+from app.store.trace_store import TraceStore
 from planner.errors import RequestError
 from planner.strict_model import StrictModel
 from planner.task.plan import Plan
@@ -99,7 +100,7 @@ KINDS: Mapping[str, AnyKind] = {
 def desk(folder: Path, *, workers: int = 2, waiting_max: int | None = None) -> Iterator[JobDesk]:
     """Open a desk on the database of a folder, as a server does; at the end it stops as a server does."""
     pool, database = JobPool(workers, waiting_max), Database(folder / "pleat.db")
-    stores = Stores(GarmentRepository(database), PlanStore(database), folder / "studies")
+    stores = Stores(GarmentRepository(database), PlanStore(database), folder / "studies", TraceStore(database))
     try:
         yield JobDesk(KINDS, stores, JobRepository(database), pool)
     finally:

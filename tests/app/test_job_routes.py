@@ -17,7 +17,7 @@ LONG = {"garment": "shirt", "step_m": 0.02, "time_limit_s": 60.0}
 
 
 async def ended(client: httpx.AsyncClient, path: str) -> dict[str, Any]:
-    until_s = time.monotonic() + 120.0
+    until_s = time.monotonic() + 600.0  # jobs give way to all else
     while time.monotonic() < until_s:
         job: dict[str, Any] = (await client.get(path)).json()
         if job["status"] not in ("queued", "running"):

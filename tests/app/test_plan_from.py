@@ -174,6 +174,36 @@ async def test_without_a_plan_of_the_drawing_and_beyond_its_steps_it_is_refused(
     await page.hang_up()
 
 
+@pytest.mark.anyio
+async def test_what_is_left_is_planned_from_where_the_cloth_is_seen(client: httpx.AsyncClient) -> None:
+    state, page, _ = await planned(client)
+    after = make_plan(Task.of(T_SHIRT)).state_after(2).to_dict()
+    seen = {**after, "placement": {**after["placement"], "x_m": after["placement"]["x_m"] + 0.02}}
+    page.say({"do": "plan_from_state", "start": seen})
+    rest = await replanned(page, start=seen)
+    folds = [step["fold"] for step in rest["plan"]["primitives"] if step["kind"] == "fold"]
+    assert sorted([*folds, *after["folds_done"]]) == [0, 1, 2, 3, 4]
+    for wrong, field in (
+        ({"folds_done": [9]}, "start.folds_done[0]"),
+        ({"folds_done": [], "base": {"station": "attic"}}, "start.base.station"),
+        ({"speed": 1}, "start.speed"),
+    ):
+        page.last.pop("problem", None)
+        page.say({"do": "plan_from_state", "start": wrong})
+        assert field in (await page.until("problem"))["detail"]
+    assert page.last["plan"]["start"] == seen and page.last["plan"]["version"] == state["version"]
+    await page.hang_up()
+
+
+@pytest.mark.anyio
+async def test_a_drawing_with_problems_cannot_be_planned_from_what_is_seen(client: httpx.AsyncClient) -> None:
+    blank = (await client.post("/api/documents", json={})).json()
+    page = listening(client, blank["id"])
+    page.say({"do": "plan_from_state", "start": {}})
+    assert (await page.until("problem"))["detail"].startswith("start: the drawing has problems")
+    await page.hang_up()
+
+
 @pytest.fixture(scope="module")
 def plan() -> Plan:
     return make_plan(T_SHIRT)

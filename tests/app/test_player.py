@@ -50,7 +50,7 @@ class CountingStage:
     def show_plan(self, _: Plan) -> None:
         self.plans += 1
 
-    def show(self, frame) -> None:
+    def show(self, frame, _trace=None) -> None:
         self.times.append(frame.t_s)
 
 

@@ -1,19 +1,30 @@
-"""A rehearsal in the page: begun, cancelled, and what became of each step."""
+"""A rehearsal in the page: begun, cancelled, each step's fate, its pictures, many runs, and a plan from there."""
 
+import base64
+import re
 from collections.abc import Callable
 from typing import Any
 
-from playwright.sync_api import Locator, Page, Route, expect
+import cv2
+import numpy as np
+from playwright.sync_api import Browser, Locator, Page, Route, expect
 
-from tests.browser.conftest import Garment, Sheet
+from tests.app.rehearsal.test_rehearsal_routes import NAPKIN
+from tests.browser.conftest import Garment, Sheet, windows
 from tests.browser.napkin import napkin
+from tests.browser.status_pill import expect_planned
 
 JOB = {"id": "7", "kind": "rehearsals", "progress": 0.4, "message": "", "created": "2026-01-01T00:00:00Z"}
+SIMULATED_MS = 600_000
+"""Patience with a rehearsal: jobs give way to all else."""
+
+PHONE = {"width": 390, "height": 844}
 
 
-def run(**verdict: object) -> dict[str, Any]:
-    step = {"step": 0, "iou": 0.97, "mean_mm": 4.2, "p95_mm": 9.0, "slid_mm": 1.0, "held": True} | verdict
-    return {"held": step["held"], "steps": [step], "final_iou": 0.97, "regrasps": 1, "replans": 0}
+def run(trace: str | None = None, **verdict: object) -> dict[str, Any]:
+    step = {"step": 0, "of_plan": 0, "iou": 0.97, "mean_mm": 4.2, "p95_mm": 9.0, "slid_mm": 1.0, "held": True} | verdict
+    counts = {"regrasps": 1, "replans": 0, "reason": ""}
+    return {"held": step["held"], "steps": [step], "final_iou": 0.97, "trace": trace, **counts}
 
 
 def summary(*runs: dict[str, Any]) -> dict[str, Any]:
@@ -21,14 +32,41 @@ def summary(*runs: dict[str, Any]) -> dict[str, Any]:
     return {"runs": list(runs), "held": held, "of": len(runs), "success_low": 0.4928, "success_high": 0.9433}
 
 
+def square(side_m: float, x_m: float) -> list[list[float]]:
+    return [[x_m, 0.0], [x_m + side_m, 0.0], [x_m + side_m, side_m], [x_m, side_m]]
+
+
+def look(**changes: object) -> dict[str, Any]:
+    _, jpeg = cv2.imencode(".jpg", np.full((48, 64, 3), 120, np.uint8))
+    fit = {"placement": {"x_m": -0.68, "y_m": -0.3, "yaw_rad": 0.0}, "error_m": 0.004}
+    return {
+        "step": 0,
+        "of_plan": 0,
+        "is_clear": False,
+        "size_px": [64, 48],
+        "jpeg": base64.b64encode(bytes(jpeg)).decode(),
+        "fit": fit,
+        "fitted_px": square(20.0, 15.0),
+        "expected_px": square(20.0, 12.0),
+        "known": True,
+        "reason": None,
+        "says": None,
+        "start": {"folds_done": [], "placement": fit["placement"]},
+        **changes,
+    }
+
+
 class Rehearsals:
     """A server whose rehearsals end when and how a test says."""
 
-    def __init__(self, page: Page) -> None:
+    def __init__(self, page: Page, **pictured: object) -> None:
         self.asked: list[dict[str, Any]] = []
         self.cancelled = 0
         self.job: dict[str, Any] = JOB | {"status": "running", "result": None}
+        steps = [{"of_plan": 0, "found": [square(0.3, 0.02)], "planned": [square(0.3, 0.0)]}]
+        self.trace = {"steps": steps, "pictures": [look(**pictured)]}
         page.route("**/api/rehearsals", self._begin)
+        page.route("**/api/rehearsals/traces/*", lambda route: route.fulfill(json=self.trace))
         page.route("**/api/jobs/7", lambda route: route.fulfill(json=self.job))
         page.route("**/api/jobs/7/cancel", self._cancel)
 
@@ -50,13 +88,28 @@ class Rehearsals:
         route.fulfill(json=self.job | {"status": "cancelled"})
 
 
+def opened(page: Page, sheet: Sheet) -> Locator:
+    """Open a document's page, and return its button to rehearse."""
+    page.goto(sheet.page_url)
+    expect_planned(page)
+    return page.get_by_role("button", name="Rehearse", exact=True)
+
+
+def rehearsed(page: Page, sheet: Sheet, *runs: dict[str, Any], **pictured: object) -> Rehearsals:
+    """Rehearse a document's plan, and wait for the marks of a run."""
+    server = Rehearsals(page, **pictured)
+    server.begun_by(opened(page, sheet))
+    server.end(*runs)
+    expect(page.locator(".mark")).to_have_count(1)
+    return server
+
+
 def test_a_rehearsal_tells_of_each_step_what_became_of_it(page: Page, new_sheet: Callable[[Garment], Sheet]) -> None:
     server = Rehearsals(page)
-    page.goto(new_sheet(napkin()).page_url)
-    begin, said = page.get_by_role("button", name="Rehearse"), page.locator(".rehearsing")
-    mark = page.locator(".plan-row .plan-verdict")
+    begin, said = opened(page, new_sheet(napkin())), page.locator(".rehearsing")
+    in_row, mark, pill = page.locator(".plan-row .plan-verdict"), page.locator(".mark"), page.locator("#status")
     begin.click()
-    expect(said.get_by_role("progressbar")).to_be_visible()
+    expect(said.get_by_role("progressbar")).to_have_js_property("value", 0.4)
     said.get_by_role("button", name="Cancel").click()
     expect(said).to_be_hidden()
     assert server.cancelled == 1
@@ -66,18 +119,168 @@ def test_a_rehearsal_tells_of_each_step_what_became_of_it(page: Page, new_sheet:
     expect(said).to_contain_text(
         "Every step holds in simulated physics, at most 4 mm off on average, one grasp tried again."
     )
-    expect(mark).to_have_text("slid 12 mm")
-    expect(page.get_by_role("button", name="slid 12 mm")).to_be_visible()
-
-    server.begun_by(said.get_by_role("button", name="10 times with errors"))
-    expect(mark).to_have_count(0)
-    server.end(*[run()] * 8, *[run(held=False)] * 2)
-    expect(said).to_contain_text("Held in 8 of 10 runs: 49 to 94 % of all, with 95 % confidence.")
-    assert [(one["runs"], one["noise"]) for one in server.asked] == [(1, "none"), (1, "none"), (10, "real")]
+    for one in (in_row, mark):
+        expect(one).to_have_text("slid 12 mm")
+    expect(page.get_by_role("group", name="Rehearsed").get_by_role("button", name="After step 1")).to_be_visible()
+    expect(pill).not_to_contain_text("Rehearsed")
 
     server.begun_by(begin)
+    expect(mark).to_have_count(0)
     server.end(run(held=False, mean_mm=31.0))
     expect(said).to_contain_text("Lost at step 1: the cloth is 31 mm off on average.")
-    expect(mark).to_have_text("lost")
+    for one in (in_row, mark):
+        expect(one).to_have_text("lost")
+    expect(pill).to_contain_text("Rehearsed: lost at step 1. Planned:")
     said.get_by_role("button", name="Close").click()
-    expect(mark).to_have_count(0)
+    for one in (in_row, mark):
+        expect(one).to_have_count(0)
+    expect(pill).not_to_contain_text("Rehearsed")
+
+
+def test_a_mark_leads_to_the_end_of_its_step(page: Page, new_sheet: Callable[[Garment], Sheet]) -> None:
+    rehearsed(page, new_sheet(napkin()), run())
+    page.locator(".mark").click()
+    first = page.get_by_role("list", name="Plan").get_by_role("button").first.inner_text()
+    ends_s = re.search(r"([\d.]+) s", first)
+    assert ends_s is not None
+    expect(page.locator(".clock")).to_contain_text(f"{ends_s[1]} / ")
+
+
+def test_of_many_runs_each_is_a_square_that_can_be_looked_at(page: Page, new_sheet: Callable[[Garment], Sheet]) -> None:
+    sheet, server = new_sheet(napkin()), Rehearsals(page)
+    begin, said = opened(page, sheet), page.locator(".rehearsing")
+    server.begun_by(begin)
+    server.end(run())
+    often = said.get_by_role("button", name="10 times with errors")
+    server.begun_by(often)
+    early = run() | {"held": False, "reason": "planned again too often"}
+    server.end(*[run(mean_mm=float(n)) for n in range(7)], run(held=False, mean_mm=95.0), early, run())
+    expect(said).to_contain_text("Held in 8 of 10 runs: 49 to 94 % of all, with 95 % confidence.")
+    assert [(one["runs"], one["noise"]) for one in server.asked] == [(1, "none"), (10, "real")]
+    squares = said.get_by_role("group", name="Runs by how far").get_by_role("button")
+    expect(squares).to_have_count(10)
+    columns = said.locator(".runs-column")
+    counts = [column.locator("button").count() for column in columns.all()]
+    assert counts == [6, 2, 0, 0, 0, 0, 0, 0, 1, 1]
+    expect(columns.last).to_contain_text("ended early")
+    lost = said.get_by_role("button", name="Run 8: lost, at most 95 mm off on average")
+    expect(lost).to_have_attribute("aria-pressed", "true")
+    expect(page.locator(".mark")).to_have_text("lost")
+    held = said.get_by_role("button", name="Run 3: held, at most 2 mm off on average")
+    held.click()
+    expect(held).to_have_attribute("aria-pressed", "true")
+    expect(lost).to_have_attribute("aria-pressed", "false")
+    expect(page.locator(".mark")).to_have_text("held")
+
+
+def test_the_corner_shows_what_was_seen_and_what_became_of_the_cloth(
+    page: Page, new_sheet: Callable[[Garment], Sheet]
+) -> None:
+    rehearsed(page, new_sheet(napkin()), run("trace"))
+    card = page.get_by_role("region", name="Pictures of the rehearsal")
+    expect(card.get_by_text("Seen before step 1")).to_be_visible()
+    expect(card).to_contain_text("as seen, to 0.4 cm")
+    expect(card.locator(".looked image")).to_have_attribute("href", re.compile("^data:image/jpeg;base64,/9j/"))
+    expect(card.locator(".looked-fitted.is-over")).to_have_count(1)
+    expect(card.get_by_text("After step 1")).to_have_count(0)
+    page.locator(".mark").click()
+    expect(card.get_by_text("After step 1: held")).to_be_visible()
+    difference = card.locator(".rehearsed-difference").get_attribute("d") or ""
+    assert difference.count("M") == 2, "of the two outlines, which the rule of odd and even makes the difference"
+    for picture in ("After step 1: held", "Seen before step 1"):
+        card.get_by_role("button", name=picture).click()
+        larger = page.get_by_role("dialog", name=picture)
+        expect(larger.locator("svg").last).to_be_visible()
+        page.keyboard.press("Escape")
+        expect(larger).to_have_count(0)
+    card.get_by_role("button", name="Hide the pictures").click()
+    expect(card.locator("figure").first).to_be_hidden()
+    card.get_by_role("button", name="Show the pictures").click()
+    expect(card.locator("figure").first).to_be_visible()
+    page.locator(".rehearsing").get_by_role("button", name="Close").click()
+    expect(card).to_be_hidden()
+
+
+def test_the_rest_is_planned_from_what_is_seen(page: Page, new_sheet: Callable[[Garment], Sheet]) -> None:
+    rehearsed(page, new_sheet(napkin()), run("trace", held=False))
+    page.get_by_role("button", name="Plan from what is seen").click()
+    expect(page.locator(".start-line")).to_contain_text("Planned from the middle: nothing folded yet")
+    expect_planned(page)
+    expect(page.locator(".mark")).to_have_count(0)
+    expect(page.get_by_role("region", name="Pictures of the rehearsal")).to_be_hidden()
+    expect(page.get_by_role("button", name="Rehearse", exact=True)).to_be_visible()
+
+
+def test_where_it_is_not_known_where_the_cloth_lies_nothing_is_planned_from_there(
+    page: Page, new_sheet: Callable[[Garment], Sheet]
+) -> None:
+    unknown = {"known": False, "reason": "almost all of the outline is hidden", "says": {"code": "outline_hidden"}}
+    rehearsed(page, new_sheet(napkin()), run("trace"), **unknown, fit=None, fitted_px=[], start=None)
+    card = page.get_by_role("region", name="Pictures of the rehearsal")
+    expect(card).to_contain_text("Not made out: almost all of the outline is hidden.")
+    expect(card.get_by_role("button", name="Plan from what is seen")).to_be_disabled()
+
+
+def test_a_page_loaded_anew_finds_its_rehearsal_again(page: Page, new_sheet: Callable[[Garment], Sheet]) -> None:
+    server = Rehearsals(page)
+    said = page.locator(".rehearsing")
+    server.begun_by(opened(page, new_sheet(napkin())))
+    expect(said.get_by_role("progressbar")).to_be_visible()
+    page.reload()
+    expect(said.get_by_role("progressbar")).to_be_visible()
+    server.end(run())
+    expect(page.locator(".mark")).to_have_text("held")
+    page.reload()
+    expect(page.locator(".mark")).to_have_text("held")
+    assert (len(server.asked), server.cancelled) == (1, 0)
+    said.get_by_role("button", name="Close").click()
+    page.reload()
+    expect_planned(page)
+    expect(page.get_by_role("button", name="Rehearse", exact=True)).to_be_enabled()
+    expect(said).to_be_hidden()
+
+
+def test_an_edit_takes_the_rehearsal_back(page: Page, new_sheet: Callable[[Garment], Sheet]) -> None:
+    sheet = new_sheet(napkin())
+    server = Rehearsals(page)
+    server.begun_by(opened(page, sheet))
+    expect(page.locator(".rehearsing").get_by_role("progressbar")).to_be_visible()
+    with page.expect_response("**/api/jobs/7/cancel"):
+        sheet.edit(lambda drawing: drawing["placement"].update(y_m=-0.29))
+    expect(page.locator(".rehearsing")).to_be_hidden()
+
+
+def test_why_there_is_no_rehearsal_is_said(page: Page, new_sheet: Callable[[Garment], Sheet]) -> None:
+    begin = opened(page, new_sheet(napkin()))
+    error = {"field": "", "message": "MuJoCo is missing", "says": {"code": "physics_missing"}}
+    refusal = {"title": "Unprocessable", "status": 422, "detail": "", "errors": [error]}
+    page.route("**/api/rehearsals", lambda route: route.fulfill(status=422, json=refusal))
+    begin.click()
+    expect(page.locator(".rehearsing")).to_contain_text("pip install 'pleat[physics]'")
+    expect(begin).to_be_enabled()
+
+
+def test_on_a_phone_the_pictures_are_in_the_sheet(chromium: Browser, new_sheet: Callable[[Garment], Sheet]) -> None:
+    with windows(chromium, viewport=PHONE, has_touch=True, is_mobile=True) as context:
+        page = context.new_page()
+        server = Rehearsals(page)
+        begin = opened(page, new_sheet(napkin()))
+        page.locator("#sheet").tap()
+        with page.expect_response("**/api/rehearsals"):
+            begin.tap()
+        server.end(run("trace"))
+        card = page.locator(".rehearsing").get_by_role("region", name="Pictures of the rehearsal")
+        expect(card.get_by_text("Seen before step 1")).to_be_visible()
+        assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+
+
+def test_a_small_napkin_is_rehearsed(page: Page, new_sheet: Callable[[Garment], Sheet]) -> None:
+    opened(page, new_sheet({**NAPKIN, "title": "Small napkin"})).click()
+    told = "Every step holds in simulated physics"
+    expect(page.locator(".rehearsing")).to_contain_text(told, timeout=SIMULATED_MS)
+    expect(page.locator(".mark")).to_have_count(1)
+    page.locator(".mark").click()
+    card = page.get_by_role("region", name="Pictures of the rehearsal")
+    expect(card.get_by_text("After step 1")).to_be_visible()
+    expect(card.get_by_text("Seen before step 1")).to_be_visible()
+    expect(card.get_by_role("button", name="Plan from what is seen")).to_be_enabled()

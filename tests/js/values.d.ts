@@ -58,6 +58,9 @@ export type Made = Schemas["MadeAnswer"];
 export type FileEntry = Schemas["FileEntry"];
 export type Imported = Schemas["ImportAnswer"];
 export type Job = Schemas["JobEntry"];
+export type Trace = Schemas["TraceAnswer"];
+export type TraceStep = Trace["steps"][number];
+export type Look = Trace["pictures"][number];
 export type Problem = Schemas["Problem"];
 
 /** A message as data. Which numbers it has follows from its code, so each of its words says what it reads. */

@@ -142,6 +142,7 @@ class Exhaustive:
         for tenths in range(1, longest_drag(context) + 1):
             end, offset = stand + 2 * tenths, dragged(context, state.offset, state.station, tenths)
             if end < context.standoffs and context.unrest(state.done, offset) is None:
-                seconds = context.scene.arm_motion_s + context.drive_s(abs(stand - state.standoff) + end - stand)
+                driven_s = context.drive_s(abs(stand - state.standoff)) + context.drag_s(end - stand)
+                seconds = context.scene.arm_motion_s + driven_s
                 yield seconds, State(state.done, offset, state.station, end)
                 yield seconds, State(state.done, offset, state.station, end, held, dragged=1)

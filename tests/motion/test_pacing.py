@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from planner.motion.pacing import eased, needed_s, paced_s
+from planner.motion.pacing import needed_s, paced_s
 
 EASINGS = st.floats(0.01, 0.5)
 
@@ -74,35 +74,3 @@ def test_all_steps_that_are_not_as_quick_as_can_be_have_one_pace(nominal, least)
         paces = (found / nominal)[found > least + 1e-9]
         assert np.ptp(paces) < 1e-6
         assert (found[found <= least + 1e-9] >= (paces.min() * nominal)[found <= least + 1e-9] - 1e-6).all()
-
-
-def test_an_eased_way_speeds_up_cruises_and_slows_down():
-    # A quarter of the time each to speed up and slow down, so the top speed is 1 / 0.75 = 4 / 3 of the mean. After a
-    # quarter half of 4 / 3 * 1 / 4 is done; after a half, half of the way; the rest is its mirror image.
-    assert eased(np.array([0.0, 0.25, 0.5, 0.75, 1.0]), 0.25) == pytest.approx([0.0, 1 / 6, 0.5, 5 / 6, 1.0])
-    # At half of that quarter the speed is half of the top speed: a quarter of 1 / 6 is done.
-    assert eased(np.array([0.125, 0.875]), 0.25) == pytest.approx([1 / 24, 23 / 24])
-
-
-def test_without_easing_the_pace_is_even():
-    shares = np.linspace(0.0, 1.0, 7)
-    assert eased(shares, 0.0).tolist() == shares.tolist()
-
-
-@given(EASINGS)
-def test_an_eased_way_never_turns_back_and_its_top_speed_is_what_is_said(easing):
-    shares = np.linspace(0.0, 1.0, 2001)
-    done = eased(shares, easing)
-    speeds = np.diff(done) / np.diff(shares)
-    assert (done[0], done[-1]) == (0.0, pytest.approx(1.0))
-    assert (speeds > 0.0).all()
-    assert speeds.max() <= 1.0 / (1.0 - easing) + 1e-9
-    # The steps about the middle are at top speed; with an easing of 0.5 that is a moment only.
-    assert speeds[999:1001].max() == pytest.approx(1.0 / (1.0 - easing), rel=2e-3)
-
-
-@given(steps(0.001, 1.0), steps(0.0, 1.5), st.floats(0.0, 2.0))
-def test_a_rest_is_taken_from_the_steps_as_long_as_they_can_give_it(nominal, least, rest_s):
-    found = paced_s(nominal, least, rest_s)
-    assert (found >= least).all()
-    assert found.sum() == pytest.approx(max(nominal.sum() - rest_s, least.sum()), abs=1e-9)

@@ -12,14 +12,14 @@ import pytest
 from planner import Plan, Scene, make_plan
 from planner.errors import RequestError
 from planner.geometry.pose import Pose2, wrapped_angle
-from planner.motion.motion_limits import MotionLimits
-from planner.motion.smooth_motion import smooth_steps
+from planner.motion.motion_values import positions_at, velocities_at
 from planner.planning.plan_check import require_replay
 from planner.planning.robot_task import default_scene
 from planner.robots import described_robot
 from planner.robots.load_robot import load_robot
 from planner.task.trajectory import Segment, Trajectory
 from tests.builders import fold, garment
+from tests.replay.smooth import require_smooth
 
 WHEEL_M, TRACK_M, WHEEL_RAD_S = 0.05, 0.3, 6.0
 """Radius and distance of the wheels (m), and how fast they turn (rad/s)."""
@@ -108,14 +108,12 @@ def test_it_never_drives_sideways_nor_turns_its_wheels_too_fast(plan: Plan):
 
 
 def test_what_is_sent_to_it_rolls_too(plan: Plan, robot: str):
-    limits = MotionLimits.of(load_robot(robot).card, plan.scene)
-    for step in smooth_steps(plan, limits):
-        times = step.times_s(500.0)
-        (x, y, turn), heading = step.at(times, 1)[:, -3:].T, step.at(times)[:, -1]
-        sideways = y * np.cos(heading) - x * np.sin(heading)
-        assert np.abs(sideways).max() < 1e-4
-        assert np.trapezoid(np.abs(sideways), times) < 1e-4
-        assert rims_m_s(np.hypot(x, y), turn).max() <= RIM_M_S * (1 + 5e-3)
+    require_smooth(plan, load_robot(robot).card)
+    path = trajectory(plan)
+    times = np.linspace(0.0, plan.cost_s or 0.0, 4001)
+    (x, y, turn), heading = velocities_at(path, times)[:, -3:].T, positions_at(path, times)[:, -1]
+    assert np.abs(y * np.cos(heading) - x * np.sin(heading)).max() < 1e-9
+    assert rims_m_s(np.hypot(x, y), turn).max() <= RIM_M_S * (1 + 1e-6)
 
 
 def test_a_plan_from_elsewhere_that_drives_sideways_is_refused(plan: Plan):

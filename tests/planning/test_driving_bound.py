@@ -58,9 +58,10 @@ def test_no_edge_lowers_the_bound_by_more_than_it_costs(cloth: Garment):
 
 
 def test_tabs_opposite_need_a_drag_and_the_way_back_however_many_there_are():
-    # 40 cm: 3 s for the hands and 1.6 s of driving; the tabs are then in reach from 5 cm, 35 cm nearer: 1.4 s.
+    # 40 cm: 3 s for the hands, 1.6 s of driving, .5 s to speed up and slow down; the tabs are then in reach from 5 cm,
+    # 35 cm nearer: 1.4 s.
     context = work_of(tabs_on_two_sides(12))
-    assert DrivingBound(context, START)(START) == pytest.approx(12 * 9.0 + 6.0)
+    assert DrivingBound(context, START)(START) == pytest.approx(12 * 9.0 + 6.5)
     assert DrivingBound(context, START)(State((1 << 12) - 1, (0.0, 0.0), 0, 0)) == 0.0
 
 
@@ -75,7 +76,7 @@ def test_folds_that_can_be_done_from_nowhere_are_left_to_the_search():
 def test_forty_loose_folds_on_two_sides_are_proven_joint_paths_and_all():
     # Hands that drag have a second less for coming than hands that fold; those that fold before leave sooner.
     plan = make_plan(tabs_on_two_sides(40), time_limit_s=60.0)
-    assert plan.cost_s == pytest.approx(40 * 9.0 + 6.0)
+    assert plan.cost_s == pytest.approx(40 * 9.0 + 6.5)
     assert plan.is_proven
     assert plan.statistics.expanded < 60
 
@@ -102,5 +103,5 @@ def test_forty_loose_folds_on_two_sides_take_a_state_for_each_fold_and_a_few_for
     edges, bound = edges_of(context), DrivingBound(context, START)
     found = a_star(START, edges.leaving, lambda s: s.done == (1 << 40) - 1, bound, 1_000, lambda: False)
     assert found.outcome is Outcome.SOLVED
-    assert found.cost == pytest.approx(40 * 9.0 + 6.0)
+    assert found.cost == pytest.approx(40 * 9.0 + 6.5)
     assert found.expanded < 60

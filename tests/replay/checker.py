@@ -17,7 +17,7 @@ from tests.replay import flat
 from tests.replay.flat import NEAR_M, Place
 from tests.replay.folding import require_same_stack
 from tests.replay.table_side import REST_M, Space
-from tests.replay.way_round import require_way_round
+from tests.replay.way_round import DRIVE_M_S2, from_rest_to_rest_s, require_way_round
 from tests.replay.world import ARMS, GRID_M, SECOND, Way, World
 
 DRAG_M = 0.10
@@ -200,8 +200,9 @@ class Checker(World):
         self._note_ways(primitive["grips"], spots, [(tuple(g["pick"]), tuple(g["place"])) for g in primitive["grips"]])
         first = primitive["base"]["back_off_m"] - distance
         assert first >= -1e-9, f"a drag of {distance} m ends {primitive['base']['back_off_m']} m from the station"
-        driven = abs(first - self.standoff) + distance
-        wanted_s = self.scene["arm_motion_s"] + driven / self.scene["base_speed_m_s"]
+        driving_s = abs(first - self.standoff) / self.scene["base_speed_m_s"]
+        dragging_s = from_rest_to_rest_s(distance, self.scene["base_speed_m_s"], DRIVE_M_S2)
+        wanted_s = self.scene["arm_motion_s"] + driving_s + dragging_s
         assert abs(primitive["duration_s"] - wanted_s) < SECOND, f"a drag takes {wanted_s} s, not as the plan says"
         self.x, self.y = self.x + shift[0], self.y + shift[1]
         kept = {g["arm"]: s for g, s in zip(primitive["grips"], spots, strict=True)}

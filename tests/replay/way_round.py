@@ -25,8 +25,8 @@ def require_way_round(primitive: dict[str, Any], start: Pose, goal: Pose, scene:
     seconds = 0.0
     for a, b in pairwise(poses):
         drive, turn = math.dist(a[:2], b[:2]), abs(math.remainder(b[2] - a[2], math.tau))
-        seconds += _from_rest_to_rest_s(drive, scene["base_speed_m_s"], DRIVE_M_S2)
-        seconds += _from_rest_to_rest_s(turn, scene["base_turn_rad_s"], TURN_RAD_S2)
+        seconds += from_rest_to_rest_s(drive, scene["base_speed_m_s"], DRIVE_M_S2)
+        seconds += from_rest_to_rest_s(turn, scene["base_turn_rad_s"], TURN_RAD_S2)
         assert drive < SLACK or turn < SLACK, f"the base turns while it drives from {a} to {b}"
         if turn > SLACK:
             assert not inside.contains(Point(a[:2])), f"the base turns at {a[:2]}, too near the table"
@@ -41,7 +41,7 @@ def require_way_round(primitive: dict[str, Any], start: Pose, goal: Pose, scene:
     assert abs(driven - best) < 10 * SLACK, f"the way round is {driven:.3f} m, the shortest {best:.3f} m"
 
 
-def _from_rest_to_rest_s(way: float, speed: float, acceleration: float) -> float:
+def from_rest_to_rest_s(way: float, speed: float, acceleration: float) -> float:
     """Return the time of a way as twice that to its middle, reached at the speed there or at top speed."""
     there = min(speed, math.sqrt(acceleration * way))
     ramp = there * there / (2.0 * acceleration)

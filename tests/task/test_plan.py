@@ -282,3 +282,27 @@ def test_a_field_of_another_kind_is_refused_by_its_path(change: Callable[[dict[s
     data = data_of("hand-towel")
     change(data)
     assert refusal(data).field == field
+
+
+def test_a_plan_from_before_velocities_were_kept_goes_straight_from_keyframe_to_keyframe():
+    data = json.loads(json.dumps(data_of("hand-towel")))
+    path = data["trajectory"]
+    for owner, names in (
+        (path["arms"], ["velocities"]),
+        *((track, ["velocities", "opening_rates"]) for track in path["grippers"]),
+        *((segment, ["rates", "base_rates"]) for segment in path["segments"]),
+    ):
+        for name in names:
+            del owner[name]
+    plan, now = Plan.from_dict(data), planned("hand-towel").answer
+    assert plan.trajectory is not None and now.trajectory is not None and plan != now
+    assert Plan.from_dict(json.loads(json.dumps(plan.to_dict()))) == plan
+    arms = plan.trajectory.arms
+    for number in range(0, len(arms.times_s) - 1, 7):
+        start, end = arms.times_s[number : number + 2]
+        middle = 0.5 * (arms.rows[number] + arms.rows[number + 1])
+        assert arms.at(0.5 * (start + end)) == pytest.approx(middle)
+        assert arms.velocities_at(start) == pytest.approx((arms.rows[number + 1] - arms.rows[number]) / (end - start))
+    assert [frame.t_s for frame in Timeline.of(plan).samples(10.0)] == [
+        frame.t_s for frame in Timeline.of(now).samples(10.0)
+    ]

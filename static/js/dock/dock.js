@@ -2,6 +2,7 @@
 
 import { byId, element } from "../dom.js";
 import { say } from "../language/say.js";
+import { RehearsalCard } from "../rehearsal/card.js";
 import { Clock } from "./clock.js";
 import { Folds } from "./folds.js";
 import { Lanes } from "./lanes.js";
@@ -16,18 +17,20 @@ import { Transport } from "./transport.js";
 /**
  * @param {import("../store.js").Store} store
  * @param {import("../step_pictures.js").StepPictures} pictures
+ * @param {import("../rehearsal/rehearsal.js").Rehearsal} rehearsal
  */
-export function mountDock(store, pictures) {
+export function mountDock(store, pictures, rehearsal) {
   const root = byId("dock");
   const clock = new Clock(store);
   const shown = new ShownPlan(store);
   const slider = new TimeSlider(store, clock);
   const transport = new Transport(store, clock, slider, shown);
-  const lanes = new Lanes(store, clock, slider, shown);
+  const lanes = new Lanes(store, clock, slider, shown, rehearsal);
   const timeline = element("section", "dock-timeline", transport.root, lanes.root, seeWhy(store));
   timeline.setAttribute("aria-label", say("timeline.label"));
   const folds = new Folds(store, clock, shown);
-  const outcome = new Outcome(store, clock, shown, pictures, (t_s) => slider.seek(t_s));
+  const outcome = new Outcome(store, clock, shown, pictures, rehearsal, (t_s) => slider.seek(t_s));
+  new RehearsalCard(store, clock, rehearsal, outcome.rehearsing.root);
   const steps = new StepMenu(store, shown, () => outcome.start.takeFocus());
   steps.serve(lanes.root, ".block");
   steps.serve(outcome.list.root, ".plan-row");

@@ -3,6 +3,7 @@
 import { unit } from "../board/units.js";
 import { button, element } from "../dom.js";
 import { say } from "../language/say.js";
+import { Marks } from "../rehearsal/marks.js";
 import { laneBlocks, primitiveAt } from "./lane_blocks.js";
 import { markStep } from "./step_menu.js";
 import { axisTicks } from "./time_axis.js";
@@ -18,8 +19,9 @@ export class Lanes {
    * @param {import("./clock.js").Clock} clock
    * @param {import("./time_slider.js").TimeSlider} slider
    * @param {import("./shown_plan.js").ShownPlan} shown
+   * @param {import("../rehearsal/rehearsal.js").Rehearsal} rehearsal
    */
-  constructor(store, clock, slider, shown) {
+  constructor(store, clock, slider, shown, rehearsal) {
     this.store = store;
     this.clock = clock;
     this.slider = slider;
@@ -39,7 +41,8 @@ export class Lanes {
     this.current = -1;
     /** How long the plan takes (s). */
     this.duration = 0;
-    this.root.append(this.over);
+    this.marks = new Marks((t_s) => slider.seek(t_s));
+    this.root.append(this.marks.name, this.marks.lane, this.over);
     this.base = this.lane("base", "", say("lane.base"));
     /** The arms' lanes, by the arms' names. @type {Map<string, HTMLElement>} */
     this.arms = new Map();
@@ -50,6 +53,7 @@ export class Lanes {
     store.addEventListener("hover-time", () => this.showHover());
     store.addEventListener("document", () => this.showArms());
     clock.addEventListener("tick", () => this.tick());
+    rehearsal.addEventListener("change", () => this.marks.show(rehearsal.plan ? this.plan : null, rehearsal.verdicts));
   }
 
   get plan() {
@@ -109,7 +113,7 @@ export class Lanes {
     lane.dataset.lane = name;
     lane.setAttribute("role", "group");
     lane.setAttribute("aria-label", words);
-    this.over.before(label, lane);
+    this.marks.name.before(label, lane);
     return lane;
   }
 

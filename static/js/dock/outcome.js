@@ -10,7 +10,7 @@ import { PlanList } from "./plan.js";
 import { Planning } from "./planning.js";
 import { NO_PLAN } from "./reasons.js";
 import { Refining } from "./refining.js";
-import { Rehearsing } from "./rehearsing.js";
+import { Rehearsing } from "../rehearsal/rehearsing.js";
 import { StartLine } from "./start_line.js";
 
 /** @import { DocumentState, Plan, PlanBefore, PlanMessage } from "pleat" */
@@ -21,9 +21,10 @@ export class Outcome {
    * @param {import("./clock.js").Clock} clock
    * @param {import("./shown_plan.js").ShownPlan} shown
    * @param {import("../step_pictures.js").StepPictures} pictures
+   * @param {import("../rehearsal/rehearsal.js").Rehearsal} rehearsal
    * @param {(t_s: number) => void} onSeek
    */
-  constructor(store, clock, shown, pictures, onSeek) {
+  constructor(store, clock, shown, pictures, rehearsal, onSeek) {
     this.store = store;
     this.shown = shown;
     this.title = element("h2", "", say("plan.label"));
@@ -34,8 +35,9 @@ export class Outcome {
     this.place = new BestPlace(store);
     this.compare = button("chip", () => showCompare(store), say("compare.do"));
     this.compare.title = say("compare.hint");
-    this.rehearsing = new Rehearsing(store);
-    this.rehearsing.addEventListener("change", () => this.list.judge(this.rehearsing.verdicts));
+    this.rehearsal = rehearsal;
+    this.rehearsing = new Rehearsing(rehearsal);
+    rehearsal.addEventListener("change", () => this.list.judge(rehearsal.verdicts));
     this.none = new NoPlan();
     this.stop = button("chip", () => store.command({ do: "stop" }), say("search.stop"));
     this.longer = button("chip look-longer", () => store.command({ do: "look_longer" }), say("plan.look_longer"));
@@ -78,7 +80,7 @@ export class Outcome {
     const { plan: message, state } = this.store;
     const plan = message?.plan?.status === "solved" ? message.plan : null;
     this.place.follow();
-    this.rehearsing.follow(message?.version === state?.version && message?.plan?.is_final ? plan : null);
+    this.rehearsing.show();
     if (message && message.status === "planning" && !plan) this.wait();
     else if (message && state && NO_PLAN.has(message.status)) this.showNone(message, state);
     else if (plan) this.showPlan(plan, message?.before ?? null);
@@ -107,6 +109,7 @@ export class Outcome {
   showPlan(plan, before) {
     this.turn(false);
     this.list.show(plan, this.shown.folds);
+    this.list.judge(this.rehearsal.verdicts);
     this.empty.hidden = plan.primitives.length > 0;
     const { length } = this.shown.folds;
     this.empty.textContent = length ? say("plan.nothing_left") : say("plan.nothing_to_do");

@@ -7,13 +7,13 @@ import { present } from "../present.js";
 import { icon } from "./icons.js";
 import { primitiveAt } from "./lane_blocks.js";
 import { layersPicture } from "../repair/folded_picture.js";
-import { inAWord } from "./rehearsing.js";
+import { inAWord } from "../rehearsal/words.js";
 import { markStep } from "./step_menu.js";
 import { place } from "../messages/names.js";
 import { briefly, hands, seconds, where, whole } from "./words.js";
 
 /** @import { Fold, Plan, Primitive } from "pleat" */
-/** @import { Verdict } from "./rehearsing.js" */
+/** @import { Verdict } from "../rehearsal/rehearsal.js" */
 
 export class PlanList {
   /**

@@ -27,6 +27,10 @@ export const PICTURES = {
   },
   seen_does_not_fit: ({ share, residual_m: off }) =>
     say("message.seen_does_not_fit", { share: percent(share), off: length(off) }),
+  looks_alike: ({ placements }) => say("message.looks_alike", { placements }),
+  outline_hidden: () => say("message.outline_hidden"),
+  no_cloth_seen: () => say("message.no_cloth_seen"),
+  physics_missing: () => say("message.physics_missing"),
   too_little_seen: ({ share }) => say("message.too_little_seen", { share: percent(share) }),
   too_uncertain: ({ error_m: error }) => say("message.too_uncertain", { error: length(error) }),
 };

@@ -103,7 +103,8 @@ def test_links_are_where_forward_kinematics_says(player: Player, t_s: float):
     fingers = ("l_gripper_l_finger_tip_link", "r_gripper_r_finger_link")
     for name in (*fingers, "head_tilt_link", *(arm.tool_frame for arm in CARD.arms)):
         expected = world @ data.oMf[model.getFrameId(name)].homogeneous
-        np.testing.assert_allclose(player.pose(name, t_s), expected, atol=1e-4, err_msg=name)
+        # Between keyframes 1/60 s apart a joint that speeds up with 8 rad/s2 is 0.3 mrad off its cubic.
+        np.testing.assert_allclose(player.pose(name, t_s), expected, atol=4e-4, err_msg=name)
 
 
 @pytest.mark.parametrize("t_s", TIMES)

@@ -11,7 +11,7 @@ import pytest
 from app.files.folder_file import unpack
 from app.files.lerobot_dataset import FPS, lerobot_folder
 from planner.motion.motion_limits import MotionLimits
-from planner.motion.smooth_motion import smooth_steps
+from planner.motion.motion_values import positions_at
 from tests.small_plan import CARD, small_plan
 
 PLAN = small_plan()
@@ -60,13 +60,10 @@ def test_frames_come_at_the_rate_and_actions_are_the_next_states(frames: dict[st
 def test_states_are_those_of_the_motion_that_is_sent(info: dict[str, Any], frames: dict[str, np.ndarray]):
     limits = MotionLimits.of(CARD, PLAN.scene)
     assert tuple(info["features"]["observation.state"]["names"]) == limits.names
-    steps = list(smooth_steps(PLAN, limits))
-    assert frames["timestamp"][-1] == pytest.approx(steps[-1].start_s + steps[-1].duration_s, abs=1.0 / FPS)
-    for step in steps:
-        number = int(np.ceil((step.start_s + 1.0) * FPS))
-        wanted = step.at(np.array([number / FPS - step.start_s]))[0]
-        np.testing.assert_allclose(frames["observation.state"][number], wanted, atol=1e-5)
-    np.testing.assert_allclose(frames["observation.state"][-1], steps[-1].at(np.array([1e3]))[0], atol=1e-5)
+    assert PLAN.trajectory is not None
+    assert frames["timestamp"][-1] == pytest.approx(PLAN.cost_s, abs=1.0 / FPS)
+    wanted = positions_at(PLAN.trajectory, np.append(frames["timestamp"][:-1].astype(float), PLAN.cost_s))
+    np.testing.assert_allclose(frames["observation.state"], wanted, atol=1e-5)
 
 
 def test_the_episode_and_its_task_are_told(folder: Path, info: dict[str, Any], frames: dict[str, np.ndarray]):

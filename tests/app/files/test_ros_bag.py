@@ -93,8 +93,8 @@ def test_velocities_lead_from_point_to_point_within_the_limits(messages: dict[st
             gaps = np.diff(times)[:, None]
             led = positions[:-1] + gaps * (velocities[1:] + velocities[:-1]) / 2
             assert np.abs(led - positions[1:]).max() < 2e-3
-            assert np.all(np.abs(velocities) <= [1.005 * about["speeds"][name] for name in joints])
-            assert np.all(np.abs(accelerations) <= [1.005 * about["accelerations"][name] for name in joints])
+            assert np.all(np.abs(velocities) <= [1.001 * about["speeds"][name] for name in joints])
+            assert np.all(np.abs(accelerations) <= [1.02 * about["accelerations"][name] for name in joints])
 
 
 def test_the_base_goes_from_stop_to_stop(messages: dict[str, list[Any]]):
@@ -120,7 +120,10 @@ def test_a_bag_has_the_same_messages_and_says_what_they_are(messages: dict[str, 
         ]
     metadata = yaml.safe_load((folder / "metadata.yaml").read_text())["rosbag2_bagfile_information"]
     told = json.loads(metadata["custom_data"]["pleat"])
-    assert told["plan_duration_s"] == PLAN.cost_s <= told["duration_s"] + 1e-6
+    assert told["duration_s"] == PLAN.cost_s
+    assert [(one["start_s"], one["duration_s"]) for one in told["steps"]] == [
+        (step.start_s, step.duration_s) for step in PLAN.steps
+    ]
     assert len(read) == sum(len(one) for one in messages.values())
     name = f"/{CARD.arms[0].name}_arm_controller/joint_trajectory"
     for mine, same in zip([message for topic, message in read if topic == name], messages[name], strict=True):

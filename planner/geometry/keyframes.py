@@ -1,0 +1,83 @@
+"""Values between keyframes: a cubic with the keyframes' values and rates at its ends, or a straight line without rates.
+
+A cubic Hermite curve has one velocity at each keyframe, so that what moves along it never jumps, neither in its place
+nor in its velocity.
+"""
+
+from bisect import bisect_right
+from collections.abc import Sequence
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from planner.geometry.pose import FloatArray
+
+Values: TypeAlias = Sequence[float] | FloatArray
+"""A number or an array of them at each keyframe."""
+
+
+def value_at(times: Sequence[float], values: Values, rates: Values, t: float) -> Any:  # noqa: ANN401
+    """Return the value at a time; before the first keyframe and after the last one it rests.
+
+    Args:
+        times: the times of the keyframes, rising (s).
+        values: the value at each: a number, or an array of them.
+        rates: its change at each (1/s); empty: it goes straight from keyframe to keyframe.
+        t: the time (s).
+    """
+    after = bisect_right(times, t)
+    if after == 0 or after == len(times):
+        return values[max(after - 1, 0)]
+    gap = times[after] - times[after - 1]
+    share = (t - times[after - 1]) / gap
+    start, end = values[after - 1], values[after]
+    if not len(rates):
+        return (1.0 - share) * start + share * end
+    return _cubic(share, gap, start, end, rates[after - 1], rates[after])
+
+
+def rate_at(times: Sequence[float], values: Values, rates: Values, t: float) -> Any:  # noqa: ANN401
+    """Return the change of a value just after a time, at the last keyframe just before it (1/s); see `value_at`."""
+    after = min(bisect_right(times, t), len(times) - 1)
+    if after == 0 or t > times[-1]:
+        return 0.0 * values[0]
+    gap = times[after] - times[after - 1]
+    slope = (values[after] - values[after - 1]) / gap
+    if not len(rates):
+        return slope
+    share = (t - times[after - 1]) / gap
+    bend = rates[after - 1] + rates[after] - 2.0 * slope
+    return rates[after - 1] + share * (2.0 * (slope - rates[after - 1]) - bend * (2.0 - 3.0 * share))
+
+
+def acceleration_at(times: Sequence[float], values: Values, rates: Values, t: float) -> Any:  # noqa: ANN401
+    """Return the second derivative of a value just after a time, at the last keyframe just before it (1/s2)."""
+    after = min(bisect_right(times, t), len(times) - 1)
+    if after == 0 or t > times[-1] or not len(rates):
+        return 0.0 * values[0]
+    gap = times[after] - times[after - 1]
+    slope = (values[after] - values[after - 1]) / gap
+    share = (t - times[after - 1]) / gap
+    bend = rates[after - 1] + rates[after] - 2.0 * slope
+    return (2.0 * (slope - rates[after - 1]) - bend * (2.0 - 6.0 * share)) / gap
+
+
+def values_at(times: FloatArray, values: FloatArray, rates: FloatArray, at: FloatArray) -> FloatArray:
+    """Return the values at several times, shape (k,); `times` is of shape (n,), `values` and `rates` of (n, ...)."""
+    if len(times) == 1:
+        return np.repeat(values, len(at), axis=0)
+    after = np.searchsorted(times, at, side="right").clip(1, len(times) - 1)
+    gaps = times[after] - times[after - 1]
+    shares = ((at - times[after - 1]) / np.where(gaps > 0.0, gaps, 1.0)).clip(0.0, 1.0)
+    wide = (len(at),) + (1,) * (values.ndim - 1)
+    shares, gaps, start, end = shares.reshape(wide), gaps.reshape(wide), values[after - 1], values[after]
+    if not len(rates):
+        return np.asarray((1.0 - shares) * start + shares * end)
+    return np.asarray(_cubic(shares, gaps, start, end, rates[after - 1], rates[after]))
+
+
+def _cubic(share: Any, gap: Any, start: Any, end: Any, start_rate: Any, end_rate: Any) -> Any:  # noqa: ANN401
+    """Return the cubic at a share of the gap between two keyframes (s)."""
+    rest = 1.0 - share
+    bent = rest * (gap * start_rate - (end - start)) - share * (gap * end_rate - (end - start))
+    return start + share * (end - start + rest * bent)

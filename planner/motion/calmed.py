@@ -1,0 +1,26 @@
+"""Calm a path of joints: take out the kinks that a search through samples of postures has left.
+
+They cost time, because joints must slow down for each. Each row is moved towards the middle of its neighbours, some
+times over, which is a narrow Gaussian filter; the ends stay.
+"""
+
+import numpy as np
+
+from planner.geometry.pose import BoolArray, FloatArray
+
+
+def calmed(joints: FloatArray, passes: int, may_move: BoolArray | None = None) -> FloatArray:
+    """Return a path without kinks; a new array.
+
+    Args:
+        joints: one configuration for each step, shape (n, joints), rad.
+        passes: how often it is calmed.
+        may_move: which rows may be moved, shape (n,); None: all but the ends.
+    """
+    found = joints.copy()
+    inner = np.ones(len(joints), dtype=np.bool_) if may_move is None else may_move.copy()
+    inner[[0, -1]] = False
+    rows = np.flatnonzero(inner)
+    for _ in range(passes if len(rows) else 0):
+        found[rows] = 0.25 * found[rows - 1] + 0.5 * found[rows] + 0.25 * found[rows + 1]
+    return found

@@ -1,0 +1,146 @@
+/**
+ * A card in the stage's corner, on a phone below what is said of the rehearsal: at the time that is shown, the cloth
+ * from above beside its plan, and what the robot's camera saw last. From there can be planned.
+ */
+
+import { openDialog } from "../dialogs/dialog.js";
+import { button, byId, element } from "../dom.js";
+import { icon } from "../icons.js";
+import { say } from "../language/say.js";
+import { inWords } from "../messages/in_words.js";
+import { length } from "../messages/lengths.js";
+import { PHONE } from "../phone.js";
+import { present } from "../present.js";
+import { lookPicture, outlinesPicture } from "./pictures.js";
+import { inAWord } from "./words.js";
+
+/** @import { Look, TraceStep } from "pleat" */
+
+const INSTANT_S = 1e-3;
+/** On a lower stage the pictures are folded away until they are asked for (px). */
+const OPEN_FROM_PX = 320;
+
+export class RehearsalCard {
+  /**
+   * @param {import("../store.js").Store} store
+   * @param {import("../dock/clock.js").Clock} clock
+   * @param {import("./rehearsal.js").Rehearsal} rehearsal
+   * @param {HTMLElement} box where it stands on a phone
+   */
+  constructor(store, clock, rehearsal, box) {
+    this.store = store;
+    this.clock = clock;
+    this.rehearsal = rehearsal;
+    /** What is shown. */
+    this.shown = "";
+    /** Whether somebody chose to see the pictures, or not to; null before. @type {boolean|null} */
+    this.chosen = null;
+    this.fold = button("rehearsal-fold", () => this.toggle(), element("span", "", say("rehearsal.pictures")), icon("back"));
+    this.pictures = element("div", "rehearsal-pictures");
+    this.root = element("section", "rehearsal-card", this.fold, this.pictures);
+    this.root.setAttribute("aria-label", say("rehearsal.pictures"));
+    this.phone = matchMedia(PHONE);
+    const stand = () => {
+      (this.phone.matches ? box : byId("stage-pane")).append(this.root);
+      this.draw();
+    };
+    this.phone.addEventListener("change", stand);
+    addEventListener("resize", () => this.draw());
+    stand();
+    rehearsal.addEventListener("change", () => this.show());
+    clock.addEventListener("tick", () => this.show());
+    addEventListener("unit", () => this.draw());
+    this.show();
+  }
+
+  toggle() {
+    this.chosen = !this.isOpen;
+    this.draw();
+  }
+
+  get isOpen() {
+    return this.chosen ?? (this.phone.matches || byId("stage-pane").clientHeight >= OPEN_FROM_PX);
+  }
+
+  get steps() {
+    const { plan } = this.store.plan ?? {};
+    return plan?.id === this.rehearsal.plan ? (plan?.primitives ?? []) : [];
+  }
+
+  /** What was judged last at the time that is shown. @returns {TraceStep|null} */
+  get step() {
+    const now = this.clock.now + INSTANT_S;
+    const done = (this.rehearsal.trace?.steps ?? []).filter(({ of_plan: index }) => {
+      const step = this.steps[index];
+      return step && step.start_s + step.duration_s <= now;
+    });
+    return done.at(-1) ?? null;
+  }
+
+  /** What was seen last at that time. @returns {Look|null} */
+  get look() {
+    const now = this.clock.now + INSTANT_S;
+    const looks = (this.rehearsal.trace?.pictures ?? []).filter(({ of_plan: index }) => this.steps[index ?? -1]);
+    return looks.findLast(({ of_plan: index }) => this.steps[index ?? 0].start_s <= now) ?? looks[0] ?? null;
+  }
+
+  show() {
+    const { step, look, rehearsal } = this;
+    const all = rehearsal.trace?.pictures ?? [];
+    const wanted = rehearsal.trace ? JSON.stringify([rehearsal.run?.trace, step?.of_plan, look && all.indexOf(look)]) : "";
+    if (wanted === this.shown) return;
+    this.shown = wanted;
+    this.draw();
+  }
+
+  draw() {
+    const { step, look } = this;
+    this.root.hidden = !step && !look;
+    this.pictures.hidden = !this.isOpen;
+    this.fold.setAttribute("aria-expanded", String(this.isOpen));
+    this.fold.setAttribute("aria-label", this.isOpen ? say("rehearsal.hide_pictures") : say("rehearsal.show_pictures"));
+    this.fold.title = this.fold.getAttribute("aria-label") ?? "";
+    this.pictures.replaceChildren(...present([step && this.outlines(step), look && this.seen(look)]));
+  }
+
+  /** @param {TraceStep} step */
+  outlines(step) {
+    const verdict = this.rehearsal.verdicts.get(step.of_plan);
+    const told = verdict ? say("rehearsal.after", { step: step.of_plan + 1, verdict: inAWord(verdict) }) : "";
+    const larger = () => openDialog(told, "rehearsal-large", outlinesPicture(step), legend());
+    return figure(told, outlinesPicture(step), larger, legend());
+  }
+
+  /** @param {Look} look */
+  seen(look) {
+    const told = say("rehearsal.seen", { step: (look.of_plan ?? 0) + 1 });
+    const larger = () => openDialog(told, "rehearsal-large", lookPicture(look, true), element("p", "hint", about(look)));
+    const { start } = look;
+    const plan = button("chip", () => start && this.store.command({ do: "plan_from_state", start }), say("rehearsal.plan_from_seen"));
+    plan.title = start ? say("rehearsal.plan_from_seen_hint") : about(look);
+    plan.disabled = !start;
+    return figure(told, lookPicture(look, false), larger, element("p", "hint", about(look)), plan);
+  }
+}
+
+/** What the outlines in the picture are, or why it is not known where the cloth lies. @param {Look} look */
+function about({ known, says, reason, fit }) {
+  if (known && fit) return say("rehearsal.known", { error: length(fit.error_m) });
+  return say("rehearsal.not_known", { why: inWords({ says, message: reason ?? "" }, []) });
+}
+
+/** @param {string} told @param {SVGElement} picture @param {() => void} larger @param {...Node} below */
+function figure(told, picture, larger, ...below) {
+  const seen = button("rehearsal-picture", larger, picture);
+  seen.title = say("rehearsal.larger");
+  seen.setAttribute("aria-label", `${told}: ${say("rehearsal.larger")}`);
+  return element("figure", "", element("figcaption", "", told), seen, ...below);
+}
+
+function legend() {
+  const parts = /** @type {const} */ (["planned", "simulated", "difference"]);
+  const entries = parts.map((part) =>
+    element("span", "", element("span", `rehearsal-swatch is-${part}`), say(`rehearsal.${part}`)),
+  );
+  return element("p", "rehearsal-legend hint", ...entries);
+}

@@ -1,0 +1,98 @@
+"""The cloth of a rehearsed run on the stage: beside the plan, shaded where it is off it."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+
+from app.document import Document
+from app.drawing.draft import draft_of
+from app.drawing.garment_drawing import drawing_of
+from app.rehearsal.planned_cloth import planned_positions
+from app.rehearsal.trace import ClothAfter, RunTrace, rounded, traced
+from app.rehearsal.world import Truth
+from app.ui.stage import Stage
+from planner import Plan, Scene, load_garment, make_plan
+from planner.geometry.woven_mesh import woven_mesh
+from planner.motion.timeline import Timeline
+from planner.robots.load_robot import load_robot
+
+SLID_M = 0.03
+
+
+@pytest.fixture(scope="module")
+def stage() -> Iterator[Stage]:
+    made = Stage(load_robot("pr2").card, Scene())
+    yield made
+    made.close()
+
+
+@pytest.fixture(scope="module")
+def plan() -> Plan:
+    return make_plan(load_garment("t-shirt"))
+
+
+@pytest.fixture(scope="module")
+def trace(plan: Plan) -> RunTrace:
+    """Return a run in which the cloth lies as planned after the first fold, half of it beside that after the last."""
+    pattern, triangles = woven_mesh(plan.garment.pattern, 0.04, 1)
+    folds = [number for number, step in enumerate(plan.steps) if step.fold is not None and not step.after.held]
+    cloths = []
+    for number in (folds[0], folds[-1]):
+        after = plan.steps[number].after
+        lies = planned_positions(plan.sequence, pattern, after.done, after.placement, plan.scene.table, 0.002)
+        lies[pattern[:, 0] > np.median(pattern[:, 0]), 0] += 0.0 if number == folds[0] else SLID_M
+        cloths.append(ClothAfter(number, lies))
+    flat = planned_positions(plan.sequence, pattern, 0, plan.task.start.placement, plan.scene.table, 0.002)
+    return traced(plan, Truth(pattern, flat, triangles), [(0.0, rounded(flat))], tuple(cloths), [])
+
+
+def parts(stage: Stage) -> list[Any]:
+    return [stage.server.scene.get_handle_by_name(f"/simulated/{name}") for name in ("near", "off")]
+
+
+def test_cloth_that_is_off_its_plan_is_shaded_once_it_lies(stage: Stage, plan: Plan, trace: RunTrace) -> None:
+    line = Timeline.of(plan)
+    first, last = (plan.steps[step.of_plan] for step in trace.steps)
+    stage.show_plan(plan)
+    stage.show(line.at(first.end_s), trace)
+    near, off = parts(stage)
+    assert (near.visible, off.visible) == (True, False)
+    assert len(near.faces) == len(trace.triangles)
+    stage.show(line.at(last.end_s), trace)
+    assert (near.visible, off.visible) == (True, True)
+    assert len(near.faces) + len(off.faces) == len(trace.triangles)
+    assert len(off.faces) == pytest.approx(len(trace.triangles) / 2, rel=0.1)
+    stage.show(line.at(last.end_s - 0.5 * last.duration_s), trace)
+    assert not off.visible, "while the plan moves the cloth there is nothing to compare with"
+    stage.show(line.at(last.end_s))
+    assert (near.visible, off.visible) == (False, False)
+
+
+def test_another_plan_has_no_run_yet(stage: Stage, plan: Plan, trace: RunTrace) -> None:
+    stage.show_plan(plan)
+    stage.show(Timeline.of(plan).at(0.0), trace)
+    assert parts(stage)[0].visible
+    stage.show_plan(plan)
+    assert not parts(stage)[0].visible
+
+
+def test_a_run_is_shown_along_with_its_plan_alone(plan: Plan, trace: RunTrace) -> None:
+    document = Document(draft_of(drawing_of(load_garment("t-shirt"))))
+    document.show_trace(trace)
+    assert document.state.trace is None
+    task = document.state.task
+    assert task is not None
+    document.settle(1, task, plan, "first")
+    document.show_trace(trace)
+    assert document.state.trace is trace
+    document.plan_from(0)
+    assert document.state.trace is None
+    document.plan_from_start()
+    again = make_plan(load_garment("t-shirt"))
+    document.settle(1, task, again, "again")
+    assert document.state.trace is None
+    document.show_trace(trace)
+    document.show_trace(None)
+    assert document.state.trace is None
