@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import brentq
 
-from planner.geometry.pose import FloatArray
+from planner.geometry.pose import BoolArray, FloatArray
 from planner.geometry.tolerance import TIME_S
 from planner.motion.calmed import calmed
 from planner.motion.joint_trajectory import JointTrajectory
@@ -30,8 +30,13 @@ _CHECK_S = 0.04
 _CHECKS_MAX = 1000
 """The most moments tested: hands that take minutes for a path move less from one moment to the next."""
 
-_CALMED, _BLENDED = 3, 10
-"""How often the lines of hands that come late are calmed, and paths without stops at their corners."""
+_CALMED, _BLENDED = 3, (10, 30, 60, 120)
+"""How often the lines of hands that come late are calmed, and paths without stops at their corners: the more often, the
+further from what is known to be free.
+"""
+
+_STRAIGHT = 4
+"""Steps of a centimetre at grips that stay as they are: fingers come straight to the cloth, and leave it so."""
 
 _CUT_RAD = 0.1
 """The largest angle from one keyframe to the next on such a path (rad)."""
@@ -103,13 +108,17 @@ class TransitPlanner:
 
     def _quicker(self, free: TransitTime, tail: Line, way: FloatArray, lead: Line) -> Iterator["_Late"]:
         """Yield runs along a path that takes too long: as it is, with calm lines, and without stops at corners."""
-        calm_tail, calm_lead = (self._transits.line(calmed(line.joints, _CALMED)) for line in (tail, lead))
+        calm_tail = self._transits.line(calmed(tail.joints, _CALMED, _may_move(tail.joints, _STRAIGHT, 0)))
+        calm_lead = self._transits.line(calmed(lead.joints, _CALMED, _may_move(lead.joints, 0, _STRAIGHT)))
         for one, other in ((tail, lead), (calm_tail, calm_lead)):
             yield _Late(self._late_s(free, one, way, other), partial(self._overlapping, one, way, other))
         if not free.borders_s:
             rows = [tail.joints, *(_cut(a, b)[1:] for a, b in pairwise(way)), lead.joints[1:]]
-            line = self._transits.line(calmed(np.concatenate(rows), _BLENDED))
-            yield _Late(max(line.shortest_s - self._time_s(free), 0.0), partial(self._along, line))
+            whole = np.concatenate(rows)
+            may_move = _may_move(whole, *(_STRAIGHT if len(line.joints) > 1 else 0 for line in (tail, lead)))
+            for passes in _BLENDED:
+                line = self._transits.line(calmed(whole, passes, may_move))
+                yield _Late(max(line.shortest_s - self._time_s(free), 0.0), partial(self._along, line))
 
     def _along(self, line: Line, free: TransitTime) -> Keyframes | None:
         """Return keyframes along one line from grips to grips; None if that is not clear."""
@@ -257,6 +266,12 @@ def _joined(
 ) -> Keyframes:
     """Return keyframes on a tail, on the path from it to a lead, on that, and once more at its end."""
     return Keyframes.joined([out.later(start_s), *travel, down.later(comes_s), still])
+
+
+def _may_move(joints: FloatArray, first: int, last: int) -> BoolArray:
+    """Return which rows of a path may be moved: all but some steps at its start and at its end."""
+    numbers = np.arange(len(joints))
+    return np.asarray((numbers > first) & (numbers < len(joints) - 1 - last))
 
 
 def _cut(start: FloatArray, end: FloatArray) -> FloatArray:
