@@ -22,7 +22,7 @@ from app.rehearsal.corrections import (
     still_beside,
 )
 from app.rehearsal.eyes import Eyes, Picture, kept
-from app.rehearsal.grasp_points import inwards, laid_upon
+from app.rehearsal.grasp_points import laid_short, on_the_flap
 from app.rehearsal.judge import Gate, StepVerdict, judged
 from app.rehearsal.result import Decision
 from app.rehearsal.step_motions import posture_at, step_motions
@@ -181,15 +181,15 @@ class Performer:
     def _tried(self, motion: StepMotion, step: PlanStep, carried: Isometry, spare_m: float) -> Performed | None:
         """Perform a step, and where hands find no cloth again round their grips; None if they never find any.
 
-        Hands take the cloth some way inside of its outline, `spare_m` at most.
+        A part that moved last is taken where it lies, `spare_m` from the grips at most.
         """
-        fold, offsets = self._reflection(step, carried), inwards(self.plan, step, carried, self._stack, spare_m)
-        motion = landing_short(motion, laid_upon(self.plan, step), SHORT_M)
-        made = beside(motion, offsets, fold)
+        fold, offsets = self._reflection(step, carried), on_the_flap(step, carried, self._stack, spare_m)
+        short = landing_short(motion, laid_short(self.plan, step), SHORT_M)
+        made = beside(short, offsets, fold)
         answer = self.world.perform(made)
         missing = frozenset(arm for arm, has in answer.has_cloth.items() if not has)
         radius_m = self.plan.task.limits.comfort_radius_m
-        for made in regrasps(motion, missing, radius_m, offsets, fold) if missing else ():
+        for made in regrasps(short, missing, radius_m, offsets, fold) if missing else ():
             self._decide("regrasped", ("radius_m", radius_m))
             answer = self.world.perform(made)
             if not answer.is_missing_cloth:
@@ -200,8 +200,8 @@ class Performer:
     def _held_on(self, motion: StepMotion, step: PlanStep, carried: Isometry) -> Performed:
         """Perform a step with the hands where they hold the cloth, be that beside their grips."""
         held = {grip.arm: self._beside[grip.arm] for grip in motion.grips if grip.arm in self._beside}
-        motion = landing_short(motion, laid_upon(self.plan, step), 0.0 if self.replan is None else SHORT_M)
-        made = beside(motion, held, self._reflection(step, carried))
+        short = landing_short(motion, laid_short(self.plan, step), 0.0 if self.replan is None else SHORT_M)
+        made = beside(short, held, self._reflection(step, carried))
         self._beside = still_beside(motion, made)
         return self.world.perform(made)
 

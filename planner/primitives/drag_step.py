@@ -63,7 +63,7 @@ class DragStep:
         """The direction of the drag: a unit vector, article frame."""
         return towards_robot(self.context, self.before.station)
 
-    @property
+    @cached_property
     def grips(self) -> tuple[Grip, ...]:
         """Each hand's pick and place, from the leftmost arm to the rightmost."""
         names = self.context.reach.arm_names

@@ -53,7 +53,7 @@ class FoldStep:
         motions = 2 if self.before.held else 3
         return motions * self.context.scene.arm_motion_s + self.context.drive_s(steps)
 
-    @property
+    @cached_property
     def grips(self) -> tuple[Grip, ...]:
         """Each hand's pick, apex and place, from the leftmost arm to the rightmost."""
         picks, apexes, places = (self._tools(sweep) for sweep in (0.0, 1.0, 2.0))

@@ -7,6 +7,7 @@ from typing import Any
 
 import cv2
 import numpy as np
+import pytest
 from playwright.sync_api import Browser, Locator, Page, Route, expect
 
 from tests.app.rehearsal.test_rehearsal_routes import NAPKIN
@@ -23,7 +24,7 @@ PHONE = {"width": 390, "height": 844}
 
 def run(trace: str | None = None, **verdict: object) -> dict[str, Any]:
     step = {"step": 0, "of_plan": 0, "iou": 0.97, "mean_mm": 4.2, "p95_mm": 9.0, "slid_mm": 1.0, "held": True} | verdict
-    counts = {"regrasps": 1, "replans": 0, "reason": ""}
+    counts = {"regrasps": 1, "replans": 0, "reason": "", "decisions": []}
     return {"held": step["held"], "steps": [step], "final_iou": 0.97, "trace": trace, **counts}
 
 
@@ -130,11 +131,30 @@ def test_a_rehearsal_tells_of_each_step_what_became_of_it(page: Page, new_sheet:
     expect(said).to_contain_text("Lost at step 1: the cloth is 31 mm off on average.")
     for one in (in_row, mark):
         expect(one).to_have_text("lost")
-    expect(pill).to_contain_text("Rehearsed: lost at step 1. Planned:")
+    expect(pill).to_contain_text("Rehearsed: step 1 lost. Planned:")
     said.get_by_role("button", name="Close").click()
     for one in (in_row, mark):
         expect(one).to_have_count(0)
     expect(pill).not_to_contain_text("Rehearsed")
+
+
+@pytest.mark.parametrize(
+    ("decisions", "why"),
+    [
+        (["seen", "kept_blindly"], "before step 2: where the cloth lies was not to be made out."),
+        (["replanned"], "before step 2: from where the cloth lies there is no plan."),
+        (["replanned"] * 4, "before step 2, which failed though the rest was planned again 3 times."),
+        ([], "before the last step."),
+    ],
+)
+def test_why_a_run_ended_early_is_said(
+    page: Page, new_sheet: Callable[[Garment], Sheet], decisions: list[str], why: str
+) -> None:
+    decided = [{"step": 1, "code": code} for code in decisions]
+    ended = run() | {"held": False, "reason": "for one", "replans": decisions.count("replanned"), "decisions": decided}
+    rehearsed(page, new_sheet(napkin()), ended)
+    expect(page.locator(".rehearsing")).to_contain_text(f"The rehearsal ended {why}")
+    expect(page.locator("#status")).to_contain_text("Rehearsed: does not hold. Planned:")
 
 
 def test_a_mark_leads_to_the_end_of_its_step(page: Page, new_sheet: Callable[[Garment], Sheet]) -> None:
@@ -274,7 +294,9 @@ def test_on_a_phone_the_pictures_are_in_the_sheet(chromium: Browser, new_sheet: 
         assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
 
 
-def test_a_small_napkin_is_rehearsed(page: Page, new_sheet: Callable[[Garment], Sheet]) -> None:
+def test_a_small_napkin_is_rehearsed_and_planned_from_what_is_seen(
+    page: Page, new_sheet: Callable[[Garment], Sheet]
+) -> None:
     opened(page, new_sheet({**NAPKIN, "title": "Small napkin"})).click()
     told = "Every step holds in simulated physics"
     expect(page.locator(".rehearsing")).to_contain_text(told, timeout=SIMULATED_MS)
@@ -283,4 +305,7 @@ def test_a_small_napkin_is_rehearsed(page: Page, new_sheet: Callable[[Garment], 
     card = page.get_by_role("region", name="Pictures of the rehearsal")
     expect(card.get_by_text("After step 1")).to_be_visible()
     expect(card.get_by_text("Seen before step 1")).to_be_visible()
-    expect(card.get_by_role("button", name="Plan from what is seen")).to_be_enabled()
+    card.get_by_role("button", name="Plan from what is seen").click()
+    expect(page.locator(".start-line")).to_contain_text("Planned from the middle: nothing folded yet")
+    expect_planned(page)
+    expect(card).to_be_hidden()

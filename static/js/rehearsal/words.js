@@ -6,6 +6,8 @@ import { say } from "../language/say.js";
 
 /** A shorter slide need not be told (mm). */
 const SLID_MM = 5;
+/** So often the rest is planned again in a run before it is given up, as `app/rehearsal/perform.py` has it. */
+const REPLANS_MAX = 3;
 
 /** What became of a step. @param {Verdict} verdict @returns {"held"|"slid"|"lost"} */
 export function fateOf({ held, slid_mm: slid }) {
@@ -43,7 +45,17 @@ function oneRun(run) {
   const anew = replans && say("rehearsal.replans", { count: replans });
   const off = say("rehearsal.off", { length: worstOf(run).toFixed(0) });
   const told = [off, again, anew].filter(Boolean).join(", ");
-  return held ? say("rehearsal.all_held", { told }) : say("rehearsal.broken_off");
+  return held ? say("rehearsal.all_held", { told }) : brokenOff(run);
+}
+
+/** Why a run ended early, told by what feedback decided last. @param {Run} run */
+function brokenOff({ decisions, replans }) {
+  const last = decisions.at(-1);
+  const step = (last?.step ?? 0) + 1;
+  if (last?.code === "kept_blindly") return say("rehearsal.ended_blind", { step });
+  if (last?.code !== "replanned") return say("rehearsal.broken_off");
+  if (replans <= REPLANS_MAX) return say("rehearsal.ended_off", { step });
+  return say("rehearsal.ended_often", { step, count: REPLANS_MAX });
 }
 
 /** A run in a word. @param {Run} run */

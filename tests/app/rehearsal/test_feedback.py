@@ -15,7 +15,7 @@ from app.rehearsal.corrections import (
     regrasps,
     shift_of,
 )
-from app.rehearsal.grasp_points import INWARDS_M, inwards, laid_upon
+from app.rehearsal.grasp_points import laid_short, on_the_flap
 from app.rehearsal.judge import Gate
 from app.rehearsal.noise import Noise
 from app.rehearsal.noisy_world import NoisyWorld
@@ -73,35 +73,29 @@ def test_grips_follow_cloth_that_lies_two_centimetres_away():
             assert np.subtract(now, then) == pytest.approx([0.012, -0.016, 0.0], abs=1e-3)
 
 
-def test_corners_of_several_layers_are_taken_inside_of_the_outline_and_edges_of_one_where_they_are():
-    plan = make_plan(Task.of(load_garment("vest")))  # folded along its middle, then its lower half up, by two corners
-    along, up = plan.steps
-    assert {math.hypot(*offset) for offset in inwards(plan, along, Isometry(), None, 0.03).values()} == {0.0}
-    turn, moving = Pose2(0.0, 0.0, up.before.placement.yaw_rad), plan.sequence.moving(1)
-    offsets = inwards(plan, up, Isometry(), None, 0.03)
-    assert len(offsets) == len(up.holdings) == 2
-    for one in up.holdings:
-        x, y = (np.array(one.point) + turn.to_inner(np.array([offsets[one.arm]]))[0]).tolist()
-        assert moving.contains((x, y), 0.99 * INWARDS_M / math.sqrt(2.0))
-        assert math.hypot(*offsets[one.arm]) == pytest.approx(INWARDS_M)
-    assert inwards(plan, replace(up, details={"fold": 1, "holds": True}), Isometry(), None, 0.03) == {}
-
-
 def test_a_part_that_moved_last_is_taken_where_it_was_seen():
     # The near half was folded up at y = .25 m. With its crease 4 mm to the left of the line, towards y = 0, its edge is
     # 8 mm short. The article is turned by -90 degrees: its -y is -x of the table.
     plan = make_plan(Task.of(load_garment("letter-towel")))
     folded = FoldedOutline(plan.sequence, 0, 0)
     seen = SeenStack(Figure.of(plan.sequence.cloth(1)), folded, np.array([0, 0, 0, 0.004, 0, 0.0]), np.eye(6))
-    on_flap = replace(plan.steps[0], details={"fold": 0}, holdings=(Holding("left", (0.4, 0.5), ()),))
-    assert inwards(plan, on_flap, Isometry(), seen, 0.03)["left"] == pytest.approx((-0.008, 0.0), abs=1e-6)
-    assert inwards(plan, on_flap, Isometry(), seen, 0.0)["left"] == pytest.approx((0.0, 0.0))
+    step = replace(plan.steps[0], holdings=(Holding("left", (0.4, 0.5), ()), Holding("right", (0.1, 0.1), ())))
+    offsets = on_the_flap(step, Isometry(), seen, 0.03)
+    assert offsets["left"] == pytest.approx((-0.008, 0.0), abs=1e-6)
+    assert offsets["right"] == (0.0, 0.0)  # not on the part that moved
+    assert on_the_flap(step, Isometry(), seen, 0.0)["left"] == pytest.approx((0.0, 0.0))
+    assert on_the_flap(step, Isometry(), None, 0.03) == {}
 
 
-def test_an_edge_laid_upon_the_stack_lands_short_and_one_at_the_outline_where_it_should():
+def test_an_edge_laid_short_the_stack_or_lifted_again_lands_short_and_one_at_the_outline_where_it_should():
     plan = make_plan(Task.of(load_garment("letter-towel")))
-    assert laid_upon(plan, plan.steps[0]) == frozenset()  # edge upon edge
-    assert laid_upon(plan, plan.steps[1]) == {"left", "right"}  # from y = .5 back to .28 m; the stack begins at .25 m
+    blue, red = plan.steps
+    assert laid_short(plan, blue) == {"left", "right"}  # edge upon edge, but the same hands lift it again
+    assert laid_short(plan, replace(blue, details={"fold": 0})) == frozenset()
+    assert laid_short(plan, red) == frozenset()  # it goes on from there
+    scarf, vest = (make_plan(Task.of(load_garment(name))) for name in ("scarf", "vest"))  # quarters, and halves
+    for folded, is_short in ((scarf, True), (vest, False)):
+        assert {bool(laid_short(folded, step)) for step in folded.steps if step.fold is not None} == {is_short}
     red = step_motions(plan)[1]
     for grip, former in zip(landing_short(red, frozenset({"left"}), SHORT_M).grips, red.grips, strict=True):
         assert grip.points[0] == former.points[0]
@@ -182,7 +176,7 @@ def test_a_hand_that_took_the_cloth_beside_its_grip_holds_it_there_in_the_red_fo
     for before, after in zip(blue.grips, red.grips, strict=True):
         assert math.dist(before.points[-1][:2], after.points[0][:2]) < 1e-3
     offsets = [math.dist(a.points[-1], b.points[-1]) for a, b in zip(red.grips, planned[1].grips, strict=True)]
-    # The miss was tried again 1 cm further in, so that hand ends 1 cm less far; both land short.
+    # The miss was tried again 1 cm further in: that hand ends 1 cm less far. Both have laid the edge down short.
     assert sorted(offsets) == pytest.approx([SHORT_M, 0.01 + SHORT_M], abs=2e-3)
 
 
