@@ -1,12 +1,17 @@
 """The joint paths of a transfer."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from planner.geometry.pose import FloatArray
+from planner.motion.calmed import calmed
 from planner.motion.leads import Cloths, Lines
 from planner.motion.moments import Moments
+from planner.motion.robot_port import Collisions
+
+_CALMED = 30
+"""How often joints are calmed while a base drags."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -37,6 +42,18 @@ class Carried:
     def last(self) -> int:
         """The step of the last of the moments, at which the hands let go."""
         return self.first + len(self.moments) - 1
+
+    def calmed(self, collisions: Collisions) -> "Carried":
+        """Return it without the kinks that slow it down where all tools stand still, seen from the base: in drags.
+
+        It stays as it is where the joints would touch something.
+        """
+        is_still = np.zeros(len(self.joints), dtype=np.bool_)
+        is_still[self.first : self.last + 1] = self.moments.is_still
+        joints = calmed(self.joints, _CALMED, is_still)
+        if not is_still.any() or not collisions.are_all_free(self.bases[is_still], joints[is_still]):
+            return self
+        return replace(self, joints=joints)
 
     def guides(self, first: int, moments: Moments, steps: int) -> FloatArray:
         """Return its joints as guides for a transfer that differs a little, shape (steps, joints).

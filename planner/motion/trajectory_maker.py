@@ -73,6 +73,7 @@ def _gripper_track(arm: ArmCard, times_s: Sequence[float], openings_m: Sequence[
         since = since[np.append(np.diff(since) > TIME_S, True)]
         curve = CubicHermiteSpline(run.times_s, run.fractions, run.rates)
         opened, faster = start + curve(since) * (end - start), curve(since, 1) * (end - start)
+        opened[-1] = end  # but for rounding it is there
         keyframes += zip((begin + since).tolist(), opened.tolist(), faster.tolist(), strict=True)
     times, openings, rates = (tuple(column) for column in zip(*keyframes, strict=True))
     positions = tuple(hand.angle(opening) for opening in openings)

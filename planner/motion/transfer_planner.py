@@ -11,7 +11,6 @@ from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.table import Table
 from planner.geometry.tolerance import TIME_S
 from planner.motion.blocking_contacts import BlockingContacts
-from planner.motion.calmed import calmed
 from planner.motion.carried import Carried
 from planner.motion.joint_trajectory import finger_run_s
 from planner.motion.line import Line
@@ -28,15 +27,11 @@ from planner.motion.tries import QUICK, Tries
 from planner.primitives.context import Context
 from planner.primitives.obstacle import BlockingContact
 from planner.primitives.primitive import Step
-from planner.robots.joint_layout import JointLayout
 from planner.robots.tool_path import NoPath
 from planner.task.phase import Phase
 
 MARGIN_M = 0.001
 """The distance kept between bodies that must not touch, at the moments tested (m)."""
-
-_CALMED = 30
-"""How often joints are calmed while a base drags."""
 
 _HALF = 0.5
 """The share of a reach's time, fingers closed, in which hands must be able to go home after the transfer before."""
@@ -89,7 +84,7 @@ class TransferPlanner:
         self._contacts = BlockingContacts(machine, collisions, scene.torso_m, scene.table.height_m)
         self.dwell_s = max(scene.grip_dwell_s, *(finger_run_s(arm.gripper) for arm in machine.card.arms))
         self._cloths = LyingCloths(context, collisions)
-        self._limits = _limits(self.transits.layout, context, self.dwell_s)
+        self._limits = TransferLimits.of(self.transits.layout, context.drive_time, self.dwell_s)
 
     def validated(self, steps: Sequence[Step], tries: Tries = QUICK) -> Transfer | None:
         """Return the transfer of a few primitives, none but the last of which lets go; None if none was found."""
@@ -186,24 +181,12 @@ class TransferPlanner:
     def _transfer(self, candidate: "Candidate", carried: Carried | NoPath) -> Transfer | None:
         if isinstance(carried, NoPath):
             return None
-        carried = self._calmed(carried)
+        carried = carried.calmed(self._collisions)
         joints, first, last = carried.joints, carried.first, carried.last
         timing = TransferTiming.of(candidate.carrying, candidate.moments, joints[first : last + 1], self._limits)
         lead, tail = self.transits.line(joints[: first + 1]), self.transits.line(joints[last:])
         reach = self._reach(candidate.steps, carried, lead, tail, timing.borrowed_s)
         return None if reach is None else Transfer(candidate.steps, carried, timing, lead, tail, reach)
-
-    def _calmed(self, carried: Carried) -> Carried:
-        """Return a transfer's joints without the kinks that slow it down where all tools stand still.
-
-        Seen from the base, that is: while it drags.
-        """
-        is_still = np.zeros(len(carried.joints), dtype=np.bool_)
-        is_still[carried.first : carried.last + 1] = carried.moments.is_still
-        joints = calmed(carried.joints, _CALMED, is_still)
-        if not is_still.any() or not self._collisions.are_all_free(carried.bases[is_still], joints[is_still]):
-            return carried
-        return replace(carried, joints=joints)
 
     def _moments(self, phases: Sequence[Phase]) -> Moments:
         return moments_of(phases, self._context.scene.table.height_m)
@@ -248,13 +231,6 @@ class TransferPlanner:
             return None
         lines = (way, *(line.joints for line in (tail, lead) if line is not None))
         return sum(float(needed_s(line, self.transits.layout.speeds_rad_s).sum()) for line in lines)
-
-
-def _limits(layout: JointLayout, context: Context, rest_s: float) -> TransferLimits:
-    time = context.drive_time
-    base = (time.speed_m_s, time.speed_m_s, time.turn_rad_s)
-    hard = (time.acceleration_m_s2, time.acceleration_m_s2, time.turn_acceleration_rad_s2)
-    return TransferLimits(np.append(layout.speeds_rad_s, base), np.append(layout.accelerations, hard), rest_s)
 
 
 @lru_cache(maxsize=4)

@@ -17,6 +17,8 @@ from planner.motion.moments import Moments
 from planner.motion.pacing import needed_s, paced_s
 from planner.motion.path_timing import UNBOUNDED, PathTiming, timed
 from planner.motion.timed_phase import TimedPhase
+from planner.primitives.drive_time import DriveTime
+from planner.robots.joint_layout import JointLayout
 from planner.task.phase import Phase
 
 Carrying = Sequence[tuple[int, Phase]]
@@ -39,6 +41,13 @@ class TransferLimits:
     speeds: FloatArray
     accelerations: FloatArray
     rest_s: float
+
+    @staticmethod
+    def of(layout: JointLayout, time: DriveTime, rest_s: float) -> "TransferLimits":
+        """Return the limits of arms and of a base, and the time that fingers take (s)."""
+        base = (time.speed_m_s, time.speed_m_s, time.turn_rad_s)
+        hard = (time.acceleration_m_s2, time.acceleration_m_s2, time.turn_acceleration_rad_s2)
+        return TransferLimits(np.append(layout.speeds_rad_s, base), np.append(layout.accelerations, hard), rest_s)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

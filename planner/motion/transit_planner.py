@@ -11,7 +11,6 @@ from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
-from scipy.optimize import brentq
 
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.geometry.tolerance import TIME_S
@@ -20,6 +19,7 @@ from planner.motion.joint_trajectory import JointTrajectory
 from planner.motion.line import Keyframes, Line
 from planner.motion.transit_paths import TransitPaths
 from planner.motion.transit_time import TransitTime
+from planner.motion.travel import led_along, quickest_lines
 
 _LEAD_S, _TAIL_S = 0.8, 0.6
 """The time in which hands come straight to their grips and withdraw, if there is enough of it (s)."""
@@ -167,7 +167,7 @@ class TransitPlanner:
         spare = max(arrives - free.start_s - (tail.shortest_s + lead.shortest_s + float(needed.sum())), 0.0)
         leaves = free.start_s + max(tail.shortest_s, min(tail_s, tail.shortest_s + spare / 4))
         comes = arrives - max(lead.shortest_s, min(_LEAD_S, lead.shortest_s + spare / 4))
-        travel = self._travel(way, needed, (leaves, comes), free.borders_s)
+        travel = led_along(self._transits, way, needed, (leaves, comes), free.borders_s)
         if travel is None:
             return None
         out, down = tail.over(leaves - free.start_s), lead.over(arrives - comes)
@@ -207,58 +207,13 @@ class TransitPlanner:
         comes = waited.end_s - self._dwell_s - lead.shortest_s
         begins = comes - float(ways.back_s.sum())
         travel = [
-            *self._lines(ways.away, ways.leave_s, waited.start_s + tail.shortest_s),
+            *quickest_lines(self._transits, ways.away, ways.leave_s, waited.start_s + tail.shortest_s),
             Keyframes.still(ways.away[-1], begins),
-            *self._lines(ways.back, ways.back_s, begins),
+            *quickest_lines(self._transits, ways.back, ways.back_s, begins),
         ]
         still = Keyframes.still(lead.joints[-1], waited.end_s)
         out, down = tail.over(tail.shortest_s), lead.over(lead.shortest_s)
         return waited, _joined(waited.start_s, out, travel, comes, down, still)
-
-    def _travel(
-        self, way: FloatArray, needed: FloatArray, span: tuple[float, float], borders_s: tuple[float, ...]
-    ) -> list[Keyframes] | None:
-        """Return keyframes along a path within a span of time, each of its lines from rest to rest.
-
-        The hands rest where one step of the plan ends and the next begins; None if there is no time for that.
-        """
-        (start, end), total = span, float(needed.sum())
-        within = [border for border in borders_s if start + TIME_S < border < end - TIME_S]
-        if any(border < start - TIME_S or border > end + TIME_S for border in borders_s):
-            return None
-        if total <= 0.0:
-            return [Keyframes.still(way[-1], end)]
-        begins = start + (end - start) * np.append(0.0, np.cumsum(needed)) / total
-        found: list[Keyframes] = []
-        for (a, b), begin, until in zip(pairwise(way), begins, begins[1:], strict=False):
-            for border in (border for border in within if begin + TIME_S < border < until - TIME_S):
-                middle = self._middle(a, b, border - begin, until - border)
-                if self._least_s(a, middle) > border - begin or self._least_s(middle, b) > until - border:
-                    return None
-                found.append(self._transits.eased(a, middle, border - begin).later(begin))
-                a, begin = middle, border
-            found.append(self._transits.eased(a, b, until - begin).later(begin))
-        return found
-
-    def _middle(self, start: FloatArray, end: FloatArray, before_s: float, after_s: float) -> FloatArray:
-        """Return where on a line to rest so that the ways before and after take equal shares of their times."""
-
-        def hurry(share: float) -> float:
-            middle = start + share * (end - start)
-            return self._least_s(start, middle) * after_s - self._least_s(middle, end) * before_s
-
-        return np.asarray(start + brentq(hurry, 0.0, 1.0) * (end - start))
-
-    def _least_s(self, start: FloatArray, end: FloatArray) -> float:
-        return float(self._transits.needed_s(np.array([start, end])).sum())
-
-    def _lines(self, way: FloatArray, needed: FloatArray, start_s: float) -> list[Keyframes]:
-        """Return keyframes along a path, each of its lines as quickly as it can be."""
-        begins = start_s + np.append(0.0, np.cumsum(needed))
-        return [
-            self._transits.eased(a, b, need).later(begin)
-            for (a, b), begin, need in zip(pairwise(way), begins, needed.tolist(), strict=False)
-        ]
 
 
 def _joined(

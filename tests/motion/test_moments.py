@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 from planner.geometry.pose import Approach, FloatArray, Point3, Pose2
 from planner.geometry.table import Table
 from planner.geometry.table_top import TableTop
-from planner.motion.moments import Moments, moments_of
+from planner.motion.moments import Moments, forget_moments, moments_of
 from planner.motion.phase_shares import STEP_M, STEP_RAD
 from planner.motion.transfer import is_carrying
 from planner.task.phase import ClothMotion, Hand, Phase
@@ -63,6 +63,17 @@ def test_only_where_a_hand_rolls_are_there_more_moments():
     points = tuple((-0.35, 0.2, 0.02 + 0.005 * i) for i in range(5))
     moments = moments_of([phase(holding(*points, rolls_rad=(0.0, 0.0, 0.0, 0.0, 0.2)))], HEIGHT_M)
     assert moments.fractions == pytest.approx([0.0, 0.25, 0.5, 0.75, 0.8125, 0.875, 0.9375, 1.0])
+
+
+def test_equal_phases_have_the_same_moments_until_they_are_forgotten():
+    there = (-0.3, 0.2, 0.12)
+    found = moments_of([phase(holding(HERE, there))], HEIGHT_M)
+    assert moments_of([phase(holding(HERE, there))], HEIGHT_M) is found
+    assert moments_of([phase(holding(HERE, there))], HEIGHT_M, only_ends=True) is not found
+    forget_moments()
+    again = moments_of([phase(holding(HERE, there))], HEIGHT_M)
+    assert again is not found
+    np.testing.assert_array_equal(again.positions, found.positions)
 
 
 def test_where_only_ends_are_wanted_they_are_those_of_all_moments():

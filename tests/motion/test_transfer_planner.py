@@ -50,7 +50,7 @@ def test_no_two_ways_of_a_fold_have_the_same_motion():
 
 
 def test_ways_that_cannot_be_quicker_than_one_that_was_found_are_not_led(monkeypatch: pytest.MonkeyPatch):
-    maker, first, _ = some_fold(arm_motion_s=1.0)
+    maker, first, _ = some_fold(arm_motion_s=1.4)
     quick = maker.validated(first, replace(QUICK, ways=1))
     assert quick is not None and quick.is_late
     takes_s, led, made = sum(quick.durations_at_most_s()), [], maker.made

@@ -172,3 +172,18 @@ def test_the_best_approaches_are_taken_where_the_base_need_not_drive():
         found = reach.following((0,), path[None], (allowed,), STEP_M).least_driving(begun)
         assert found.ends == [0] and found.steps[0] == 0
         assert found.approaches(0, (allowed,)) == (first,)
+
+
+def test_what_other_plans_have_asked_is_answered_and_charged_as_if_nobody_had():
+    some, others = cases(31, 12), cases(32, 12)
+    fresh = ROBOT.reach(TORSO_M, 0.03, is_passing=True)
+    expected = [asked(fresh, case) for case in some]
+    before = ROBOT.reach(TORSO_M, 0.03)
+    for case in (*others, *some):
+        asked(before, case)
+    before.forget()
+    again = ROBOT.reach(TORSO_M, 0.03)
+    assert again.queries == 0
+    for case, driving in zip(some, expected, strict=True):
+        np.testing.assert_array_equal(asked(again, case).steps, driving.steps)
+    assert again.queries == fresh.queries > 0
