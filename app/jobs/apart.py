@@ -93,9 +93,9 @@ class _Template:
 _template = _Template()
 
 
-def start_template() -> Future[None]:
-    """Start the template process, so that the first work does not wait for it; return the end of its loading."""
-    return _template.loading()
+def start_template() -> None:
+    """Start the template process, so that the first work does not wait for it."""
+    _template.loading()
 
 
 def template_problem() -> str | None:
@@ -170,7 +170,7 @@ def run_apart(
 
 
 def _wait_until_loaded(should_stop: ShouldStop) -> None:
-    loading = start_template()
+    loading = _template.loading()
     while True:
         try:
             return loading.result(_LOOK_EVERY_S)

@@ -82,11 +82,7 @@ class JobPool:
     """Runs jobs in the order in which they arrive."""
 
     def __init__(
-        self,
-        workers: int | None = None,
-        waiting_max: int | None = None,
-        courtesy: Courtesy | None = None,
-        ready: Callable[[], Future[None]] | None = None,
+        self, workers: int | None = None, waiting_max: int | None = None, courtesy: Courtesy | None = None
     ) -> None:
         """Start no thread before the first job.
 
@@ -94,12 +90,10 @@ class JobPool:
             workers: the number of jobs to run at once; by default the number of cores.
             waiting_max: the number of jobs that may wait; None for no limit.
             courtesy: tells when the jobs have to wait for short work.
-            ready: returns what must have ended before a job begins, well or not; until then the job waits its turn.
         """
         self._workers = workers or os.cpu_count() or 1
         self._waiting_max = waiting_max
         self._courtesy = courtesy or Courtesy()
-        self._ready = ready
         self._jobs: queue.SimpleQueue[Job[Any] | None] = queue.SimpleQueue()
         self._open: set[Job[Any]] = set()
         self._threads: list[threading.Thread] = []
@@ -185,18 +179,8 @@ class JobPool:
 
     def _run(self) -> None:
         while (job := self._jobs.get()) is not None:
-            self._until_ready(job)
             began_s = time.monotonic()
             job.run()
             with self._lock:
                 self._ended += 1
                 self._mean_s += _NEWS_SHARE * (time.monotonic() - began_s - self._mean_s)
-
-    def _until_ready(self, job: Job[Any]) -> None:
-        """Wait until a job may begin, or has been stopped."""
-        if self._ready is None:
-            return
-        either = threading.Event()
-        for awaited in (job.future, self._ready()):
-            awaited.add_done_callback(lambda _: either.set())
-        either.wait()

@@ -12,7 +12,6 @@ Each lane has its own workers and its own queue, which is limited where clients 
 import os
 import time
 
-from app.jobs.apart import start_template
 from app.jobs.courtesy import Courtesy
 from app.jobs.job_pool import PATIENCE_S, JobPool
 
@@ -34,9 +33,8 @@ class Lanes:
         self.courtesy = Courtesy()
         self.quick = JobPool(waiting_max=QUICK_WAITING_MAX)
         self.files = JobPool(waiting_max=FILES_WAITING_MAX, courtesy=self.courtesy)
-        self.searches = JobPool(waiting_max=SEARCHES_WAITING_MAX, ready=start_template)
-        fewer = max(1, (os.cpu_count() or 1) - 1)
-        self.jobs = JobPool(workers=fewer, waiting_max=JOBS_WAITING_MAX, ready=start_template)
+        self.searches = JobPool(waiting_max=SEARCHES_WAITING_MAX)
+        self.jobs = JobPool(workers=max(1, (os.cpu_count() or 1) - 1), waiting_max=JOBS_WAITING_MAX)
         self.live = JobPool(courtesy=self.courtesy)
 
         self._pools = (self.quick, self.files, self.searches, self.jobs, self.live)

@@ -7,7 +7,7 @@ import os
 import signal
 from importlib import import_module
 
-NICENESS = 10
+NICENESS = 5
 """Niceness of the work: the server comes first, because users wait for it while they drag."""
 
 _HELD = ("app.cli", "app.searches")

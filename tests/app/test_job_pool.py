@@ -1,5 +1,4 @@
 import threading
-from concurrent.futures import Future
 
 import pytest
 
@@ -43,20 +42,6 @@ def test_a_stopped_job_is_told_and_one_that_waits_never_begins() -> None:
     first.stop()
     assert told.wait(5.0)
     assert second.future.cancelled()
-
-
-def test_no_job_begins_before_what_it_needs_is_there_and_a_stopped_one_leaves_at_once() -> None:
-    loaded: Future[None] = Future()
-    pool = JobPool(workers=1, ready=lambda: loaded)
-    stopped, wanted = pool.start(lambda _: "begun"), pool.start(lambda _: "begun")
-    stopped.stop()
-    with pytest.raises(TimeoutError):
-        wanted.future.result(0.05)
-    assert not wanted.future.running()
-    loaded.set_exception(ValueError("not loaded"))  # whoever needs it finds that out
-    assert wanted.future.result(5.0) == "begun"
-    assert stopped.future.cancelled()
-    pool.close()
 
 
 def test_closing_the_pool_stops_everything() -> None:

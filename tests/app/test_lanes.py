@@ -4,7 +4,6 @@ import asyncio
 import signal
 import time
 from collections.abc import AsyncIterator
-from concurrent.futures import Future
 from contextlib import asynccontextmanager, suppress
 from pathlib import Path
 from typing import Any
@@ -70,17 +69,6 @@ async def test_a_plan_whose_time_is_up_before_its_turn_is_told_when_to_come_agai
             assert answer.status_code == 503, path
             assert answer.headers["content-type"] == "application/problem+json"
             assert int(answer.headers["retry-after"]) >= 1
-
-
-async def test_a_plan_whose_time_is_up_while_the_planner_is_loaded_is_told_when_to_come_again(
-    client: httpx.AsyncClient, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    lanes = client._transport.app.state.workspace.lanes  # type: ignore[attr-defined]
-    monkeypatch.setattr(lanes.searches, "_ready", Future)
-    async with asyncio.timeout(30.0):
-        answer = await client.post("/api/plans", json={"garment": "hand-towel", "time_limit_s": 0.1})
-    assert answer.status_code == 503
-    assert int(answer.headers["retry-after"]) >= 1
 
 
 async def test_a_full_queue_is_told_at_once(client: httpx.AsyncClient) -> None:

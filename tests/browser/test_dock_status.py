@@ -115,7 +115,7 @@ def test_where_a_quicker_plan_may_exist_that_is_told_with_what_any_takes(
 ) -> None:
     page.route_web_socket("**/live", out_of_time)
     # It lies where joints take no longer than the cost model says: in the end it is known that nothing is quicker.
-    proven = napkin(placement={"x_m": -0.68, "y_m": -0.2, "yaw_rad": 0.0})
+    proven = napkin(placement={"x_m": -0.6, "y_m": -0.2, "yaw_rad": 0.0})
     page.goto(new_sheet(proven).page_url)
     numbers = page.get_by_role("region", name="Numbers")
     expect(numbers).to_contain_text("There may be a quicker plan; none takes less than 6.5 s.")
