@@ -252,8 +252,8 @@ def test_more_stations_stand_beside_the_table_and_face_it(count: int):
 def test_growth_is_measured_and_drawn(tmp_path: Path):
     report = growth([], 1)
     rows = {(row["grows"], row["series"]): row for row in written(report, tmp_path)["rows"]}
-    # Nothing but two folds to be done, one after the other: two states are expanded, 9 s each. Between them one arm goes
-    # home and the other comes, for which the reach of the second takes a little longer.
+    # Nothing but two folds to be done, one after the other: two states are expanded, 9 s each. Between them one arm
+    # goes home and the other comes, for which the reach of the second takes a little longer.
     chained = rows["folds", "ribbon rolled up"]
     assert (chained["status"], chained["expanded"]) == ("solved", 2)
     assert 18.0 - 1e-9 <= chained["cost_s"] < 20.0

@@ -7,12 +7,13 @@ import pytest
 
 from app.api.job_answers import JobAnswer, JobEntry, JobsAnswer
 from tests.app.conftest import Served
+from tests.app.samples import towel
 from tests.app.test_described_answers import assert_described
 from tests.app.test_suggestion_routes import STUCK, events_in
 
 pytestmark = pytest.mark.anyio
 
-MAP = {"garment": "hand-towel", "step_m": 1.0, "time_limit_s": 60.0}
+MAP = {"garment": towel(), "step_m": 1.0, "time_limit_s": 60.0}
 LONG = {"garment": "shirt", "step_m": 0.02, "time_limit_s": 60.0}
 
 

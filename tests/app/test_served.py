@@ -157,7 +157,7 @@ def test_a_client_that_goes_away_stops_its_search(served: Served) -> None:
     start = time.monotonic()
     answer = REST.post(f"{served.url}/api/plans", json={"garment": towel(folds=many)}, timeout=PATIENCE_S)
     assert answer.status_code == 200
-    assert time.monotonic() - start < 10.0
+    assert time.monotonic() - start < 30.0
 
 
 def test_ctrl_c_ends_it_whatever_is_open(tmp_path: Path) -> None:
