@@ -19,7 +19,7 @@ def firm() -> FoundPlan:
     """Return a plan of the vest with as many hands as hold it firmly, by arms whose paths take longer than a motion."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(path_search, "with_fewer_hands", lambda acts, *_: tuple(acts))
-        return find_plan(Task.of(load_garment("vest"), Scene(arm_motion_s=1.0)))
+        return find_plan(Task.of(load_garment("vest"), Scene(arm_motion_s=1.3)))
 
 
 def hands(acts: tuple[Act, ...]) -> int:
