@@ -18,12 +18,12 @@ from tests.laws.tasks import plain_task
 SECOND = 1e-6
 
 JOINT_SECOND = 0.01
-"""The tolerance of costs that joints decide (s): they turn at about 1 rad/s after cloth that lies on a grid of 1 um, and
-how soon empty hands come may follow from which of two ways alike they take.
+"""The tolerance of costs that joints decide (s): they turn at about 1 rad/s after cloth on a grid of 1 um, and
+how soon empty hands come may follow from which of two like ways they take.
 """
 
 LATE_S = 0.5
-"""What empty hands may need beyond the model (s): the search does not know it, and may find that plan among its equals."""
+"""What empty hands may need beyond the model (s): the search does not know it, and may take such a plan of equals."""
 
 A_THOUSANDTH = 1e-3
 """The tolerance of costs: in another frame cloth lies up to half a micrometre aside, and joint times follow it."""
