@@ -2,12 +2,10 @@
 
 All threads of a process share one interpreter. A search that runs beside an edit takes it over each time the edit calls
 into a library, so an edit of 10 ms takes 100 ms. Searches ask often whether to stop; there they wait while any short
-work is in progress. Until they ask, they hand the interpreter over as soon as the short work wants it back. While short
-work keeps coming, as when a hand moves, they also take turns, one at a time: each of them would keep the next edit from
-the interpreter until it asks again.
+work is in progress. While short work keeps coming, as when a hand moves, they also take turns, one at a time: each of
+them would keep the next edit from the interpreter until it asks again.
 """
 
-import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -18,14 +16,6 @@ GIVE_WAY_S = 0.1
 
 RECENT_S = 0.5
 """Time after short work for which more of it is expected (s)."""
-
-
-SWITCH_S, SWITCH_SOON_S = 1e-4, 2e-6
-"""Time for which a thread keeps the interpreter when another wants it, by default and during short work (s).
-
-A request changes threads several times and waits that long for a running search each time; Python's default of 5 ms
-would be noticeable. Short work calls into libraries some hundred times, and waits each time.
-"""
 
 
 class Courtesy:
@@ -48,7 +38,6 @@ class Courtesy:
         with self._lock:
             self._count += 1
             self._is_free.clear()
-            sys.setswitchinterval(SWITCH_SOON_S)
         try:
             yield
         finally:
@@ -57,7 +46,6 @@ class Courtesy:
                 self._recent_until_s = self._clock() + RECENT_S
                 if not self._count:
                     self._is_free.set()
-                    sys.setswitchinterval(SWITCH_S)
 
     def give_way(self) -> None:
         """Wait while short work is in progress, up to `GIVE_WAY_S`."""

@@ -10,7 +10,6 @@ import uvicorn
 from starlette.applications import Starlette
 
 from app.api.create_app import create_app
-from app.jobs.courtesy import SWITCH_S
 from app.server.log import logging_to, standard_error
 from app.server.timed_protocol import TimedProtocol
 from app.settings import Settings
@@ -22,6 +21,14 @@ _LARGEST_MESSAGE = 4 << 20
 
 _GRACE_S = 1
 """Time for open requests to end at shutdown (s)."""
+
+_SWITCH_S = 0.0001
+"""Time for which a thread keeps the interpreter (s).
+
+A request changes threads several times and waits that long for a running search each time; Python's default of 5 ms
+would be noticeable.
+"""
+
 
 _Address: TypeAlias = tuple[socket.AddressFamily, tuple[Any, ...]]
 
@@ -61,7 +68,7 @@ def serve(settings: Settings, announce: Callable[[str, str | None], None]) -> No
         NoDriverError: its library is not installed.
         NewerDatabaseError: a newer version of Pleat has changed its tables.
     """
-    sys.setswitchinterval(SWITCH_S)
+    sys.setswitchinterval(_SWITCH_S)
     address = _address(settings)
     with DataFolder(settings.data).held() as tell_others, _listening(address) as listener:
         token, made = _token(settings, address)
