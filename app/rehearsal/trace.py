@@ -21,7 +21,7 @@ from planner.task.plan_step import PlanStep
 from planner.task.world_state import WorldState
 
 UNIT_M = 1e-4
-"""What positions are rounded to (m)."""
+"""The unit in which positions are kept as whole numbers (m)."""
 
 _NUMBERS_MAX = 2_000_000
 """Coordinates of all frames of a run at most, two bytes each; of longer runs frames are left out evenly."""

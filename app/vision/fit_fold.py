@@ -97,7 +97,7 @@ class FoldedOutline:
 
     @cached_property
     def landed(self) -> Region:
-        """What the part that moved covers where it should lie."""
+        """The region that the part moved by the last fold covers where it should lie."""
         return self._moving.moved(Isometry.reflection(self._line))
 
     @property

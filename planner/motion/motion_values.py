@@ -1,4 +1,4 @@
-"""What moves in a plan as columns of numbers, in the order of `MotionLimits.names`, with derivatives by time."""
+"""The moving parts of a plan as columns of numbers, in the order of `MotionLimits.names`, with derivatives by time."""
 
 import numpy as np
 

@@ -26,13 +26,13 @@ from planner.geometry.pose import BoolArray, FloatArray
 from planner.motion.path_paces import quickest_paces, slopes
 
 EXCESS = 1.02
-"""What an acceleration may be, as a share of its limit: the planned time of a drive is that of an exact ramp."""
+"""The greatest acceleration as a share of its limit: the planned time of a drive is that of an exact ramp."""
 
 _ASKED = 1.01
 """The accelerations with which a run is sought, as a share of the limits."""
 
 _ROUNDING = 1.0 + 1e-9
-"""What a speed may be, as a share of its limit."""
+"""The greatest speed as a share of its limit."""
 
 _ROUNDS = 30
 """Times that paces are lowered where accelerations are too great, before the whole group is stretched."""
