@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import islice, product
+from itertools import chain, islice, product
 
 from planner.motion.leads import Cloths
 from planner.motion.moments import Moments
@@ -60,9 +60,25 @@ class BlockedMoments:
 
 
 def ways_of(steps: Sequence[Step], tries: Tries) -> Iterator[tuple[Step, ...]]:
-    """Yield the steps, then combinations of their variants, up to the number of tries; variants take time to find."""
+    """Yield the steps, then combinations of their variants, up to the number of tries; variants take time to find.
+
+    Those in which the hands of the first step are turned as the second needs them come before others: such hands need
+    not turn in their grip, and the first few variants of both may have no turn in common.
+    """
     yield tuple(steps)
-    yield from islice(product(*(islice(step.variants(), tries.variants) for step in steps)), 1, tries.ways)
+    yield from islice(_others(steps, tries), tries.ways - 1)
+
+
+def _others(steps: Sequence[Step], tries: Tries) -> Iterator[tuple[Step, ...]]:
+    """Yield the combinations of variants but for the steps themselves, each once."""
+    choices = [tuple(islice(step.variants(), tries.variants)) for step in steps]
+    seen = {motion_of(steps)}
+    alike = ((one, *rest) for rest in product(*choices[1:]) if rest for one in steps[0].turned(rest[0].turns))
+    for way in chain(alike, product(*choices)):
+        key = motion_of(way)
+        if key not in seen:
+            seen.add(key)
+            yield way
 
 
 def motion_of(steps: Sequence[Step]) -> tuple[object, ...]:

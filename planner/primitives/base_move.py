@@ -6,7 +6,7 @@ station's heading and drives in. Each of these legs goes from rest to rest.
 """
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property, partial
 from typing import Any
@@ -78,6 +78,15 @@ class MoveStep:
     def variants(self) -> Iterable["MoveStep"]:
         """Return this step alone: there is no other route."""
         return (self,)
+
+    @property
+    def turns(self) -> Mapping[int, int]:
+        """Nothing: the hands are empty."""
+        return {}
+
+    def turned(self, _turns: Mapping[int, int]) -> Iterable["MoveStep"]:
+        """Return nothing: the hands are empty."""
+        return ()
 
     def with_fewer_hands(self) -> Iterable["MoveStep"]:
         """Return nothing: a move takes no hands."""

@@ -1,6 +1,6 @@
 """A drag as a step of a plan."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import islice
@@ -119,6 +119,18 @@ class DragStep:
             if approaches != chosen:
                 yield replace(self, approaches=approaches)
 
+    @property
+    def turns(self) -> Mapping[int, int]:
+        """The number of each arm's approach."""
+        return dict(zip(self.way.arms, self._chosen, strict=True))
+
+    def turned(self, turns: Mapping[int, int]) -> Iterator["DragStep"]:
+        """Yield the drag with the hands in given approaches, if they can be and are not."""
+        approaches = tuple(turns.get(arm, -1) for arm in self.way.arms)
+        is_able = all(turn in able for turn, able in zip(approaches, self._able(), strict=True))
+        if is_able and approaches != self._chosen:
+            yield replace(self, approaches=approaches)
+
     def with_fewer_hands(self) -> Iterator["DragStep"]:
         """Yield nothing: the other hands that drag alike are ways of their own."""
         yield from ()
@@ -184,11 +196,7 @@ class DragStep:
     def _turned_alike(self, other: "DragStep") -> Iterator["DragStep"]:
         """Yield another drag, first with its hands turned as here if they can be and it prefers another turn."""
         if other.first_stand == self.first_stand:
-            turned = dict(zip(self.way.arms, self._chosen, strict=True))
-            same = tuple(turned.get(arm, -1) for arm in other.way.arms)
-            is_preferred = same == other._chosen
-            if not is_preferred and all(turn in able for turn, able in zip(same, other._able(), strict=True)):
-                yield replace(other, approaches=same)
+            yield from other.turned(self.turns)
         yield other
 
     def _hands(self, *, is_reaching: bool) -> tuple[Hand | None, ...]:

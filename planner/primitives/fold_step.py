@@ -1,7 +1,7 @@
 """A fold as a step of a plan: reach the grips, lift them over the fold line, lay them down."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -95,6 +95,15 @@ class FoldStep:
         """Yield this step, then every other way between the same states, the quickest first."""
         yield self
         yield from self._others(math.inf)
+
+    @property
+    def turns(self) -> Mapping[int, int]:
+        """The number of the approach in which each arm begins the fold."""
+        return dict(zip(self.way.trial.arms, self.way.approaches, strict=True))
+
+    def turned(self, _turns: Mapping[int, int]) -> Iterator["FoldStep"]:
+        """Yield nothing: how the hands are turned decides where the base can stand."""
+        yield from ()
 
     def with_fewer_hands(self) -> Iterator["FoldStep"]:
         """Yield the ways between the same states by fewer hands, which hold less firmly, the quickest first."""

@@ -1,6 +1,6 @@
 """The protocols of a primitive and of its steps. To add one, write its file and name its class in `PRIMITIVES`."""
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, Generic, Protocol, TypeVar
 
@@ -46,6 +46,15 @@ class Varied(Protocol):
 
     def variants(self) -> "Iterable[Step]":
         """Return this step, then every other way between the same two states, the quickest first."""
+        ...
+
+    @property
+    def turns(self) -> Mapping[int, int]:
+        """The number of the approach in which each arm takes or holds its grip."""
+        ...
+
+    def turned(self, turns: Mapping[int, int]) -> "Iterable[Step]":
+        """Return this step with the hands in given approaches, if they can be and are not; at most one."""
         ...
 
     def with_fewer_hands(self) -> "Iterable[Step]":

@@ -1,0 +1,47 @@
+"""Where a drag's hands hold on for a fold, ways in which they need not turn in their grip are tried first."""
+
+import pytest
+
+from planner import Task, load_garment
+from planner.motion.transfer_candidate import ways_of
+from planner.motion.tries import QUICK
+from planner.planning.found_plan import FoundPlan
+from planner.plans import find_plan
+from planner.primitives.primitive import Step
+
+
+@pytest.fixture(scope="module")
+def found() -> FoundPlan:
+    return find_plan(Task.of(load_garment("scarf")))
+
+
+def dragged_and_folded(found: FoundPlan) -> tuple[Step, ...]:
+    steps = found.acts[0].steps
+    assert [step.kind for step in steps] == ["drag", "fold"]
+    return steps
+
+
+def test_a_scarf_dragged_and_folded_is_held_at_both_corners_in_the_time_of_one_hand(found: FoundPlan):
+    # One hand in the middle of its end costs as much, and lets its corners, 12.7 cm away, fold under.
+    assert [len(step.grips) for act in found.acts for step in act.steps] == [2, 2, 2, 2]
+    assert found.plan.cost_s == pytest.approx(23.394, abs=1e-3)
+
+
+def test_ways_in_which_hands_hold_on_as_the_fold_needs_them_come_right_after_the_first(found: FoundPlan):
+    drag, fold = dragged_and_folded(found)
+    turned_away = next(variant for variant in drag.variants() if variant.turns != fold.turns)
+    ways = list(ways_of((turned_away, fold), QUICK))
+    assert ways[0] == (turned_away, fold)
+    assert ways[1][0].turns == fold.turns and ways[1][1].motion == fold.motion
+    assert all(one.turns == other.turns for one, other in ways[2:4])
+    keys = [tuple(step.motion for step in way) for way in ways]
+    assert len(keys) == len(set(keys)) <= QUICK.ways
+
+
+def test_a_drag_is_turned_only_as_its_hands_can_be_and_are_not(found: FoundPlan):
+    drag, fold = dragged_and_folded(found)
+    other = next(variant for variant in drag.variants() if variant.turns != drag.turns)
+    (back,) = other.turned(drag.turns)
+    assert back.turns == drag.turns
+    assert list(drag.turned(drag.turns)) == [] == list(drag.turned({}))
+    assert list(fold.turned(drag.turns)) == []
