@@ -9,7 +9,8 @@ from toppra import SplineInterpolator
 from toppra.algorithm import TOPPRA
 from toppra.constraint import DiscretizationType, JointAccelerationConstraint, JointVelocityConstraint
 
-from planner.motion.path_timing import EXCESS, PathTiming, quickest, timed
+from planner.motion.path_intervals import EXCESS
+from planner.motion.path_timing import PathTiming, quickest, timed
 
 ONE = (np.array([1.0]), np.array([2.0]))
 
@@ -130,3 +131,12 @@ def test_two_keyframes_alone_are_one_cubic_from_rest_to_rest():
 def test_what_does_not_move_takes_no_time():
     timing = quickest(np.ones((4, 2)), np.zeros(4), (np.ones(2), np.ones(2)))
     assert timing.duration_s == 0.0 and not timing.velocities.any()
+
+
+def test_where_all_turns_round_little_time_is_lost():
+    # A narrow step before the turn makes its pace low; the wide one after it takes what it takes alone.
+    values = np.array([[0.0], [0.2], [0.21], [0.0]])
+    timing = quickest(values, run_of(values, ONE[0]), ONE)
+    assert timing.times_s[3] - timing.times_s[2] == pytest.approx(np.sqrt(6.0 * 0.21 / 2.0), rel=0.02)
+    speed, acceleration = excess(values, timing, ONE)
+    assert speed <= 1.0 + 1e-6 and acceleration <= EXCESS * (1.0 + 1e-6)
