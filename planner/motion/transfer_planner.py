@@ -60,7 +60,7 @@ class TransferPlanner:
         dwell_s: how long hands rest while fingers close, and while they open (s).
         glances: how often the ends of steps were tested for free postures, cached answers counted.
         tries: how often joint paths were requested, cached answers counted.
-        transits_wanted: how often transits were requested, alike.
+        transits_planned: how many transits were planned.
     """
 
     def __init__(self, context: Context, machine: RobotPort, known: KnownTransfers | None = None) -> None:
@@ -81,7 +81,7 @@ class TransferPlanner:
         self.known = known or KnownTransfers()
         self._candidates: dict[tuple[object, ...], Candidate] = {}
         self._made: dict[Candidate, Transfer | None] = {}
-        self.glances = self.tries = self.transits_wanted = 0
+        self.glances = self.tries = self.transits_planned = 0
         self._contacts = BlockingContacts(machine, collisions, scene.torso_m, scene.table.height_m)
         self.dwell_s = max(scene.grip_dwell_s, *(finger_run_s(arm.gripper) for arm in machine.card.arms))
         self._cloths = LyingCloths(context, collisions)
@@ -227,11 +227,11 @@ class TransferPlanner:
         cloth = transfer.carried.cloths[0]
         if cloth is None:
             return None
-        self.transits_wanted += 1
         begins = (moves[0] if moves else transfer.steps[0]).before.key
         key = (before and before.carried, begins, *(move.after.key for move in moves), transfer.carried)
         known = self.known.transits
         if key not in known:
+            self.transits_planned += 1
             known[key] = transit_between(self._hands, self._context.drive_time, before, moves, transfer, cloth)
         return known[key]
 
