@@ -140,3 +140,12 @@ def test_where_all_turns_round_little_time_is_lost():
     assert timing.times_s[3] - timing.times_s[2] == pytest.approx(np.sqrt(6.0 * 0.21 / 2.0), rel=0.02)
     speed, acceleration = excess(values, timing, ONE)
     assert speed <= 1.0 + 1e-6 and acceleration <= EXCESS * (1.0 + 1e-6)
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.integers(0, 10_000), st.integers(3, 30), st.integers(1, 6))
+def test_a_mirror_image_takes_as_long(seed: int, count: int, columns: int):
+    values, limits = walk(seed, count, columns), (np.full(columns, 1.0), np.full(columns, 3.0))
+    mirrored = np.random.default_rng(seed).choice([-1.0, 1.0], columns) * values + 2.0 * np.pi
+    one, other = (quickest(each, run_of(each, limits[0]), limits) for each in (values, mirrored))
+    assert other.duration_s == pytest.approx(one.duration_s, rel=1e-6)
