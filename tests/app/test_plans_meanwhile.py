@@ -7,14 +7,15 @@ from dataclasses import replace
 import pytest
 
 from app import replanner
-from app.document_state import Answer
+from app.answer import Answer
 from app.drawing.edit import Edit
 from app.drawing.solve import solve
 from planner import Task, find_plan
 from planner.planning import plan_search
 from planner.planning.found_plan import FoundPlan
 from tests.app.drawing.drawings import crease
-from tests.app.replan_desk import PATIENCE_S, TOWEL, Desk, Endless, moved, replanning
+from tests.app.replan_desk import TOWEL, Desk, Endless, moved, replanning
+from tests.patience import PATIENCE_S
 
 QUARTERED = solve(replace(TOWEL, folds=(*TOWEL.folds, crease("quarter", (0.2, 0.15), (0.2, 0.3))))).drawing
 

@@ -7,15 +7,17 @@ from dataclasses import replace
 
 import pytest
 
+from app.answer import Answer
 from app.api.live_messages import plan_message, status_text
-from app.document_state import Answer, DocumentState
+from app.document_state import DocumentState
 from app.drawing.edit import Edit, Phase
 from app.replanner import Replanner
 from app.store.plan_store import PlanStore, UnknownPlanError
 from planner import Plan
 from planner.task.grip import Holding
 from tests.app.drawing.drawings import crease, outlined
-from tests.app.replan_desk import PATIENCE_S, TOWEL, Desk, Endless, moved, nothing, replanning
+from tests.app.replan_desk import TOWEL, Desk, Endless, moved, nothing, replanning
+from tests.patience import PATIENCE_S
 
 
 @pytest.fixture
