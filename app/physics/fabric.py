@@ -3,19 +3,7 @@
 import math
 from dataclasses import dataclass
 
-import numpy as np
-
 GRAVITY_M_S2 = 9.81
-
-EDGES_M = 0.014, 0.02
-"""The shortest and the longest edge of a mesh (m).
-
-The nearer its rows, the less the folds of a stack depend on where they happen to lie: the tie's last fold held with
-rows 14 mm apart, and was lost with 20.
-"""
-
-VERTICES = 2000
-"""About how many vertices a mesh has whose edges are between those: time grows with them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +24,7 @@ class Fabric:
     """
 
     density_kg_m2: float = 0.2
-    stretch_n_m: float = 500.0
+    stretch_n_m: float = 200.0
     bending_length_m: float = 0.018
     poisson: float = 0.3
     thickness_m: float = 0.002
@@ -75,13 +63,8 @@ class Resolution:
         settle_s: the time given to cloth to come to rest after it was released, at most (s).
     """
 
-    edge_m: float = EDGES_M[0]
+    edge_m: float = 0.02
     step_s: float = 0.008
     iterations: int = 200
     tolerance: float = 1e-5
     settle_s: float = 0.7
-
-    @staticmethod
-    def of(area_m2: float) -> "Resolution":
-        """Return the resolution for a cloth: the finest, coarser for one of a large area (m^2)."""
-        return Resolution(float(np.clip(math.sqrt(area_m2 / VERTICES), *EDGES_M)))

@@ -20,7 +20,7 @@ from app.physics.fabric import Fabric, Resolution
 from planner.geometry.pose import FloatArray
 from planner.geometry.table import Table
 
-SOCKETS = 256
+SOCKETS = 64
 """The most vertices that all grips together hold."""
 
 _TABLE_M = 0.05

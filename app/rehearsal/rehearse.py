@@ -48,7 +48,7 @@ class RehearsalOptions:
         seed: the seed of the first run; each run after it has the next.
         noise: the name of the noise, one of `NOISE`.
         feedback: whether the robot looks before each step and corrects it.
-        resolution: how finely the world is simulated; None: as its cloth's area allows.
+        resolution: how finely the world is simulated.
         gate: what counts as held.
         workers: processes at most; None for two, or one on a machine with one core.
         traced: the number of the first runs of which a trace is kept.
@@ -58,7 +58,7 @@ class RehearsalOptions:
     seed: int = 0
     noise: str = "none"
     feedback: bool = True
-    resolution: Resolution | None = None
+    resolution: Resolution = field(default_factory=Resolution)
     gate: Gate = field(default_factory=Gate)
     workers: int | None = None
     traced: int = 0
@@ -136,7 +136,6 @@ def one_run(
     placement = replace(placement, yaw_rad=placement.yaw_rad + noise.placement_rad * turn)
     friction = plan.scene.friction * max(0.0, 1.0 + noise.friction * slip)
     fabric = Fabric(density_kg_m2=plan.garment.areal_density_kg_m2, friction=friction)
-    resolution = options.resolution or Resolution.of(plan.garment.pattern.area)
 
     def begun(film: Tick) -> PhysicsWorld:
         def tick() -> None:
@@ -144,7 +143,7 @@ def one_run(
                 raise CancelledError
             film()
 
-        return PhysicsWorld(plan.task, fabric, resolution, seed, placement, tick)
+        return PhysicsWorld(plan.task, fabric, options.resolution, seed, placement, tick)
 
     def planned_again(task: Task) -> Plan:
         world.end()
