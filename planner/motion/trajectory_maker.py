@@ -16,14 +16,13 @@ from planner.geometry.ramps import ramps
 from planner.geometry.table_top import TableTop
 from planner.geometry.tolerance import TIME_S
 from planner.motion.act import Act
-from planner.motion.joint_trajectory import JointTrajectory, finger_limits
+from planner.motion.hand_holds import settling_s
+from planner.motion.joint_trajectory import JointTrajectory, finger_limits_over
 from planner.motion.line import Keyframes, Line
 from planner.motion.lying_cloth import LyingCloth
 from planner.motion.timed_phase import TimedPhase
 from planner.motion.transfer import Transfer
 from planner.motion.transfer_planner import TransferPlanner
-from planner.motion.transit_paths import TransitPaths
-from planner.motion.transit_planner import TransitPlanner
 from planner.motion.transit_time import TransitTime
 from planner.primitives.context import Context
 from planner.primitives.drive_time import DriveTime
@@ -47,7 +46,7 @@ def trajectory(context: Context, card: RobotCard, maker: TransferPlanner, acts: 
         maker: the planner that made the acts' joint paths.
         acts: the acts, one after the other.
     """
-    builder = _TrajectoryBuilder(context.drive_time, maker.transits, maker.dwell_s)
+    builder = _TrajectoryBuilder(context.drive_time, maker)
     segments = tuple(builder.segments(acts, _standing(context)))
     track = builder.track
     rows, velocities = np.array(track.joints), np.array(track.velocities)
@@ -62,12 +61,19 @@ def trajectory(context: Context, card: RobotCard, maker: TransferPlanner, acts: 
     )
 
 
+def late_s(context: Context, maker: TransferPlanner, acts: Sequence[Act]) -> tuple[float, ...]:
+    """Return by how much hands come later to the grips of each act than its reach lasts (s)."""
+    builder = _TrajectoryBuilder(context.drive_time, maker)
+    tuple(builder.segments(acts, _standing(context)))
+    return tuple(builder.late_s.get(act.first, 0.0) for act in acts)
+
+
 def _gripper_track(arm: ArmCard, times_s: Sequence[float], openings_m: Sequence[float]) -> GripperTrack:
     """Return a gripper's keyframes, with additional ones wherever it moves."""
     hand = arm.gripper
     keyframes = [(times_s[0], openings_m[0], 0.0)]
     for (begin, start), (until, end) in pairwise(zip(times_s, openings_m, strict=True)):
-        run = ramps(until - begin, 1.0, *finger_limits(hand))
+        run = ramps(until - begin, 1.0, *finger_limits_over(hand, end - start))
         knots = np.array(run.times_s) if start == end else np.linspace(0.0, until - begin, _FINGER_KNOTS + 1)
         since = np.union1d(run.times_s, knots)[1:]
         since = since[np.append(np.diff(since) > TIME_S, True)]
@@ -93,24 +99,22 @@ def _standing(context: Context) -> Phase:
 class _TrajectoryBuilder:
     """Joins transfers and moves into one trajectory."""
 
-    def __init__(self, time: DriveTime, transits: TransitPaths, dwell_s: float) -> None:
+    def __init__(self, time: DriveTime, maker: TransferPlanner) -> None:
         """Begin with all arms at home.
 
         Args:
             time: the time that the base takes.
-            transits: the paths of empty hands.
-            dwell_s: the time that fingers take to close and to open (s).
+            maker: the planner that made the transfers.
         """
         self._time = time
-        self._transits = transits
-        self._dwell_s = dwell_s
-        self._hands = TransitPlanner(transits, dwell_s)
-        self.track = JointTrajectory.at_rest(transits.home, len(transits.layout.arms))
+        self._transits, self._hands, self._dwell_s = maker.transits, maker.hands, maker.dwell_s
+        self.track = JointTrajectory.at_rest(self._transits.home, len(self._transits.layout.arms))
+        self.late_s: dict[int, float] = {}
         self._timed_phases: list[TimedPhase] = []
         self._free: list[TimedPhase] = []
         self._now = 0.0
         self._before: Transfer | None = None
-        self._turns: FloatArray = np.zeros_like(transits.home)
+        self._turns: FloatArray = np.zeros_like(self._transits.home)
 
     def segments(self, acts: Sequence[Act], rest: Phase) -> Iterator[Segment]:
         """Yield the segments of base and cloth in a plan's acts; only `rest` if there are none."""
@@ -142,20 +146,30 @@ class _TrajectoryBuilder:
         if transfer.carried.cloths[0] is None:
             self._begin_holding(transfer)
         else:
-            self._reach(transfer, transfer.carried.cloths[0])
+            self._reach(primitive, transfer, transfer.carried.cloths[0])
         held = self._now
         timing = transfer.timing
         for timed in timing.timed_phases:
             self._timed_phases.append(replace(timed, primitive=primitive + timed.primitive))
-        joints = transfer.carried.joints[transfer.carried.first + timing.moments] + self._turns
-        self.track.add(Keyframes(held + timing.times_s, joints, timing.velocities))
-        is_last = transfer.carried.moments.is_last_held
-        for arm in np.flatnonzero(transfer.carried.moments.is_used).tolist():
-            opens = held + timing.first_s(int(np.argmax(is_last[arm])))
+        carried, end = transfer.carried, held + float(timing.times_s[-1])
+        joints = carried.joints[carried.first + timing.moments] + self._turns
+        run = Keyframes(held + timing.times_s, joints, timing.velocities)
+        settling = settling_s(self._dwell_s) if carried.settles else 0.0
+        if carried.settles:
+            opened = carried.tail[0] + self._turns
+            settled = self._transits.eased(joints[-1], opened, settling).later(end - self._dwell_s)
+            run = Keyframes.joined([run.until(len(joints) - 1), settled, Keyframes.still(opened, end)])
+        self.track.add(run)
+        is_last, holds = carried.moments.is_last_held, carried.lines.holds
+        for arm in np.flatnonzero(carried.moments.is_used).tolist():
+            own = settling if holds[arm].is_narrow else 0.0
+            opens = held + timing.first_s(int(np.argmax(is_last[arm]))) + own
             if held > 0.0:
-                self.track.close(arm, held - self._dwell_s, held)
-            self.track.open(arm, opens, opens + self._dwell_s)
-        self._now = held + float(timing.times_s[-1])
+                closes = held - self._dwell_s
+                self.track.narrow(arm, holds[arm].opening_m, self._dwell_s, closes)
+                self.track.close(arm, closes, held - own, holds[arm].held_m)
+            self.track.open(arm, opens, opens + self._dwell_s - own, holds[arm].opening_m)
+        self._now = end
         self._before = transfer
         self._free = []
 
@@ -165,19 +179,20 @@ class _TrajectoryBuilder:
             transfer.carried.joints[transfer.carried.first], len(self._transits.layout.arms)
         )
         for arm in np.flatnonzero(transfer.carried.moments.is_used).tolist():
-            self.track.begin_closed(arm)
+            self.track.begin_closed(arm, transfer.holds[arm].held_m)
 
-    def _reach(self, transfer: Transfer, cloth: LyingCloth) -> None:
+    def _reach(self, primitive: int, transfer: Transfer, cloth: LyingCloth) -> None:
         """Add the transit to a transfer's grips, past the cloth on the table."""
         tail, start = self._tail(), transfer.carried.joints[0]
         self._turns = self._transits.unwound(start, tail.joints[-1]) - start
         lead = transfer.lead.moved(self._turns)
-        between = TransitTime(self._free, self._now, cloth)
+        between = TransitTime(self._free, 0.0, cloth)
         free, keyframes = self._hands.keyframes(between, tail, lead)
-        self.track.add(keyframes)
-        self._turns = keyframes.joints[-1] - transfer.lead.joints[-1]
+        self.track.add(keyframes.later(self._now))
+        self._turns = keyframes.joints[-1] - transfer.carried.joints[transfer.carried.first]
         self._timed_phases += free.timed_phases
-        self._now = free.end_s
+        self.late_s[primitive] = free.end_s - between.end_s
+        self._now += free.end_s
 
     def _tail(self) -> Line:
         """Return the line on which the hands withdraw from the transfer before."""

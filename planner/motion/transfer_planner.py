@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
@@ -12,17 +12,22 @@ from planner.geometry.table import Table
 from planner.geometry.tolerance import TIME_S
 from planner.motion.blocking_contacts import BlockingContacts
 from planner.motion.carried import Carried
+from planner.motion.edge_sag import is_clear_between
+from planner.motion.hand_holds import edge_holds, opening_of, settling_s
 from planner.motion.joint_trajectory import finger_run_s
+from planner.motion.known_transfers import KnownTransfers
 from planner.motion.line import Line
 from planner.motion.lying_cloth import LyingCloth, LyingCloths
 from planner.motion.moments import Moments, forget_moments, moments_of
+from planner.motion.opened_collisions import OpenedCollisions
 from planner.motion.pacing import needed_s
-from planner.motion.robot_port import Collisions, RobotPort
+from planner.motion.robot_port import RobotPort
 from planner.motion.transfer import ReachTime, Transfer, is_carrying
 from planner.motion.transfer_candidate import BlockedMoments, Candidate, motion_of, ways_of
 from planner.motion.transfer_paths import TransferPaths
 from planner.motion.transfer_timing import TransferLimits, TransferTiming
 from planner.motion.transit_paths import TransitPaths
+from planner.motion.transit_planner import TransitPlanner
 from planner.motion.tries import QUICK, Tries
 from planner.primitives.context import Context
 from planner.primitives.obstacle import BlockingContact
@@ -37,26 +42,12 @@ _HALF = 0.5
 """The share of a reach's time, fingers closed, in which hands must be able to go home after the transfer before."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class KnownTransfers:
-    """What is known of the transfers of a task, by their steps' motions; tightened tasks share it.
-
-    Attributes:
-        can_be_there: whether the arms have free postures where the steps begin and end.
-        candidates: the candidates that steps make.
-        made: the transfer of each candidate, None where it has none, and the moments at which it was blocked, if any.
-    """
-
-    can_be_there: dict[tuple[object, ...], bool] = field(default_factory=dict)
-    candidates: dict[tuple[object, ...], Candidate] = field(default_factory=dict)
-    made: dict[tuple[object, ...], tuple[Transfer | None, NoPath | None]] = field(default_factory=dict)
-
-
 class TransferPlanner:
     """Plans the transfers of one task.
 
     Attributes:
         transits: the paths of empty hands.
+        hands: plans their motion along these paths.
         dwell_s: how long hands rest while fingers close, and while they open (s).
         glances: how often the ends of steps were tested for free postures, cached answers counted.
         tries: how often joint paths were requested, cached answers counted.
@@ -73,7 +64,7 @@ class TransferPlanner:
         """
         scene = context.scene
         paths, self.transits, collisions = _transfer_paths(machine, scene.table, scene.torso_m)
-        self._context = context
+        self._context, self._machine = context, machine
         self._paths = paths
         self._collisions = collisions
         self._blocked = BlockedMoments()
@@ -81,8 +72,9 @@ class TransferPlanner:
         self._candidates: dict[tuple[object, ...], Candidate] = {}
         self._made: dict[Candidate, Transfer | None] = {}
         self.glances = self.tries = 0
-        self._contacts = BlockingContacts(machine, collisions, scene.torso_m, scene.table.height_m)
+        self._contacts = BlockingContacts(machine, collisions.wide, scene.torso_m, scene.table.height_m)
         self.dwell_s = max(scene.grip_dwell_s, *(finger_run_s(arm.gripper) for arm in machine.card.arms))
+        self.hands = TransitPlanner(self.transits, self.dwell_s)
         self._cloths = LyingCloths(context, collisions)
         self._limits = TransferLimits.of(self.transits.layout, context.drive_time, self.dwell_s)
 
@@ -178,13 +170,31 @@ class TransferPlanner:
             self._blocked.note(candidate, carried)
         return self._transfer(candidate, carried)
 
+    def made_at_edges(self, candidate: "Candidate") -> Transfer | None:
+        """Return a candidate's transfer with hands holding edges where they can; None if there is none."""
+        moments = candidate.moments
+        holds = edge_holds(self._machine, moments)
+        if holds is None or not self._paths.postures.can_hold(moments, ways=(holds,)):
+            return None
+        self.tries += 1
+        return self._transfer(candidate, self._paths.carried(moments, candidate.cloths, (holds,)))
+
     def _transfer(self, candidate: "Candidate", carried: Carried | NoPath) -> Transfer | None:
         if isinstance(carried, NoPath):
             return None
         carried = carried.calmed(self._collisions)
         joints, first, last = carried.joints, carried.first, carried.last
         timing = TransferTiming.of(candidate.carrying, candidate.moments, joints[first : last + 1], self._limits)
-        lead, tail = self.transits.line(joints[: first + 1]), self.transits.line(joints[last:])
+        if not is_clear_between(carried, timing, self.transits.layout, self._collisions):
+            return None
+        coming, leaving = carried.lead, carried.tail
+        if carried.settles:
+            ways = np.array([coming[-1], joints[first]]), np.array([joints[last], leaving[0]])
+            if max(float(self.transits.needed_s(way)[0]) for way in ways) > settling_s(self.dwell_s):
+                return None
+        at_grips = joints[first] if carried.settles else None
+        openings_m = np.array([opening_of(hold) for hold in carried.lines.holds])
+        lead, tail = self.transits.line(coming, openings_m, at_grips), self.transits.line(leaving, openings_m)
         reach = self._reach(candidate.steps, carried, lead, tail, timing.borrowed_s)
         return None if reach is None else Transfer(candidate.steps, carried, timing, lead, tail, reach)
 
@@ -234,9 +244,11 @@ class TransferPlanner:
 
 
 @lru_cache(maxsize=4)
-def _transfer_paths(machine: RobotPort, table: Table, torso_m: float) -> tuple[TransferPaths, TransitPaths, Collisions]:
+def _transfer_paths(
+    machine: RobotPort, table: Table, torso_m: float
+) -> tuple[TransferPaths, TransitPaths, OpenedCollisions]:
     """Return the searches for joint paths at a table and the collisions there; all are kept from plan to plan."""
-    collisions = machine.collisions(table, torso_m, margin_m=MARGIN_M)
+    collisions = OpenedCollisions(machine, table, torso_m, MARGIN_M)
     transits = TransitPaths(machine, collisions, torso_m)
     return TransferPaths(machine, collisions, torso_m, table.height_m), transits, collisions
 

@@ -12,6 +12,7 @@ import numpy as np
 from planner.errors import FieldError, RequestError
 from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M, TIME_S
+from planner.motion.opened_collisions import OpenedCollisions
 from planner.planning.base_check import require_drive
 from planner.planning.problem import Problem
 from planner.primitives.drag_way import DragWays
@@ -48,9 +49,10 @@ def require_replay(plan: Plan) -> None:
     if not problem.is_goal(problem.state_of(plan.end)):
         raise RequestError("steps", "not all folds are done at the end")
     _require_segments(plan, plan.trajectory)
+    collisions = OpenedCollisions(problem.robot, problem.context.scene.table, plan.trajectory.torso_m)
     for number, step in enumerate(plan.steps):
         try:
-            _require_step(problem, step, plan.trajectory.of_step(number), plan.trajectory)
+            _require_step(problem, step, plan.trajectory.of_step(number), plan.trajectory, collisions)
         except FieldError as error:
             raise error.within(f"steps[{number}]") from None
 
@@ -68,7 +70,9 @@ def _require_segments(plan: Plan, path: Trajectory) -> None:
         raise RequestError("trajectory.duration_s", f"is {path.duration_s}, its segments last {now}")
 
 
-def _require_step(problem: Problem, step: PlanStep, segments: tuple[Segment, ...], path: Trajectory) -> None:
+def _require_step(
+    problem: Problem, step: PlanStep, segments: tuple[Segment, ...], path: Trajectory, collisions: OpenedCollisions
+) -> None:
     before, after = problem.state_of(step.before), problem.state_of(step.after)
     _require_cloth(problem, step, before, after)
     tools = _Tools(problem, step, before, after) if step.grips else None
@@ -76,7 +80,7 @@ def _require_step(problem: Problem, step: PlanStep, segments: tuple[Segment, ...
         times_s = list(_moments(segment))
         require_drive(problem, segment, times_s)
         for t_s in times_s:
-            _require_arms(problem, segment, path, t_s, tools)
+            _require_arms(problem, segment, path, t_s, tools, collisions)
 
 
 def _moments(segment: Segment) -> Iterator[float]:
@@ -151,7 +155,14 @@ class _Tools:
         return {arm: places[arm] for arm in holding if arm in places}
 
 
-def _require_arms(problem: Problem, segment: Segment, path: Trajectory, t_s: float, tools: _Tools | None) -> None:
+def _require_arms(
+    problem: Problem,
+    segment: Segment,
+    path: Trajectory,
+    t_s: float,
+    tools: _Tools | None,
+    collisions: OpenedCollisions,
+) -> None:
     """Require that at a time the arms are where they must be, no joint is too fast, and nothing touches."""
     card, scene = problem.robot.card, problem.context.scene
     layout, names = JointLayout.of(card), [name for arm in card.arms for name in arm.joint_names]
@@ -161,7 +172,9 @@ def _require_arms(problem: Problem, segment: Segment, path: Trajectory, t_s: flo
         told = f"at {t_s:.2f} s {names[fastest]} turns at {speeds[fastest]:.2f} rad/s"
         raise RequestError("trajectory", f"{told}, more than its {limits[fastest]:.2f} rad/s")
     base = segment.base_at(t_s)
-    if not problem.robot.collisions(scene.table, path.torso_m).are_all_free(base, joints[None]):
+    opened = np.array([[track.opening_at(t_s) for track in path.grippers]])
+    stands = np.array([[base.x_m, base.y_m, base.yaw_rad]])
+    if not collisions.are_all_free(stands, joints[None], opened):
         raise RequestError("trajectory", f"at {t_s:.2f} s the robot touches itself or the table")
     for arm_number, place in ({} if tools is None else tools.at(segment, t_s)).items():
         own = joints[None, layout.spans[arm_number]]
