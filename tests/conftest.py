@@ -1,6 +1,8 @@
 """Shared settings: which tests need a browser, where it is, and the number of random cases."""
 
 import gc
+import os
+import time
 from collections import Counter
 from collections.abc import Generator, Iterator
 from functools import cache
@@ -10,14 +12,18 @@ from typing import Any
 import pytest
 from hypothesis import HealthCheck, settings
 
+from planner.planning import budget
 from tests.laws.law import LONG, TRIED
 
 BROWSER_TESTS = Path(__file__).parent / "browser"
+EVEN = Path(__file__).parent / "even"
 CASES = "cases"
 LONGEST_FIRST = ("browser", "tests", "app", "explain", "robots", "planning", "replay", "laws", "motion")
 """Folders whose files take longest, in the order in which workers take them: only short ones are left at the end."""
 
 SYSTEM_CHROMIUM = Path("/usr/bin/chromium")
+
+os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, (str(EVEN), os.environ.get("PYTHONPATH"))))
 
 # The same random cases on every machine and run; no deadline, because a shared machine has slow moments.
 settings.register_profile(
@@ -88,6 +94,14 @@ def pytest_terminal_summary(terminalreporter: Any) -> None:
         held, failed = outcomes["passed"], outcomes["failed"]
         terminalreporter.write_sep("-", "laws")
         terminalreporter.write_line(f"{cases}: {held} laws held, {failed} failed")
+
+
+@pytest.fixture(scope="session", autouse=True)
+def searches_timed_by_their_own_work() -> Iterator[None]:
+    """Let the deadlines of searches in this process count its own time: beside busy tests the clock runs on."""
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(budget, "clock_s", time.process_time)
+        yield
 
 
 @pytest.fixture(scope="session")

@@ -12,9 +12,10 @@ from pathlib import Path
 
 import pytest
 
+from tests.patience import PATIENCE_S
+
 PROGRAM = next(filter(Path.exists, (Path("/usr/sbin/nginx"), Path(sys.prefix, "nginx/usr/sbin/nginx"))), None)
 PREFIX = "/pleat"
-PATIENCE_S = 30.0
 
 _OPERATING = Path(__file__).parents[1] / "docs" / "operating.md"
 _DOCUMENTED_PORT = "127.0.0.1:8000"

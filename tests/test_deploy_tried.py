@@ -19,6 +19,7 @@ from pathlib import Path
 
 import httpx
 
+from tests.patience import PATIENCE_S
 from tests.test_deploy import ROOT, UNIT, instructions
 
 PLEAT = [sys.executable, "-c", "from app.cli import main; main()"]
@@ -54,7 +55,7 @@ def started(options: Sequence[str], at: Path, environment: Mapping[str, str]) ->
 
 def asked(port: int, token: str) -> None:
     """Ask a server for its health, a page, and a garment with its folds, with the token and without."""
-    with httpx.Client(base_url=f"http://127.0.0.1:{port}", timeout=60.0) as client:
+    with httpx.Client(base_url=f"http://127.0.0.1:{port}", timeout=PATIENCE_S) as client:
         assert client.get("/api/health").status_code == 401
         client.headers["Authorization"] = f"Bearer {token}"
         checks = client.get("/api/health").json()["checks"]

@@ -1,6 +1,5 @@
 """Limit the work of a search for suggestions, and of each of its trials."""
 
-import time
 from collections.abc import Iterable, Iterator
 from typing import TypeVar
 
@@ -54,7 +53,7 @@ class TrialBudget:
     def while_left(self, things: Iterable[T], needed_s: float) -> Iterator[T]:
         """Yield things as long as there is time for one more (s); what is left then counts as unknown."""
         for thing in things:
-            if time.perf_counter() + needed_s > self._whole.deadline_s:
+            if self._whole.left_s < needed_s:
                 self.has_unknown = True
                 return
             yield thing

@@ -22,6 +22,9 @@ _FEW_FOLDS = 4
 """Folds up to which a look costs `_LOOK_S`; with more folds it costs more, in proportion."""
 
 
+clock_s = time.perf_counter
+"""The clock of every deadline (s)."""
+
 _GRACE_S = 0.15
 """Time that a step may take after the deadline before it is cut short (s): callers allow half a second in all."""
 
@@ -32,7 +35,7 @@ class Budget:
 
     Attributes:
         work_limit_s: the work allowed, in seconds of the machine on which it was measured.
-        deadline_s: when the time is up, by `time.perf_counter` (s).
+        deadline_s: when the time is up, by `clock_s` (s).
         should_stop: polled as well; true ends the search.
         looks: the number of states, and of deferred successors, looked at.
         beside_s: the work done under separate budgets (s).
@@ -50,7 +53,7 @@ class Budget:
     def of(work_limit_s: float | None, time_limit_s: float, should_stop: Callable[[], bool] | None = None) -> "Budget":
         """Return a budget whose time starts now; without a work limit it allows as much work as time."""
         work_s = time_limit_s if work_limit_s is None else work_limit_s
-        return Budget(work_s, time.perf_counter() + time_limit_s, should_stop or (lambda: False))
+        return Budget(work_s, clock_s() + time_limit_s, should_stop or (lambda: False))
 
     def part(self, work_s: float) -> "Budget":
         """Return a budget for a part of the work, with the deadline of the whole."""
@@ -94,9 +97,14 @@ class Budget:
     @property
     def is_late(self) -> bool:
         """Whether the time is up, whatever work is left, or the search was told to stop."""
-        return time.perf_counter() > self.deadline_s or self.should_stop()
+        return self.left_s < 0.0 or self.should_stop()
+
+    @property
+    def left_s(self) -> float:
+        """The time that is left, whatever work is (s); negative once it is up."""
+        return self.deadline_s - clock_s()
 
     @property
     def is_overdue(self) -> bool:
         """Whether the time has been up for so long that a step under way must end, or the search was told to stop."""
-        return time.perf_counter() > self.deadline_s + _GRACE_S or self.should_stop()
+        return self.left_s < -_GRACE_S or self.should_stop()

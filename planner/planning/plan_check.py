@@ -1,7 +1,8 @@
 """Check whether a plan read from elsewhere can be performed step by step as it says.
 
 Each step is compared with the cloth model and with the grips that the primitives would take. The trajectory is compared
-with the robot: the tools are where the cloth is held, no joint exceeds its greatest speed, and nothing touches.
+with the robot: the tools are where the cloth is held, nothing is faster than its limit or speeds up harder,
+and nothing touches.
 """
 
 import math
@@ -14,6 +15,7 @@ from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M, TIME_S
 from planner.motion.opened_collisions import OpenedCollisions
 from planner.planning.base_check import require_drive
+from planner.planning.limits_check import require_limits
 from planner.planning.problem import Problem
 from planner.primitives.drag_way import DragWays
 from planner.primitives.fold_obstacles import geometric_obstacle
@@ -29,9 +31,6 @@ TOOL_M = 0.005
 
 _SAMPLE_S = 0.05
 """Greatest time between the samples at which joints are checked (s)."""
-
-_SPEED = 1.001
-"""Greatest speed of a joint, as a share of its limit; what exceeds 1 allows for rounding."""
 
 
 def require_replay(plan: Plan) -> None:
@@ -49,6 +48,7 @@ def require_replay(plan: Plan) -> None:
     if not problem.is_goal(problem.state_of(plan.end)):
         raise RequestError("steps", "not all folds are done at the end")
     _require_segments(plan, plan.trajectory)
+    require_limits(problem, plan.trajectory)
     collisions = OpenedCollisions(problem.robot, problem.context.scene.table, plan.trajectory.torso_m)
     for number, step in enumerate(plan.steps):
         try:
@@ -163,14 +163,10 @@ def _require_arms(
     tools: _Tools | None,
     collisions: OpenedCollisions,
 ) -> None:
-    """Require that at a time the arms are where they must be, no joint is too fast, and nothing touches."""
+    """Require that at a time the arms are where they must be, and nothing touches."""
     card, scene = problem.robot.card, problem.context.scene
-    layout, names = JointLayout.of(card), [name for arm in card.arms for name in arm.joint_names]
-    joints, speeds, limits = path.arms.at(t_s), np.abs(path.arms.velocities_at(t_s)), layout.speeds_rad_s
-    fastest = int(np.argmax(speeds / limits))
-    if speeds[fastest] > _SPEED * limits[fastest]:
-        told = f"at {t_s:.2f} s {names[fastest]} turns at {speeds[fastest]:.2f} rad/s"
-        raise RequestError("trajectory", f"{told}, more than its {limits[fastest]:.2f} rad/s")
+    layout = JointLayout.of(card)
+    joints = path.arms.at(t_s)
     base = segment.base_at(t_s)
     opened = np.array([[track.opening_at(t_s) for track in path.grippers]])
     stands = np.array([[base.x_m, base.y_m, base.yaw_rad]])

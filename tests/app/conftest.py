@@ -14,10 +14,12 @@ from app.settings import Settings
 from app.store.database import Database
 from tests.app.job_works import suggest_with_own_robot
 from tests.databases import emptied, postgresql
+from tests.patience import PATIENCE_S
 
 OWN_URL = "http://127.0.0.1:8000"
 
-REST = httpx.Client(limits=httpx.Limits(max_keepalive_connections=0), timeout=60.0)
+
+REST = httpx.Client(limits=httpx.Limits(max_keepalive_connections=0), timeout=PATIENCE_S)
 """A shared client: `httpx.get` reads the system's certificates at each call, which takes longer than the call."""
 
 
@@ -65,7 +67,7 @@ async def client_of(data: Path) -> AsyncIterator[httpx.AsyncClient]:
     """Return a client of a server without a network on a data folder."""
     app = create_app(Settings(data=data))
     transport = httpx.ASGITransport(app=app, raise_app_exceptions=False)
-    async with httpx.AsyncClient(transport=transport, base_url=OWN_URL, timeout=60.0) as client:
+    async with httpx.AsyncClient(transport=transport, base_url=OWN_URL, timeout=PATIENCE_S) as client:
         yield client
     app.state.workspace.close()
 

@@ -64,11 +64,8 @@ def not_json(_: int, __: Progress) -> float:
 
 
 def suggest_with_own_robot(tell: Tell, task: Task, known: Plan | None) -> bool:
-    """Look for suggestions as `app.searches.suggest` does, but with no other robot, and not after all other tests.
-
-    To load another robot takes many seconds.
-    """
-    with patch("app.searches.robot_names", lambda: ()), patch("app.searches.os.nice"):
+    """Look for suggestions as `app.searches.suggest` does, but with no other robot: to load one takes many seconds."""
+    with patch("app.searches.robot_names", lambda: ()):
         return suggest(tell, task, known)
 
 

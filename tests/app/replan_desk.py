@@ -20,9 +20,9 @@ from planner import find_plan
 from planner.cloth.garment import Garment
 from tests.app.drawing.drawings import pulled
 from tests.app.samples import towel
+from tests.patience import PATIENCE_S
 
 TOWEL = solve(drawing_of(Garment.from_dict(towel()))).drawing
-PATIENCE_S = 60.0
 
 
 class Desk:

@@ -10,6 +10,7 @@ from app.workspace import Workspace
 from tests.app.conftest import OWN_URL
 from tests.app.samples import towel
 from tests.app.websocket import Listener
+from tests.patience import PATIENCE_S
 
 pytestmark = pytest.mark.anyio
 
@@ -58,7 +59,7 @@ def workspace_behind(transport: httpx.ASGITransport) -> Workspace:
 
 async def created(transport: httpx.ASGITransport, client: str = "192.0.2.1") -> httpx.Response:
     transport.client = (client, 1)
-    asking = httpx.AsyncClient(transport=transport, base_url=OWN_URL, timeout=60.0)
+    asking = httpx.AsyncClient(transport=transport, base_url=OWN_URL, timeout=PATIENCE_S)
     return await asking.post("/api/documents", json={"garment": towel()})
 
 

@@ -20,6 +20,7 @@ from tests.app.conftest import OWN_URL
 from tests.app.document_model import DocumentModel
 from tests.app.samples import towel
 from tests.app.websocket import Listener
+from tests.patience import PATIENCE_S
 
 corners = st.integers(0, 3)
 centimetres = st.integers(-2, 2)
@@ -196,7 +197,7 @@ class DocumentMachine(RuleBasedStateMachine):
     def serve(self) -> None:
         self.app: Any = create_app(Settings(data=self.data))
         transport = httpx.ASGITransport(app=self.app)
-        self.client = httpx.AsyncClient(transport=transport, base_url=OWN_URL, timeout=60.0)
+        self.client = httpx.AsyncClient(transport=transport, base_url=OWN_URL, timeout=PATIENCE_S)
 
     def listen(self) -> None:
         async def connected() -> list[Listener]:

@@ -10,6 +10,7 @@ from tests.app.conftest import Served
 from tests.app.samples import towel
 from tests.app.test_described_answers import assert_described
 from tests.app.test_suggestion_routes import STUCK, events_in
+from tests.patience import PATIENCE_S
 
 pytestmark = pytest.mark.anyio
 
@@ -128,14 +129,14 @@ async def test_an_unknown_job_is_not_found(client: httpx.AsyncClient, method: st
 
 
 def test_jobs_and_their_results_outlive_a_server_that_is_killed(served: Served) -> None:
-    with httpx.Client(base_url=served.url, timeout=60.0) as client:
+    with httpx.Client(base_url=served.url, timeout=PATIENCE_S) as client:
         done = client.post("/api/jobs/placements", json=MAP).headers["location"]
         assert "event: end" in client.get(f"{done}/events").text
         before = client.get(done).json()
         interrupted = client.post("/api/jobs/placements", json=LONG).headers["location"]
     served.stop()
     served.start_again()
-    with httpx.Client(base_url=served.url, timeout=60.0) as client:
+    with httpx.Client(base_url=served.url, timeout=PATIENCE_S) as client:
         assert client.get(done).json() == before
         again = client.get(interrupted).json()
         assert again["status"] in ("queued", "running")

@@ -7,6 +7,7 @@ import httpx
 
 from tests.app.conftest import Served
 from tests.app.samples import towel
+from tests.patience import PATIENCE_S
 
 
 def change(client: httpx.Client, state: dict[str, Any], x_m: float, phase: str) -> dict[str, Any]:
@@ -22,7 +23,7 @@ def change(client: httpx.Client, state: dict[str, Any], x_m: float, phase: str) 
 def test_after_kill_9_everything_is_there_that_was_answered(tmp_path: Path) -> None:
     first = Served(tmp_path)
     try:
-        with httpx.Client(base_url=first.url, timeout=60.0) as client:
+        with httpx.Client(base_url=first.url, timeout=PATIENCE_S) as client:
             state = client.post("/api/documents", json={"garment": towel()}).json()
             client.get(f"/d/{state['id']}")
             state = change(client, state, -0.01, "commit")
@@ -36,7 +37,7 @@ def test_after_kill_9_everything_is_there_that_was_answered(tmp_path: Path) -> N
     second = Served(tmp_path, first.port)
     try:
         assert second.document == state["id"]
-        with httpx.Client(base_url=second.url, timeout=60.0) as client:
+        with httpx.Client(base_url=second.url, timeout=PATIENCE_S) as client:
             found = client.get(f"/api/documents/{state['id']}").json()
             assert found["version"] == dragged["version"]
             assert found["drawing"] == dragged["drawing"]

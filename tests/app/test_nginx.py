@@ -13,6 +13,7 @@ from websockets.typing import Subprotocol
 from tests.app.conftest import Served
 from tests.app.samples import towel
 from tests.nginx import PREFIX, nginx_before
+from tests.patience import PATIENCE_S
 
 
 @pytest.fixture(scope="module")
@@ -22,7 +23,7 @@ def proxied(tmp_path_factory: pytest.TempPathFactory) -> Iterator[httpx.Client]:
     try:
         with nginx_before(server.port, tmp_path_factory.mktemp("nginx")) as url:
             origin = url.removesuffix(PREFIX)
-            with httpx.Client(base_url=url, headers={"origin": origin}, timeout=60.0, trust_env=False) as client:
+            with httpx.Client(base_url=url, headers={"origin": origin}, timeout=PATIENCE_S, trust_env=False) as client:
                 yield client
     finally:
         server.stop()
@@ -59,16 +60,16 @@ def test_a_page_of_another_server_is_refused_behind_the_proxy_too(proxied: httpx
 def test_edits_reach_the_websocket_of_a_page(proxied: httpx.Client) -> None:
     document_id = created(proxied)
     with connect(websocket_url(proxied, f"/api/documents/{document_id}/live"), proxy=None, max_size=None) as page:
-        told = json.loads(page.recv(timeout=60.0))
+        told = json.loads(page.recv(timeout=PATIENCE_S))
         assert (told["kind"], told["version"]) == ("document", 1)
         edit = {"base_version": 1, "label": "Same", "drawing": {**told["drawing"], "title": "Other"}}
         assert proxied.put(f"/api/documents/{document_id}/drawing", json=edit).status_code == 200
         while told.get("kind") != "document" or told["version"] == 1:
-            told = json.loads(page.recv(timeout=60.0))
+            told = json.loads(page.recv(timeout=PATIENCE_S))
         assert (told["version"], told["drawing"]["title"]) == (2, "Other")
         page.send(json.dumps({"do": "nothing that there is"}))
         while told["kind"] != "problem":
-            told = json.loads(page.recv(timeout=60.0))
+            told = json.loads(page.recv(timeout=PATIENCE_S))
 
 
 def test_the_stage_and_its_websocket_are_below_the_prefix(proxied: httpx.Client) -> None:
@@ -82,7 +83,7 @@ def test_the_stage_and_its_websocket_are_below_the_prefix(proxied: httpx.Client)
         assert scene.subprotocol == protocol
         size = 0
         while size < 10_000:  # the scene: more than a greeting
-            size += len(scene.recv(timeout=60.0))
+            size += len(scene.recv(timeout=PATIENCE_S))
 
 
 def test_events_of_a_job_come_as_they_happen(proxied: httpx.Client) -> None:

@@ -14,7 +14,8 @@ from planner import Task, find_plan
 from planner.planning import plan_search
 from planner.planning.found_plan import FoundPlan
 from tests.app.drawing.drawings import crease
-from tests.app.replan_desk import PATIENCE_S, TOWEL, Desk, Endless, moved, replanning
+from tests.app.replan_desk import TOWEL, Desk, Endless, moved, replanning
+from tests.patience import PATIENCE_S
 
 QUARTERED = solve(replace(TOWEL, folds=(*TOWEL.folds, crease("quarter", (0.2, 0.15), (0.2, 0.3))))).drawing
 

@@ -11,6 +11,7 @@ from app.api.create_app import create_app
 from app.settings import Settings
 from tests.app.conftest import OWN_URL
 from tests.app.samples import towel
+from tests.patience import PATIENCE_S
 
 pytestmark = pytest.mark.anyio
 
@@ -22,7 +23,7 @@ async def below(tmp_path: Path) -> AsyncIterator[httpx.AsyncClient]:
     """Return a client of a server below /pleat that a proxy shows at https://example.org."""
     app = create_app(Settings(data=tmp_path, root_path="/pleat", origin="https://example.org"))
     transport = httpx.ASGITransport(app=app, raise_app_exceptions=False)
-    async with httpx.AsyncClient(transport=transport, base_url=OWN_URL, timeout=60.0) as client:
+    async with httpx.AsyncClient(transport=transport, base_url=OWN_URL, timeout=PATIENCE_S) as client:
         yield client
     app.state.workspace.close()
 

@@ -15,7 +15,8 @@ from app.store.plan_store import PlanStore, UnknownPlanError
 from planner import Plan
 from planner.task.grip import Holding
 from tests.app.drawing.drawings import crease, outlined
-from tests.app.replan_desk import PATIENCE_S, TOWEL, Desk, Endless, moved, nothing, replanning
+from tests.app.replan_desk import TOWEL, Desk, Endless, moved, nothing, replanning
+from tests.patience import PATIENCE_S
 
 
 @pytest.fixture

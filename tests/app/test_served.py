@@ -15,9 +15,9 @@ from websockets.sync.client import ClientConnection, connect
 
 from tests.app.conftest import REST, Served
 from tests.app.samples import towel
+from tests.patience import PATIENCE_S
 
 SUBPROTOCOL = "viser-v1.1.1"
-PATIENCE_S = 60.0
 
 
 def live_path(served: Served) -> str:

@@ -6,12 +6,13 @@ import sys
 from pathlib import Path
 
 from tests.app.conftest import REST, Served
+from tests.patience import PATIENCE_S
 
 
 def serve(data: Path) -> subprocess.CompletedProcess[str]:
     """Start a server that should fail to start."""
     command = [sys.executable, "-c", "from app.cli import main; main()", "serve", "--port", "0", "--data", str(data)]
-    return subprocess.run(command, capture_output=True, text=True, timeout=60.0)
+    return subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE_S)
 
 
 def test_a_second_server_on_a_folder_says_who_has_it_and_ends_until_the_first_is_killed(tmp_path: Path) -> None:

@@ -19,6 +19,7 @@ from tests.app.conftest import OWN_URL
 from tests.app.document_requests import created, moved, put
 from tests.app.test_garbage import assert_problem
 from tests.app.websocket import Listener
+from tests.patience import PATIENCE_S
 
 pytestmark = pytest.mark.anyio
 
@@ -87,7 +88,7 @@ async def test_a_link_needs_no_token_of_the_server_and_only_its_hash_is_kept(tmp
     app = create_app(Settings(data=tmp_path), AccessToken(hashlib.sha256(TOKEN.encode()).digest()))
     transport = httpx.ASGITransport(app=app, raise_app_exceptions=False)
     known = {"authorization": f"Bearer {TOKEN}"}
-    async with httpx.AsyncClient(transport=transport, base_url=OWN_URL, timeout=60.0) as client:
+    async with httpx.AsyncClient(transport=transport, base_url=OWN_URL, timeout=PATIENCE_S) as client:
         document_id = (await client.post("/api/documents", json={}, headers=known)).json()["id"]
         assert (await client.post(f"/api/documents/{document_id}/share")).status_code == 401
         answer = await client.post(f"/api/documents/{document_id}/share", headers=known)

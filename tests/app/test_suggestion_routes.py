@@ -15,6 +15,7 @@ from tests.app.conftest import Served
 from tests.app.job_works import suggest_and_hang
 from tests.app.processes import cpu_s
 from tests.app.samples import towel
+from tests.patience import PATIENCE_S
 
 pytestmark = pytest.mark.anyio
 
@@ -127,7 +128,7 @@ async def test_the_server_answers_others_while_it_searches(client: httpx.AsyncCl
 
 
 async def test_when_the_client_goes_away_the_search_stops(served: Served) -> None:
-    async with httpx.AsyncClient(base_url=served.url, timeout=60.0) as browser:
+    async with httpx.AsyncClient(base_url=served.url, timeout=PATIENCE_S) as browser:
         async with browser.stream("POST", "/api/suggestions", json={**STUCK, **LONG}) as stream:
             async for line in stream.aiter_lines():
                 if line.startswith("event: suggestion"):

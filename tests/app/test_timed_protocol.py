@@ -11,9 +11,9 @@ import uvicorn
 
 from app.server import timed_protocol
 from app.server.timed_protocol import TimedProtocol
+from tests.patience import PATIENCE_S
 
 LIMIT_S = 0.3
-PATIENCE_S = 30.0
 HEAD = b"GET / HTTP/1.1\r\nhost: here\r\n"
 POST = b"POST / HTTP/1.1\r\nhost: here\r\ncontent-length: 10\r\n\r\n"
 

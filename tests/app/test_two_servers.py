@@ -8,6 +8,7 @@ from tests.app.conftest import Served
 from tests.app.document_requests import moved
 from tests.app.samples import towel
 from tests.databases import emptied
+from tests.patience import PATIENCE_S
 
 
 def test_two_servers_on_one_database_see_each_others_documents(tmp_path: Path, postgresql_server: str) -> None:
@@ -16,8 +17,8 @@ def test_two_servers_on_one_database_see_each_others_documents(tmp_path: Path, p
     try:
         servers += [Served(tmp_path / name, 0, "--database", url) for name in ("a", "b")]
         with (
-            httpx.Client(base_url=servers[0].url, timeout=60.0) as first,
-            httpx.Client(base_url=servers[1].url, timeout=60.0) as second,
+            httpx.Client(base_url=servers[0].url, timeout=PATIENCE_S) as first,
+            httpx.Client(base_url=servers[1].url, timeout=PATIENCE_S) as second,
         ):
             made = first.post("/api/documents", json={"garment": towel()}).json()
             address = f"/api/documents/{made['id']}"

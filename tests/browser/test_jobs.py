@@ -4,6 +4,7 @@ import httpx
 from playwright.sync_api import Page, expect
 
 from tests.app.conftest import REST, Served
+from tests.patience import PATIENCE_S
 
 QUICK = {"garment": "hand-towel", "step_m": 0.5, "time_limit_s": 20.0}
 LONG = {"garment": "shirt", "step_m": 0.02, "time_limit_s": 60.0}
@@ -13,7 +14,7 @@ def test_jobs_are_listed_cancelled_by_keyboard_and_lead_to_their_results(page: P
     page.goto(served.url)
     expect(page.get_by_role("button", name="Undo")).to_be_attached()
     expect(page.get_by_role("button", name="Jobs")).to_be_hidden()
-    with httpx.Client(base_url=served.url, timeout=60.0) as rest:
+    with httpx.Client(base_url=served.url, timeout=PATIENCE_S) as rest:
         done = rest.post("/api/jobs/placements", json=QUICK).headers["location"]
         assert "event: end" in rest.get(f"{done}/events").text
         running = rest.post("/api/jobs/placements", json=LONG).headers["location"]

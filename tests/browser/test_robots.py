@@ -9,6 +9,7 @@ from playwright.sync_api import Page, Route, expect
 from tests.app.robot_archives import archive, box_card, box_urdf
 from tests.browser.conftest import Garment, Sheet
 from tests.browser.napkin import napkin
+from tests.browser.searches import SEARCH_MS
 
 ROBOTS = ("pr2", "so101-pair")
 
@@ -26,10 +27,10 @@ def test_robots_are_compared_and_one_is_chosen(page: Page, new_sheet: Callable[[
     dialog = page.get_by_role("dialog", name="Who can fold this?")
     rows = dialog.locator("tbody tr")
     expect(rows.nth(0)).to_contain_text("PR2")
-    expect(rows.nth(0)).to_have_attribute("data-status", "solved", timeout=60_000)
+    expect(rows.nth(0)).to_have_attribute("data-status", "solved", timeout=SEARCH_MS)
     expect(rows.nth(0).get_by_role("button")).to_be_hidden()
     expect(rows.nth(0)).to_contain_text(re.compile(r"\d+\.\d s\d"))
-    expect(rows.nth(1)).to_have_attribute("data-status", "infeasible", timeout=60_000)
+    expect(rows.nth(1)).to_have_attribute("data-status", "infeasible", timeout=SEARCH_MS)
     expect(rows.nth(1)).to_contain_text("hand is")  # it is too large for small arms
     dialog.get_by_role("button", name="Use Two SO-101").click()
     expect(dialog).to_be_hidden()

@@ -13,10 +13,10 @@ from app.ui.editor.glass import NODE
 from app.ui.stage import Stage
 from app.ui.viser_patches import LOOPBACK, SECRET_HEADER
 from planner.geometry.pose import Point2, Point3
+from tests.patience import PATIENCE_S
 
 SUBPROTOCOL = "viser-v1.1.1"
 EYE = (0.0, 0.0, 2.0)
-PATIENCE_S = 20.0
 
 
 class Visitor:

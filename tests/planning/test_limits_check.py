@@ -1,0 +1,100 @@
+"""A plan from elsewhere keeps the limits of joints, fingers and base, in speed and in acceleration."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from planner import Plan, Scene, load_garment, make_plan
+from planner.errors import RequestError
+from planner.geometry.keyframes import peaks, rate_at, value_at
+from planner.motion.motion_limits import MotionLimits
+from planner.planning.plan_check import require_replay
+from planner.planning.problem import Problem
+from planner.task.trajectory import Trajectory
+
+FACTOR = 3.0
+
+
+@pytest.fixture(scope="module")
+def plan() -> Plan:
+    """A plan in which arms, fingers and base move."""
+    found = make_plan(load_garment("jeans"), time_limit_s=60.0)
+    assert {step.kind for step in found.steps} >= {"move", "fold"}
+    return found
+
+
+def hasty_arms(path: Trajectory) -> Trajectory:
+    """Let a joint pass its keyframes at three times its speed."""
+    fastest = np.abs(path.arms.rates).max(axis=0).argmax()
+    rates = path.arms.rates.copy()
+    rates[:, fastest] *= FACTOR
+    return replace(path, arms=replace(path.arms, velocities=tuple(map(tuple, rates.tolist()))))
+
+
+def hasty_fingers(path: Trajectory) -> Trajectory:
+    hand = max(path.grippers, key=lambda track: len(track.times_s))
+    quick = replace(hand, velocities=tuple(FACTOR * rate for rate in hand.velocities))
+    return replace(path, grippers=tuple(quick if track is hand else track for track in path.grippers))
+
+
+def hasty_base(path: Trajectory) -> Trajectory:
+    segments = [replace(own, base_rates=tuple(FACTOR * rate for rate in own.base_rates)) for own in path.segments]
+    return replace(path, segments=tuple(segments))
+
+
+def test_a_plan_keeps_its_limits(plan: Plan):
+    require_replay(Plan.from_dict(plan.to_dict()))
+
+
+@pytest.mark.parametrize(
+    ("spoil", "what"),
+    [(hasty_arms, r"_joint (moves|speeds up)"), (hasty_fingers, "gripper"), (hasty_base, "the base")],
+)
+def test_one_that_does_not_is_refused_with_what_is_too_fast_and_when(
+    plan: Plan, spoil: Callable[[Trajectory], Trajectory], what: str
+):
+    assert plan.trajectory is not None
+    with pytest.raises(RequestError, match=what) as caught:
+        require_replay(replace(plan, trajectory=spoil(plan.trajectory)))
+    assert caught.value.field == "trajectory"
+    assert "times as" in caught.value.message and "at " in caught.value.message
+
+
+def test_too_hard_an_acceleration_is_refused_where_no_speed_is_too_great(plan: Plan, monkeypatch: pytest.MonkeyPatch):
+    own = MotionLimits.of(Problem.of(plan.task).robot.card, plan.task.scene)
+    weaker = replace(own, accelerations=0.5 * own.accelerations)
+    monkeypatch.setattr(MotionLimits, "of", lambda *_: weaker)
+    with pytest.raises(RequestError, match=r"speeds up or slows down (1\.9|2\.0)"):
+        require_replay(plan)
+
+
+def test_a_slower_base_than_a_plan_was_made_for_is_told(plan: Plan):
+    slow = replace(plan.task.scene, base_speed_m_s=0.5 * Scene().base_speed_m_s)
+    with pytest.raises(RequestError) as caught:
+        require_replay(replace(plan, task=replace(plan.task, scene=slow)))
+    assert "the base" in caught.value.message
+
+
+value = st.floats(-2.0, 2.0)
+
+
+@given(st.lists(st.tuples(st.floats(0.05, 2.0), value, value), min_size=2, max_size=5))
+def test_the_peaks_between_keyframes_are_those_of_the_cubic(keyframes: list[tuple[float, float, float]]):
+    gaps, values, rates = (np.array(column) for column in zip(*keyframes, strict=True))
+    times = np.cumsum(gaps)
+    speeds, accelerations = peaks(times, values[:, None], rates[:, None])
+    for number, (start, end) in enumerate(pairwise(times)):
+        at = np.linspace(start, end, 400, endpoint=False)
+        sampled = np.array([rate_at(times, values, rates, t) for t in at])
+        assert speeds[number, 0] == pytest.approx(
+            max(np.abs(sampled).max(), abs(rates[number + 1])), rel=1e-3, abs=1e-3
+        )
+        hardest = np.abs(np.diff(sampled) / np.diff(at)).max()
+        assert hardest <= accelerations[number, 0] * (1.0 + 1e-6) + 1e-6
+        assert accelerations[number, 0] == pytest.approx(hardest, rel=2e-2, abs=2e-2)
+        assert value_at(times, values, rates, start) == pytest.approx(values[number])
