@@ -12,10 +12,12 @@ from contextlib import contextmanager
 from dataclasses import replace
 from typing import Protocol
 
-from app.document_state import Answer, Checks, DocumentState, HeldFold
+from app.answer import Answer
+from app.document_state import DocumentState
 from app.drawing.draft import Draft
 from app.drawing.drawing import Drawing
 from app.drawing.edit import Edit, OvertakenError, StaleVersionError
+from app.held_folds import Checks, HeldFold
 from app.jobs.courtesy import Courtesy
 from app.language import Language
 from app.playback import Playback

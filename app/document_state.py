@@ -2,101 +2,20 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property
-from typing import Any
 
+from app.answer import Answer, Rehearsed, ShownPlan
 from app.drawing.draft import Draft
 from app.drawing.drawing import Drawing
 from app.drawing.solution import Solution
+from app.held_folds import Checks
 from app.language import ENGLISH, Language
 from app.playback import Playback
 from app.rehearsal.trace import RunTrace
 from planner.errors import RequestError
-from planner.geometry.pose import Point2
 from planner.motion.timeline import Timeline
 from planner.task.plan import Plan
 from planner.task.task import Task
 from planner.task.world_state import WorldState
-
-
-@dataclass(frozen=True, eq=False)
-class Answer:
-    """A plan, and the task that it answers.
-
-    Attributes:
-        version: the document's version that it belongs to.
-        task: the task.
-        plan: the plan.
-        plan_id: the id under which the plan can be read.
-        is_final: whether the search for a better plan has ended.
-    """
-
-    version: int
-    task: Task
-    plan: Plan
-    plan_id: str
-    is_final: bool = True
-
-    @cached_property
-    def body(self) -> dict[str, Any]:
-        """The plan as JSON."""
-        return self.plan.answer()
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class ShownPlan:
-    """The plan on show, with the trajectory's timeline.
-
-    Attributes:
-        version: the document's version that it belongs to.
-        plan: the plan.
-        timeline: the samples of robot and cloth at every time.
-    """
-
-    version: int
-    plan: Plan
-    timeline: Timeline
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Rehearsed:
-    """A rehearsed run of a plan.
-
-    Attributes:
-        plan: the plan.
-        trace: the run.
-    """
-
-    plan: Plan
-    trace: RunTrace
-
-
-@dataclass(frozen=True, slots=True)
-class HeldFold:
-    """The vertices and grips of one fold.
-
-    Attributes:
-        must_hold: the vertices that must be held, article frame (m).
-        grips: the grips that hold them (m); empty if there are too few arms.
-        grips_needed: the number of grips; None if there are too few arms.
-    """
-
-    must_hold: tuple[Point2, ...]
-    grips: tuple[Point2, ...]
-    grips_needed: int | None
-
-
-@dataclass(frozen=True, slots=True)
-class Checks:
-    """The vertices and grips of the folds.
-
-    Attributes:
-        version: the document's version that they belong to.
-        folds: the entries, one for each legal fold.
-    """
-
-    version: int
-    folds: tuple[HeldFold, ...]
 
 
 @dataclass(frozen=True, slots=True)

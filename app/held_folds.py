@@ -1,12 +1,41 @@
 """Finds, for each fold of a drawing, the vertices to hold and the grips; also if a later fold is illegal."""
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
-from app.document_state import HeldFold
 from app.drawing.solution import Solution
 from app.drawing.solve import radius_m
 from planner.cloth.grips import grip_covers
 from planner.cloth.must_hold import must_hold
+from planner.geometry.pose import Point2
+
+
+@dataclass(frozen=True, slots=True)
+class HeldFold:
+    """The vertices and grips of one fold.
+
+    Attributes:
+        must_hold: the vertices that must be held, article frame (m).
+        grips: the grips that hold them (m); empty if there are too few arms.
+        grips_needed: the number of grips; None if there are too few arms.
+    """
+
+    must_hold: tuple[Point2, ...]
+    grips: tuple[Point2, ...]
+    grips_needed: int | None
+
+
+@dataclass(frozen=True, slots=True)
+class Checks:
+    """The vertices and grips of the folds.
+
+    Attributes:
+        version: the document's version that they belong to.
+        folds: the entries, one for each legal fold.
+    """
+
+    version: int
+    folds: tuple[HeldFold, ...]
 
 
 def held_folds(solution: Solution, arms: int) -> Iterator[HeldFold]:

@@ -4,8 +4,9 @@ import logging
 import threading
 import time
 
+from app.answer import ShownPlan
 from app.document import Document
-from app.document_state import DocumentState, ShownPlan
+from app.document_state import DocumentState
 from app.shown_robot import shown_robot
 from app.ui.editor.desk import Desk
 from app.ui.lying_cloth import lying_cloth

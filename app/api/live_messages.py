@@ -3,9 +3,11 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from app.document_state import Answer, Checks, DocumentState
+from app.answer import Answer
+from app.document_state import DocumentState
 from app.drawing.drawing_json import drawing_to_dict
 from app.drawing.garment_json import garment_to_dict
+from app.held_folds import Checks
 from app.shown_robot import shown_robot
 from planner.errors import FoldingError
 from planner.geometry.pose import Point2

@@ -2,7 +2,8 @@
 
 from dataclasses import replace
 
-from app.document_state import Answer, DocumentState
+from app.answer import Answer
+from app.document_state import DocumentState
 from app.drawing.draft import draft_of
 from app.drawing.garment_drawing import drawing_of
 from planner.cloth.garment import Garment

@@ -62,7 +62,7 @@ def acceleration_at(times: Sequence[float], values: Values, rates: Values, t: fl
     return (2.0 * (slope - rates[after - 1]) - bend * (2.0 - 6.0 * share)) / gap
 
 
-def peaks(times: Values, values: Values, rates: Values) -> tuple[FloatArray, FloatArray]:
+def peaks(times: FloatArray, values: FloatArray, rates: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return how fast and how hard values change at most between keyframes, of shape (n - 1, k) each.
 
     Both (1/s, 1/s2) are exact: a cubic's second derivative is greatest at one of its ends, its first there or where
@@ -73,11 +73,11 @@ def peaks(times: Values, values: Values, rates: Values) -> tuple[FloatArray, Flo
         values: the values, shape (n, k).
         rates: their changes (1/s), shape (n, k), or empty.
     """
-    gaps = np.diff(np.asarray(times))[:, None]
-    means = np.diff(np.asarray(values), axis=0) / gaps
+    gaps = np.diff(times)[:, None]
+    means = np.diff(values, axis=0) / gaps
     if not len(rates):
         return np.abs(means), np.zeros_like(means)
-    before, after = np.asarray(rates)[:-1], np.asarray(rates)[1:]
+    before, after = rates[:-1], rates[1:]
     first, last = (6.0 * means - 4.0 * before - 2.0 * after) / gaps, (2.0 * before + 4.0 * after - 6.0 * means) / gaps
     bend = np.where(first == last, np.inf, first - last)
     share = (first / bend).clip(0.0, 1.0)

@@ -4,6 +4,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from planner.motion.transfer import Transfer
+from planner.motion.transfer_planner import TransferPlanner
+from planner.motion.transit import Transit
 from planner.primitives.primitive import Step
 
 
@@ -15,27 +17,40 @@ class Act:
         first: the index of its first primitive in the plan.
         steps: its primitives, as steps of the plan.
         transfer: the transfer with its joint paths; None where nothing is held.
+        transit: how the hands come to it; None as long as what comes before is unknown, and where it begins with cloth
+            in the hands.
     """
 
     first: int
     steps: tuple[Step, ...]
     transfer: Transfer | None
+    transit: Transit | None = None
 
     def durations_s(self) -> tuple[float, ...]:
         """Return the duration of each of its primitives (s)."""
-        return (
-            self.transfer.durations_s() if self.transfer is not None else tuple(step.duration_s for step in self.steps)
-        )
+        if self.transfer is None:
+            return tuple(step.duration_s for step in self.steps)
+        first_s, *others_s = self.transfer.durations_s()
+        return first_s + self.late_s, *others_s
+
+    @property
+    def late_s(self) -> float:
+        """The time by which the hands come to it late (s)."""
+        return 0.0 if self.transit is None else self.transit.late_s
 
 
-def in_turn(acts: Sequence[Act]) -> tuple[Act, ...]:
+def in_turn(acts: Sequence[Act], maker: TransferPlanner) -> tuple[Act, ...]:
     """Return acts as they follow one another: the hands come to each transfer from the one before it."""
     before: Transfer | None = None
+    moves: list[Step] = []
     found = []
     for act in acts:
-        transfer = None if act.transfer is None else act.transfer.following(before)
-        found.append(replace(act, transfer=transfer))
-        before = transfer or before
+        if act.transfer is None:
+            found.append(act)
+            moves += act.steps
+        else:
+            found.append(replace(act, transit=maker.transit(before, moves, act.transfer)))
+            before, moves = act.transfer, []
     return tuple(found)
 
 

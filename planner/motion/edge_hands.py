@@ -12,7 +12,6 @@ from planner.folds.fold_path import REST_HEIGHT_M
 from planner.geometry.tolerance import TIME_S
 from planner.motion.act import Act, duration_s, in_turn
 from planner.motion.robot_port import RobotPort
-from planner.motion.trajectory_maker import late_s
 from planner.motion.transfer_planner import TransferPlanner
 from planner.primitives.context import Context
 from planner.primitives.primitive import Step
@@ -46,26 +45,22 @@ class EdgeHands:
         if not any(firsts):
             return tuple(acts)
         limit_s = duration_s(acts) + TIME_S
-        best = in_turn([first or act for first, act in zip(firsts, acts, strict=True)])
-        late = late_s(self._context, self._maker, best)
-        if duration_s(best) + sum(late) <= limit_s:
+        best = in_turn([first or act for first, act in zip(firsts, acts, strict=True)], self._maker)
+        if duration_s(best) <= limit_s:
             return best
         # Mostly one transit is slower for it: the act to which hands come late does without, or with another way.
-        are_late = [time > TIME_S for time in late]
-        best = in_turn([act if is_late else one for act, one, is_late in zip(acts, best, are_late, strict=True)])
-        if self._lasting_s(best) > limit_s:
-            best, are_late, limit_s = tuple(acts), [True] * len(acts), self._lasting_s(acts) + TIME_S
+        are_late = [one.late_s > act.late_s + TIME_S for act, one in zip(acts, best, strict=True)]
+        mixed = (act if is_late else one for act, one, is_late in zip(acts, best, are_late, strict=True))
+        best = in_turn(tuple(mixed), self._maker)
+        if duration_s(best) > limit_s:
+            best, are_late = tuple(acts), [True] * len(acts)
         for number, (first, others, is_late) in enumerate(zip(firsts, ways, are_late, strict=True)):
             for other in chain([first], others) if is_late and first is not None and not is_over() else ():
-                tried = in_turn((*best[:number], other, *best[number + 1 :]))
-                if self._lasting_s(tried) <= limit_s:
+                tried = in_turn((*best[:number], other, *best[number + 1 :]), self._maker)
+                if duration_s(tried) <= limit_s:
                     best = tried
                     break
         return best
-
-    def _lasting_s(self, acts: Sequence[Act]) -> float:
-        """Return how long acts last, with the time by which hands come late to their grips (s)."""
-        return duration_s(acts) + sum(late_s(self._context, self._maker, acts))
 
     def _others(self, act: Act) -> Iterator[Act]:
         """Yield acts between the same states, of the same duration, in which more hands hold edges."""

@@ -32,7 +32,7 @@ def with_fewer_hands(
     for number, act in enumerate(acts):
         if duration_s(best) <= sum(step.duration_s for one in best for step in one.steps) + TIME_S:
             break
-        others = (in_turn((*best[:number], one, *best[number + 1 :])) for one in _with_fewer(act, maker, tries))
+        others = (in_turn((*best[:number], one, *best[number + 1 :]), maker) for one in _with_fewer(act, maker, tries))
         quickest = min(others, key=duration_s, default=best)
         if duration_s(quickest) < duration_s(best) - worth_s - TIME_S:
             best = quickest

@@ -60,12 +60,6 @@ class Line:
     at_grips: FloatArray | None = None
 
     @property
-    def key(self) -> tuple[bytes, ...]:
-        """The key that tells it from other lines."""
-        at_grips = b"" if self.at_grips is None else self.at_grips.tobytes()
-        return self.joints.tobytes(), self.openings_m.tobytes(), at_grips
-
-    @property
     def shortest_s(self) -> float:
         """The least time for all of it (s)."""
         return self.timing.duration_s

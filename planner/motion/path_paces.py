@@ -6,7 +6,7 @@ from numba import njit
 from planner.geometry.pose import BoolArray, FloatArray
 
 _LEAST = 1e-12
-"""Keeps a bound on what does not move finite."""
+"""A slope, or a bend, that is none."""
 
 
 @njit(cache=True, nogil=True)
@@ -105,6 +105,11 @@ def _gain(
 
 @njit(cache=True, nogil=True)
 def _room(slope: float, bent: float, acceleration: float, width: float) -> float:
-    """Return by how much a pace's square may grow where a joint accelerates by `bent` for the path's bend already."""
+    """Return by how much a pace's square may grow where a joint accelerates by `bent` for the path's bend already.
+
+    A joint that turns round there does not accelerate with the pace.
+    """
+    if abs(slope) <= _LEAST:
+        return np.inf
     spare = acceleration - bent if slope > 0.0 else acceleration + bent
-    return 2.0 * width * spare / max(abs(slope), _LEAST)
+    return 2.0 * width * spare / abs(slope)

@@ -11,6 +11,9 @@ path's own parameter goes by in a second.
 - *What is kept.* A motion is told by keyframes with velocities, a cubic between two of them in time. Its accelerations
   are greatest at keyframes, so they are known exactly; where they are too great, the pace there is lowered, and all is
   done again.
+- *What is late.* Between two keyframes nothing need keep to the pace, so where a group takes longer than planned, its
+  intervals are as short as the velocities at their ends allow. Where all joints turn round, these are none, and the
+  pace there is low.
 
 A general solver, `toppra`, finds runs that are up to a fifth quicker where a path has kinks, and takes 30 to 60 times
 as long (9 ms for a fold of the T-shirt); a search times every transfer that it considers. Tests compare the two.
@@ -23,16 +26,11 @@ from numba import njit
 from numpy.typing import NDArray
 
 from planner.geometry.pose import BoolArray, FloatArray
+from planner.motion.path_intervals import EXCESS, excess, gap_s, shorten
 from planner.motion.path_paces import quickest_paces, slopes
-
-EXCESS = 1.02
-"""The greatest acceleration as a share of its limit: the planned time of a drive is that of an exact ramp."""
 
 _ASKED = 1.01
 """The accelerations with which a run is sought, as a share of the limits."""
-
-_ROUNDING = 1.0 + 1e-9
-"""The greatest speed as a share of its limit."""
 
 _ROUNDS = 30
 """Times that paces are lowered where accelerations are too great, before the whole group is stretched."""
@@ -57,12 +55,10 @@ class PathTiming:
     Attributes:
         times_s: the time of each keyframe, from 0, shape (n,); of keyframes at one parameter all have the same time.
         velocities: what moves along the path, by time, shape (n, columns), 1/s.
-        paces: the parameter's change at each keyframe, shape (n,), 1.
     """
 
     times_s: FloatArray
     velocities: FloatArray
-    paces: FloatArray
 
     @property
     def duration_s(self) -> float:
@@ -71,7 +67,7 @@ class PathTiming:
 
     def stretched(self, factor: float) -> "PathTiming":
         """Return the timing that takes a factor as long."""
-        return PathTiming(factor * self.times_s, self.velocities / factor, self.paces / factor)
+        return PathTiming(factor * self.times_s, self.velocities / factor)
 
 
 def timed(
@@ -97,12 +93,12 @@ def timed(
     rests = np.zeros(len(rows), dtype=np.bool_)
     np.logical_or.at(rests, which, is_rest)
     if len(rows) == 1:
-        return PathTiming(np.zeros(len(at)), np.zeros_like(values), np.zeros(len(at)))
-    gaps, velocities, paces = _timed(
+        return PathTiming(np.zeros(len(at)), np.zeros_like(values))
+    gaps, velocities = _timed(
         at[rows], np.ascontiguousarray(values[rows]), rests, groups[rows], planned_s, limits[0], limits[1]
     )
     times = np.append(0.0, np.cumsum(gaps))
-    return PathTiming(times[which], velocities[which], paces[which])
+    return PathTiming(times[which], velocities[which])
 
 
 def quickest(values: FloatArray, at: FloatArray, limits: tuple[FloatArray, FloatArray]) -> PathTiming:
@@ -121,8 +117,8 @@ def _timed(
     planned_s: FloatArray,
     speeds: FloatArray,
     accelerations: FloatArray,
-) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return the time between keyframes, the velocities and the paces there; see `timed`."""
+) -> tuple[FloatArray, FloatArray]:
+    """Return the time between keyframes and the velocities there; see `timed`."""
     (starts, ends), caps = slopes(at, values, is_rest), np.full(len(at), _PACE_MAX)
     gaps, worst = np.empty(len(at) - 1), np.empty(len(planned_s))
     paces = np.empty(len(at))
@@ -131,11 +127,11 @@ def _timed(
         _even(at, values, groups, planned_s, speeds, accelerations, paces, gaps)
         worst[:] = 1.0
         for i in range(len(gaps)):
-            excess = _excess(values[i], values[i + 1], starts, ends, paces, i, gaps[i], speeds, EXCESS * accelerations)
-            worst[groups[i + 1]] = max(worst[groups[i + 1]], excess)
-            if excess > 1.0:
-                caps[i] = min(caps[i], paces[i] / excess**1.1)
-                caps[i + 1] = min(caps[i + 1], paces[i + 1] / excess**1.1)
+            worse = excess(values[i], values[i + 1], starts, ends, paces, i, gaps[i], speeds, EXCESS * accelerations)
+            worst[groups[i + 1]] = max(worst[groups[i + 1]], worse)
+            if worse > 1.0:
+                caps[i] = min(caps[i], paces[i] / worse**1.1)
+                caps[i + 1] = min(caps[i + 1], paces[i + 1] / worse**1.1)
         if worst.max() <= 1.0:
             break
     for i in range(len(gaps)):
@@ -145,7 +141,8 @@ def _timed(
     velocities = np.zeros_like(values)  # at the last keyframe all rests
     for i in range(len(gaps)):
         velocities[i] = starts[i] * paces[i]
-    return gaps, velocities, paces
+    shorten(values, velocities, groups, planned_s, speeds, accelerations, gaps)
+    return gaps, velocities
 
 
 @njit(cache=True, nogil=True)
@@ -165,7 +162,7 @@ def _even(
         for i in range(len(gaps)):
             if groups[i + 1] == group:
                 high, way = max(high, paces[i], paces[i + 1]), way + at[i + 1] - at[i]
-                gaps[i] = _gap(at, values, speeds, accelerations, paces, i, np.inf)
+                gaps[i] = gap_s(at, values, speeds, accelerations, paces, i, np.inf)
                 quick_s += gaps[i]
         if quick_s >= planned_s[group] or quick_s == 0.0:
             continue
@@ -174,66 +171,14 @@ def _even(
             middle, taken_s = 0.5 * (low + high), 0.0
             for i in range(len(gaps)):
                 if groups[i + 1] == group:
-                    taken_s += _gap(at, values, speeds, accelerations, paces, i, middle)
+                    taken_s += gap_s(at, values, speeds, accelerations, paces, i, middle)
             low, high = (middle, high) if taken_s > planned_s[group] else (low, middle)
         taken_s = 0.0
         for i in range(len(gaps)):
             if groups[i + 1] == group:
-                gaps[i] = _gap(at, values, speeds, accelerations, paces, i, high)
+                gaps[i] = gap_s(at, values, speeds, accelerations, paces, i, high)
                 taken_s += gaps[i]
         for i in range(len(gaps)):
             if groups[i + 1] == group:
                 gaps[i] *= planned_s[group] / taken_s  # 1 but for rounding
                 paces[i], paces[i + 1] = min(paces[i], high), min(paces[i + 1], high)
-
-
-@njit(cache=True, nogil=True)
-def _gap(
-    at: FloatArray,
-    values: FloatArray,
-    speeds: FloatArray,
-    accelerations: FloatArray,
-    paces: FloatArray,
-    i: int,
-    most: float,
-) -> float:
-    """Return the time over an interval with paces cut at `most`; between two rests the least time of a cubic (s)."""
-    total = min(paces[i], most) + min(paces[i + 1], most)
-    if total > 0.0:
-        return float(2.0 * (at[i + 1] - at[i]) / total)
-    least_s = 0.0
-    for j in range(values.shape[1]):
-        way = abs(values[i + 1, j] - values[i, j])
-        least_s = max(least_s, 1.5 * way / speeds[j], np.sqrt(6.0 * way / accelerations[j]))
-    return float(least_s)
-
-
-@njit(cache=True, nogil=True)
-def _excess(
-    start: FloatArray,
-    end: FloatArray,
-    starts: FloatArray,
-    ends: FloatArray,
-    paces: FloatArray,
-    i: int,
-    gap_s: float,
-    speeds: FloatArray,
-    accelerations: FloatArray,
-) -> float:
-    """Return the factor by which time over an interval must be stretched to keep the limits; 1 where they are kept."""
-    worst = 1.0
-    if gap_s <= 0.0:
-        return worst
-    for j in range(len(start)):
-        before, after = starts[i, j] * paces[i], ends[i, j] * paces[i + 1]
-        mean = (end[j] - start[j]) / gap_s
-        first, last = (
-            (6.0 * mean - 4.0 * before - 2.0 * after) / gap_s,
-            (2.0 * before + 4.0 * after - 6.0 * mean) / gap_s,
-        )
-        fast = max(abs(before), abs(after))
-        if first * last < 0.0:
-            fast = max(fast, abs(before + 0.5 * first * first / (first - last) * gap_s))
-        worst = max(worst, fast / (_ROUNDING * speeds[j]))
-        worst = max(worst, np.sqrt(max(abs(first), abs(last)) / accelerations[j]))
-    return float(worst)

@@ -1,10 +1,10 @@
 """Make the trajectory of a plan from its acts: segments for base and cloth, one joint trajectory for the arms.
 
-While cloth is held, the joints are those of the acts. Between two acts the hands are empty, and the base drives (see
-`planner.motion.transit_planner`).
+Both are those of the acts' transfers, while cloth is held, and of the transits between these, while hands are empty and
+the base drives.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import accumulate, pairwise
 
@@ -18,12 +18,12 @@ from planner.geometry.tolerance import TIME_S
 from planner.motion.act import Act
 from planner.motion.hand_holds import settling_s
 from planner.motion.joint_trajectory import JointTrajectory, finger_limits_over
-from planner.motion.line import Keyframes, Line
-from planner.motion.lying_cloth import LyingCloth
+from planner.motion.line import Keyframes
 from planner.motion.timed_phase import TimedPhase
 from planner.motion.transfer import Transfer
 from planner.motion.transfer_planner import TransferPlanner
-from planner.motion.transit_time import TransitTime
+from planner.motion.transit import Transit
+from planner.motion.transit_paths import TransitPaths
 from planner.primitives.context import Context
 from planner.primitives.drive_time import DriveTime
 from planner.robots.card import ArmCard, RobotCard
@@ -46,7 +46,7 @@ def trajectory(context: Context, card: RobotCard, maker: TransferPlanner, acts: 
         maker: the planner that made the acts' joint paths.
         acts: the acts, one after the other.
     """
-    builder = _TrajectoryBuilder(context.drive_time, maker)
+    builder = _TrajectoryBuilder(context.drive_time, maker.transits, maker.dwell_s)
     segments = tuple(builder.segments(acts, _standing(context)))
     track = builder.track
     rows, velocities = np.array(track.joints), np.array(track.velocities)
@@ -59,13 +59,6 @@ def trajectory(context: Context, card: RobotCard, maker: TransferPlanner, acts: 
         0.0 if card.lift_joint is None else context.scene.torso_m,
         card.still_values(context.scene.torso_m),
     )
-
-
-def late_s(context: Context, maker: TransferPlanner, acts: Sequence[Act]) -> tuple[float, ...]:
-    """Return by how much hands come later to the grips of each act than its reach lasts (s)."""
-    builder = _TrajectoryBuilder(context.drive_time, maker)
-    tuple(builder.segments(acts, _standing(context)))
-    return tuple(builder.late_s.get(act.first, 0.0) for act in acts)
 
 
 def _gripper_track(arm: ArmCard, times_s: Sequence[float], openings_m: Sequence[float]) -> GripperTrack:
@@ -97,35 +90,36 @@ def _standing(context: Context) -> Phase:
 
 
 class _TrajectoryBuilder:
-    """Joins transfers and moves into one trajectory."""
+    """Joins transits, transfers and moves into one trajectory."""
 
-    def __init__(self, time: DriveTime, maker: TransferPlanner) -> None:
+    def __init__(self, time: DriveTime, transits: TransitPaths, dwell_s: float) -> None:
         """Begin with all arms at home.
 
         Args:
             time: the time that the base takes.
-            maker: the planner that made the transfers.
+            transits: the paths of empty hands.
+            dwell_s: the time that fingers take to close and to open (s).
         """
         self._time = time
-        self._transits, self._hands, self._dwell_s = maker.transits, maker.hands, maker.dwell_s
-        self.track = JointTrajectory.at_rest(self._transits.home, len(self._transits.layout.arms))
-        self.late_s: dict[int, float] = {}
+        self._transits, self._arms = transits, len(transits.layout.arms)
+        self._dwell_s = dwell_s
+        self.track = JointTrajectory.at_rest(transits.home, self._arms)
         self._timed_phases: list[TimedPhase] = []
-        self._free: list[TimedPhase] = []
         self._now = 0.0
-        self._before: Transfer | None = None
-        self._turns: FloatArray = np.zeros_like(self._transits.home)
+        self._turns: FloatArray = np.zeros_like(transits.home)
 
     def segments(self, acts: Sequence[Act], rest: Phase) -> Iterator[Segment]:
         """Yield the segments of base and cloth in a plan's acts; only `rest` if there are none."""
+        moves: list[TimedPhase] = []
         for act in acts:
             if act.transfer is not None:
-                self._add_transfer(act.first, act.transfer)
+                self._add(act, act.transfer)
+                moves.clear()  # they were part of the transit
                 continue
-            for number, step in enumerate(act.steps):
+            for number, step in enumerate(act.steps, start=act.first):
                 lasting = (phase for phase in step.phases() if phase.duration_s > 0.0)
-                self._free += [TimedPhase.driven(act.first + number, phase, self._time) for phase in lasting]
-        self._timed_phases += self._free
+                moves += [TimedPhase.driven(number, phase, self._time) for phase in lasting]
+        self._timed_phases += moves
         if not self._timed_phases:
             self._timed_phases.append(TimedPhase.even(0, rest, 0.0))
         starts = accumulate((timed.duration_s for timed in self._timed_phases), initial=0.0)
@@ -134,23 +128,16 @@ class _TrajectoryBuilder:
             rates, base_rates = tuple(timed.rates.tolist()), tuple(timed.base_rates.tolist())
             yield Segment(timed.primitive, start_s, timed.phase, times, fractions, rates, base_rates)
 
-    def _add_transfer(self, primitive: int, transfer: Transfer) -> None:
-        lost_s = 0.0  # by a base that speeds up and slows down: the reach that follows makes up for it
-        for phase in transfer.free_phases:
-            if any(phase.hands):
-                reach_s = phase.duration_s + transfer.reach_late_s - lost_s
-                self._free.append(TimedPhase.even(primitive, phase, reach_s))
-            else:
-                self._free.append(TimedPhase.driven(primitive, phase, self._time))
-                lost_s += self._free[-1].duration_s - phase.duration_s
-        if transfer.carried.cloths[0] is None:
+    def _add(self, act: Act, transfer: Transfer) -> None:
+        """Add the transit to a transfer, and the transfer."""
+        if act.transit is None:
             self._begin_holding(transfer)
         else:
-            self._reach(primitive, transfer, transfer.carried.cloths[0])
+            self._reach(act.first, act.transit)
+            self._turns = self.track.last - transfer.carried.joints[transfer.carried.first]
         held = self._now
         timing = transfer.timing
-        for timed in timing.timed_phases:
-            self._timed_phases.append(replace(timed, primitive=primitive + timed.primitive))
+        self._timed_phases += _counted(act.first, timing.timed_phases)
         carried, end = transfer.carried, held + float(timing.times_s[-1])
         joints = carried.joints[carried.first + timing.moments] + self._turns
         run = Keyframes(held + timing.times_s, joints, timing.velocities)
@@ -170,32 +157,21 @@ class _TrajectoryBuilder:
                 self.track.close(arm, closes, held - own, holds[arm].held_m)
             self.track.open(arm, opens, opens + self._dwell_s - own, holds[arm].opening_m)
         self._now = end
-        self._before = transfer
-        self._free = []
 
     def _begin_holding(self, transfer: Transfer) -> None:
         """Begin with the cloth in the hands, at the first joints of the transfer."""
-        self.track = JointTrajectory.at_rest(
-            transfer.carried.joints[transfer.carried.first], len(self._transits.layout.arms)
-        )
+        self.track = JointTrajectory.at_rest(transfer.carried.joints[transfer.carried.first], self._arms)
         for arm in np.flatnonzero(transfer.carried.moments.is_used).tolist():
             self.track.begin_closed(arm, transfer.holds[arm].held_m)
 
-    def _reach(self, primitive: int, transfer: Transfer, cloth: LyingCloth) -> None:
-        """Add the transit to a transfer's grips, past the cloth on the table."""
-        tail, start = self._tail(), transfer.carried.joints[0]
-        self._turns = self._transits.unwound(start, tail.joints[-1]) - start
-        lead = transfer.lead.moved(self._turns)
-        between = TransitTime(self._free, 0.0, cloth)
-        free, keyframes = self._hands.keyframes(between, tail, lead)
-        self.track.add(keyframes.later(self._now))
-        self._turns = keyframes.joints[-1] - transfer.carried.joints[transfer.carried.first]
-        self._timed_phases += free.timed_phases
-        self.late_s[primitive] = free.end_s - between.end_s
-        self._now += free.end_s
+    def _reach(self, primitive: int, transit: Transit) -> None:
+        """Add a transit to the transfer that begins with a primitive."""
+        times_s, joints, velocities = transit.keyframes
+        self.track.add(Keyframes(self._now + times_s, joints + self._turns, velocities))
+        self._timed_phases += _counted(primitive, transit.timed_phases)
+        self._now += transit.duration_s
 
-    def _tail(self) -> Line:
-        """Return the line on which the hands withdraw from the transfer before."""
-        if self._before is None:
-            return self._transits.line(self.track.last[None])
-        return self._before.tail.moved(self.track.last - self._before.tail.joints[0])
+
+def _counted(primitive: int, timed_phases: Iterable[TimedPhase]) -> Iterator[TimedPhase]:
+    """Yield phases whose primitives are counted from one of the plan's."""
+    return (replace(timed, primitive=primitive + timed.primitive) for timed in timed_phases)

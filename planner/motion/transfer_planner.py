@@ -7,7 +7,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from planner.geometry.pose import FloatArray, Pose2
+from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
 from planner.geometry.tolerance import TIME_S
 from planner.motion.blocking_contacts import BlockingContacts
@@ -17,15 +17,15 @@ from planner.motion.hand_holds import edge_holds, opening_of, settling_s
 from planner.motion.joint_trajectory import finger_run_s
 from planner.motion.known_transfers import KnownTransfers
 from planner.motion.line import Line
-from planner.motion.lying_cloth import LyingCloth, LyingCloths
+from planner.motion.lying_cloth import LyingCloths
 from planner.motion.moments import Moments, forget_moments, moments_of
 from planner.motion.opened_collisions import OpenedCollisions
-from planner.motion.pacing import needed_s
 from planner.motion.robot_port import RobotPort
-from planner.motion.transfer import ReachTime, Transfer, is_carrying
+from planner.motion.transfer import Transfer, is_carrying
 from planner.motion.transfer_candidate import BlockedMoments, Candidate, motion_of, ways_of
 from planner.motion.transfer_paths import TransferPaths
 from planner.motion.transfer_timing import TransferLimits, TransferTiming
+from planner.motion.transit import Transit, transit_between
 from planner.motion.transit_paths import TransitPaths
 from planner.motion.transit_planner import TransitPlanner
 from planner.motion.tries import QUICK, Tries
@@ -38,19 +38,16 @@ from planner.task.phase import Phase
 MARGIN_M = 0.001
 """The distance kept between bodies that must not touch, at the moments tested (m)."""
 
-_HALF = 0.5
-"""The share of a reach's time, fingers closed, in which hands must be able to go home after the transfer before."""
-
 
 class TransferPlanner:
     """Plans the transfers of one task.
 
     Attributes:
         transits: the paths of empty hands.
-        hands: plans their motion along these paths.
         dwell_s: how long hands rest while fingers close, and while they open (s).
         glances: how often the ends of steps were tested for free postures, cached answers counted.
         tries: how often joint paths were requested, cached answers counted.
+        transits_planned: how many transits were planned.
     """
 
     def __init__(self, context: Context, machine: RobotPort, known: KnownTransfers | None = None) -> None:
@@ -71,11 +68,11 @@ class TransferPlanner:
         self.known = known or KnownTransfers()
         self._candidates: dict[tuple[object, ...], Candidate] = {}
         self._made: dict[Candidate, Transfer | None] = {}
-        self.glances = self.tries = 0
+        self.glances = self.tries = self.transits_planned = 0
         self._contacts = BlockingContacts(machine, collisions.wide, scene.torso_m, scene.table.height_m)
         self.dwell_s = max(scene.grip_dwell_s, *(finger_run_s(arm.gripper) for arm in machine.card.arms))
-        self.hands = TransitPlanner(self.transits, self.dwell_s)
         self._cloths = LyingCloths(context, collisions)
+        self._hands = TransitPlanner(self.transits, self.dwell_s)
         self._limits = TransferLimits.of(self.transits.layout, context.drive_time, self.dwell_s)
 
     def validated(self, steps: Sequence[Step], tries: Tries = QUICK) -> Transfer | None:
@@ -99,7 +96,7 @@ class TransferPlanner:
                 return made
             else:
                 late += 1
-                best, best_s = min((best, best_s), (made, sum(made.durations_at_most_s())), key=lambda found: found[1])
+                best, best_s = min((best, best_s), (made, sum(made.durations_s())), key=lambda found: found[1])
             if late == tries.late or failed >= (tries.together if candidate.is_together else tries.alone):
                 break
         return best
@@ -195,8 +192,9 @@ class TransferPlanner:
         at_grips = joints[first] if carried.settles else None
         openings_m = np.array([opening_of(hold) for hold in carried.lines.holds])
         lead, tail = self.transits.line(coming, openings_m, at_grips), self.transits.line(leaving, openings_m)
-        reach = self._reach(candidate.steps, carried, lead, tail, timing.borrowed_s)
-        return None if reach is None else Transfer(candidate.steps, carried, timing, lead, tail, reach)
+        if not self._can_come_and_go(candidate.steps, carried, lead, tail):
+            return None
+        return Transfer(candidate.steps, carried, timing, lead, tail)
 
     def _moments(self, phases: Sequence[Phase]) -> Moments:
         return moments_of(phases, self._context.scene.table.height_m)
@@ -206,41 +204,41 @@ class TransferPlanner:
         phases = [phase for step in steps for phase in step.phases() if phase.duration_s > 0.0 and is_carrying(phase)]
         return self._contacts.of(self._moments(phases))
 
-    def _reach(
-        self, steps: Sequence[Step], carried: Carried, lead: Line, tail: Line, borrowed_s: float
-    ) -> ReachTime | None:
-        """Return the time that hands need to come from home and to go there; None without a path.
+    def _can_come_and_go(self, steps: Sequence[Step], carried: Carried, lead: Line, tail: Line) -> bool:
+        """Return whether hands can come from home and go there, beside a base that stands.
 
-        As long as the transfer before is unknown, the time left once the fingers have closed is shared evenly between
-        going home from it and coming. Before the first transfer hands wait at home, and after the last fold they need
-        not go there. What accelerations take is known only once the transit is planned.
+        They need not come where they hold the cloth already, nor go after the last fold.
         """
-        motion_s = self._context.scene.arm_motion_s
-        share_s = _HALF * max(motion_s - self.dwell_s, 0.0)
-        room_s = motion_s - self.dwell_s - borrowed_s
-        start, before = self._context.start, steps[0].before
-        is_first = (before.done, before.place) == (start.done, start.place)
-        is_last = steps[-1].after.done == (1 << len(self._context.sequence.folds)) - 1
-        came_s: float | None = 0.0
-        if carried.cloths[0] is not None:
-            came_s = self._needed_s(carried.bases[0], None, lead, carried.cloths[0])
-        left_s: float | None = 0.0
-        if came_s is not None and not is_last:
-            left_s = self._needed_s(carried.bases[-1], tail, None, carried.cloths[1])
-        if came_s is None or left_s is None:
-            return None
-        return ReachTime(came_s, left_s, room_s, share_s, 0.0 if is_first else share_s)
-
-    def _needed_s(self, base: FloatArray, tail: Line | None, lead: Line | None, cloth: LyingCloth) -> float | None:
-        """Return the time from home or a tail to home or a lead, as speeds allow (s); None without a path."""
         home = self.transits.home
-        start, goal = home if tail is None else tail.joints[-1], home if lead is None else lead.joints[0]
-        spared = self.transits.spared(*(None if line is None else line.joints for line in (tail, lead)))
-        way = self.transits.way(Pose2.of(base), start, goal, cloth, spared)
-        if way is None:
+        is_last = steps[-1].after.done == (1 << len(self._context.sequence.folds)) - 1
+        (before, after), (first, last) = carried.cloths, (Pose2.of(base) for base in carried.bases[[0, -1]])
+        spared = self.transits.spared
+        return (
+            before is None
+            or self.transits.way(first, home, lead.joints[0], before, spared(None, lead.joints)) is not None
+        ) and (is_last or self.transits.way(last, tail.joints[-1], home, after, spared(tail.joints, None)) is not None)
+
+    def transit(self, before: Transfer | None, moves: Sequence[Step], transfer: Transfer) -> Transit | None:
+        """Return how hands come from a transfer, or from home, to the next one. Cached.
+
+        Args:
+            before: the transfer before, None for none.
+            moves: the steps between the two.
+            transfer: the next transfer.
+
+        Returns:
+            None where the transfer begins with cloth in the hands.
+        """
+        cloth = transfer.carried.cloths[0]
+        if cloth is None:
             return None
-        lines = (way, *(line.joints for line in (tail, lead) if line is not None))
-        return sum(float(needed_s(line, self.transits.layout.speeds_rad_s).sum()) for line in lines)
+        begins = (moves[0] if moves else transfer.steps[0]).before.key
+        key = (before and before.carried, begins, *(move.after.key for move in moves), transfer.carried)
+        known = self.known.transits
+        if key not in known:
+            self.transits_planned += 1
+            known[key] = transit_between(self._hands, self._context.drive_time, before, moves, transfer, cloth)
+        return known[key]
 
 
 @lru_cache(maxsize=4)

@@ -63,26 +63,27 @@ class _Homeward(NamedTuple):
 
 
 class TransitPlanner:
-    """Leads empty hands from transfer to transfer."""
+    """Leads empty hands from transfer to transfer.
+
+    Attributes:
+        dwell_s: the time that fingers take to close, with the arms at rest (s).
+    """
 
     def __init__(self, transits: TransitPaths, dwell_s: float) -> None:
         """Keep the transit paths and the time that fingers take to close (s)."""
-        self._dwell_s = dwell_s
+        self.dwell_s = dwell_s
         self._transits = transits
-        self._known: dict[tuple[object, ...], tuple[TransitTime, Keyframes]] = {}
 
-    def keyframes(self, free: TransitTime, tail: Line, lead: Line) -> tuple[TransitTime, Keyframes]:
-        """Return the hands' keyframes from a tail to a lead, and the transit's time. Cached.
+    def keyframes(self, free: TransitTime, tail: Line | None, lead: Line) -> tuple[TransitTime, Keyframes]:
+        """Return the hands' keyframes from a tail, or from home, to a lead, and the transit's time.
 
         That has changed where the base must wait, or where the hands need longer: then by as little as was found. They
         may end whole turns of endless joints away from the lead.
         """
-        key = (free.key, tail.key, lead.key)
-        if key not in self._known:
-            self._known[key] = self._sought(free, tail, lead)
-        return self._known[key]
-
-    def _sought(self, free: TransitTime, tail: Line, lead: Line) -> tuple[TransitTime, Keyframes]:
+        if tail is None:
+            tail = self._transits.line(self._transits.home[None])
+        start = lead.joints[0]
+        lead = lead.moved(self._transits.unwound(start, tail.joints[-1]) - start)
         late: list[_Late] = []
         for way in self._ways(free, tail, lead):
             late_s = self._late_s(free, tail, way, lead)
@@ -124,13 +125,13 @@ class TransitPlanner:
         """Return keyframes of hands at rest at the end of a lead, which at last go on to their grips."""
         if lead.at_grips is None:
             return Keyframes.still(joints, end_s)
-        begins_s = end_s - settling_s(self._dwell_s)
+        begins_s = end_s - settling_s(self.dwell_s)
         settled = self._transits.eased(joints, lead.at_grips, end_s - begins_s).later(begins_s)
         return Keyframes.joined([Keyframes.still(joints, begins_s), settled])
 
     def _time_s(self, free: TransitTime) -> float:
         """Return the time in which hands can move (s)."""
-        return free.end_s - self._dwell_s - free.start_s
+        return free.end_s - self.dwell_s - free.start_s
 
     def _overlapping(self, tail: Line, way: FloatArray, lead: Line, free: TransitTime) -> Keyframes | None:
         """Return keyframes of hands that travel along a path while the base drives; None if that is not clear."""
@@ -167,7 +168,7 @@ class TransitPlanner:
         There must be time enough; None where none is left for resting between the plan's steps.
         """
         needed = self._transits.needed_s(way)
-        arrives = free.end_s - self._dwell_s
+        arrives = free.end_s - self.dwell_s
         spare = max(arrives - free.start_s - (tail.shortest_s + lead.shortest_s + float(needed.sum())), 0.0)
         leaves = free.start_s + max(tail.shortest_s, min(tail_s, tail.shortest_s + spare / 4))
         comes = arrives - max(lead.shortest_s, min(_LEAD_S, lead.shortest_s + spare / 4))
@@ -190,7 +191,7 @@ class TransitPlanner:
         is_out, is_in = (moments <= ends_s[0])[:, None], (moments >= ends_s[1])[:, None]
         openings_m = np.where(is_out, tail.openings_m, np.where(is_in, lead.openings_m, OPENING_M))
         if lead.at_grips is not None:  # fingers at edges are shut when their hands go on to the grips
-            is_settling = (moments > free.end_s - settling_s(self._dwell_s))[:, None]
+            is_settling = (moments > free.end_s - settling_s(self.dwell_s))[:, None]
             openings_m[is_settling & (lead.openings_m <= EDGE_OPEN_M)] = HELD_M
         return self._transits.is_clear(free.cloth, bases, there, openings_m)
 
@@ -207,7 +208,7 @@ class TransitPlanner:
         )
         leave_s, back_s = self._transits.needed_s(away), self._transits.needed_s(back)
         wait_s, come_s = tail.shortest_s + float(leave_s.sum()), float(back_s.sum()) + lead.shortest_s
-        late_s = max(wait_s + come_s + self._dwell_s - free.reach_s, 0.0)
+        late_s = max(wait_s + come_s + self.dwell_s - free.reach_s, 0.0)
         return _Homeward(away, leave_s, back, back_s, wait_s, late_s)
 
     def _waiting(self, free: TransitTime, tail: Line, lead: Line, ways: "_Homeward") -> tuple[TransitTime, Keyframes]:
@@ -216,7 +217,7 @@ class TransitPlanner:
         The waiting is taken from the reach, which must last long enough for both.
         """
         waited, lead = free.after_waiting(ways.wait_s), lead.moved(ways.back[-1] - lead.joints[0])
-        comes = waited.end_s - self._dwell_s - lead.shortest_s
+        comes = waited.end_s - self.dwell_s - lead.shortest_s
         begins = comes - float(ways.back_s.sum())
         travel = [
             *quickest_lines(self._transits, ways.away, ways.leave_s, waited.start_s + tail.shortest_s),

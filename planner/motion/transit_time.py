@@ -26,12 +26,6 @@ class TransitTime:
     cloth: LyingCloth
 
     @property
-    def key(self) -> tuple[object, ...]:
-        """The key that tells it from other transits of the same plan."""
-        phases = ((timed.primitive, timed.phase, timed.duration_s) for timed in self.timed_phases)
-        return (self.start_s, self.cloth, *phases)
-
-    @property
     def end_s(self) -> float:
         """The time at which it ends (s)."""
         return self.start_s + sum(timed.duration_s for timed in self.timed_phases)

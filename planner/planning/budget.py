@@ -14,9 +14,9 @@ from planner.planning.problem import Problem
 
 # Fitted to the CPU time of 25 requests on two busy cores of 2026: the articles here and there on the table, and cloth
 # with two dozen loose folds.
-_LOOK_S, _QUERY_S, _GLANCE_S, _TRY_S = 3.5e-4, 4e-7, 1e-3, 1.6e-2
+_LOOK_S, _QUERY_S, _GLANCE_S, _TRY_S, _TRANSIT_S = 3.5e-4, 4e-7, 1e-3, 1.6e-2, 2e-2
 """Work for a look at a state or at what may leave it, for a query of the exact kernel about a tool point, for a look at
-the ends of a transfer, and for leading the arms through one (s)."""
+the ends of a transfer, for leading the arms through one, and for a way of empty hands to the next (s)."""
 
 _FEW_FOLDS = 4
 """Folds up to which a look costs `_LOOK_S`; with more folds it costs more, in proportion."""
@@ -69,16 +69,18 @@ class Budget:
     def spent_s(self) -> float:
         """The work done so far (s)."""
         # Asked for at each look: plain loops take a third of what generators took.
-        queries = glances = tries = 0
+        queries = glances = tries = transits = 0
         for problem in self._problems:
             queries += problem.context.reach.queries
             glances += problem.maker.glances
             tries += problem.maker.tries
+            transits += problem.maker.transits_planned
         return (
             self.looks * _LOOK_S * max(1.0, self._folds / _FEW_FOLDS)
             + queries * _QUERY_S
             + glances * _GLANCE_S
             + tries * _TRY_S
+            + transits * _TRANSIT_S
             + self.beside_s
         )
 

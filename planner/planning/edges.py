@@ -1,6 +1,6 @@
 """The edges of the search graph: the primitives possible in each state, computed once."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Hashable, Iterable
 from functools import partial
 from typing import NamedTuple, TypeAlias
 
@@ -64,26 +64,26 @@ class Edges:
         """Begin a search: mark all states as not left yet."""
         self._left.clear()
 
-    def leaving(self, state: State, cost_s: float) -> Successors[State, Step]:
+    def leaving(self, state: State, cost_s: float, since: Hashable = ()) -> Successors[State, Step]:
         """Return the edges that leave a state reached at a cost (s), and the deferred successors.
 
         Steps that begin with driving are left out where the base could have driven there from a state that was left
-        before: from there they took no longer.
+        before: from there they took no longer. This holds for states reached by steps since which all costs are alike.
         """
         self._asked.add(state)
-        is_passed = not state.held and self._is_passed(state, cost_s)
+        is_passed = not state.held and self._is_passed(state, cost_s, since)
         key = (state, is_passed)
         if key not in self._steps:
             kinds = [kind for kind in self._primitives if not (is_passed and kind.begins_with_driving)]
             self._steps[key] = _Found.of(one for kind in kinds for one in in_time(kind.successors(state)))
         return self._of(state, self._steps[key])
 
-    def _is_passed(self, state: State, cost_s: float) -> bool:
+    def _is_passed(self, state: State, cost_s: float, since: Hashable) -> bool:
         """Return whether the base could have driven here in time from a state left before; otherwise note this one.
 
         Only states that differ in nothing but the standoff are compared.
         """
-        left = self._left.setdefault((state.done, state.place, state.station), [])
+        left = self._left.setdefault((state.done, state.place, state.station, since), [])
         drive_s = self._context.drive_s
         if any(before_s + drive_s(abs(standoff - state.standoff)) <= cost_s + TIME_S for standoff, before_s in left):
             return True

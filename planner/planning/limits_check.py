@@ -1,17 +1,22 @@
 """Check that nothing in a plan's motion is faster than its limit, nor speeds up harder."""
 
 import math
+from collections.abc import Iterator, Sequence
+from typing import TypeAlias
 
 import numpy as np
 
 from planner.errors import RequestError
-from planner.geometry.keyframes import Values, peaks
+from planner.geometry.keyframes import peaks
 from planner.geometry.pose import FloatArray, wrapped_angle
 from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M
 from planner.motion.motion_limits import MotionLimits
-from planner.motion.path_timing import EXCESS
+from planner.motion.path_intervals import EXCESS
 from planner.planning.problem import Problem
-from planner.task.trajectory import Segment, Trajectory
+from planner.task.trajectory import Trajectory
+
+Keyframes: TypeAlias = tuple[FloatArray, FloatArray, FloatArray]
+"""Times (s), shape (n,), with values and their rates (1/s), shape (n, k); rates may be empty."""
 
 _ROUNDING = 1.001
 """What a speed or an acceleration may be, as a share of the greatest; what exceeds 1 allows for rounding."""
@@ -21,50 +26,55 @@ def require_limits(problem: Problem, path: Trajectory) -> None:
     """Require that joints, fingers and base keep their speeds, and their accelerations where velocities are given.
 
     Raises:
-        RequestError: names what is too fast or too hard, when, and by how much.
+        RequestError: names the step, as ``steps[2].trajectory``, and says what is too fast or too hard, when, and by
+            how much.
     """
     limits = MotionLimits.of(problem.robot.card, problem.context.scene)
+    for names, own, keyframes in _tracks(path, limits):
+        found = _excess(names, limits.speeds[own], limits.accelerations[own], keyframes)
+        if found is not None:
+            t_s, what = found
+            field = f"steps[{path.segment_at(t_s).step}].trajectory"
+            raise RequestError(field, f"at {t_s:.2f} s {what} as its limit allows")
+
+
+def _tracks(path: Trajectory, limits: MotionLimits) -> Iterator[tuple[tuple[str, ...], slice, Keyframes]]:
+    """Yield columns of keyframes, with their names and their part of the limits."""
     arms, count = path.arms, len(path.arms.names)
-    _require(limits.names, limits.speeds, limits.accelerations, (arms.times_s, arms.rows, arms.rates))
+    yield arms.names, slice(count), (np.array(arms.times_s), arms.rows, arms.rates)
     for number, track in enumerate(path.grippers, count):
-        own = slice(number, number + 1)
-        keyframes = (track.times_s, np.array(track.positions)[:, None], np.array(track.velocities)[:, None])
-        _require(limits.names[own], limits.speeds[own], limits.accelerations[own], keyframes)
+        keyframes = (np.array(track.times_s), _column(track.positions), _column(track.velocities))
+        yield (track.joint,), slice(number, number + 1), keyframes
+    yaw = len(limits.names) - 1
     for segment in path.segments:
-        _require_base(segment, limits)
+        start, end = segment.phase.base
+        driven_m = math.dist((start.x_m, start.y_m), (end.x_m, end.y_m))
+        turned_rad = abs(wrapped_angle(end.yaw_rad - start.yaw_rad))
+        times_s = segment.start_s + np.array(segment.times_s)
+        done, rates = _column(segment.fractions), _column(segment.base_rates)
+        if driven_m > LENGTH_M:
+            yield ("the base",), slice(yaw - 1, yaw), (times_s, driven_m * done, driven_m * rates)
+        if turned_rad > ANGLE_RAD:
+            yield ("the base's turn",), slice(yaw, yaw + 1), (times_s, turned_rad * done, turned_rad * rates)
 
 
-def _require_base(segment: Segment, limits: MotionLimits) -> None:
-    start, end = segment.phase.base
-    driven_m = math.dist((start.x_m, start.y_m), (end.x_m, end.y_m))
-    turned_rad = abs(wrapped_angle(end.yaw_rad - start.yaw_rad))
-    times, done = segment.start_s + np.array(segment.times_s), np.array(segment.fractions)[:, None]
-    rates = np.array(segment.base_rates)[:, None]
-    ways = (("the base", driven_m, LENGTH_M, -3), ("the base's yaw", turned_rad, ANGLE_RAD, -1))
-    for name, way, least, own in ways:
-        if way > least:
-            keyframes = (times, way * done, way * rates)
-            _require((name,), limits.speeds[[own]], limits.accelerations[[own]], keyframes)
+def _column(values: Sequence[float]) -> FloatArray:
+    return np.array(values).reshape(-1, 1)
 
 
-def _require(
-    names: tuple[str, ...],
-    speeds: FloatArray,
-    accelerations: FloatArray,
-    keyframes: tuple[Values, Values, Values],
-) -> None:
-    """Require that columns of keyframes keep their limits."""
-    times, values, rates = map(np.asarray, keyframes)
-    if len(times) < 2:
-        return
-    count = values.shape[1]
-    fastest, hardest = peaks(times, values, rates)
-    for found, most, excess, told in (
-        (fastest, speeds[:count], 1.0, "moves {:.2f} times as fast"),
-        (hardest, accelerations[:count], EXCESS, "speeds up or slows down {:.2f} times as hard"),
+def _excess(
+    names: tuple[str, ...], speeds: FloatArray, accelerations: FloatArray, keyframes: Keyframes
+) -> tuple[float, str] | None:
+    """Return when a value exceeds its limits most and what it does; None if none does."""
+    times_s, values, rates = keyframes
+    if len(times_s) < 2:
+        return None
+    fastest, hardest = peaks(times_s, values, rates)
+    for shares, most, what in (
+        (fastest / speeds, _ROUNDING, "moves {:.2f} times as fast"),
+        (hardest / accelerations, _ROUNDING * EXCESS, "speeds up or slows down {:.2f} times as hard"),
     ):
-        shares = found / most
         row, column = np.unravel_index(shares.argmax(), shares.shape)
-        if shares[row, column] > _ROUNDING * excess:
-            what = told.format(shares[row, column])
-            raise RequestError("trajectory", f"at {times[row]:.2f} s {names[column]} {what} as its limit allows")
+        if shares[row, column] > most:
+            return float(times_s[row]), f"{names[column]} {what.format(shares[row, column])}"
+    return None

@@ -28,6 +28,7 @@ from planner.motion.transfer_candidate import Candidate, ways_of
 from planner.motion.transfer_planner import TransferPlanner
 from planner.motion.tries import QUICK, Tries
 from planner.planning.rejection import Rejection
+from planner.planning.surcharges import START, Since, Surcharges, step_key
 from planner.primitives.primitive import Step
 from planner.primitives.state import State
 
@@ -42,6 +43,7 @@ class MotionValidator:
     Attributes:
         rejected: the transfers that failed, each up to the step that failed.
         slower: the acts of the steps validated last, where they succeed but take longer than assumed.
+        surcharges: what sequences of steps take longer because hands come late from one transfer to the next.
     """
 
     def __init__(
@@ -74,6 +76,7 @@ class MotionValidator:
         self._postponed: list[Rejection] = []
         self.rejected: list[tuple[Step, ...]] = []
         self.slower: tuple[Act, ...] = ()
+        self.surcharges = Surcharges()
 
     def possible(self, state: State, steps: Iterable[Step]) -> list[tuple[Step, float]]:
         """Return the steps leaving a state that may succeed, each with the least known cost (s)."""
@@ -86,7 +89,7 @@ class MotionValidator:
                 continue
             situation = step.situation
             situations[situation] = None
-            if situation not in self._others or _key(step) in self._real_steps:
+            if situation not in self._others or step_key(step) in self._real_steps:
                 found.append(step)
         for situation in situations:
             found += [other.begun_in(state) for other in self._others.get(situation, ())]
@@ -96,7 +99,7 @@ class MotionValidator:
     @property
     def has_doubts(self) -> bool:
         """Whether some steps were rejected or cost more than the bounds; steps left untried may then succeed."""
-        return bool(self._least_s)
+        return bool(self._least_s or self.surcharges)
 
     def is_in_doubt(self, held: State) -> bool:
         """Return whether ways to or from a grasp have failed or turned out to take longer than assumed."""
@@ -111,6 +114,7 @@ class MotionValidator:
             OutOfTimeError: there was no time to find out; what is known by then stays.
         """
         self.slower = ()
+        seemed_s = sum(self._known_s(step) for step in steps) + self.surcharges.of(steps)
         found: list[Act] = []
         transfers: list[tuple[tuple[Step, ...], Transfer]] = []
         for first, part in transfers_of(steps):
@@ -120,17 +124,35 @@ class MotionValidator:
                 transfers.append((part, made))
             elif any(step.grips for step in part):
                 self._all_agree(transfers)
-                self._reject(part, sum(self._known_s(step) for step in steps))
+                self._reject(part, seemed_s)
                 return None
-        acts = in_turn(found)
-        seemed_s = sum(self._known_s(step) for step in steps)
-        if duration_s(acts) <= seemed_s + TIME_S or self._all_agree(transfers):
+        acts = in_turn(found, self._maker)
+        if duration_s(acts) <= seemed_s + TIME_S:
+            return acts
+        is_known = self._all_agree(transfers)
+        if self._come_as_known(steps, acts) and is_known:
             return acts
         self.slower = acts
         return None
 
+    def _come_as_known(self, steps: Sequence[Step], acts: Sequence[Act]) -> bool:
+        """Return whether hands come to all transfers when was known; note when they do."""
+        keys = [step_key(step) for step in steps]
+        since: Since = START
+        is_known = True
+        for act in acts:
+            own = keys[act.first : act.first + len(act.steps)]
+            since += tuple(own)
+            if act.transfer is None:
+                continue
+            if not self.surcharges.charge(since, act.late_s):
+                is_known = False
+                self._doubt(steps[: act.first + len(own)][-len(since) :])
+            since = tuple(own)
+        return is_known
+
     def _real(self, steps: tuple[Step, ...]) -> Transfer | None:
-        key = tuple(_key(step) for step in steps)
+        key = tuple(step_key(step) for step in steps)
         if key not in self._made:
             ways = self._in_time(ways_of(steps, self._tries))
             self._made[key] = self._maker.first_valid(ways, self._tries)
@@ -144,7 +166,7 @@ class MotionValidator:
         number = next((n for n in range(len(steps) - 1) if self._real(steps[: n + 1]) is None), len(steps) - 1)
         culprit, before = steps[number], steps[:number]
         self.rejected.append(steps[: number + 1])
-        self._least_s[_key(culprit)] = math.inf
+        self._least_s[step_key(culprit)] = math.inf
         self._doubt(steps)
         rejection = Rejection(culprit, before, tuple(culprit.elsewhere(self._tries.spread)), path_s)
         found = self._as_good(rejection)
@@ -163,21 +185,21 @@ class MotionValidator:
         """Return a valid way to the same state that takes no longer than the rejected step; empty if none is found."""
         for candidate in islice(self._maker.candidates(self._in_time(rejection.as_good())), self._tries.enough):
             made = self._noted(candidate)
-            if made is not None and made.durations_at_most_s()[-1] <= rejection.culprit.duration_s + TIME_S:
+            if made is not None and made.durations_s()[-1] <= rejection.culprit.duration_s + TIME_S:
                 return (candidate.steps[-1],)
         return ()
 
     def _replace(self, rejection: Rejection) -> None:
         """Set the ways that replace a rejected step in every state of its situation."""
         tries, situation = self._tries, rejection.culprit.situation
-        others = {_key(other): other for other in self._others.get(situation, ()) if rejection in self._postponed}
+        others = {step_key(other): other for other in self._others.get(situation, ()) if rejection in self._postponed}
         enough = len(others) + tries.enough
-        new = ((*rejection.before, other) for other in rejection.elsewhere if _key(other) not in others)
+        new = ((*rejection.before, other) for other in rejection.elsewhere if step_key(other) not in others)
         for tried, candidate in enumerate(islice(self._maker.candidates(self._in_time(new)), tries.tried)):
             if candidate.is_together and tried == tries.vain and not others:
                 break
             if self._noted(candidate) is not None:
-                others[_key(candidate.steps[-1])] = candidate.steps[-1]
+                others[step_key(candidate.steps[-1])] = candidate.steps[-1]
             if len(others) == enough:
                 break
         self._others[situation] = tuple(others.values())
@@ -186,8 +208,8 @@ class MotionValidator:
         """Return the transfer of a candidate for another way, and note what its last step takes."""
         made = self._maker.made(candidate)
         if made is not None:
-            self._made[tuple(_key(step) for step in candidate.steps)] = made
-            self._least_s[_key(candidate.steps[-1])] = made.durations_at_most_s()[-1]
+            self._made[tuple(step_key(step) for step in candidate.steps)] = made
+            self._least_s[step_key(candidate.steps[-1])] = made.durations_s()[-1]
         return made
 
     def catch_up(self, path_s: float) -> bool:
@@ -216,7 +238,7 @@ class MotionValidator:
 
     def _known_s(self, step: Step) -> float:
         """Return the least time that a step is known to take (s)."""
-        return max(step.duration_s, self._least_s.get(_key(step), 0.0))
+        return max(step.duration_s, self._least_s.get(step_key(step), 0.0))
 
     def _all_agree(self, transfers: Sequence[tuple[tuple[Step, ...], Transfer]]) -> bool:
         """Return whether the steps of all transfers take as long as was known; note their true durations."""
@@ -225,21 +247,17 @@ class MotionValidator:
 
     def _agrees(self, steps: tuple[Step, ...], made: Transfer) -> bool:
         is_known = True
-        for step, lasts_s in zip(steps, made.durations_at_most_s(), strict=True):
+        for step, lasts_s in zip(steps, made.durations_s(), strict=True):
             known = self._known_s(step)
             is_known &= lasts_s <= known + TIME_S
-            self._least_s[_key(step)] = max(lasts_s, known)
-            self._real_steps.add(_key(step))
+            self._least_s[step_key(step)] = max(lasts_s, known)
+            self._real_steps.add(step_key(step))
             self._succeeded.add(step.task)
             self._given_up.pop(step.task, None)
         if not is_known:
             self._doubt(steps)
         return is_known
 
-    def _doubt(self, steps: tuple[Step, ...]) -> None:
+    def _doubt(self, steps: Iterable[Step]) -> None:
         """Mark the grasps on the way: the ways that seemed best for them may no longer be."""
         self._doubted.update(step.after.grasp for step in steps if step.after.held)
-
-
-def _key(step: Step) -> tuple[object, ...]:
-    return (step.kind, step.before.key, step.after.key)

@@ -5,6 +5,7 @@ import time
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from itertools import islice, zip_longest
+from typing import Any
 
 from planner.cloth.g_state import Unrest
 from planner.geometry.tolerance import TIME_S
@@ -19,6 +20,7 @@ from planner.planning.heuristic import HEURISTICS, Heuristic
 from planner.planning.motion_validator import MotionValidator, OutOfTimeError
 from planner.planning.problem import Problem
 from planner.planning.single_fold import SingleFold
+from planner.planning.surcharges import ChargedEdges, Reached
 from planner.planning.trial import Explainer, Trial
 from planner.primitives.obstacle import BlockingContact, situation
 from planner.primitives.primitive import Step
@@ -88,13 +90,11 @@ class PathSearch:
         """Return a validator with nothing rejected, and limits on what it tries."""
         return MotionValidator(self._problem.maker, self._is_out_of_budget, tries, transfers_max)
 
-    def _validated_path(self, start: State) -> tuple[SearchResult[State, Step], tuple[Act, ...]]:
+    def _validated_path(self, start: State) -> tuple[SearchResult[Any, Step], tuple[Act, ...]]:
         """Return the search's result for the quickest validated path, and the acts of that path."""
-        bound, is_over = self._bound(start), self._is_over
-        question = (start, self._edges.leaving, self._is_goal, bound, self._max_expanded, is_over)
+        bound = self._bound(start)
         while True:
-            self._edges.begin()
-            result = a_star(*question, limit=self._limit_s)
+            result = self._path(start, bound)
             self._explored += result.explored
             self._note_bound(result)
             if result.outcome is Outcome.BUDGET_EXCEEDED:
@@ -114,6 +114,21 @@ class PathSearch:
             if found is not None or self._is_settled():
                 return result, self._found
             self._begin_next_round()
+
+    def _path(self, start: State, bound: Heuristic) -> SearchResult[Any, Step]:
+        """Return the search's result for the path that seems to be the quickest by what is known."""
+        self._edges.begin()
+        limits = (self._max_expanded, self._is_over, self._limit_s)
+        surcharges = self._validator.surcharges
+        if not surcharges:
+            return a_star(start, self._edges.leaving, self._is_goal, bound, *limits)
+        return a_star(
+            Reached(start, surcharges.at_start),
+            ChargedEdges(self._edges, surcharges).leaving,
+            lambda node: self._is_goal(node.state),
+            lambda node: bound(node.state),
+            *limits,
+        )
 
     def _is_settled(self) -> bool:
         """Return whether to end the search although the path found is slower than assumed, or was rejected."""
@@ -138,7 +153,7 @@ class PathSearch:
     def _is_goal(self, state: State) -> bool:
         return state.done & self._wanted == self._wanted
 
-    def _note_bound(self, result: SearchResult[State, Step]) -> None:
+    def _note_bound(self, result: SearchResult[Any, Step]) -> None:
         """Note the search's lower bound on any plan, as long as no step was rejected or made more expensive.
 
         After that, a raised cost only says that the tries found nothing better, which is no proof.

@@ -21,8 +21,8 @@ from planner.primitives.drag_way import DragWays
 from planner.primitives.fold_obstacles import geometric_obstacle
 from planner.primitives.fold_trial import FoldTrial, fold_trials
 from planner.primitives.state import State
-from planner.robots.edge_grip import LOWERED_MAX_M, RAISED_MAX_M
 from planner.robots.joint_layout import JointLayout
+from planner.robots.openings import LOWERED_MAX_M, RAISED_MAX_M
 from planner.task.plan import Plan
 from planner.task.plan_step import PlanStep
 from planner.task.trajectory import Segment, Trajectory

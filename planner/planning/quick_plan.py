@@ -25,10 +25,10 @@ def quickly_planned(problem: Problem, like: Sequence[FoundPlan], is_over: Callab
         is_over: polled repeatedly; true means that there is no time left.
     """
     context, effort = problem.context, Effort()
-    acts = _acts(problem, like, effort, is_over) if problem.unrest is None else ()
+    acts = in_turn(_acts(problem, like, effort, is_over) if problem.unrest is None else (), problem.maker)
     statistics = effort.statistics(context.reach, arm_time(context)(problem.start))
     context.forget()
-    return FoundPlan.of(problem, "solved", in_turn(acts), (), statistics, is_exhaustive=False) if acts else None
+    return FoundPlan.of(problem, "solved", acts, (), statistics, is_exhaustive=False) if acts else None
 
 
 def _acts(problem: Problem, like: Sequence[FoundPlan], effort: Effort, is_over: Callable[[], bool]) -> tuple[Act, ...]:

@@ -43,7 +43,7 @@ class TrialSearch(PathSearch):
         if acts is not None:
             return Trial(self._context, (start, *(step.after for act in acts for step in act.steps)), False, tuple)
         result = self._some_path(start) if may_collide else self._validated_path(start)[0]
-        states = (start, *(edge.after for edge in result.path)) if result.outcome is Outcome.SOLVED else None
+        states = (start, *(edge.action.after for edge in result.path)) if result.outcome is Outcome.SOLVED else None
         return Trial(self._context, states, bool(self._validator.rejected), self._measured)
 
     def _greedy_acts(self, start: State) -> tuple[Act, ...] | None:

@@ -6,12 +6,12 @@ import pytest
 
 from app.api.live_messages import plan_message, status_text
 from app.document import Document, EndedDocumentError
-from app.document_state import Checks
 from app.drawing.draft import Draft, draft_of
 from app.drawing.drawing import Drawing
 from app.drawing.edit import Edit, Phase, StaleVersionError
 from app.drawing.garment_drawing import drawing_of
 from app.drawing.solve import solve
+from app.held_folds import Checks
 from app.jobs.courtesy import GIVE_WAY_S, Courtesy
 from planner import Plan, load_garment, make_plan
 from planner.cloth.garment import Garment

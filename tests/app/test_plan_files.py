@@ -64,7 +64,7 @@ def newer(file: dict[str, Any]) -> None:
 @pytest.mark.parametrize(
     ("spoil", "field", "told"),
     [
-        (hurried, "steps[1].trajectory", "rad/s"),
+        (hurried, "steps[1].trajectory", "times as fast"),
         (elsewhere, "steps[1].holdings", "do not hold"),
         (skipped, "steps[0].before", "not the state"),
         (newer, "pleat_plan", "newer than 1"),

@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from app import replanner
-from app.document_state import Answer
+from app.answer import Answer
 from app.drawing.edit import Edit
 from app.drawing.solve import solve
 from planner import Task, find_plan

@@ -7,8 +7,9 @@ from dataclasses import replace
 
 import pytest
 
+from app.answer import Answer
 from app.api.live_messages import plan_message, status_text
-from app.document_state import Answer, DocumentState
+from app.document_state import DocumentState
 from app.drawing.edit import Edit, Phase
 from app.replanner import Replanner
 from app.store.plan_store import PlanStore, UnknownPlanError

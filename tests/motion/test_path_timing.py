@@ -9,7 +9,8 @@ from toppra import SplineInterpolator
 from toppra.algorithm import TOPPRA
 from toppra.constraint import DiscretizationType, JointAccelerationConstraint, JointVelocityConstraint
 
-from planner.motion.path_timing import EXCESS, PathTiming, quickest, timed
+from planner.motion.path_intervals import EXCESS
+from planner.motion.path_timing import PathTiming, quickest, timed
 
 ONE = (np.array([1.0]), np.array([2.0]))
 
@@ -130,3 +131,21 @@ def test_two_keyframes_alone_are_one_cubic_from_rest_to_rest():
 def test_what_does_not_move_takes_no_time():
     timing = quickest(np.ones((4, 2)), np.zeros(4), (np.ones(2), np.ones(2)))
     assert timing.duration_s == 0.0 and not timing.velocities.any()
+
+
+def test_where_all_turns_round_little_time_is_lost():
+    # A narrow step before the turn makes its pace low; the wide one after it takes what it takes alone.
+    values = np.array([[0.0], [0.2], [0.21], [0.0]])
+    timing = quickest(values, run_of(values, ONE[0]), ONE)
+    assert timing.times_s[3] - timing.times_s[2] == pytest.approx(np.sqrt(6.0 * 0.21 / 2.0), rel=0.02)
+    speed, acceleration = excess(values, timing, ONE)
+    assert speed <= 1.0 + 1e-6 and acceleration <= EXCESS * (1.0 + 1e-6)
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.integers(0, 10_000), st.integers(3, 30), st.integers(1, 6))
+def test_a_mirror_image_takes_as_long(seed: int, count: int, columns: int):
+    values, limits = walk(seed, count, columns), (np.full(columns, 1.0), np.full(columns, 3.0))
+    mirrored = np.random.default_rng(seed).choice([-1.0, 1.0], columns) * values + 2.0 * np.pi
+    one, other = (quickest(each, run_of(each, limits[0]), limits) for each in (values, mirrored))
+    assert other.duration_s == pytest.approx(one.duration_s, rel=1e-6)

@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 
-from app.document_state import ShownPlan
+from app.answer import ShownPlan
 from app.ui.editor.presets import Lens
 from app.ui.viewpoint import Viewpoint
 from planner.geometry.pose import Point2, Pose2, wrapped_angle

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from app.document_state import ShownPlan
+from app.answer import ShownPlan
 from app.ui.editor.following import Following, work_of
 from app.ui.editor.presets import Lens
 from planner import Plan, Timeline, load_garment, make_plan

@@ -1,6 +1,7 @@
 """The animation as glTF: foreign readers open it, and its robot moves as forward kinematics says."""
 
 import io
+from functools import cache
 from itertools import pairwise
 
 import numpy as np
@@ -14,16 +15,20 @@ from app.files.gltf_animation import animation_glb
 from planner.motion.timeline import Timeline
 from tests.small_plan import CARD, small_plan
 
-PLAN = small_plan()
-TIMELINE = Timeline.of(PLAN)
-TIMES = (0.0, 5.0371, 11.113, TIMELINE.duration_s)
+SHARES = (0.0, 0.327, 0.722, 1.0)
+"""Of the plan's duration."""
 UPRIGHT = Rotation.from_euler("x", -90.0, degrees=True).as_matrix()
 WIDTHS = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}
 
 
+@cache
+def timeline() -> Timeline:
+    return Timeline.of(small_plan())
+
+
 @pytest.fixture(scope="module")
 def glb() -> bytes:
-    return animation_glb(PLAN, lambda: False)
+    return animation_glb(small_plan(), lambda: False)
 
 
 class Player:
@@ -85,21 +90,22 @@ def test_it_is_a_scene_for_other_readers_and_small(glb: bytes):
     robot = [name for name in scene.graph.nodes_geometry if "visual" in name]
     assert len(robot) > 30
     low, high = scene.bounds
-    assert low[1] == pytest.approx(-PLAN.scene.table.height_m, abs=0.02), "the floor: y is up"
+    assert low[1] == pytest.approx(-small_plan().scene.table.height_m, abs=0.02), "the floor: y is up"
     assert high[1] < 1.0
 
 
-@pytest.mark.parametrize("t_s", TIMES)
-def test_links_are_where_forward_kinematics_says(player: Player, t_s: float):
+@pytest.mark.parametrize("share", SHARES)
+def test_links_are_where_forward_kinematics_says(player: Player, share: float):
+    t_s = share * timeline().duration_s
     model = pin.buildModelFromUrdf(str(CARD.urdf_path), mimic=True)
-    data, q, sample = model.createData(), pin.neutral(model), TIMELINE.at(t_s)
+    data, q, sample = model.createData(), pin.neutral(model), timeline().at(t_s)
     for name, value in sample.joints.items():
         joint = model.joints[model.getJointId(name)]
         q[joint.idx_q : joint.idx_q + joint.nq] = value if joint.nq == 1 else (np.cos(value), np.sin(value))
     pin.framesForwardKinematics(model, data, q)
     world = np.eye(4)
     world[:3, :3] = UPRIGHT @ Rotation.from_euler("z", sample.base.yaw_rad).as_matrix()
-    world[:3, 3] = UPRIGHT @ (sample.base.x_m, sample.base.y_m, -PLAN.scene.table.height_m)
+    world[:3, 3] = UPRIGHT @ (sample.base.x_m, sample.base.y_m, -small_plan().scene.table.height_m)
     fingers = ("l_gripper_l_finger_tip_link", "r_gripper_r_finger_link")
     for name in (*fingers, "head_tilt_link", *(arm.tool_frame for arm in CARD.arms)):
         expected = world @ data.oMf[model.getFrameId(name)].homogeneous
@@ -107,15 +113,16 @@ def test_links_are_where_forward_kinematics_says(player: Player, t_s: float):
         np.testing.assert_allclose(player.pose(name, t_s), expected, atol=4e-4, err_msg=name)
 
 
-@pytest.mark.parametrize("t_s", TIMES)
-def test_one_shape_of_the_cloth_is_seen_and_it_is_that_of_this_moment(player: Player, t_s: float):
+@pytest.mark.parametrize("share", SHARES)
+def test_one_shape_of_the_cloth_is_seen_and_it_is_that_of_this_moment(player: Player, share: float):
+    t_s = share * timeline().duration_s
     nodes = [(n, node) for n, node in enumerate(player.gltf.nodes) if (node.name or "").startswith("cloth ")]
     seen = [node for n, node in nodes if np.any(player.value(n, "scale", t_s) != 0.0)]
     (node,) = seen
     front, back = player.gltf.meshes[node.mesh].primitives
     assert front.attributes.POSITION == back.attributes.POSITION
     shown = player.numbers(front.attributes.POSITION)
-    vertices = TIMELINE.at(t_s).cloth.vertices
+    vertices = timeline().at(t_s).cloth.vertices
     for corner in np.vstack([vertices.min(axis=0), vertices.max(axis=0)]):
         assert np.abs(np.vstack([shown.min(axis=0), shown.max(axis=0)]) - corner).max(axis=1).min() < 0.03
 
@@ -136,4 +143,4 @@ def test_arms_that_look_alike_share_their_meshes(player: Player):
 
 
 def test_a_film_that_is_stopped_is_empty():
-    assert animation_glb(PLAN, lambda: True) == b""
+    assert animation_glb(small_plan(), lambda: True) == b""

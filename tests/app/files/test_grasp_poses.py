@@ -1,6 +1,7 @@
 """The poses of grips agree with the plan, with forward kinematics, and with each other in all frames and formats."""
 
 import json
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -13,11 +14,16 @@ from app.files.grasp_poses import STANDOFF_M, grasp_poses, poses_json, poses_yam
 from planner.errors import UnsolvedPlanError
 from tests.small_plan import CARD, small_plan, unsolved
 
-PLAN = small_plan()
-PATH = PLAN.trajectory
-TOLD = json.loads(poses_json(PLAN))
 MOMENTS = ("pre_grasp", "grasp", "lift", "place", "retreat")
-GRIPS = [(step, grip) for step in TOLD["steps"] for grip in step["grips"]]
+
+
+@cache
+def told() -> dict[str, Any]:
+    return json.loads(poses_json(small_plan()))
+
+
+def grips() -> list[tuple[dict[str, Any], dict[str, Any]]]:
+    return [(step, grip) for step in told()["steps"] for grip in step["grips"]]
 
 
 def placed(pose: dict[str, Any]) -> np.ndarray[Any, Any]:
@@ -27,12 +33,12 @@ def placed(pose: dict[str, Any]) -> np.ndarray[Any, Any]:
 
 
 def test_yaml_says_what_json_says():
-    assert yaml.safe_load(poses_yaml(PLAN)) == TOLD
-    assert TOLD["version"] == 1 and TOLD["garment"] == "letter-towel" and TOLD["robot"] == "pr2"
+    assert yaml.safe_load(poses_yaml(small_plan())) == told()
+    assert told()["version"] == 1 and told()["garment"] == "letter-towel" and told()["robot"] == "pr2"
 
 
 def test_each_fold_is_there_with_the_hands_that_the_plan_gives_it():
-    for step, planned in zip(TOLD["steps"], PLAN.steps, strict=True):
+    for step, planned in zip(told()["steps"], small_plan().steps, strict=True):
         assert (step["kind"], step["fold"]) == (planned.kind, planned.fold)
         assert [grip["arm"] for grip in step["grips"]] == [grip.arm for grip in planned.grips]
         for grip, wanted in zip(step["grips"], planned.grips, strict=True):
@@ -43,14 +49,15 @@ def test_each_fold_is_there_with_the_hands_that_the_plan_gives_it():
 
 
 def test_tools_are_where_forward_kinematics_of_the_urdf_says():
-    assert PATH is not None
+    path = small_plan().trajectory
+    assert path is not None
     model = pin.buildModelFromUrdf(str(CARD.urdf_path))
     data = model.createData()
-    for _, grip in GRIPS:
+    for _, grip in grips():
         arm = next(arm for arm in CARD.arms if arm.name == grip["arm"])
         for pose in (grip[moment] for moment in MOMENTS if grip[moment] is not None):
             q = pin.neutral(model)
-            for name, value in PATH.joints_at(pose["t_s"]).items():
+            for name, value in path.joints_at(pose["t_s"]).items():
                 joint = model.joints[model.getJointId(name)]
                 q[joint.idx_q : joint.idx_q + joint.nq] = value if joint.nq == 1 else (np.cos(value), np.sin(value))
             pin.framesForwardKinematics(model, data, q)
@@ -59,17 +66,17 @@ def test_tools_are_where_forward_kinematics_of_the_urdf_says():
 
 
 def test_both_frames_say_the_same():
-    for _, grip in GRIPS:
+    for _, grip in grips():
         for pose in (grip[moment] for moment in MOMENTS if grip[moment] is not None):
             base = pose["base_in_table"]
             base_in_table = np.eye(4)
             base_in_table[:3, :3] = Rotation.from_euler("z", base["yaw_rad"]).as_matrix()
-            base_in_table[:3, 3] = (base["x_m"], base["y_m"], -PLAN.scene.table.height_m)
+            base_in_table[:3, 3] = (base["x_m"], base["y_m"], -small_plan().scene.table.height_m)
             np.testing.assert_allclose(base_in_table @ placed(pose["in_base"]), placed(pose["in_table"]), atol=1e-7)
 
 
 def test_hands_come_from_a_distance_open_and_go_with_their_fingers_closed():
-    for step, grip in GRIPS:
+    for step, grip in grips():
         if grip["held_before"]:
             assert grip["pre_grasp"] is None and step["step"] > 0
             continue
@@ -81,7 +88,7 @@ def test_hands_come_from_a_distance_open_and_go_with_their_fingers_closed():
 
 
 def test_cloth_that_is_held_on_is_told_on_both_sides():
-    first, second = TOLD["steps"]
+    first, second = told()["steps"]
     assert all(grip["held_after"] and grip["retreat"] is None for grip in first["grips"])
     assert all(grip["held_before"] and grip["pre_grasp"] is None for grip in second["grips"])
 

@@ -14,13 +14,11 @@ from planner.motion.motion_limits import MotionLimits
 from planner.motion.motion_values import positions_at
 from tests.small_plan import CARD, small_plan
 
-PLAN = small_plan()
-
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("lerobot") / "dataset"
-    unpack(lerobot_folder(PLAN), path)
+    unpack(lerobot_folder(small_plan()), path)
     return path
 
 
@@ -58,11 +56,14 @@ def test_frames_come_at_the_rate_and_actions_are_the_next_states(frames: dict[st
 
 
 def test_states_are_those_of_the_motion_that_is_sent(info: dict[str, Any], frames: dict[str, np.ndarray]):
-    limits = MotionLimits.of(CARD, PLAN.scene)
+    limits = MotionLimits.of(CARD, small_plan().scene)
     assert tuple(info["features"]["observation.state"]["names"]) == limits.names
-    assert PLAN.trajectory is not None
-    assert frames["timestamp"][-1] == pytest.approx(PLAN.cost_s, abs=1.0 / FPS)
-    wanted = positions_at(PLAN.trajectory, np.append(frames["timestamp"][:-1].astype(float), PLAN.cost_s))
+    plan = small_plan()
+    assert plan.trajectory is not None
+    assert frames["timestamp"][-1] == pytest.approx(small_plan().cost_s, abs=1.0 / FPS)
+    wanted = positions_at(
+        small_plan().trajectory, np.append(frames["timestamp"][:-1].astype(float), small_plan().cost_s)
+    )
     np.testing.assert_allclose(frames["observation.state"], wanted, atol=1e-5)
 
 

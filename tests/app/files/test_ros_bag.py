@@ -19,8 +19,6 @@ from app.files.ros_bag import mcap_file, rosbag2_folder
 from app.files.ros_messages import TABLE_FRAME, ros_motion
 from tests.small_plan import CARD, one_armed, small_plan
 
-PLAN = small_plan()
-PATH = PLAN.trajectory
 JOINT_TOPICS = {
     **{f"/{arm.name}_arm_controller/joint_trajectory": arm.joint_names for arm in CARD.arms},
     **{f"/{arm.name}_gripper_controller/joint_trajectory": (arm.gripper.joint_name,) for arm in CARD.arms},
@@ -34,7 +32,7 @@ def seconds(time: Any) -> float:
 
 @pytest.fixture(scope="module")
 def mcap() -> bytes:
-    return mcap_file(PLAN)
+    return mcap_file(small_plan())
 
 
 @pytest.fixture(scope="module")
@@ -56,9 +54,9 @@ def about(mcap: bytes) -> dict[str, Any]:
 
 def test_there_is_a_message_for_each_step_and_controller(messages: dict[str, list[Any]]):
     assert set(messages) == {*JOINT_TOPICS, "/base_path"}
-    assert all(len(read) == len(PLAN.steps) for read in messages.values())
+    assert all(len(read) == len(small_plan().steps) for read in messages.values())
     for topic, joints in JOINT_TOPICS.items():
-        assert [tuple(message.joint_names) for message in messages[topic]] == [joints] * len(PLAN.steps)
+        assert [tuple(message.joint_names) for message in messages[topic]] == [joints] * len(small_plan().steps)
 
 
 def test_times_grow_from_the_beginning_of_the_step(messages: dict[str, list[Any]], about: dict[str, Any]):
@@ -71,11 +69,12 @@ def test_times_grow_from_the_beginning_of_the_step(messages: dict[str, list[Any]
 
 
 def test_the_arms_go_from_where_the_plan_begins_a_step_to_where_it_ends_it(messages: dict[str, list[Any]]):
-    assert PATH is not None
+    path = small_plan().trajectory
+    assert path is not None
     for topic, joints in JOINT_TOPICS.items():
-        for message, step in zip(messages[topic], PLAN.steps, strict=True):
+        for message, step in zip(messages[topic], small_plan().steps, strict=True):
             for point, t_s in ((message.points[0], step.start_s), (message.points[-1], step.end_s)):
-                planned = PATH.joints_at(t_s)
+                planned = path.joints_at(t_s)
                 np.testing.assert_allclose(point.positions, [planned[str(name)] for name in joints], atol=1e-6)
                 np.testing.assert_allclose(point.velocities, 0.0, atol=1e-9)
 
@@ -98,20 +97,20 @@ def test_velocities_lead_from_point_to_point_within_the_limits(messages: dict[st
 
 
 def test_the_base_goes_from_stop_to_stop(messages: dict[str, list[Any]]):
-    for message, step in zip(messages["/base_path"], PLAN.steps, strict=True):
+    for message, step in zip(messages["/base_path"], small_plan().steps, strict=True):
         assert message.header.frame_id == TABLE_FRAME
         stamps = [seconds(pose.header.stamp) for pose in message.poses]
         assert np.all(np.diff(stamps) > 0.0) and stamps[0] == pytest.approx(seconds(message.header.stamp))
         for stamped, base in ((message.poses[0], step.before.base), (message.poses[-1], step.base)):
             at, turn = stamped.pose.position, stamped.pose.orientation
-            assert (at.x, at.y, at.z) == pytest.approx((base.x_m, base.y_m, -PLAN.scene.table.height_m))
+            assert (at.x, at.y, at.z) == pytest.approx((base.x_m, base.y_m, -small_plan().scene.table.height_m))
             assert 2.0 * np.arctan2(turn.z, turn.w) == pytest.approx(base.yaw_rad)
     assert min(stamped.pose.position.x for stamped in messages["/base_path"][0].poses) < -0.99, "it backs off"
 
 
 def test_a_bag_has_the_same_messages_and_says_what_they_are(messages: dict[str, list[Any]], tmp_path: Path):
     folder = tmp_path / "bag"
-    unpack(rosbag2_folder(PLAN), folder)
+    unpack(rosbag2_folder(small_plan()), folder)
     types = get_typestore(Stores.ROS2_JAZZY)
     with Reader(folder) as bag:
         read = [
@@ -120,9 +119,9 @@ def test_a_bag_has_the_same_messages_and_says_what_they_are(messages: dict[str, 
         ]
     metadata = yaml.safe_load((folder / "metadata.yaml").read_text())["rosbag2_bagfile_information"]
     told = json.loads(metadata["custom_data"]["pleat"])
-    assert told["duration_s"] == PLAN.cost_s
+    assert told["duration_s"] == small_plan().cost_s
     assert [(one["start_s"], one["duration_s"]) for one in told["steps"]] == [
-        (step.start_s, step.duration_s) for step in PLAN.steps
+        (step.start_s, step.duration_s) for step in small_plan().steps
     ]
     assert len(read) == sum(len(one) for one in messages.values())
     name = f"/{CARD.arms[0].name}_arm_controller/joint_trajectory"
