@@ -9,13 +9,15 @@ import pinocchio as pin
 import pytest
 
 from app.files.grasp_poses import grasp_poses
-from planner import Plan
+from planner import Plan, load_garment
 from planner.geometry.pose import FloatArray
+from planner.motion.edge_hands import EdgeHands
 from planner.motion.joint_trajectory import CLOSED_M, OPEN_M
 from planner.motion.timeline import Timeline
 from planner.planning.plan_check import require_replay
 from planner.robots.openings import EDGE_OPEN_M, HELD_M
 from planner.task.grip import GripKind
+from tests.planning.found import found_plan
 from tests.replay import hulls
 from tests.replay.hands import TOOLS, robot
 from tests.replay.planned import planned
@@ -144,3 +146,11 @@ def test_exported_poses_say_how_each_hand_holds():
     plan = planned("hand-towel").answer
     told = [grip["kind"] for step in grasp_poses(plan)["steps"] for grip in step["grips"]]
     assert told and set(told) <= {"edge", "top"} and "edge" in told
+
+
+@each_name
+def test_hands_at_edges_cost_no_time(monkeypatch: pytest.MonkeyPatch, name: str):
+    monkeypatch.setattr(EdgeHands, "held", lambda self, acts, is_over: acts)
+    without = found_plan(load_garment(name), time_limit_s=60.0).plan
+    assert {grip.kind for step in without.steps for grip in step.grips} == {"top"}
+    assert planned(name).answer.cost_s <= without.cost_s + 1e-6
