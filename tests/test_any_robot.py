@@ -25,6 +25,7 @@ DOOR = (
     "planner.robots.known_robots",
     "planner.robots.load_robot",
     "planner.robots.mesh_file",
+    "planner.robots.openings",
     "planner.robots.own_robots",
     "planner.robots.varied_card",
     "planner.robots.table_reach",

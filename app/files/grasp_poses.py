@@ -2,8 +2,9 @@
 
 In each step, a hand has up to five poses: before the grasp, the grasp, the highest on the cloth's way, the place where
 that ends, and after the retreat. Each is given in the frame of the robot's base, as that stands at this moment (it may
-drive while it folds), and in the table's. A hand that holds its cloth from the step before has no pose before its
-grasp, one that keeps it for the next step has no retreat.
+drive while it folds), and in the table's. Each grip has its kind: with one finger under the cloth and one over it, or
+with both from above (see `planner.task.grip.GripKind`). A hand that holds its cloth from the step before has no pose
+before its grasp, one that keeps it for the next step has no retreat.
 """
 
 import io
@@ -22,6 +23,7 @@ from planner.geometry.tolerance import DECIMALS, TIME_S
 from planner.motion.robot_port import RobotPort
 from planner.robots.load_robot import load_robot
 from planner.task.plan import Plan
+from planner.task.plan_step import PlanStep
 from planner.task.trajectory import Trajectory
 
 VERSION = 1
@@ -103,7 +105,7 @@ class _Hands:
             for hold in holds:
                 start_s, end_s = max(hold.start_s, step.start_s), min(hold.end_s, step.end_s)
                 if end_s - start_s > TIME_S:
-                    grips.append(self._grip(arm, hold, _Hold(start_s, end_s)))
+                    grips.append(self._grip(step, arm, hold, _Hold(start_s, end_s)))
         return {
             "step": number,
             "kind": step.kind,
@@ -113,7 +115,7 @@ class _Hands:
             "grips": grips,
         }
 
-    def _grip(self, arm: int, hold: _Hold, part: _Hold) -> dict[str, Any]:
+    def _grip(self, step: PlanStep, arm: int, hold: _Hold, part: _Hold) -> dict[str, Any]:
         """Return the poses of a hand in a step's part of a hold."""
         is_held_before, is_held_after = part.start_s > hold.start_s + TIME_S, part.end_s < hold.end_s - TIME_S
         keyframes = np.array(self._path.arms.times_s)
@@ -129,8 +131,10 @@ class _Hands:
             "place": part.end_s,
             "retreat": after_s,
         }
+        name = self._robot.card.arms[arm].name
         return {
-            "arm": self._robot.card.arms[arm].name,
+            "arm": name,
+            "kind": next((grip.kind for grip in step.grips if grip.arm == name), None),
             "held_before": is_held_before,
             "held_after": is_held_after,
             **{name: None if t is None else self._pose(arm, t) for name, t in moments.items()},

@@ -6,9 +6,11 @@ import numpy as np
 
 from planner.geometry.pose import FloatArray
 from planner.motion.calmed import calmed
+from planner.motion.hand_holds import settles
 from planner.motion.leads import Cloths, Lines
 from planner.motion.moments import Moments
-from planner.motion.robot_port import Collisions
+from planner.motion.opened_collisions import OpenedCollisions
+from planner.robots.openings import HELD_M, OPENING_M
 
 _CALMED = 30
 """How often joints are calmed while a base drags."""
@@ -39,11 +41,26 @@ class Carried:
     half_turns: FloatArray
 
     @property
+    def settles(self) -> bool:
+        """Whether fingers close a step before the hands are at the grips, and open a step after their last moment."""
+        return settles(self.lines.holds)
+
+    @property
+    def lead(self) -> FloatArray:
+        """The joints on the way to where fingers close (rad), shape (n, joints)."""
+        return self.joints[: self.first + 1 - int(self.settles)]
+
+    @property
+    def tail(self) -> FloatArray:
+        """The joints on the way from where fingers open (rad), shape (n, joints)."""
+        return self.joints[self.last + int(self.settles) :]
+
+    @property
     def last(self) -> int:
         """The step of the last of the moments, at which the hands let go."""
         return self.first + len(self.moments) - 1
 
-    def calmed(self, collisions: Collisions) -> "Carried":
+    def calmed(self, collisions: OpenedCollisions) -> "Carried":
         """Return it without the kinks that slow it down where all tools stand still, seen from the base: in drags.
 
         It stays as it is where the joints would touch something.
@@ -51,7 +68,9 @@ class Carried:
         is_still = np.zeros(len(self.joints), dtype=np.bool_)
         is_still[self.first : self.last + 1] = self.moments.is_still
         joints = calmed(self.joints, _CALMED, is_still)
-        if not is_still.any() or not collisions.are_all_free(self.bases[is_still], joints[is_still]):
+        opened = np.array([HELD_M if hold.is_narrow else OPENING_M for hold in self.lines.holds])
+        openings_m = np.tile(opened, (int(is_still.sum()), 1))
+        if not is_still.any() or not collisions.are_all_free(self.bases[is_still], joints[is_still], openings_m):
             return self
         return replace(self, joints=joints)
 

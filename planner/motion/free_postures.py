@@ -1,6 +1,6 @@
 """Find the postures in which arms can hold cloth at single moments: a test much cheaper than a joint path."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from functools import lru_cache
 from itertools import combinations
 from typing import TypeAlias
@@ -8,17 +8,13 @@ from typing import TypeAlias
 import numpy as np
 
 from planner.geometry.pose import FloatArray
-from planner.motion.leads import BESIDE, OVER, rolled
+from planner.motion.hand_holds import HandHold, Holds, opening_of, wide_holds
+from planner.motion.leads import rolled
 from planner.motion.lying_cloth import LyingCloth
 from planner.motion.moments import Moments
+from planner.motion.opened_collisions import OpenedCollisions
 from planner.motion.robot_port import Collisions, RobotPort
 from planner.robots.joint_layout import JointLayout
-
-_STEEP = 0.6
-"""The sine of the pitch from which a hand may have one finger above the other.
-
-The lower finger of a hand that points down less steeply would be pushed into the table.
-"""
 
 _LOOKED_AT = 5
 """The moments at which the arms' postures are tested together before a path is searched."""
@@ -26,18 +22,18 @@ _LOOKED_AT = 5
 _PLACES_KEPT = 4096
 """Size of the caches of tool poses, some 2 kB each."""
 
-_Pose: TypeAlias = tuple[bytes, bytes, bytes]
-"""The cache key of a tool pose: the base's pose, the tool's position and its axes."""
+_Pose: TypeAlias = tuple[Collisions, bytes, bytes, bytes]
+"""The cache key of a tool pose: the collisions that count, the base's pose, the tool's position and its axes."""
 
 
-def _pose(base: FloatArray, position: FloatArray, rotation: FloatArray) -> _Pose:
-    return base.tobytes(), position.tobytes(), rotation.tobytes()
+def _pose(collisions: Collisions, base: FloatArray, position: FloatArray, rotation: FloatArray) -> _Pose:
+    return collisions, base.tobytes(), position.tobytes(), rotation.tobytes()
 
 
 class FreePostures:
     """Finds and caches the arms' collision-free postures at tool poses. May be shared between threads."""
 
-    def __init__(self, machine: RobotPort, collisions: Collisions, torso_m: float) -> None:
+    def __init__(self, machine: RobotPort, collisions: OpenedCollisions, torso_m: float) -> None:
         """Keep a robot and the height of its lift (m), and empty caches."""
         self._machine = machine
         self._collisions = collisions
@@ -47,32 +43,35 @@ class FreePostures:
         self._free_postures = lru_cache(_PLACES_KEPT)(self._search_postures)
         self._are_apart = lru_cache(_PLACES_KEPT)(self._search_apart)
 
-    def can_hold(self, moments: Moments, first: Iterable[int] = ()) -> bool:
+    def can_hold(self, moments: Moments, first: Iterable[int] = (), ways: Sequence[Holds] = ()) -> bool:
         """Return whether the arms have free postures at a few moments; without them there is hardly ever a path.
 
         Args:
             moments: the moments of the transfer.
             first: the moments that are tested before others.
+            ways: the ways in which hands may hold; none given: those in which they open widely.
         """
         looks = _LOOKED_AT if moments.is_held.any(axis=1).sum() > 1 else 2
-        return self.can_hold_at(moments, [*first, *np.linspace(0, len(moments) - 1, looks).astype(np.int64).tolist()])
+        which = [*first, *np.linspace(0, len(moments) - 1, looks).astype(np.int64).tolist()]
+        return self.can_hold_at(moments, which, ways)
 
-    def can_hold_at(self, moments: Moments, which: Iterable[int]) -> bool:
-        """Return whether the arms have free postures at some moments, each tested alone."""
+    def can_hold_at(self, moments: Moments, which: Iterable[int], ways: Sequence[Holds] = ()) -> bool:
+        """Return whether the arms have free postures at some moments, each tested alone; see `can_hold`."""
         arms = [int(arm) for arm in np.flatnonzero(moments.is_held.any(axis=1))]
-        rolls = hand_rolls(moments)[::-1]
-        return all(any(self._can_hold(arms, moments, moment, roll) for roll in rolls) for moment in which)
+        ways = ways or wide_holds(moments)[::-1]
+        return all(any(self._can_hold(arms, moments, moment, holds) for holds in ways) for moment in which)
 
-    def _can_hold(self, arms: list[int], moments: Moments, moment: int, roll_rad: float) -> bool:
-        """Return whether the arms have free postures at a moment, each alone and all together, with a given roll.
+    def _can_hold(self, arms: list[int], moments: Moments, moment: int, holds: Holds) -> bool:
+        """Return whether the arms have free postures at a moment, each alone and all together, as hands hold.
 
         An arm that takes no part in the transfer is at home.
         """
         held = [arm for arm in arms if moments.is_held[arm, moment]]
         poses: list[_Pose | None] = [None] * len(self._layout.arms)
         for arm in held:
-            rotation = moments.rotations[arm, moment] @ rolled(roll_rad * self._rolling[arm])
-            poses[arm] = _pose(moments.bases[moment], moments.positions[arm, moment], rotation)
+            rotation = moments.rotations[arm, moment] @ rolled(holds[arm].roll_rad * self._rolling[arm])
+            collisions = self._collisions.of(holds[arm], is_open=False)
+            poses[arm] = _pose(collisions, moments.bases[moment], moments.positions[arm, moment], rotation)
         if len(held) < len(arms):
             return all(len(self._able(arm, pose)) > 0 for arm, pose in enumerate(poses))
         return self._are_apart(*poses)
@@ -81,14 +80,14 @@ class FreePostures:
         """Return whether all arms can take their tool poses at once without contact; None: at home."""
         able = [self._able(arm, pose) for arm, pose in enumerate(poses)]
         pairs = [*combinations(self._layout.arms, 2)]
-        if not all(self._collisions.are_some_apart(pair, able[pair[0]], able[pair[1]]) for pair in pairs):
+        if not all(self._collisions.wide.are_some_apart(pair, able[pair[0]], able[pair[1]]) for pair in pairs):
             return False
         if len(pairs) == 1:
             return True
         apart = np.ones([len(postures) for postures in able], dtype=np.bool_)
         for pair in pairs:
             beside = [arm for arm in self._layout.arms if arm not in pair]
-            of_pair = self._collisions.postures_apart(pair, able[pair[0]], able[pair[1]])
+            of_pair = self._collisions.wide.postures_apart(pair, able[pair[0]], able[pair[1]])
             apart &= np.expand_dims(of_pair, beside)
         return bool(apart.any())
 
@@ -96,30 +95,33 @@ class FreePostures:
         """Return the postures of one arm at a tool pose, or at home, that touch neither body nor table."""
         return self._layout.home[None, self._layout.spans[arm]] if pose is None else self._free_postures(arm, *pose)
 
-    def _postures(self, arm: int, base: FloatArray, position: FloatArray, rotation: FloatArray) -> FloatArray:
-        """Return the postures of one arm at a tool pose that touch neither body nor table. Cached."""
-        return self._free_postures(arm, *_pose(base, position, rotation))
-
-    def _search_postures(self, arm: int, base: bytes, position: bytes, rotation: bytes) -> FloatArray:
+    def _search_postures(
+        self, arm: int, collisions: Collisions, base: bytes, position: bytes, rotation: bytes
+    ) -> FloatArray:
         stand, place, axes = (np.frombuffer(part) for part in (base, position, rotation))
         return self._machine.free_postures(
             arm,
             place,
             axes.reshape(3, 3),
             self._torso_m,
-            lambda joints: self._collisions.arm_free(arm, stand[None], joints, is_certain=True),
+            lambda joints: collisions.arm_free(arm, stand[None], joints, is_certain=True),
         )
 
     def has_room(
-        self, arm: int, base: FloatArray, position: FloatArray, rotation: FloatArray, cloth: LyingCloth | None
+        self,
+        arm: int,
+        hold: HandHold,
+        base: FloatArray,
+        position: FloatArray,
+        rotation: FloatArray,
+        cloth: LyingCloth | None,
     ) -> bool:
-        """Return whether an arm has a free posture at a tool pose, and one that is high enough above cloth."""
-        able = self._postures(arm, base, position, rotation)
-        is_clear = cloth is None or cloth.arm_clear(arm, base[None], able, is_certain=True).any()
+        """Return whether an arm has a free posture at a tool pose, and one that is high enough above cloth.
+
+        Its fingers are open as far as they are before and after it holds cloth.
+        """
+        able = self._free_postures(arm, *_pose(self._collisions.of(hold, is_open=True), base, position, rotation))
+        is_clear = (
+            cloth is None or cloth.arm_clear(arm, base[None], able, opening_m=opening_of(hold), is_certain=True).any()
+        )
         return len(able) > 0 and bool(is_clear)
-
-
-def hand_rolls(moments: Moments) -> tuple[float, ...]:
-    """Return the rolls with which hands may hold cloth in a transfer (rad), the best first."""
-    starts = (moments.rotations[arm, 0, 2, 0] for arm in np.flatnonzero(moments.is_held.any(axis=1)))
-    return (OVER, BESIDE) if all(start < -_STEEP for start in starts) else (BESIDE,)

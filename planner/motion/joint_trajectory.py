@@ -12,13 +12,20 @@ from planner.motion.line import Keyframes
 from planner.robots.card import FINGER_RISE_S, GripperCard
 
 OPEN_M, CLOSED_M = 0.04, 0.004
-"""The gripper's opening when it is empty and when it holds cloth (m)."""
+"""The gripper's opening when it is empty and when it holds a ridge of cloth from above (m)."""
 
 
 def finger_limits(gripper: GripperCard) -> tuple[float, float]:
     """Return the top speed and acceleration of fingers that close or open, as fractions of their way (1/s, 1/s2)."""
     evenly_s = gripper.least_s(OPEN_M, CLOSED_M)
     return 1.0 / evenly_s, 1.0 / (evenly_s * FINGER_RISE_S)
+
+
+def finger_limits_over(gripper: GripperCard, way_m: float) -> tuple[float, float]:
+    """Return the same as fractions of a part of their way (m)."""
+    share = abs(way_m) / (OPEN_M - CLOSED_M)
+    speed, acceleration = finger_limits(gripper)
+    return (speed / share, acceleration / share) if share > 0.0 else (speed, acceleration)
 
 
 def finger_run_s(gripper: GripperCard) -> float:
@@ -69,18 +76,31 @@ class JointTrajectory:
                 self.joints.append(here)
                 self.velocities.append(velocity)
 
-    def begin_closed(self, arm: int) -> None:
-        """Have a gripper hold cloth from the beginning."""
-        self._openings_m[arm][0] = CLOSED_M
+    def begin_closed(self, arm: int, opening_m: float) -> None:
+        """Have a gripper hold cloth from the beginning, its fingers open by so much (m)."""
+        self._openings_m[arm][0] = opening_m
 
-    def close(self, arm: int, start_s: float, end_s: float) -> None:
-        """Close a gripper from one time to another."""
-        self._grip(arm, start_s, end_s, CLOSED_M)
+    def close(self, arm: int, start_s: float, end_s: float, opening_m: float = CLOSED_M) -> None:
+        """Close a gripper from one time to another, down to an opening (m)."""
+        self._grip(arm, start_s, end_s, opening_m)
 
-    def open(self, arm: int, start_s: float, end_s: float) -> None:
-        """Open a gripper from one time to another."""
-        self._grip(arm, start_s, end_s, OPEN_M)
+    def open(self, arm: int, start_s: float, end_s: float, opening_m: float = OPEN_M) -> None:
+        """Open a gripper from one time to another, as far as to an opening (m)."""
+        self._grip(arm, start_s, end_s, opening_m)
+
+    def narrow(self, arm: int, opening_m: float, lasts_s: float, end_s: float) -> None:
+        """Narrow an empty gripper for its next grip (m) as soon as it has let go, before an end (s).
+
+        It opens only where it lets go.
+        """
+        start_s = self._grip_times_s[arm][-1]
+        if self._openings_m[arm][-1] > opening_m and end_s - start_s > TIME_S:
+            self._grip(arm, start_s, min(start_s + lasts_s, end_s), opening_m)
 
     def _grip(self, arm: int, start_s: float, end_s: float, opening_m: float) -> None:
-        self._grip_times_s[arm] += [start_s, end_s]
-        self._openings_m[arm] += [self._openings_m[arm][-1], opening_m]
+        times, openings = self._grip_times_s[arm], self._openings_m[arm]
+        if start_s > times[-1] + TIME_S:
+            times.append(start_s)
+            openings.append(openings[-1])
+        times.append(end_s)
+        openings.append(opening_m)

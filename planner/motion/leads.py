@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.geometry.tolerance import LENGTH_M
+from planner.motion.hand_holds import HandHold, Holds, settles
 from planner.motion.lying_cloth import NEAR_GRIP_M, LyingCloth
 from planner.motion.moments import Moments, about_x
 from planner.robots.tool_path import ToolPath
@@ -39,14 +40,11 @@ UP: Shares = ((0.2, 0.4), (0.0, 0.4), *NEAR)
 FAR: Shares = ((1.0, 1.0), (0.5, 1.0), (1.0, 0.5), (0.5, 0.5), (0.2, 0.5), (0.0, 1.0), (1.0, 0.0), (0.5, 0.0), *NEAR)
 """The preferred ones: up to the whole line and the whole rise."""
 
-OVER, BESIDE = 0.5 * np.pi, 0.0
-"""The roll of a hand with one finger above the other, and with both side by side (rad)."""
+HasRoom = Callable[[int, HandHold, FloatArray, FloatArray, FloatArray, LyingCloth | None], bool]
+"""The test whether an arm can take a tool pose with open fingers, clear of the cloth.
 
-HasRoom = Callable[[int, FloatArray, FloatArray, FloatArray, LyingCloth | None], bool]
-"""The test whether an arm can take a tool pose clear of the cloth.
-
-Its arguments: the arm, the base (x, y, yaw; table frame), the tool's position (m) and axes (base frame), and the cloth
-on the table.
+Its arguments: the arm, how it holds, the base (x, y, yaw; table frame), the tool's position (m) and axes (base frame),
+and the cloth on the table.
 """
 
 
@@ -59,11 +57,11 @@ class Lines:
     """The lines along which hands approach and withdraw.
 
     Attributes:
-        roll_rad: their roll about their approach axes (rad); a mirrored arm's hand rolls the other way.
+        holds: how they hold cloth.
         shares: the fractions of the line and of the rise to try; the first for which there is room is taken.
     """
 
-    roll_rad: float
+    holds: Holds
     shares: Shares
 
 
@@ -77,12 +75,19 @@ class Lead:
         from_grip_m: the way still to go to the grip, or gone since letting go (m); 0 while the hand holds, shape
             (steps,).
         let_go: the first step at which it no longer holds.
+        is_coming: whether it takes the cloth, with open fingers; else it holds it from the first step on.
     """
 
     arm: int
     path: ToolPath
     from_grip_m: FloatArray
     let_go: int
+    is_coming: bool
+
+    def is_open(self, steps: NDArray[np.int64]) -> BoolArray:
+        """Return at which steps its fingers may be open: before the grip and after letting go."""
+        begin, end = self.path.core
+        return ((steps < begin) & self.is_coming) | (steps >= end)
 
     def must_clear(self, steps: NDArray[np.int64]) -> tuple[BoolArray, BoolArray]:
         """Return at which steps it must be clear of the cloth on the table, as it lies before and as it lies after."""
@@ -97,7 +102,8 @@ class Leads:
     Attributes:
         each: the arms that take part.
         bases: the base at each step: x (m), y (m), yaw (rad), table frame, shape (steps, 3).
-        first: the step at which the hands reach the grips.
+        first: the step at which the hands reach the grips. Where some hand opens and closes elsewhere, all do so at the
+            step before it, and at the step after the last at which they hold.
     """
 
     each: tuple[Lead, ...]
@@ -120,11 +126,12 @@ class Leads:
         """
         arms = np.flatnonzero(moments.is_held.any(axis=1))
         ways = [_way(int(arm), moments, lines, rolls_rad, height_m, has_room, cloths) for arm in arms]
-        before = max(len(_stepped(way.approach)) for way in ways) - 1
-        after = max(len(_stepped(way.retreat)) for way in ways) - 1
+        settling = int(settles(lines.holds))
+        before = max(len(_stepped(way.approach)) for way in ways) - 1 + settling
+        after = max(len(_stepped(way.retreat)) for way in ways) - 1 + settling
         start, end = moments.bases[:1].repeat(before, 0), moments.bases[-1:].repeat(after, 0)
         bases = np.concatenate([start, moments.bases, end])
-        return Leads(tuple(way.lead(before, after, len(bases)) for way in ways), bases, before)
+        return Leads(tuple(way.lead(before, after, len(bases), settling) for way in ways), bases, before)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -137,11 +144,17 @@ class _Way:
     spans_s: FloatArray
     approach: FloatArray
     retreat: FloatArray
+    is_coming: bool
 
-    def lead(self, before: int, after: int, steps: int) -> Lead:
-        """Return the tool path over `steps` steps: `before` to come, then the grip, `after` to withdraw, then rest."""
-        coming = _resampled(_stepped(self.approach), before)[:0:-1]
-        leaving = _resampled(_stepped(self.retreat), after)[1:]
+    def lead(self, before: int, after: int, steps: int, settling: int) -> Lead:
+        """Return the tool path over `steps` steps: `before` to come, then the grip, `after` to withdraw, then rest.
+
+        With `settling`, the last of those to come and the first to withdraw lead between the grip and where the fingers
+        open and close.
+        """
+        kept = 1 - settling
+        coming = _resampled(_stepped(self.approach), before - settling)[kept:][::-1]
+        leaving = _resampled(_stepped(self.retreat), after - settling)[kept:]
         first, last = self.rotations[:1], self.rotations[-1:]
         rest = steps - before - len(self.positions)
         path = ToolPath(
@@ -153,7 +166,7 @@ class _Way:
         from_grip = np.zeros(steps)
         from_grip[:before] = _gone_m(self.positions[0], coming[::-1])[::-1]
         from_grip[steps - rest :] = _gone_m(self.positions[-1], path.positions[steps - rest :])
-        return Lead(self.arm, path, from_grip, steps - rest)
+        return Lead(self.arm, path, from_grip, steps - rest, self.is_coming)
 
 
 def _gone_m(start: FloatArray, points: FloatArray) -> FloatArray:
@@ -179,19 +192,24 @@ def _way(
     positions = moments.positions[arm, held]
     rotations = moments.rotations[arm, held] @ rolled(rolls_rad[arm])
     upwards = np.array([0.0, 0.0, 1.0])
-    coming, leaving = -rotations[0, :, 0], -rotations[-1, :, 0] + upwards
+    hold = lines.holds[arm]
+    coming, leaving = -rotations[0, :, 0], -rotations[-1, :, 0]
+    if not hold.is_narrow:  # else the lower finger slides back out from under the cloth
+        leaving = leaving + upwards
     leaving *= RETREAT_M / np.linalg.norm(leaving)
     ends = []
     for number, line, cloth in ((0, APPROACH_M * coming, cloths[0]), (-1, leaving, cloths[1])):
-        base, rotation = moments.bases[held[number]], rotations[number]
-        corners = _corners(positions[number], line, lines.shares, height_m)
+        base, rotation, there = moments.bases[held[number]], rotations[number], positions[number]
         if number == 0 and cloth is None:
-            ends.append(positions[[0] * 3])
+            ends.append(there[None].repeat(3, 0))
             continue
-        able = (c for c in corners if has_room(arm, base, c[-1], rotation, cloth if _is_far(c) else None))
-        ends.append(next(able, positions[[number] * 3]))
+        there = there + hold.raised_m * upwards
+        corners = _corners(there, line, lines.shares, height_m)
+        able = (c for c in corners if has_room(arm, hold, base, c[-1], rotation, cloth if _is_far(c) else None))
+        ends.append(next(able, there[None].repeat(3, 0)))
     spans = np.where(moments.is_driving, moments.nominal_s, np.inf)[held[1:]]
-    return _Way(arm, positions, rotations, spans, *ends)
+    approach, retreat = ends
+    return _Way(arm, positions, rotations, spans, approach, retreat, cloths[0] is not None)
 
 
 def _is_far(corners: FloatArray) -> bool:

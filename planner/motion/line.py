@@ -1,6 +1,6 @@
 """Keyframes of empty hands, and the straight lines of the hands to grips or from them."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -33,6 +33,10 @@ class Keyframes(NamedTuple):
         """Return keyframes one after the other."""
         return Keyframes(*(np.concatenate(of_all) for of_all in zip(*parts, strict=True)))
 
+    def until(self, count: int) -> "Keyframes":
+        """Return the first of them."""
+        return Keyframes(self.times_s[:count], self.joints[:count], self.velocities[:count])
+
     def later(self, by_s: float) -> "Keyframes":
         """Return the same keyframes later (s)."""
         return Keyframes(self.times_s + by_s, self.joints, self.velocities)
@@ -45,10 +49,15 @@ class Line:
     Attributes:
         joints: all arms' joints (rad), shape (n, joints).
         timing: the quickest run along it, from rest to rest.
+        openings_m: how far each arm's fingers are open at most meanwhile (m), shape (arms,).
+        at_grips: all arms' joints at the grips (rad), shape (joints,), where fingers close elsewhere; None: they close
+            at the line's end.
     """
 
     joints: FloatArray
     timing: PathTiming
+    openings_m: FloatArray
+    at_grips: FloatArray | None = None
 
     @property
     def shortest_s(self) -> float:
@@ -62,4 +71,5 @@ class Line:
 
     def moved(self, by: FloatArray) -> "Line":
         """Return the line with turns added to its joints (rad), shape (joints,)."""
-        return Line(self.joints + by, self.timing)
+        at_grips = None if self.at_grips is None else self.at_grips + by
+        return replace(self, joints=self.joints + by, at_grips=at_grips)

@@ -9,9 +9,11 @@ import numpy as np
 from planner.geometry.convex_pieces import convex_pieces
 from planner.geometry.pose import BoolArray, FloatArray, Pose2
 from planner.geometry.tolerance import grid_key
+from planner.motion.opened_collisions import OpenedCollisions
 from planner.motion.robot_port import Clearance, Collisions
 from planner.primitives.context import Context
 from planner.primitives.state import State
+from planner.robots.openings import OPENING_M
 
 OVER_CLOTH_M = 0.032
 """The height that empty arms keep above cloth at the moments tested (m).
@@ -39,10 +41,16 @@ class LyingCloth:
 
     key: bytes
     _pieces: tuple[FloatArray, ...] = field(compare=False, repr=False)
-    _collisions: Collisions = field(compare=False, repr=False)
+    _collisions: OpenedCollisions = field(compare=False, repr=False)
 
     def arm_clear(
-        self, arm: int, bases: Pose2 | FloatArray, joints: FloatArray, *, is_certain: bool = False
+        self,
+        arm: int,
+        bases: Pose2 | FloatArray,
+        joints: FloatArray,
+        *,
+        opening_m: float = OPENING_M,
+        is_certain: bool = False,
     ) -> BoolArray:
         """Return at which joints of an empty arm all of it is high enough above the cloth, shape (n,).
 
@@ -50,9 +58,10 @@ class LyingCloth:
             arm: the arm.
             bases: the base's pose.
             joints: the arm's joints (rad), a row each.
+            opening_m: how far its fingers are open at most (m).
             is_certain: whether only those count that certainly are, which is quicker to tell.
         """
-        clearance = _clearance(_Above(self.key, self._collisions, self._pieces))
+        clearance = _clearance(_Above(self.key, self._collisions.up_to(opening_m), self._pieces))
         return clearance.arm_clear(arm, bases, joints, is_certain=is_certain)
 
 
@@ -73,7 +82,7 @@ def _clearance(above: _Above) -> Clearance:
 class LyingCloths:
     """The cloth of one task in each of its states."""
 
-    def __init__(self, context: Context, collisions: Collisions) -> None:
+    def __init__(self, context: Context, collisions: OpenedCollisions) -> None:
         self._context = context
         self._collisions = collisions
         self._known: dict[tuple[int, int, int], LyingCloth] = {}

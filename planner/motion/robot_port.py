@@ -9,6 +9,7 @@ from planner.primitives.reach import Reach
 from planner.robots.arm_paths import Together
 from planner.robots.card import RobotCard
 from planner.robots.collision.contact import Contact
+from planner.robots.openings import OPENING_M
 from planner.robots.tool_path import IsFree, NoPath, ToolPath
 
 
@@ -22,7 +23,7 @@ class Clearance(Protocol):
         ...
 
 
-class Collisions(Together, Protocol):
+class Collisions(Together, Hashable, Protocol):
     """The collisions of a robot with itself and the table.
 
     Joints are in rad: of one arm, or a configuration, which is a row of the joints of all arms (see `JointLayout`).
@@ -132,6 +133,27 @@ class RobotPort(PathFinder, Kinematics, Hashable, Protocol):
         """
         ...
 
-    def collisions(self, table: Table, torso_m: float, *, margin_m: float = 0.0) -> Collisions:
-        """Return the collisions at a table with the lift at a height; anything nearer than a margin (m) counts."""
+    def collisions(
+        self, table: Table, torso_m: float, opening_m: float = OPENING_M, margin_m: float = 0.0
+    ) -> Collisions:
+        """Return the collisions at a table with the lift at a height.
+
+        Args:
+            table: the table.
+            torso_m: how far the lift is raised (m).
+            opening_m: the opening up to which fingers may be open (m).
+            margin_m: anything nearer counts as touching (m).
+        """
+        ...
+
+    def edge_raised_m(self, arm: int, height_m: float, pitch_rad: float) -> float | None:
+        """Return how far above its path a hand opens and closes to hold cloth at its edge (m).
+
+        One finger is then under the cloth and one over it. None where the gripper cannot do so.
+
+        Args:
+            arm: the arm.
+            height_m: the tool's height above the table while it holds cloth that lies (m).
+            pitch_rad: how far the fingers point below the horizontal (rad).
+        """
         ...

@@ -16,7 +16,8 @@ from planner.geometry.ramps import ramps
 from planner.geometry.table_top import TableTop
 from planner.geometry.tolerance import TIME_S
 from planner.motion.act import Act
-from planner.motion.joint_trajectory import JointTrajectory, finger_limits
+from planner.motion.hand_holds import settling_s
+from planner.motion.joint_trajectory import JointTrajectory, finger_limits_over
 from planner.motion.line import Keyframes
 from planner.motion.timed_phase import TimedPhase
 from planner.motion.transfer import Transfer
@@ -65,7 +66,7 @@ def _gripper_track(arm: ArmCard, times_s: Sequence[float], openings_m: Sequence[
     hand = arm.gripper
     keyframes = [(times_s[0], openings_m[0], 0.0)]
     for (begin, start), (until, end) in pairwise(zip(times_s, openings_m, strict=True)):
-        run = ramps(until - begin, 1.0, *finger_limits(hand))
+        run = ramps(until - begin, 1.0, *finger_limits_over(hand, end - start))
         knots = np.array(run.times_s) if start == end else np.linspace(0.0, until - begin, _FINGER_KNOTS + 1)
         since = np.union1d(run.times_s, knots)[1:]
         since = since[np.append(np.diff(since) > TIME_S, True)]
@@ -100,7 +101,7 @@ class _TrajectoryBuilder:
             dwell_s: the time that fingers take to close and to open (s).
         """
         self._time = time
-        self._arms = len(transits.layout.arms)
+        self._transits, self._arms = transits, len(transits.layout.arms)
         self._dwell_s = dwell_s
         self.track = JointTrajectory.at_rest(transits.home, self._arms)
         self._timed_phases: list[TimedPhase] = []
@@ -133,25 +134,35 @@ class _TrajectoryBuilder:
             self._begin_holding(transfer)
         else:
             self._reach(act.first, act.transit)
-            self._turns = self.track.last - transfer.lead.joints[-1]
+            self._turns = self.track.last - transfer.carried.joints[transfer.carried.first]
         held = self._now
         timing = transfer.timing
         self._timed_phases += _counted(act.first, timing.timed_phases)
-        joints = transfer.carried.joints[transfer.carried.first + timing.moments] + self._turns
-        self.track.add(Keyframes(held + timing.times_s, joints, timing.velocities))
-        is_last = transfer.carried.moments.is_last_held
-        for arm in np.flatnonzero(transfer.carried.moments.is_used).tolist():
-            opens = held + timing.first_s(int(np.argmax(is_last[arm])))
+        carried, end = transfer.carried, held + float(timing.times_s[-1])
+        joints = carried.joints[carried.first + timing.moments] + self._turns
+        run = Keyframes(held + timing.times_s, joints, timing.velocities)
+        settling = settling_s(self._dwell_s) if carried.settles else 0.0
+        if carried.settles:
+            opened = carried.tail[0] + self._turns
+            settled = self._transits.eased(joints[-1], opened, settling).later(end - self._dwell_s)
+            run = Keyframes.joined([run.until(len(joints) - 1), settled, Keyframes.still(opened, end)])
+        self.track.add(run)
+        is_last, holds = carried.moments.is_last_held, carried.lines.holds
+        for arm in np.flatnonzero(carried.moments.is_used).tolist():
+            own = settling if holds[arm].is_narrow else 0.0
+            opens = held + timing.first_s(int(np.argmax(is_last[arm]))) + own
             if held > 0.0:
-                self.track.close(arm, held - self._dwell_s, held)
-            self.track.open(arm, opens, opens + self._dwell_s)
-        self._now = held + float(timing.times_s[-1])
+                closes = held - self._dwell_s
+                self.track.narrow(arm, holds[arm].opening_m, self._dwell_s, closes)
+                self.track.close(arm, closes, held - own, holds[arm].held_m)
+            self.track.open(arm, opens, opens + self._dwell_s - own, holds[arm].opening_m)
+        self._now = end
 
     def _begin_holding(self, transfer: Transfer) -> None:
         """Begin with the cloth in the hands, at the first joints of the transfer."""
         self.track = JointTrajectory.at_rest(transfer.carried.joints[transfer.carried.first], self._arms)
         for arm in np.flatnonzero(transfer.carried.moments.is_used).tolist():
-            self.track.begin_closed(arm)
+            self.track.begin_closed(arm, transfer.holds[arm].held_m)
 
     def _reach(self, primitive: int, transit: Transit) -> None:
         """Add a transit to the transfer that begins with a primitive."""

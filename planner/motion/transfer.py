@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from planner.geometry.tolerance import TIME_S
 from planner.motion.carried import Carried
+from planner.motion.hand_holds import Holds
 from planner.motion.line import Line
 from planner.motion.transfer_timing import TransferTiming
 from planner.primitives.primitive import Step
@@ -32,6 +33,11 @@ class Transfer:
     timing: TransferTiming
     lead: Line
     tail: Line
+
+    @property
+    def holds(self) -> Holds:
+        """How each arm's hand holds the cloth."""
+        return self.carried.lines.holds
 
     @property
     def free_phases(self) -> tuple[Phase, ...]:

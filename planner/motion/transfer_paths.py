@@ -1,5 +1,6 @@
 """Find joint paths for a transfer: all arms from before their grips, along the cloth's path, to after letting go."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache, partial
 from hashlib import blake2b
@@ -10,10 +11,12 @@ from numpy.typing import NDArray
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.geometry.tolerance import ANGLE_RAD
 from planner.motion.carried import Carried
-from planner.motion.free_postures import FreePostures, hand_rolls
-from planner.motion.leads import BESIDE, FAR, NEAR, OVER, UP, Cloths, Lead, Leads, Lines
+from planner.motion.free_postures import FreePostures
+from planner.motion.hand_holds import Holds, edge_holds, opening_of, settles, wide_holds
+from planner.motion.leads import FAR, NEAR, UP, Cloths, Lead, Leads, Lines
 from planner.motion.moments import Moments
-from planner.motion.robot_port import Collisions, RobotPort
+from planner.motion.opened_collisions import OpenedCollisions
+from planner.motion.robot_port import RobotPort
 from planner.robots.joint_layout import JointLayout
 from planner.robots.tool_path import IsFree, NoPath
 
@@ -50,7 +53,7 @@ class TransferPaths:
         postures: the arms' free postures at single tool poses.
     """
 
-    def __init__(self, machine: RobotPort, collisions: Collisions, torso_m: float, height_m: float) -> None:
+    def __init__(self, machine: RobotPort, collisions: OpenedCollisions, torso_m: float, height_m: float) -> None:
         """Keep a robot, the height of its lift and that of the table (m), and empty caches."""
         self._machine = machine
         self._collisions = collisions
@@ -61,21 +64,27 @@ class TransferPaths:
         self._searched = lru_cache(_TRANSFERS_KEPT)(self._search)
         self.postures = FreePostures(machine, collisions, torso_m)
 
-    def carried(self, moments: Moments, cloths: Cloths) -> Carried | NoPath:
-        """Return the joint paths of a transfer, or the moments at which there is no path. Cached."""
-        return self._searched(_TransferKey.of(moments, cloths))
+    def carried(self, moments: Moments, cloths: Cloths, ways: Sequence[Holds] = ()) -> Carried | NoPath:
+        """Return the joint paths of a transfer, or the moments at which there is no path. Cached.
 
-    def _search(self, asked: _TransferKey) -> Carried | NoPath:
-        over = self._rolled(asked, OVER) if OVER in hand_rolls(asked.moments) else None
-        return over if isinstance(over, Carried) else self._rolled(asked, BESIDE)
+        Args:
+            moments: the moments while cloth is held.
+            cloths: the cloth on the table before and after.
+            ways: the ways in which hands may hold, the best first; none given: those in which they open widely.
+        """
+        asked = _TransferKey.of(moments, cloths)
+        *others, last = ways or wide_holds(moments)
+        found = (self._searched(asked, holds) for holds in others)
+        best = next((one for one in found if isinstance(one, Carried)), None)
+        return self._searched(asked, last) if best is None else best
 
-    def _rolled(self, asked: _TransferKey, roll_rad: float) -> Carried | NoPath:
-        """Return the joint paths of a transfer whose hands have a roll (rad)."""
-        found = self._with_lines(asked, Lines(roll_rad, FAR))
+    def _search(self, asked: _TransferKey, holds: Holds) -> Carried | NoPath:
+        """Return the joint paths of a transfer whose hands hold in given ways."""
+        found = self._with_lines(asked, Lines(holds, FAR))
         for shares in (UP, NEAR):
             if isinstance(found, Carried) or found.is_hopeless:
                 break
-            found = self._with_lines(asked, Lines(roll_rad, shares))
+            found = self._with_lines(asked, Lines(holds, shares))
         return found
 
     def adapted(self, moments: Moments, cloths: Cloths, like: Carried) -> Carried | NoPath:
@@ -87,11 +96,11 @@ class TransferPaths:
         if _TransferKey.of(moments, cloths) == _TransferKey.of(like.moments, like.cloths):
             return like
         are_same_arms = np.array_equal(moments.is_used, like.moments.is_used)
-        if not are_same_arms or like.lines.roll_rad not in hand_rolls(moments):
+        if not are_same_arms or like.lines.holds not in (*wide_holds(moments), edge_holds(self._machine, moments)):
             return None
         leads = self._leads(moments, like.lines, cloths)
         joints, guides = self._layout.at_home(len(leads.bases)), like.guides(leads.first, moments, len(leads.bases))
-        are_free = self._are_free(leads, cloths)
+        are_free = self._are_free(leads, cloths, like.lines.holds)
         for lead in leads.each:
             span = self._layout.spans[lead.arm]
             known = guides[:, span]
@@ -114,8 +123,8 @@ class TransferPaths:
             {lead.arm: lead.path for lead in leads.each},
             self._torso_m,
             self._height_m,
-            self._are_free(leads, cloths),
-            self._collisions,
+            self._are_free(leads, cloths, lines.holds),
+            self._collisions.wide,
         )
         if isinstance(found, NoPath):
             return found
@@ -124,20 +133,23 @@ class TransferPaths:
         return self._half_turned(leads, moments, cloths, joints, lines)
 
     def _leads(self, moments: Moments, lines: Lines, cloths: Cloths) -> Leads:
-        rolls = lines.roll_rad * self._rolling
+        rolls = self._rolling * [hold.roll_rad for hold in lines.holds]
         return Leads.of(moments, lines, rolls, self._height_m, self.postures.has_room, cloths)
 
     def _are_all_apart(self, joints: FloatArray) -> bool:
         """Return whether no arm touches another in any of some configurations."""
-        return bool(self._collisions.arms_apart(tuple(self._layout.arms), joints).all())
+        return bool(self._collisions.wide.arms_apart(tuple(self._layout.arms), joints).all())
 
     def _half_turned(self, leads: Leads, moments: Moments, cloths: Cloths, joints: FloatArray, lines: Lines) -> Carried:
         """Return the transfer with each hand turned by half a turn if that is nearer to home and collision-free.
 
         A hand whose last joint does not turn without end stays as it is.
         """
-        layout, turned = self._layout, joints.copy()
-        half_turns, are_free = np.zeros_like(layout.home), self._are_free(leads, cloths)
+        layout = self._layout
+        if settles(lines.holds):
+            joints = self._rested(leads, moments, joints, lines.holds)
+        turned = joints.copy()
+        half_turns, are_free = np.zeros_like(layout.home), self._are_free(leads, cloths, lines.holds)
         for lead in leads.each:
             span = layout.spans[lead.arm]
             last = span.stop - 1
@@ -153,26 +165,52 @@ class TransferPaths:
             half_turns, turned = np.zeros_like(layout.home), joints
         return Carried(moments, cloths, leads.bases, turned, leads.first, lines, half_turns)
 
-    def _are_free(self, leads: Leads, cloths: Cloths) -> dict[int, IsFree]:
+    def _rested(self, leads: Leads, moments: Moments, joints: FloatArray, holds: Holds) -> FloatArray:
+        """Return joints of which those of hands that open where they hold rest while other hands settle."""
+        rested, first, last = joints.copy(), leads.first, leads.first + len(moments) - 1
+        for lead in leads.each:
+            if holds[lead.arm].raised_m == 0.0:
+                span = self._layout.spans[lead.arm]
+                rested[first - 1, span], rested[last + 1, span] = joints[first, span], joints[last, span]
+        return rested
+
+    def _are_free(self, leads: Leads, cloths: Cloths, holds: Holds) -> dict[int, IsFree]:
         """Return for each arm that takes part a test for collisions with body, table and arms that stay at home.
 
         An empty hand also has to stay above the cloth, except near its grip.
         """
-        layout = self._layout
+        layout, collisions = self._layout, self._collisions
+
+        def arm_free(lead: Lead, steps: NDArray[np.int64], joints: FloatArray, is_certain: bool) -> BoolArray:
+            """Return at which steps an arm touches neither body nor table, its fingers open as they are then."""
+            arm, bases = lead.arm, leads.bases[steps]
+            opened, held = (collisions.of(holds[arm], is_open=is_open) for is_open in (True, False))
+            if opened is held:
+                return opened.arm_free(arm, bases, joints, is_certain=is_certain)
+            answers, is_open = np.empty(len(steps), dtype=np.bool_), lead.is_open(steps)
+            for rows, fingers in ((is_open, opened), (~is_open, held)):
+                answers[rows] = fingers.arm_free(arm, bases[rows], joints[rows], is_certain=is_certain)
+            return answers
+
         idle = set(layout.arms) - {lead.arm for lead in leads.each}
 
         def is_free(lead: Lead, steps: NDArray[np.int64], joints: FloatArray, is_certain: bool) -> BoolArray:
             arm = lead.arm
-            answers = self._collisions.arm_free(arm, leads.bases[steps], joints, is_certain=is_certain)
+            answers = arm_free(lead, steps, joints, is_certain)
             for cloth, must_clear in zip(cloths, lead.must_clear(steps), strict=True):
                 asked = np.flatnonzero(answers & must_clear)
                 if cloth is not None and len(asked):
                     bases = leads.bases[steps[asked]]
-                    answers[asked] = cloth.arm_clear(arm, bases, joints[asked], is_certain=is_certain)
+                    opening_m = opening_of(holds[arm])
+                    answers[asked] = cloth.arm_clear(
+                        arm, bases, joints[asked], opening_m=opening_m, is_certain=is_certain
+                    )
             if idle:
                 every, near = layout.at_home(len(joints)), tuple(sorted({arm, *idle}))
                 every[:, layout.spans[arm]] = joints
-                answers &= self._collisions.arms_apart(near, every[:, layout.joints_of(near)], is_certain=is_certain)
+                answers &= self._collisions.wide.arms_apart(
+                    near, every[:, layout.joints_of(near)], is_certain=is_certain
+                )
             return answers
 
         return {lead.arm: partial(is_free, lead) for lead in leads.each}

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
@@ -12,11 +12,15 @@ from planner.geometry.table import Table
 from planner.geometry.tolerance import TIME_S
 from planner.motion.blocking_contacts import BlockingContacts
 from planner.motion.carried import Carried
+from planner.motion.edge_sag import is_clear_between
+from planner.motion.hand_holds import edge_holds, opening_of, settling_s
 from planner.motion.joint_trajectory import finger_run_s
+from planner.motion.known_transfers import KnownTransfers
 from planner.motion.line import Line
 from planner.motion.lying_cloth import LyingCloths
 from planner.motion.moments import Moments, forget_moments, moments_of
-from planner.motion.robot_port import Collisions, RobotPort
+from planner.motion.opened_collisions import OpenedCollisions
+from planner.motion.robot_port import RobotPort
 from planner.motion.transfer import Transfer, is_carrying
 from planner.motion.transfer_candidate import BlockedMoments, Candidate, motion_of, ways_of
 from planner.motion.transfer_paths import TransferPaths
@@ -33,23 +37,6 @@ from planner.task.phase import Phase
 
 MARGIN_M = 0.001
 """The distance kept between bodies that must not touch, at the moments tested (m)."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class KnownTransfers:
-    """What is known of the transfers of a task, by their steps' motions; tightened tasks share it.
-
-    Attributes:
-        can_be_there: whether the arms have free postures where the steps begin and end.
-        candidates: the candidates that steps make.
-        made: the transfer of each candidate, None where it has none, and the moments at which it was blocked, if any.
-        transits: how hands come from one transfer to the next, by both and by what the base does meanwhile.
-    """
-
-    can_be_there: dict[tuple[object, ...], bool] = field(default_factory=dict)
-    candidates: dict[tuple[object, ...], Candidate] = field(default_factory=dict)
-    made: dict[tuple[object, ...], tuple[Transfer | None, NoPath | None]] = field(default_factory=dict)
-    transits: dict[tuple[object, ...], Transit] = field(default_factory=dict)
 
 
 class TransferPlanner:
@@ -74,7 +61,7 @@ class TransferPlanner:
         """
         scene = context.scene
         paths, self.transits, collisions = _transfer_paths(machine, scene.table, scene.torso_m)
-        self._context = context
+        self._context, self._machine = context, machine
         self._paths = paths
         self._collisions = collisions
         self._blocked = BlockedMoments()
@@ -82,7 +69,7 @@ class TransferPlanner:
         self._candidates: dict[tuple[object, ...], Candidate] = {}
         self._made: dict[Candidate, Transfer | None] = {}
         self.glances = self.tries = self.transits_planned = 0
-        self._contacts = BlockingContacts(machine, collisions, scene.torso_m, scene.table.height_m)
+        self._contacts = BlockingContacts(machine, collisions.wide, scene.torso_m, scene.table.height_m)
         self.dwell_s = max(scene.grip_dwell_s, *(finger_run_s(arm.gripper) for arm in machine.card.arms))
         self._cloths = LyingCloths(context, collisions)
         self._hands = TransitPlanner(self.transits, self.dwell_s)
@@ -180,13 +167,31 @@ class TransferPlanner:
             self._blocked.note(candidate, carried)
         return self._transfer(candidate, carried)
 
+    def made_at_edges(self, candidate: "Candidate") -> Transfer | None:
+        """Return a candidate's transfer with hands holding edges where they can; None if there is none."""
+        moments = candidate.moments
+        holds = edge_holds(self._machine, moments)
+        if holds is None or not self._paths.postures.can_hold(moments, ways=(holds,)):
+            return None
+        self.tries += 1
+        return self._transfer(candidate, self._paths.carried(moments, candidate.cloths, (holds,)))
+
     def _transfer(self, candidate: "Candidate", carried: Carried | NoPath) -> Transfer | None:
         if isinstance(carried, NoPath):
             return None
         carried = carried.calmed(self._collisions)
         joints, first, last = carried.joints, carried.first, carried.last
         timing = TransferTiming.of(candidate.carrying, candidate.moments, joints[first : last + 1], self._limits)
-        lead, tail = self.transits.line(joints[: first + 1]), self.transits.line(joints[last:])
+        if not is_clear_between(carried, timing, self.transits.layout, self._collisions):
+            return None
+        coming, leaving = carried.lead, carried.tail
+        if carried.settles:
+            ways = np.array([coming[-1], joints[first]]), np.array([joints[last], leaving[0]])
+            if max(float(self.transits.needed_s(way)[0]) for way in ways) > settling_s(self.dwell_s):
+                return None
+        at_grips = joints[first] if carried.settles else None
+        openings_m = np.array([opening_of(hold) for hold in carried.lines.holds])
+        lead, tail = self.transits.line(coming, openings_m, at_grips), self.transits.line(leaving, openings_m)
         if not self._can_come_and_go(candidate.steps, carried, lead, tail):
             return None
         return Transfer(candidate.steps, carried, timing, lead, tail)
@@ -237,9 +242,11 @@ class TransferPlanner:
 
 
 @lru_cache(maxsize=4)
-def _transfer_paths(machine: RobotPort, table: Table, torso_m: float) -> tuple[TransferPaths, TransitPaths, Collisions]:
+def _transfer_paths(
+    machine: RobotPort, table: Table, torso_m: float
+) -> tuple[TransferPaths, TransitPaths, OpenedCollisions]:
     """Return the searches for joint paths at a table and the collisions there; all are kept from plan to plan."""
-    collisions = machine.collisions(table, torso_m, margin_m=MARGIN_M)
+    collisions = OpenedCollisions(machine, table, torso_m, MARGIN_M)
     transits = TransitPaths(machine, collisions, torso_m)
     return TransferPaths(machine, collisions, torso_m, table.height_m), transits, collisions
 

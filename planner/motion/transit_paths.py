@@ -12,13 +12,16 @@ import numpy as np
 
 from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.ramps import ramps
+from planner.geometry.tolerance import EDGE_RAD
 from planner.motion.answer_memory import AnswerMemory
 from planner.motion.line import Keyframes, Line
 from planner.motion.lying_cloth import NEAR_GRIP_M, LyingCloth
+from planner.motion.opened_collisions import OpenedCollisions
 from planner.motion.pacing import needed_s
 from planner.motion.path_timing import quickest
 from planner.motion.robot_port import Collisions, RobotPort
 from planner.robots.joint_layout import JointLayout
+from planner.robots.openings import OPENING_M
 
 _LEADS = (0.25, 0.5, 0.75)
 """The fractions of their path by which some arms are tried ahead of the others."""
@@ -56,10 +59,10 @@ class TransitPaths:
     May be shared between threads.
     """
 
-    def __init__(self, machine: RobotPort, collisions: Collisions, torso_m: float) -> None:
+    def __init__(self, machine: RobotPort, collisions: OpenedCollisions, torso_m: float) -> None:
         """Keep the robot, its collisions and the height of its lift (m)."""
         self._machine, self._torso_m = machine, torso_m
-        self._collisions = collisions
+        self._opened, self._collisions = collisions, collisions.wide
         self.layout = JointLayout.of(machine.card)
         self._searched = lru_cache(_WAYS_KEPT)(self._search)
         self._tested = AnswerMemory[bool](_ANSWERS_KEPT)
@@ -95,15 +98,23 @@ class TransitPaths:
         shares, rates = np.array(run.fractions)[:, None], np.array(run.rates)[:, None]
         return Keyframes(np.array(run.times_s), start + shares * (goal - start), rates * (goal - start))
 
-    def line(self, joints: FloatArray) -> Line:
-        """Return the quickest run, from rest to rest, along lines of small steps, shape (n, joints)."""
+    def line(
+        self, joints: FloatArray, openings_m: FloatArray | None = None, at_grips: FloatArray | None = None
+    ) -> Line:
+        """Return the quickest run, from rest to rest, along lines of small steps, shape (n, joints); see `Line`."""
         at = np.append(0.0, np.cumsum(needed_s(joints, self.layout.speeds_rad_s)))
-        return Line(joints, quickest(joints, at, (self.layout.speeds_rad_s, self.layout.accelerations)))
+        opened = np.full(len(self.layout.arms), OPENING_M) if openings_m is None else openings_m
+        timing = quickest(joints, at, (self.layout.speeds_rad_s, self.layout.accelerations))
+        return Line(joints, timing, opened, at_grips)
 
     def unwound(self, joints: FloatArray, near: FloatArray) -> FloatArray:
-        """Return a configuration with its continuous joints within half a turn of another's."""
-        turns = np.where(self.layout.is_continuous, np.round((near - joints) / (2.0 * np.pi)), 0.0)
-        return np.asarray(joints + 2.0 * np.pi * turns)
+        """Return a configuration with its continuous joints within half a turn of another's.
+
+        Those that are stay as they are, so that a joint just half a turn away is not turned to and fro.
+        """
+        away = near - joints
+        is_far = self.layout.is_continuous & (np.abs(away) > np.pi + EDGE_RAD)
+        return np.asarray(joints + 2.0 * np.pi * np.where(is_far, np.round(away / (2.0 * np.pi)), 0.0))
 
     def way(
         self, base: Pose2, start: FloatArray, goal: FloatArray, cloth: LyingCloth, spared: Spared
@@ -139,33 +150,49 @@ class TransitPaths:
         base, joints = known.base, np.concatenate([_sampled(start, end) for start, end in pairwise(way)])
         return self.are_clear(cloth, np.tile([base.x_m, base.y_m, base.yaw_rad], (len(joints), 1)), joints, spared)
 
-    def is_clear(self, cloth: LyingCloth, bases: FloatArray, joints: FloatArray) -> bool:
+    def is_clear(self, cloth: LyingCloth, bases: FloatArray, joints: FloatArray, openings_m: FloatArray) -> bool:
         """Return whether arms from grips to grips touch nothing and stay high enough above the cloth. Cached.
 
         Args:
             cloth: the cloth on the table.
             bases: the base at each moment tested, shape (n, 3).
             joints: all arms' joints then (rad), shape (n, joints).
+            openings_m: how far each arm's fingers are open at most then (m), shape (n, arms).
         """
         return self._tested.answer(
             lambda: (
-                self._collisions.are_all_free(bases, joints) and self.are_clear(cloth, bases, joints, self.at_grips)
+                self._opened.are_all_free(bases, joints, openings_m)
+                and self.are_clear(cloth, bases, joints, self.at_grips, openings_m)
             ),
             cloth.key,
             bases.tobytes(),
             joints.tobytes(),
+            openings_m.tobytes(),
         )
 
-    def are_clear(self, cloth: LyingCloth, bases: FloatArray, joints: FloatArray, spared: Spared) -> bool:
-        """Return whether arms are high enough above cloth all along a path, shapes (n, 3) and (n, joints)."""
+    def are_clear(
+        self,
+        cloth: LyingCloth,
+        bases: FloatArray,
+        joints: FloatArray,
+        spared: Spared,
+        openings_m: FloatArray | None = None,
+    ) -> bool:
+        """Return whether arms are high enough above cloth all along a path, shapes (n, 3) and (n, joints).
+
+        Their fingers are open as far as in `is_clear`; None: widely.
+        """
         before, after = spared
         for arm, span in enumerate(self.layout.spans):
             must = np.ones(len(joints), dtype=np.bool_)
             if before[arm] > 0.0 or after[arm] > 0.0:
                 gone = self._gone_m(arm, bases, joints)
                 must = (gone >= before[arm]) & (gone[-1] - gone >= after[arm])
-            if not cloth.arm_clear(arm, bases[must], joints[must, span]).all():
-                return False
+            opened = np.full(len(joints), OPENING_M) if openings_m is None else openings_m[:, arm]
+            for opening_m in np.unique(opened[must]).tolist():
+                rows = must & (opened == opening_m)
+                if not cloth.arm_clear(arm, bases[rows], joints[rows, span], opening_m=opening_m).all():
+                    return False
         return True
 
     def spared(self, tail: FloatArray | None, lead: FloatArray | None) -> Spared:

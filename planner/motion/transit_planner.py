@@ -7,19 +7,20 @@ first; if that is not clear either, the base waits until they are there.
 
 from collections.abc import Callable, Iterator
 from functools import partial
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 
-from planner.geometry.pose import BoolArray, FloatArray
+from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import TIME_S
-from planner.motion.calmed import calmed
+from planner.motion.calm_lines import blended, calm_ends
+from planner.motion.hand_holds import settling_s
 from planner.motion.joint_trajectory import JointTrajectory
 from planner.motion.line import Keyframes, Line
 from planner.motion.transit_paths import TransitPaths
 from planner.motion.transit_time import TransitTime
 from planner.motion.travel import led_along, quickest_lines
+from planner.robots.openings import EDGE_OPEN_M, HELD_M, OPENING_M
 
 _LEAD_S, _TAIL_S = 0.8, 0.6
 """The time in which hands come straight to their grips and withdraw, if there is enough of it (s)."""
@@ -29,17 +30,6 @@ _CHECK_S = 0.04
 
 _CHECKS_MAX = 1000
 """The most moments tested: hands that take minutes for a path move less from one moment to the next."""
-
-_CALMED, _BLENDED = 3, (10, 30, 60, 120)
-"""How often the lines of hands that come late are calmed, and paths without stops at their corners: the more often, the
-further from what is known to be free.
-"""
-
-_STRAIGHT = 4
-"""Steps of a centimetre at grips that stay as they are: fingers come straight to the cloth, and leave it so."""
-
-_CUT_RAD = 0.1
-"""The largest angle from one keyframe to the next on such a path (rad)."""
 
 
 class _Late(NamedTuple):
@@ -116,23 +106,28 @@ class TransitPlanner:
 
     def _quicker(self, free: TransitTime, tail: Line, way: FloatArray, lead: Line) -> Iterator["_Late"]:
         """Yield runs along a path that takes too long: as it is, with calm lines, and without stops at corners."""
-        calm_tail = self._transits.line(calmed(tail.joints, _CALMED, _may_move(tail.joints, _STRAIGHT, 0)))
-        calm_lead = self._transits.line(calmed(lead.joints, _CALMED, _may_move(lead.joints, 0, _STRAIGHT)))
-        for one, other in ((tail, lead), (calm_tail, calm_lead)):
+        calm = calm_ends(self._transits, tail, lead)
+        for one, other in ((tail, lead), calm):
             yield _Late(self._late_s(free, one, way, other), partial(self._overlapping, one, way, other))
         if not free.borders_s:
-            rows = [tail.joints, *(_cut(a, b)[1:] for a, b in pairwise(way)), lead.joints[1:]]
-            whole = np.concatenate(rows)
-            may_move = _may_move(whole, *(_STRAIGHT if len(line.joints) > 1 else 0 for line in (tail, lead)))
-            for passes in _BLENDED:
-                line = self._transits.line(calmed(whole, passes, may_move))
-                yield _Late(max(line.shortest_s - self._time_s(free), 0.0), partial(self._along, line))
+            for line in blended(self._transits, tail, way, lead):
+                yield _Late(max(line.shortest_s - self._time_s(free), 0.0), partial(self._along, line, tail, lead))
 
-    def _along(self, line: Line, free: TransitTime) -> Keyframes | None:
-        """Return keyframes along one line from grips to grips; None if that is not clear."""
+    def _along(self, line: Line, tail: Line, lead: Line, free: TransitTime) -> Keyframes | None:
+        """Return keyframes along one line that joins a tail and a lead; None if that is not clear."""
         run = line.over(self._time_s(free)).later(free.start_s)
-        keyframes = Keyframes.joined([run, Keyframes.still(line.joints[-1], free.end_s)])
-        return keyframes if self._is_clear(free, line, keyframes) else None
+        times = np.append(free.start_s, run.times_s)
+        ends_s = (float(times[len(tail.joints) - 1]), float(times[-len(lead.joints)]))
+        keyframes = Keyframes.joined([run, self._still(lead, line.joints[-1], free.end_s)])
+        return keyframes if self._is_clear(free, tail, keyframes, lead, ends_s) else None
+
+    def _still(self, lead: Line, joints: FloatArray, end_s: float) -> Keyframes:
+        """Return keyframes of hands at rest at the end of a lead, which at last go on to their grips."""
+        if lead.at_grips is None:
+            return Keyframes.still(joints, end_s)
+        begins_s = end_s - settling_s(self.dwell_s)
+        settled = self._transits.eased(joints, lead.at_grips, end_s - begins_s).later(begins_s)
+        return Keyframes.joined([Keyframes.still(joints, begins_s), settled])
 
     def _time_s(self, free: TransitTime) -> float:
         """Return the time in which hands can move (s)."""
@@ -142,9 +137,9 @@ class TransitPlanner:
         """Return keyframes of hands that travel along a path while the base drives; None if that is not clear."""
         # Beside a base that drives at once, hands that withdraw quickly are high before they have been swept along.
         for tail_s in (_TAIL_S, 0.0):
-            keyframes = self._timed(free, tail, way, lead, tail_s)
-            if keyframes is not None and self._is_clear(free, tail, keyframes):
-                return keyframes
+            timed = self._timed(free, tail, way, lead, tail_s)
+            if timed is not None and self._is_clear(free, tail, timed[0], lead, timed[1]):
+                return timed[0]
         return None
 
     def _late_s(self, free: TransitTime, tail: Line, way: FloatArray, lead: Line) -> float:
@@ -165,8 +160,10 @@ class TransitPlanner:
             yield found
         yield np.array([start, self._transits.unwound(self._transits.home, start), goal])
 
-    def _timed(self, free: TransitTime, tail: Line, way: FloatArray, lead: Line, tail_s: float) -> Keyframes | None:
-        """Return keyframes that withdraw, travel and come to the grips in time.
+    def _timed(
+        self, free: TransitTime, tail: Line, way: FloatArray, lead: Line, tail_s: float
+    ) -> tuple[Keyframes, tuple[float, float]] | None:
+        """Return keyframes that withdraw, travel and come to the grips in time, and when the travel begins and ends.
 
         There must be time enough; None where none is left for resting between the plan's steps.
         """
@@ -179,16 +176,24 @@ class TransitPlanner:
         if travel is None:
             return None
         out, down = tail.over(leaves - free.start_s), lead.over(arrives - comes)
-        return _joined(free.start_s, out, travel, comes, down, Keyframes.still(lead.joints[-1], free.end_s))
+        still = self._still(lead, lead.joints[-1], free.end_s)
+        return _joined(free.start_s, out, travel, comes, down, still), (leaves, comes)
 
-    def _is_clear(self, free: TransitTime, tail: Line, keyframes: Keyframes) -> bool:
+    def _is_clear(
+        self, free: TransitTime, tail: Line, keyframes: Keyframes, lead: Line, ends_s: tuple[float, float]
+    ) -> bool:
         """Return whether hands that go on from a tail touch nothing while the base drives, nor pass low over cloth."""
         track = JointTrajectory.at_rest(tail.joints[0], len(self._transits.layout.arms), free.start_s)
         track.add(keyframes)
         count = min(int(np.ceil((free.end_s - free.start_s) / _CHECK_S)), _CHECKS_MAX)
         moments = np.linspace(free.start_s, free.end_s, count + 1)
         bases, there = free.bases_at(moments), track.joints_at(moments)
-        return self._transits.is_clear(free.cloth, bases, there)
+        is_out, is_in = (moments <= ends_s[0])[:, None], (moments >= ends_s[1])[:, None]
+        openings_m = np.where(is_out, tail.openings_m, np.where(is_in, lead.openings_m, OPENING_M))
+        if lead.at_grips is not None:  # fingers at edges are shut when their hands go on to the grips
+            is_settling = (moments > free.end_s - settling_s(self.dwell_s))[:, None]
+            openings_m[is_settling & (lead.openings_m <= EDGE_OPEN_M)] = HELD_M
+        return self._transits.is_clear(free.cloth, bases, there, openings_m)
 
     def _homeward(self, free: TransitTime, tail: Line, lead: Line) -> "_Homeward":
         """Return the ways home and from there, beside a base that stands."""
@@ -219,7 +224,7 @@ class TransitPlanner:
             Keyframes.still(ways.away[-1], begins),
             *quickest_lines(self._transits, ways.back, ways.back_s, begins),
         ]
-        still = Keyframes.still(lead.joints[-1], waited.end_s)
+        still = self._still(lead, lead.joints[-1], waited.end_s)
         out, down = tail.over(tail.shortest_s), lead.over(lead.shortest_s)
         return waited, _joined(waited.start_s, out, travel, comes, down, still)
 
@@ -229,15 +234,3 @@ def _joined(
 ) -> Keyframes:
     """Return keyframes on a tail, on the path from it to a lead, on that, and once more at its end."""
     return Keyframes.joined([out.later(start_s), *travel, down.later(comes_s), still])
-
-
-def _may_move(joints: FloatArray, first: int, last: int) -> BoolArray:
-    """Return which rows of a path may be moved: all but some steps at its start and at its end."""
-    numbers = np.arange(len(joints))
-    return np.asarray((numbers > first) & (numbers < len(joints) - 1 - last))
-
-
-def _cut(start: FloatArray, end: FloatArray) -> FloatArray:
-    """Return a straight line in steps, its ends included."""
-    count = max(1, int(np.ceil(np.abs(end - start).max() / _CUT_RAD)))
-    return np.asarray(start + np.linspace(0.0, 1.0, count + 1)[:, None] * (end - start))

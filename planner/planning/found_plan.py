@@ -11,6 +11,7 @@ from planner.planning.problem import Problem
 from planner.primitives.context import DRAGS_PER_M, Context
 from planner.primitives.primitive import Step
 from planner.primitives.state import State
+from planner.task.grip import Grip
 from planner.task.plan import Plan
 from planner.task.plan_step import PlanStep
 from planner.task.reason import Reason
@@ -90,12 +91,20 @@ def _scheduled(problem: Problem, acts: Sequence[Act], path: Trajectory) -> Itera
                 duration_s,
                 step.details,
                 problem.context.base_stop(step.after),
-                step.grips,
+                _grips(problem.context, step, act),
                 before,
                 after,
                 step.holdings(),
             )
             now, before = now + duration_s, after
+
+
+def _grips(context: Context, step: Step, act: Act) -> tuple[Grip, ...]:
+    """Return a step's grips, with the way in which each hand holds the cloth."""
+    if act.transfer is None:
+        return step.grips
+    kinds = dict(zip(context.reach.arm_names, (hold.kind for hold in act.transfer.holds), strict=True))
+    return tuple(replace(grip, kind=kinds[grip.arm]) for grip in step.grips)
 
 
 def _world_after(context: Context, step: Step, before: WorldState) -> WorldState:

@@ -28,7 +28,7 @@ from planner.motion.transfer_candidate import Candidate, ways_of
 from planner.motion.transfer_planner import TransferPlanner
 from planner.motion.tries import QUICK, Tries
 from planner.planning.rejection import Rejection
-from planner.planning.surcharges import START, Since, Surcharges, step_key
+from planner.planning.surcharges import Surcharges, step_key
 from planner.primitives.primitive import Step
 from planner.primitives.state import State
 
@@ -130,26 +130,13 @@ class MotionValidator:
         if duration_s(acts) <= seemed_s + TIME_S:
             return acts
         is_known = self._all_agree(transfers)
-        if self._come_as_known(steps, acts) and is_known:
+        for late in self.surcharges.noted(steps, acts):
+            is_known = False
+            self._doubt(late)
+        if is_known:
             return acts
         self.slower = acts
         return None
-
-    def _come_as_known(self, steps: Sequence[Step], acts: Sequence[Act]) -> bool:
-        """Return whether hands come to all transfers when was known; note when they do."""
-        keys = [step_key(step) for step in steps]
-        since: Since = START
-        is_known = True
-        for act in acts:
-            own = keys[act.first : act.first + len(act.steps)]
-            since += tuple(own)
-            if act.transfer is None:
-                continue
-            if not self.surcharges.charge(since, act.late_s):
-                is_known = False
-                self._doubt(steps[: act.first + len(own)][-len(since) :])
-            since = tuple(own)
-        return is_known
 
     def _real(self, steps: tuple[Step, ...]) -> Transfer | None:
         key = tuple(step_key(step) for step in steps)

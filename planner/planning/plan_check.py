@@ -13,6 +13,7 @@ import numpy as np
 from planner.errors import FieldError, RequestError
 from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M, TIME_S
+from planner.motion.opened_collisions import OpenedCollisions
 from planner.planning.base_check import require_drive
 from planner.planning.limits_check import require_limits
 from planner.planning.problem import Problem
@@ -21,12 +22,16 @@ from planner.primitives.fold_obstacles import geometric_obstacle
 from planner.primitives.fold_trial import FoldTrial, fold_trials
 from planner.primitives.state import State
 from planner.robots.joint_layout import JointLayout
+from planner.robots.openings import LOWERED_MAX_M, RAISED_MAX_M
 from planner.task.plan import Plan
 from planner.task.plan_step import PlanStep
 from planner.task.trajectory import Segment, Trajectory
 
 TOOL_M = 0.005
 """Greatest distance between a tool and the point of the cloth that it holds (m)."""
+
+_LAID = 1e-9
+"""The share of a motion that rounding may leave when cloth lies."""
 
 _SAMPLE_S = 0.05
 """Greatest time between the samples at which joints are checked (s)."""
@@ -48,9 +53,10 @@ def require_replay(plan: Plan) -> None:
         raise RequestError("steps", "not all folds are done at the end")
     _require_segments(plan, plan.trajectory)
     require_limits(problem, plan.trajectory)
+    collisions = OpenedCollisions(problem.robot, problem.context.scene.table, plan.trajectory.torso_m)
     for number, step in enumerate(plan.steps):
         try:
-            _require_step(problem, step, plan.trajectory.of_step(number), plan.trajectory)
+            _require_step(problem, step, plan.trajectory.of_step(number), plan.trajectory, collisions)
         except FieldError as error:
             raise error.within(f"steps[{number}]") from None
 
@@ -68,7 +74,9 @@ def _require_segments(plan: Plan, path: Trajectory) -> None:
         raise RequestError("trajectory.duration_s", f"is {path.duration_s}, its segments last {now}")
 
 
-def _require_step(problem: Problem, step: PlanStep, segments: tuple[Segment, ...], path: Trajectory) -> None:
+def _require_step(
+    problem: Problem, step: PlanStep, segments: tuple[Segment, ...], path: Trajectory, collisions: OpenedCollisions
+) -> None:
     before, after = problem.state_of(step.before), problem.state_of(step.after)
     _require_cloth(problem, step, before, after)
     tools = _Tools(problem, step, before, after) if step.grips else None
@@ -76,7 +84,7 @@ def _require_step(problem: Problem, step: PlanStep, segments: tuple[Segment, ...
         times_s = list(_moments(segment))
         require_drive(problem, segment, times_s)
         for t_s in times_s:
-            _require_arms(problem, segment, path, t_s, tools)
+            _require_arms(problem, segment, path, t_s, tools, collisions)
 
 
 def _moments(segment: Segment) -> Iterator[float]:
@@ -151,21 +159,37 @@ class _Tools:
         return {arm: places[arm] for arm in holding if arm in places}
 
 
-def _require_arms(problem: Problem, segment: Segment, path: Trajectory, t_s: float, tools: _Tools | None) -> None:
+def _require_arms(
+    problem: Problem,
+    segment: Segment,
+    path: Trajectory,
+    t_s: float,
+    tools: _Tools | None,
+    collisions: OpenedCollisions,
+) -> None:
     """Require that at a time the arms are where they must be, and nothing touches."""
     card, scene = problem.robot.card, problem.context.scene
     layout = JointLayout.of(card)
     joints = path.arms.at(t_s)
     base = segment.base_at(t_s)
-    if not problem.robot.collisions(scene.table, path.torso_m).are_all_free(base, joints[None]):
+    opened = np.array([[track.opening_at(t_s) for track in path.grippers]])
+    stands = np.array([[base.x_m, base.y_m, base.yaw_rad]])
+    if not collisions.are_all_free(stands, joints[None], opened):
         raise RequestError("trajectory", f"at {t_s:.2f} s the robot touches itself or the table")
     for arm_number, place in ({} if tools is None else tools.at(segment, t_s)).items():
         own = joints[None, layout.spans[arm_number]]
         (tool,) = problem.robot.tool_places(arm_number, own, path.torso_m)
-        off_m = float(np.linalg.norm(_in_table(base, tool, scene.table.height_m) - place))
-        if off_m > TOOL_M:
+        off = _in_table(base, tool, scene.table.height_m) - place
+        off_m = float(np.linalg.norm(off))
+        is_laid = segment.fraction_at(t_s) > 1.0 - _LAID
+        if off_m > TOOL_M and not (is_laid and _may_open(off)):
             told = f"at {t_s:.2f} s the {card.arms[arm_number].name} tool is {off_m:.3f} m from what it holds"
             raise RequestError("trajectory", told)
+
+
+def _may_open(off: FloatArray) -> bool:
+    """Return whether a hand may open so far from where its path ends, shape (3,), m: higher or lower, at an edge."""
+    return math.hypot(off[0], off[1]) <= TOOL_M and -LOWERED_MAX_M - TOOL_M <= off[2] <= RAISED_MAX_M + TOOL_M
 
 
 def _in_table(base: Pose2, tool: FloatArray, height_m: float) -> FloatArray:

@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from planner.motion.act import Act, duration_s
+from planner.motion.edge_hands import EdgeHands
 from planner.motion.tries import MORE_TRANSFERS, THOROUGH
 from planner.planning.budget import Budget
 from planner.planning.found_plan import FoundPlan
@@ -95,9 +96,9 @@ class PlanSearch(PathSearch):
         if not is_cut_short and not self._blocking and self._is_in_doubt and is_worth_more:
             is_cut_short = self._is_cut_short_trying_more()
         if self._found:
-            return self._answer(Outcome.SOLVED, self._found, (), is_cut_short)
+            return self._answer(Outcome.SOLVED, self._found, (), is_cut_short, is_last=True)
         if self._known is not None:
-            return self._answer(Outcome.SOLVED, self._known.acts, (), is_cut_short)
+            return self._answer(Outcome.SOLVED, self._known.acts, (), is_cut_short, is_last=True)
         if self._blocking or result.outcome is Outcome.INFEASIBLE:
             return self._answer(Outcome.INFEASIBLE, (), self._reasons(), is_cut_short)
         return self._answer(result.outcome, (), (), is_cut_short)
@@ -210,8 +211,15 @@ class PlanSearch(PathSearch):
             self._on_found(self._known)
 
     def _answer(
-        self, outcome: Outcome, acts: tuple[Act, ...], why: tuple[Reason, ...], is_cut_short: bool
+        self,
+        outcome: Outcome,
+        acts: tuple[Act, ...],
+        why: tuple[Reason, ...],
+        is_cut_short: bool,
+        *,
+        is_last: bool = False,
     ) -> FoundPlan:
+        """Return an answer; only the last one takes the work to have hands hold edges: the search is charged for it."""
         reach = self._context.reach
         elapsed = time.perf_counter() - self._started - self._joint_time_s
         statistics = Statistics(
@@ -228,6 +236,10 @@ class PlanSearch(PathSearch):
         if self._known is not None:
             statistics = statistics.after(self._known.plan.statistics)
         is_exhaustive = not is_cut_short and (bool(self._blocking) or not self._validator.has_doubts)
-        if self._known is not None and acts is self._known.acts:
+        held = acts
+        if is_last:
+            hands = EdgeHands(self._context, self._problem.robot, self._problem.maker)
+            held = hands.held(acts, lambda: self._budget.is_late)
+        if self._known is not None and held == self._known.acts:
             return self._known.told_again(self._problem.task, statistics, is_exhaustive=is_exhaustive)
-        return FoundPlan.of(self._problem, outcome.value, acts, why, statistics, is_exhaustive=is_exhaustive)
+        return FoundPlan.of(self._problem, outcome.value, held, why, statistics, is_exhaustive=is_exhaustive)

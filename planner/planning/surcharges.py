@@ -6,10 +6,11 @@ known so far ask for: of the steps since, the longest tail with which a sequence
 Corasick). Where there is no surcharge, a place on the way is a state and nothing else.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
 from typing import NamedTuple, TypeAlias
 
+from planner.motion.act import Act
 from planner.planning.edges import Edges
 from planner.primitives.primitive import Step
 from planner.primitives.state import State, StateKey
@@ -55,6 +56,17 @@ class Surcharges:
             self._extra_s[steps] = extra_s
             self._begun.update(steps[:count] for count in range(len(steps)))
         return known_s == extra_s
+
+    def noted(self, steps: Sequence[Step], acts: Sequence[Act]) -> Iterator[Sequence[Step]]:
+        """Charge the steps of a plan for hands that come late, and yield those for which this was not known."""
+        keys, begin, since = [step_key(step) for step in steps], 0, START
+        for act in acts:
+            end = act.first + len(act.steps)
+            since = (*since, *keys[act.first : end])
+            if act.transfer is not None:
+                if not self.charge(since, act.late_s):
+                    yield steps[begin:end]
+                begin, since = act.first, tuple(keys[act.first : end])
 
     def after(self, since: Since, step: StepKey) -> tuple[Since, float]:
         """Return what to remember after one more step, and what is charged for it (s)."""

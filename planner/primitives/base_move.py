@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from functools import cached_property, partial
 from typing import Any
 
-from planner.geometry.pose import wrapped_angle
+from planner.geometry.pose import Approach, wrapped_angle
 from planner.geometry.table_top import TableTop
 from planner.primitives.context import Context
 from planner.primitives.primitive import Deferred, DeferredSteps
@@ -74,6 +74,11 @@ class MoveStep:
     def extremes(self) -> tuple[Phase, ...]:
         """Return nothing: no cloth is held."""
         return ()
+
+    @property
+    def hands(self) -> dict[int, Approach]:
+        """Nothing: a move takes no hands."""
+        return {}
 
     def variants(self) -> Iterable["MoveStep"]:
         """Return this step alone: there is no other route."""

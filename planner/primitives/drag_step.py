@@ -92,6 +92,11 @@ class DragStep:
         """Return the phase of the drag itself."""
         return self._phases[-1:]
 
+    @property
+    def hands(self) -> dict[int, Approach]:
+        """The orientation in which each arm's hand takes hold, by the arm's number."""
+        return {arm: self._approach(grip) for grip, arm in enumerate(self.way.arms)}
+
     @cached_property
     def _phases(self) -> tuple[Phase, ...]:
         context = self.context

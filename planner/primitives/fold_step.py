@@ -8,7 +8,7 @@ from typing import Any
 
 from planner.geometry.driving import IMPOSSIBLE
 from planner.geometry.isometry import Isometry
-from planner.geometry.pose import FloatArray, Point3
+from planner.geometry.pose import Approach, FloatArray, Point3
 from planner.primitives.base_legs import travel
 from planner.primitives.context import Context
 from planner.primitives.fold_motion import FoldMotion
@@ -82,6 +82,12 @@ class FoldStep:
     def extremes(self) -> tuple[Phase, ...]:
         """Return one phase from the picks to the places."""
         return self._motion.extremes()
+
+    @property
+    def hands(self) -> dict[int, Approach]:
+        """The orientation in which each arm's hand takes hold, by the arm's number."""
+        approaches = self.context.reach.approaches
+        return {arm: approaches[one] for arm, one in zip(self.way.trial.arms, self.way.approaches, strict=True)}
 
     @cached_property
     def _phases(self) -> tuple[Phase, ...]:

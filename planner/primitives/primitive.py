@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, Generic, Protocol, TypeVar
 
+from planner.geometry.pose import Approach
 from planner.primitives.context import Context
 from planner.primitives.state import State
 from planner.task.grip import Grip, Holding
@@ -19,6 +20,11 @@ class Motion(Protocol):
 
     def extremes(self) -> tuple[Phase, ...]:
         """Return phases that begin and end as it does while cloth is held; in between they need not be true to it."""
+        ...
+
+    @property
+    def hands(self) -> Mapping[int, Approach]:
+        """The orientation in which each arm's hand takes hold, by the arm's number."""
         ...
 
 

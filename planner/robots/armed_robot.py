@@ -13,6 +13,7 @@ from planner.geometry.pose import BoolArray, FloatArray
 from planner.robots.arm_paths import Together, arm_paths, arm_searches
 from planner.robots.card import RobotCard
 from planner.robots.comfort_memories import Memories
+from planner.robots.edge_grip import HandShape, edge_raised_m
 from planner.robots.path_arm import PathArm
 from planner.robots.tool_path import IsFree, NoPath, ToolPath, free_postures, near_path
 
@@ -38,11 +39,16 @@ class ArmedRobot(ABC):
     def __init__(self, card: RobotCard) -> None:
         """Take the robot's card."""
         self._card = card
+        self._edges: dict[tuple[int, float, float], float | None] = {}
         self._memories = lru_cache(_MEMORIES_KEPT)(lambda torso_m, comfort_m: Memories())
 
     @property
     @abstractmethod
     def _arms(self) -> tuple[PosableArm, ...]: ...
+
+    @abstractmethod
+    def _hand_shape(self, arm: int) -> HandShape:
+        """Return an arm's hand as its tool sees it."""
 
     @property
     def card(self) -> RobotCard:
@@ -52,6 +58,13 @@ class ArmedRobot(ABC):
     def home(self, arm: int) -> FloatArray:
         """Return the joints of an arm that is out of the way (rad), shape (joints,)."""
         return np.array(self._card.arms[arm].home)
+
+    def edge_raised_m(self, arm: int, height_m: float, pitch_rad: float) -> float | None:
+        """Return how far above its path an arm's hand opens and closes at an edge of cloth (see `edge_raised_m`)."""
+        key = (arm, height_m, pitch_rad)
+        if key not in self._edges:
+            self._edges[key] = edge_raised_m(self._hand_shape(arm), height_m, pitch_rad)
+        return self._edges[key]
 
     def forget_reach(self) -> None:
         """Drop the memories of where the arms reach, so that benchmarks measure its computation."""

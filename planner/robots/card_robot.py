@@ -8,13 +8,15 @@ import numpy as np
 from planner.geometry.table import Table
 from planner.robots.armed_robot import ArmedRobot
 from planner.robots.asked_arms import AskedArms
-from planner.robots.collision.collisions import OPENING_M, Collisions
+from planner.robots.collision.collisions import Collisions
 from planner.robots.collision.described_parts import described_parts
 from planner.robots.described_card import robot_card
 from planner.robots.described_robot import DescribedRobot
+from planner.robots.edge_grip import HandShape
 from planner.robots.mapped_arm import ALL_ROUND, MappedArm, all_arms
 from planner.robots.mapped_comfort import ARM_LABELS, MappedArms, mapped_arms, rooted
 from planner.robots.mapped_reach import MappedReach
+from planner.robots.openings import OPENING_M
 from planner.robots.posture_maps import Progress
 
 
@@ -80,3 +82,7 @@ class CardRobot(ArmedRobot):
     ) -> Collisions:
         """Return the collision checks at a table, with the lift raised; see `Collisions`."""
         return Collisions(described_parts(self._described), table, torso_m, opening_m, margin_m)
+
+    def _hand_shape(self, arm: int) -> HandShape:
+        chain = self._described.arms[arm].chain
+        return HandShape.of(described_parts(self._described), arm, chain.tool_offset, chain.tool_rotation)

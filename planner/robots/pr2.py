@@ -2,14 +2,18 @@
 
 from functools import cached_property
 
+import numpy as np
+
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.geometry.table import Table
 from planner.robots.arm import read_arm
 from planner.robots.armed_robot import ArmedRobot
-from planner.robots.collision.collisions import OPENING_M, Collisions
+from planner.robots.collision.collisions import Collisions
 from planner.robots.collision.pr2_parts import pr2_parts
 from planner.robots.collision.robot_parts import RobotParts
 from planner.robots.description import read_model
+from planner.robots.edge_grip import HandShape
+from planner.robots.openings import OPENING_M
 from planner.robots.posture_room import Room, room_beside
 from planner.robots.pr2_card import pr2_card
 from planner.robots.reach import Pr2Reach
@@ -59,6 +63,10 @@ class Pr2(ArmedRobot):
             margin_m: the distance below which parts count as colliding (m).
         """
         return Collisions(self._parts, table, torso_m, opening_m, margin_m)
+
+    def _hand_shape(self, arm: int) -> HandShape:
+        """Return an arm's hand; shapes of both are those of the left one."""
+        return HandShape.of(self._parts, arm, np.array([self._arms[arm].shape.tool, 0.0, 0.0]), np.eye(3))
 
     @cached_property
     def _parts(self) -> RobotParts:

@@ -1,9 +1,12 @@
 """A grip in a plan, and the base's place: parts of every primitive's report."""
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal, TypeAlias
 
 from planner.geometry.pose import Point2, Point3, Pose2
+
+GripKind: TypeAlias = Literal["edge", "top"]
+"""How fingers hold cloth: one under it and one over it, or both from above, closing along the table."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -15,17 +18,20 @@ class Grip:
         pick: the point where the arm takes the cloth, or holds it from the start.
         apex: the highest point of a fold's path; None in a drag.
         place: the end of the path.
+        kind: how the fingers hold the cloth; None in plans of versions that did not say it.
     """
 
     arm: str
     pick: Point3
     apex: Point3 | None
     place: Point3
+    kind: GripKind | None = None
 
     def to_dict(self) -> dict[str, Any]:
         """Return the grip as JSON."""
         apex = None if self.apex is None else list(self.apex)
-        return {"arm": self.arm, "pick": list(self.pick), "apex": apex, "place": list(self.place)}
+        written = {"arm": self.arm, "pick": list(self.pick), "apex": apex, "place": list(self.place)}
+        return written if self.kind is None else {**written, "kind": self.kind}
 
 
 @dataclass(frozen=True, slots=True)

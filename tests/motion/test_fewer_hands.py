@@ -8,18 +8,17 @@ from planner import Scene, Task, load_garment
 from planner.motion.act import Act, duration_s
 from planner.motion.fewer_hands import with_fewer_hands
 from planner.motion.tries import QUICK
-from planner.planning import path_search
 from planner.planning.found_plan import FoundPlan
 from planner.planning.problem import Problem
-from planner.plans import find_plan
+from planner.plans import find_plan, quick_plan
 
 
 @pytest.fixture(scope="module")
 def firm() -> FoundPlan:
-    """Return a plan of the vest with as many hands as hold it firmly, by arms whose paths take longer than a motion."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(path_search, "with_fewer_hands", lambda acts, *_: tuple(acts))
-        return find_plan(Task.of(load_garment("vest"), Scene(arm_motion_s=1.3)))
+    """Return a plan of the vest with the hands that hold it firmly, by arms whose paths take longer than a motion."""
+    found = quick_plan(Task.of(load_garment("vest"), Scene(arm_motion_s=1.3)), like=())
+    assert found is not None
+    return found
 
 
 def hands(acts: tuple[Act, ...]) -> int:

@@ -7,6 +7,7 @@ from planner import Task, load_garment
 from planner.motion.transit_paths import TransitPaths
 from planner.planning.problem import Problem
 from planner.primitives.g_fold import GFold
+from planner.robots.openings import OPENING_M
 
 
 def test_a_transit_path_is_searched_for_once_and_known_to_the_next_plan(monkeypatch: pytest.MonkeyPatch):
@@ -53,7 +54,8 @@ def test_a_motion_beside_a_driving_base_is_tested_once(monkeypatch: pytest.Monke
     monkeypatch.setattr(TransitPaths, "are_clear", lambda self, *about: asked.append(about) or are_clear(self, *about))
     bases = np.column_stack([np.linspace(-1.2, -1.3, 5), np.zeros(5), np.zeros(5)])
     joints = np.tile(transits.home, (5, 1))
-    assert transits.is_clear(cloth, bases, joints)
-    assert transits.is_clear(cloth, bases.copy(), joints.copy()) and len(asked) == 1
+    wide = np.full((5, len(transits.layout.arms)), OPENING_M)
+    assert transits.is_clear(cloth, bases, joints, wide)
+    assert transits.is_clear(cloth, bases.copy(), joints.copy(), wide.copy()) and len(asked) == 1
     inside = bases + np.array([1.2, 0.0, 0.0])
-    assert not transits.is_clear(cloth, inside, joints)
+    assert not transits.is_clear(cloth, inside, joints, wide)

@@ -138,6 +138,9 @@ class RemadeRobot:
         raised_m = self.raised(torso_m)
         return RemadeCollisions(self, self.pr2.collisions(table, raised_m, **options), raised_m)
 
+    def edge_raised_m(self, arm: int, height_m: float, pitch_rad: float) -> float | None:
+        return self.pr2.edge_raised_m(self.arms[arm].of, height_m, pitch_rad)
+
     def raised(self, torso_m: float) -> float:
         """How far the PR2 is raised whose arms these are; without a lift always as far."""
         return WITHOUT_LIFT_M if self.card.lift_joint is None else torso_m

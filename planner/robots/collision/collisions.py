@@ -24,9 +24,7 @@ from planner.robots.collision.contact import Contact
 from planner.robots.collision.part_poses import PLACE, set_middles
 from planner.robots.collision.posture_pairs import postures_apart
 from planner.robots.collision.robot_parts import RobotParts, compiled_parts
-
-OPENING_M = 0.06
-"""Default upper limit of the fingers' opening (m)."""
+from planner.robots.openings import OPENING_M
 
 _ORIGIN = Pose2(0.0, 0.0, 0.0)
 

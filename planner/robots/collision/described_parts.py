@@ -75,7 +75,7 @@ def _robot_parts(robot: DescribedRobot, parts: Sequence[Part], choice: Choice) -
     carriers = [part.carrier for part in parts]
     arms = np.array([_columns(carriers, arm, len(one.card.joints)) for arm, one in enumerate(robot.arms)])
     of_body = [carrier for carrier in carriers if carrier.arm == BODY]
-    levels = range(len(part_source.SHARES))
+    levels = range(part_source.LEVELS)
     hulls = tuple(tuple(part.hulls[level] for part in parts) for level in levels)
     convexes = {id(hull): hull.convex() for part in parts for hull in part.hulls}
     return RobotParts(
@@ -167,11 +167,11 @@ def _read(robot: DescribedRobot, arrays: Arrays) -> _Made:
     for number, (name, (arm, joint, is_finger), is_tip) in enumerate(given):
         carrier = Carrier(arm, joint, bool(is_finger))
         hulls = [hull_from(arrays, f"{number}/{level}") for level in range(_levels(carrier))]
-        levels = len(part_source.SHARES)
+        levels = part_source.LEVELS
         parts.append(Part(name, carrier, tuple(hulls * (levels // len(hulls))), is_tip, ()))
     own = tuple(arrays[f"own/{arm}"] for arm in range(len(robot.arms)))
     return _Made(parts, Choice(own, arrays["skipped"]))
 
 
 def _levels(carrier: Carrier) -> int:
-    return len(part_source.SHARES) if carrier.is_finger else 1
+    return part_source.LEVELS if carrier.is_finger else 1

@@ -19,14 +19,16 @@ from planner.robots.collision.parts import ARM_PARTS, BODY_PARTS, FINGERS, FINGE
 from planner.robots.collision.rounded_hull import RoundedHull, rounded_hull
 from planner.robots.collision.shape_files import hull_arrays, hull_from, write_arrays
 from planner.robots.description import urdf_path
+from planner.robots.openings import EDGE_OPEN_M, HELD_M
 
-OPENINGS_M = (0.0, 0.03, 0.06, 0.09)
+OPENINGS_M = (0.0, HELD_M, EDGE_OPEN_M, 0.03, 0.06, 0.09)
 """Openings of the fingers for which there are shapes (m)."""
 
-ROUNDING_MAX_M, TIPS_ROUNDING_MAX_M = 0.003, 0.0003
+ROUNDING_MAX_M, TIPS_ROUNDING_MAX_M, EDGE_ROUNDING_MAX_M = 0.003, 0.0003, 0.0001
 """Limits on how far a shape may exceed the hull of its meshes, apart from being made symmetric (m).
 
-Fingertips have a tighter limit because they pass the table's top by half a millimetre.
+Fingertips have a tighter limit because they pass the table's top by half a millimetre, and the tightest where they are
+open so little that one may be under cloth.
 """
 
 _FORMAT = 1
@@ -71,15 +73,18 @@ def make_shapes(model: pin.Model, gripper: GripperCard) -> PartShapes:
         fingers = finger_points(model, points, gripper, opening_m)
         arm |= zip((finger_key(part, opening_m) for part in (FINGERS, FINGERTIPS)), fingers, strict=True)
     shapes = {name: rounded_hull(cloud, ROUNDING_MAX_M, is_symmetric=True) for name, cloud in body.items()}
-    tips = ARM_PARTS[FINGERTIPS].name
-    most = {name: TIPS_ROUNDING_MAX_M if name.startswith(tips) else ROUNDING_MAX_M for name in arm}
+    most = dict.fromkeys(arm, ROUNDING_MAX_M)
+    for opening_m in OPENINGS_M:
+        tips_m = TIPS_ROUNDING_MAX_M if opening_m > EDGE_OPEN_M else EDGE_ROUNDING_MAX_M
+        most[finger_key(FINGERTIPS, opening_m)] = tips_m
     return shapes | {name: rounded_hull(cloud, most[name]) for name, cloud in arm.items()}
 
 
 def _digest() -> str:
     """Return a digest of everything that the shapes depend on."""
     digest = blake2b(
-        f"{_FORMAT} {version('example-robot-data')} {ROUNDING_MAX_M} {TIPS_ROUNDING_MAX_M} {OPENINGS_M}".encode(),
+        f"{_FORMAT} {version('example-robot-data')} {ROUNDING_MAX_M} {TIPS_ROUNDING_MAX_M} "
+        f"{EDGE_ROUNDING_MAX_M} {OPENINGS_M}".encode(),
         digest_size=8,
     )
     meshes = sorted(urdf_path().parent.parent.rglob("*.stl"))

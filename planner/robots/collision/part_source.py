@@ -12,12 +12,20 @@ from planner.robots.collision.pair_choice import Solids
 from planner.robots.collision.rigid_groups import BODY, Carrier, Skeleton
 from planner.robots.collision.rounded_hull import RoundedHull, hull_corners, rounded_hull
 from planner.robots.described_robot import DescribedRobot
+from planner.robots.openings import EDGE_OPEN_M, HELD_M
 
-SHARES = (0.0, 1 / 3, 2 / 3, 1.0)
-"""Shares of the widest opening for which fingers have shapes."""
+SMALL_M = (0.0, HELD_M, EDGE_OPEN_M)
+"""Openings for which fingers have shapes (m): those with which one of them may be under cloth."""
 
-ROUNDING_MAX_M, TIPS_ROUNDING_MAX_M = 0.003, 0.0003
-"""Limits on how far a part may exceed the hull of its meshes (m); tips come close to the table."""
+SHARES = (1 / 3, 2 / 3, 1.0)
+"""Shares of the widest opening for which they have shapes besides."""
+
+LEVELS = len(SMALL_M) + len(SHARES)
+
+ROUNDING_MAX_M, TIPS_ROUNDING_MAX_M, EDGE_ROUNDING_MAX_M = 0.003, 0.0003, 0.0001
+"""Limits on how far a part may exceed the hull of its meshes (m); tips come close to the table, and closest where they
+are open so little that one may be under cloth.
+"""
 
 ROUNDING_SHARE_MAX = 0.015
 """The same limit as a share of the part's size, for small arms."""
@@ -62,7 +70,7 @@ def make_parts(robot: DescribedRobot) -> list[Part]:
 def openings_m(robot: DescribedRobot) -> tuple[float, ...]:
     """Return the openings of the fingers for which there are shapes (m)."""
     widest_m = max(arm.card.gripper.opening_max_m for arm in robot.arms)
-    return tuple(share * widest_m for share in SHARES)
+    return tuple(sorted((*(min(one, widest_m) for one in SMALL_M), *(share * widest_m for share in SHARES))))
 
 
 def _parts(robot: DescribedRobot, skeleton: Skeleton, carrier: Carrier, shapes: Sequence[LinkShape]) -> Iterator[Part]:
@@ -78,13 +86,14 @@ def _parts(robot: DescribedRobot, skeleton: Skeleton, carrier: Carrier, shapes: 
         name = _name(robot, carrier, of_cluster[0].link)
         is_tip = carrier.arm != BODY and _reaches_tool(robot, carrier, points)
         hull = rounded_hull(points, TIPS_ROUNDING_MAX_M if is_tip else _rounding_m(points))
-        yield Part(name, carrier, (hull,) * len(SHARES), is_tip, _solids(skeleton, of_cluster))
+        yield Part(name, carrier, (hull,) * LEVELS, is_tip, _solids(skeleton, of_cluster))
 
 
 def _finger_hull(skeleton: Skeleton, shapes: Sequence[LinkShape], opening_m: float) -> RoundedHull:
     """Return the shape of fingers that may be anywhere from closed to an opening."""
     ways, bent_m = zip(*(skeleton.swept(shape, opening_m) for shape in shapes), strict=True)
-    hull = rounded_hull(hull_corners(np.vstack(ways)), TIPS_ROUNDING_MAX_M)
+    rounding_m = TIPS_ROUNDING_MAX_M if opening_m > EDGE_OPEN_M else EDGE_ROUNDING_MAX_M
+    hull = rounded_hull(hull_corners(np.vstack(ways)), rounding_m)
     return replace(hull, radius_m=hull.radius_m + max(bent_m))
 
 

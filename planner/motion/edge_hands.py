@@ -1,0 +1,102 @@
+"""Have hands hold edges with one finger under the cloth, where that costs no time.
+
+The search asks where hands may be, whatever they are like; which of equally quick ways has room for a finger between
+cloth and table is looked for once a plan is found.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from functools import cached_property
+from itertools import chain, islice, product, takewhile
+
+from planner.folds.fold_path import REST_HEIGHT_M
+from planner.geometry.tolerance import TIME_S
+from planner.motion.act import Act, duration_s, in_turn
+from planner.motion.robot_port import RobotPort
+from planner.motion.transfer_planner import TransferPlanner
+from planner.primitives.context import Context
+from planner.primitives.primitive import Step
+
+_LOOKED_AT = 120
+"""Ways to do a step that are looked at for hands that may hold edges."""
+
+_EACH = 2
+"""Ways to do a step with a number of hands that may hold edges that are combined with those of the other steps."""
+
+_TRIED = 4
+"""Transfers for which joint paths are sought."""
+
+
+class EdgeHands:
+    """Finds acts in which more hands hold edges than in those given."""
+
+    def __init__(self, context: Context, machine: RobotPort, maker: TransferPlanner) -> None:
+        """Keep the planning context, the robot, and the planner of the transfers."""
+        self._context, self._machine, self._maker = context, machine, maker
+
+    def held(self, acts: Sequence[Act], is_over: Callable[[], bool]) -> tuple[Act, ...]:
+        """Return acts that follow one another, with more hands that hold edges where these take no longer.
+
+        Args:
+            acts: the acts of a validated plan.
+            is_over: polled before each act; true means that there is no time left.
+        """
+        ways = [self._others(act) for act in acts]
+        firsts = [None if is_over() else next(way, None) for way in ways]
+        if not any(firsts):
+            return tuple(acts)
+        limit_s = duration_s(acts) + TIME_S
+        best = in_turn([first or act for first, act in zip(firsts, acts, strict=True)], self._maker)
+        if duration_s(best) <= limit_s:
+            return best
+        # Mostly one transit is slower for it: the act to which hands come late does without, or with another way.
+        are_late = [one.late_s > act.late_s + TIME_S for act, one in zip(acts, best, strict=True)]
+        mixed = (act if is_late else one for act, one, is_late in zip(acts, best, are_late, strict=True))
+        best = in_turn(tuple(mixed), self._maker)
+        if duration_s(best) > limit_s:
+            best, are_late = tuple(acts), [True] * len(acts)
+        for number, (first, others, is_late) in enumerate(zip(firsts, ways, are_late, strict=True)):
+            for other in chain([first], others) if is_late and first is not None and not is_over() else ():
+                tried = in_turn((*best[:number], other, *best[number + 1 :]), self._maker)
+                if duration_s(tried) <= limit_s:
+                    best = tried
+                    break
+        return best
+
+    def _others(self, act: Act) -> Iterator[Act]:
+        """Yield acts between the same states, of the same duration, in which more hands hold edges."""
+        if act.transfer is None:
+            return
+        edges = sum(hold.is_narrow for hold in act.transfer.holds)
+        if edges == int(act.transfer.carried.moments.is_used.sum()):
+            return
+        first, *others = act.steps
+        able = [self._at_edges(first), *([*self._at_edges(step), step] for step in others)]
+        for steps in islice(product(*able), _TRIED):
+            transfer = self._maker.made_at_edges(self._maker.candidate(steps))
+            if transfer is not None and sum(hold.is_narrow for hold in transfer.holds) > edges:
+                yield Act(act.first, transfer.steps, transfer)
+
+    def _at_edges(self, step: Step) -> list[Step]:
+        """Return a few ways to do a step, as quick and by the same arms, whose hands may hold edges, most first."""
+        alike = takewhile(lambda one: one.duration_s <= step.duration_s + TIME_S, islice(step.variants(), _LOOKED_AT))
+        of_count: dict[int, list[Step]] = {}
+        for one in alike:
+            if one.task == step.task:
+                edges = self._edges(one)
+                of_count.setdefault(edges, []).append(one)
+                if edges == len(step.grips) and len(of_count[edges]) == _EACH:
+                    break
+        return [one for count in sorted(of_count, reverse=True) if count for one in of_count[count][:_EACH]]
+
+    def _edges(self, step: Step) -> int:
+        """Return how many hands point so far down that they may hold edges."""
+        return sum(approach.pitch_rad in self._pitches_rad[arm] for arm, approach in step.hands.items())
+
+    @cached_property
+    def _pitches_rad(self) -> tuple[frozenset[float], ...]:
+        """For each arm the pitches at which its hand can have one finger under cloth that lies (rad)."""
+        pitches = {approach.pitch_rad for approach in self._context.reach.approaches if not approach.is_vertical}
+        return tuple(
+            frozenset(p for p in pitches if self._machine.edge_raised_m(arm, REST_HEIGHT_M, p) is not None)
+            for arm in range(len(self._machine.card.arms))
+        )

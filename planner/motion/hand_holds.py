@@ -1,0 +1,126 @@
+"""How hands hold cloth: their roll, and with it where the fingers are.
+
+With one finger under the cloth and one over it a hand holds its edge (kind ``edge``). It opens a little only, and opens
+and closes at the height at which the lower finger just clears the table: there is room for no more. Where gripper or
+joints do not allow that, both fingers come from above and close along the table (kind ``top``).
+"""
+
+import math
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+
+from planner.folds.fold_path import REST_HEIGHT_M
+from planner.geometry.tolerance import ANGLE_RAD
+from planner.motion.joint_trajectory import CLOSED_M, OPEN_M
+from planner.motion.moments import Moments
+from planner.motion.robot_port import RobotPort
+from planner.robots.openings import EDGE_OPEN_M, HELD_M, OPENING_M
+from planner.task.grip import GripKind
+
+OVER, BESIDE = 0.5 * math.pi, 0.0
+"""The roll of a hand with one finger above the other, and with both side by side (rad)."""
+
+_STEEP = 0.6
+"""The sine of the pitch from which a hand that opens widely may have one finger above the other.
+
+The lower finger of a hand that points down less steeply would be pushed into the table.
+"""
+
+_SETTLING = 0.2
+"""The share of a rest in which hands go from where their fingers close to their path, or from there to where they open.
+
+Nothing is opened or closed meanwhile.
+"""
+
+_DIGITS = 9
+"""Decimals of a pitch (rad): what remains is rounding."""
+
+
+@dataclass(frozen=True, slots=True)
+class HandHold:
+    """How one hand holds cloth.
+
+    Attributes:
+        roll_rad: its roll about its approach axis (rad); a mirrored arm's hand rolls the other way.
+        kind: how its fingers hold.
+        opening_m: how far its fingers open (m).
+        raised_m: how far above its path it opens and closes (m); negative: below.
+    """
+
+    roll_rad: float
+    kind: GripKind = "top"
+    opening_m: float = OPEN_M
+    raised_m: float = 0.0
+
+    @property
+    def is_narrow(self) -> bool:
+        """Whether its fingers open so little that one of them fits between cloth and table."""
+        return self.opening_m <= EDGE_OPEN_M
+
+    @property
+    def held_m(self) -> float:
+        """How far its fingers are open while they hold (m)."""
+        return HELD_M if self.is_narrow else CLOSED_M
+
+
+Holds: TypeAlias = tuple[HandHold, ...]
+"""How the hand of each arm holds."""
+
+_BESIDE = HandHold(BESIDE)
+
+
+def wide_holds(moments: Moments) -> tuple[Holds, ...]:
+    """Return the ways in which hands that open widely may hold cloth in a transfer, the best first."""
+    beside = (_BESIDE,) * len(moments.is_used)
+    sines = [-moments.rotations[arm, 0, 2, 0] for arm in np.flatnonzero(moments.is_used)]
+    if not all(sine > _STEEP for sine in sines):
+        return (beside,)
+    kinds: list[GripKind] = ["edge" if _pitch_rad(moments, arm) < _VERTICAL else "top" for arm in range(len(beside))]
+    return tuple(HandHold(OVER, kind) for kind in kinds), beside
+
+
+def edge_holds(machine: RobotPort, moments: Moments) -> Holds | None:
+    """Return how hands hold in a transfer if all that can have one finger under the cloth, where some can.
+
+    A hand that opens before others let go has no time of its own to go where it has room for that.
+    """
+    if not moments.is_last_held[moments.is_used, -1].all():
+        return None
+    found = tuple(
+        _edge_hold(machine, arm, moments) if is_used else _BESIDE
+        for arm, is_used in enumerate(moments.is_used.tolist())
+    )
+    return found if any(hold.is_narrow for hold in found) else None
+
+
+def _edge_hold(machine: RobotPort, arm: int, moments: Moments) -> HandHold:
+    pitch_rad = _pitch_rad(moments, arm)
+    raised_m = None if pitch_rad >= _VERTICAL else machine.edge_raised_m(arm, REST_HEIGHT_M, round(pitch_rad, _DIGITS))
+    return _BESIDE if raised_m is None else HandHold(OVER, "edge", EDGE_OPEN_M, raised_m)
+
+
+_VERTICAL = math.pi / 2 - math.sqrt(ANGLE_RAD)
+"""The pitch from which a hand points straight down (rad)."""
+
+
+def _pitch_rad(moments: Moments, arm: int) -> float:
+    """Return how far below the horizontal a hand points when it first holds (rad); nan where it never does."""
+    x, y, z = moments.rotations[arm, int(np.argmax(moments.is_held[arm])), :, 0].tolist()
+    return math.atan2(-z, math.hypot(x, y))
+
+
+def opening_of(hold: HandHold) -> float:
+    """Return how far fingers are open at most on the way to their grip or from it (m)."""
+    return hold.opening_m if hold.is_narrow else OPENING_M
+
+
+def settling_s(dwell_s: float) -> float:
+    """Return the time in which hands settle, as a part of a rest (s)."""
+    return _SETTLING * dwell_s
+
+
+def settles(holds: Holds) -> bool:
+    """Return whether some hand opens and closes elsewhere than its path begins and ends."""
+    return any(hold.raised_m != 0.0 for hold in holds)

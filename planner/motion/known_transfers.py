@@ -1,0 +1,25 @@
+"""What tightened tasks share of the transfers of a task."""
+
+from dataclasses import dataclass, field
+
+from planner.motion.transfer import Transfer
+from planner.motion.transfer_candidate import Candidate
+from planner.motion.transit import Transit
+from planner.robots.tool_path import NoPath
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class KnownTransfers:
+    """What is known of the transfers of a task, by their steps' motions; tightened tasks share it.
+
+    Attributes:
+        can_be_there: whether the arms have free postures where the steps begin and end.
+        candidates: the candidates that steps make.
+        made: the transfer of each candidate, None where it has none, and the moments at which it was blocked, if any.
+        transits: how hands come from one transfer to the next, by both and by what the base does meanwhile.
+    """
+
+    can_be_there: dict[tuple[object, ...], bool] = field(default_factory=dict)
+    candidates: dict[tuple[object, ...], Candidate] = field(default_factory=dict)
+    made: dict[tuple[object, ...], tuple[Transfer | None, NoPath | None]] = field(default_factory=dict)
+    transits: dict[tuple[object, ...], Transit] = field(default_factory=dict)
