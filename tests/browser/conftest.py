@@ -14,27 +14,7 @@ from tests.browser.status_pill import expect_planned
 
 PATIENCE_MS = 60_000
 STAGE_PATIENCE_MS = 60_000
-WITHOUT = (
-    "AvoidUnnecessaryBeforeUnloadCheckSync",
-    "DestroyProfileOnBrowserClose",
-    "HttpsUpgrades",
-    "LensOverlay",
-    "MediaRouter",
-    "OptimizationHints",
-    "PaintHolding",
-    "PreconnectToSearch",
-    "ThirdPartyStoragePartitioning",
-    "Translate",
-    "WebUIOmniboxAimPopup",
-    "WebUIOmniboxPopup",
-)
-"""What Chromium leaves out, in place of Playwright's own list.
-
-The popups of the address bar are pages of their own in every window: they took half of what a page takes to open.
-"""
-
 QUIET = [
-    f"--disable-features={','.join(WITHOUT)}",
     "--no-sandbox",
     "--disable-quic",
     "--no-first-run",
