@@ -1,4 +1,4 @@
-"""What tightened tasks share of the transfers of a task."""
+"""The cache of a task's transfers, which its tightened variants share."""
 
 from dataclasses import dataclass, field
 
@@ -10,7 +10,7 @@ from planner.robots.tool_path import NoPath
 
 @dataclass(frozen=True, slots=True, eq=False)
 class KnownTransfers:
-    """What is known of the transfers of a task, by their steps' motions; tightened tasks share it.
+    """Cached answers about the transfers of a task, by their steps' motions; tightened tasks share them.
 
     Attributes:
         can_be_there: whether the arms have free postures where the steps begin and end.
