@@ -12,10 +12,12 @@ class Fabric:
 
     Attributes:
         density_kg_m2: the areal density.
-        stretch_n_m: the stiffness in the plane, Young's modulus times thickness (N/m).
+        stretch_n_m: the stiffness along the threads, Young's modulus times thickness (N/m). Across them cloth does not
+            contract.
+        push_n_m: the same where cloth is pushed together, and buckles on lengths that a mesh does not resolve (N/m).
+        shear_n_m: the stiffness in shear, in which threads turn against each other: force per width and angle (N/m).
         bending_length_m: the cube root of the bending stiffness per width over the weight per area (m), which textile
             laboratories measure on a strip that hangs over an edge: half of its length when it droops by 41.5 degrees.
-        poisson: Poisson's ratio.
         thickness_m: the distance that contacts keep between layers (m).
         damping_s: Rayleigh damping of stretch and bending (s).
         drag_per_s: the deceleration by the air, per speed (1/s).
@@ -24,9 +26,10 @@ class Fabric:
     """
 
     density_kg_m2: float = 0.2
-    stretch_n_m: float = 200.0
+    stretch_n_m: float = 1000.0
+    push_n_m: float = 200.0
+    shear_n_m: float = 80.0
     bending_length_m: float = 0.018
-    poisson: float = 0.3
     thickness_m: float = 0.002
     damping_s: float = 0.002
     drag_per_s: float = 1.0
@@ -41,7 +44,7 @@ class Fabric:
     @property
     def shell_thickness_m(self) -> float:
         """The thickness of a solid shell that stretches and bends as this cloth does (m)."""
-        return math.sqrt(12.0 * (1.0 - self.poisson**2) * self.bend_nm / self.stretch_n_m)
+        return math.sqrt(12.0 * self.bend_nm / self.stretch_n_m)
 
     @property
     def young_pa(self) -> float:

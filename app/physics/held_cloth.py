@@ -42,6 +42,22 @@ class HeldCloth:
         points = np.array([pinched[vertex] for vertex in vertices])
         return HeldCloth(vertices, points - tip, positions[list(vertices)] - points)
 
+    def pressed(self, thickness_m: float, share: float = 1.0) -> "HeldCloth":
+        """Return the cloth when the fingers have pressed its layers on one another, or done a share of that.
+
+        A loop between them is closed: held open it would be laid down open too, a ridge as high as it is.
+
+        Args:
+            thickness_m: the thickness of a layer (m).
+            share: how much of it is done, from 0 to 1.
+        """
+        heights = (self.between + self.beside)[:, 2]
+        layers = 1 + int((np.diff(np.sort(heights)) > thickness_m / 2.0).sum())
+        open_m = max(float(np.ptp(heights)), thickness_m)
+        scale = np.array([1.0, 1.0, 1.0 - share * (1.0 - min(1.0, (layers - 1) * thickness_m / open_m))])
+        lift = np.array([0.0, 0.0, float(heights.min()) * (1.0 - scale[2])])
+        return HeldCloth(self.vertices, self.between * scale + lift, self.beside * scale)
+
     def turned(self, way: FloatArray, hand_rad: float, cloth_rad: float) -> "HeldCloth":
         """Return the cloth when the hand, and the cloth that hangs from it, have turned over on their way.
 

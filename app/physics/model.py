@@ -40,6 +40,9 @@ _LOOP = 0.907
 _OPEN = 0.5
 """The share of a loop's width that is kept open: less, so that cloth whose rows are near enough bends by itself."""
 
+_BENT = 5.74
+"""The force per width of a strip bent between two plates, in bending stiffnesses per square of their distance."""
+
 _BESIDE = 0.2
 """How far beside the middle of two vertices the one between them may be, as a share of their distance."""
 
@@ -61,11 +64,12 @@ def model_xml(
     vertices = "".join(
         f'<body name="v{i}" pos="{x:.9g} {y:.9g} {z:.9g}">{_joints(mass * fabric.drag_per_s)}'
         f'<geom type="sphere" size="{ball}" mass="{mass:.9g}" contype="{_CLOTH}" conaffinity="{_BOARD}" condim="3" '
-        f'friction="{fabric.friction} 0 0" {_STIFF} name="g{i}"/></body>'
+        f'friction="{fabric.friction} 0 0" {_STIFF}/><site name="p{i}"/></body>'
         for i, ((x, y, z), mass) in enumerate(zip(rest.tolist(), masses.tolist(), strict=True))
     )
-    pairs = "".join(
-        f'<pair geom1="g{i}" geom2="g{j}" condim="1" margin="{width - 2.0 * ball:.9g}" {_STIFF}/>'
+    loops = "".join(
+        f'<spatial springlength="{width:.9g} 9" stiffness="{_opening(width, fabric, resolution):.9g}">'
+        f'<site site="p{i}"/><site site="p{j}"/></spatial>'
         for (i, j), width in zip(*_kept_apart(rest, triangles, fabric), strict=True)
     )
     sockets = "".join(f'<body name="s{i}" mocap="true" pos="0 0 -9"/>' for i in range(SOCKETS))
@@ -80,9 +84,9 @@ def model_xml(
  element="{" ".join(map(str, triangles.ravel().tolist()))}">
 <contact contype="0" conaffinity="{_CLOTH}" condim="3" friction="{fabric.self_friction} 0 0" {_STIFF} priority="1"
  selfcollide="none"/>
-<elasticity young="{fabric.young_pa}" poisson="{fabric.poisson}" damping="{fabric.damping_s}"
+<elasticity young="{fabric.young_pa}" poisson="0" damping="{fabric.damping_s}"
  thickness="{fabric.shell_thickness_m}" elastic2d="both"/></flex></deformable>
-<contact>{pairs}</contact>
+<tendon>{loops}</tendon>
 <equality>{ties}</equality>
 </mujoco>"""
 
@@ -94,6 +98,15 @@ def loop_width(along_m: float, fabric: Fabric) -> float:
     """
     radius_m = _LOOP * fabric.bending_length_m / 2.0
     return _OPEN * 2.0 * radius_m * math.sin(min(along_m / (2.0 * radius_m), math.pi / 2.0))
+
+
+def _opening(width_m: float, fabric: Fabric, resolution: Resolution) -> float:
+    """Return the stiffness with which a loop of a row's width resists being pressed below a width (N/m).
+
+    A strip bent between two plates, of which each touches it where it is straight, presses on them by 5.74 bending
+    stiffnesses per square of their distance. The spring has as much on average, from there to nothing.
+    """
+    return 2.0 * _BENT * fabric.bend_nm * resolution.edge_m / width_m**3
 
 
 def two_rows_apart(points: FloatArray, triangles: NDArray[np.int64]) -> NDArray[np.int64]:

@@ -1,6 +1,6 @@
 """A world simulated in MuJoCo: the article as a flex on a table, grips that move its vertices."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
@@ -19,6 +19,9 @@ from planner.task.task import Task
 
 _REST_M_S = 0.005
 """The speed below which no point of cloth at rest moves (m/s)."""
+
+_CLOSING_S = 0.1
+"""The time in which fingers press the layers between them on one another (s)."""
 
 _RESTED_S = 0.1
 """The time after which cloth that has not moved is taken to be at rest (s)."""
@@ -65,7 +68,7 @@ class PhysicsWorld:
         self._thickness_m = fabric.thickness_m
         ball = fabric.thickness_m / 2.0
         rest = np.column_stack([lies.to_outer(self._pattern), np.full(len(self._pattern), ball)])
-        self.simulation = ClothSimulation(rest, triangles, fabric, resolution, task.scene.table)
+        self.simulation = ClothSimulation(rest, self._pattern, triangles, fabric, resolution, task.scene.table)
         self._grips: dict[str, HeldCloth] = {}
         if task.start.done or not self._top.covers(rest):
             sequence = replayed(task.garment)
@@ -81,7 +84,9 @@ class PhysicsWorld:
         """Close the fingers, move them along their paths, open them, and let the cloth come to rest."""
         if not motion.grips:
             return Performed()
+        held = set(self._grips)
         found = {grip.arm: self._take(grip) for grip in motion.grips}
+        self._press({grip.arm: grip for grip in motion.grips if grip.arm in self._grips.keys() - held})
         if all(found.values()) or not motion.needs_all:
             self._follow(motion)
         else:
@@ -106,6 +111,17 @@ class PhysicsWorld:
             self._grips[grip.arm] = held = HeldCloth.of(taken, now, fingertip(tool))
             self.simulation.hold(held.at(fingertip(tool)))
         return bool(taken)
+
+    def _press(self, grips: Mapping[str, GripMotion]) -> None:
+        """Press the layers between fingers that have just closed on one another, where they lie on the table."""
+        tools = {arm: grip.at(grip.times_s[0]) for arm, grip in grips.items()}
+        opened = {arm: self._grips[arm] for arm, tool in tools.items() if self._top.covers(tool[None])}
+        count = round(_CLOSING_S / self.simulation.step_s) if opened else 0
+        for number in range(count):
+            for arm, cloth in opened.items():
+                self._grips[arm] = pressed = cloth.pressed(self._thickness_m, (number + 1) / count)
+                self.simulation.hold(pressed.at(fingertip(tools[arm])))
+            self._step()
 
     def _follow(self, motion: StepMotion) -> None:
         """Move the hands along their paths; each opens at the end of its own, if it opens at all."""

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from app.physics.fabric import Fabric, Resolution
 from app.physics.model import SOCKETS, compiled, model_xml
+from app.physics.weave import Weave
 from planner.geometry.pose import FloatArray
 from planner.geometry.table import Table
 
@@ -18,6 +19,7 @@ class ClothSimulation:
     def __init__(
         self,
         rest: FloatArray,
+        pattern: FloatArray,
         triangles: NDArray[np.int64],
         fabric: Fabric,
         resolution: Resolution,
@@ -27,6 +29,7 @@ class ClothSimulation:
 
         Args:
             rest: the vertices of the flat cloth without tension, table frame, shape (n, 3), m.
+            pattern: the vertices in the frame of warp and weft, shape (n, 2), m.
             triangles: shape (m, 3).
             fabric: the cloth.
             resolution: the time step and the solver's effort.
@@ -36,6 +39,7 @@ class ClothSimulation:
         self.step_s = resolution.step_s
         self._rest = rest
         self._model = compiled(model_xml(rest, triangles, fabric, resolution, table))
+        self._weave = Weave.of(pattern, triangles, fabric)
         self._data = mujoco.MjData(self._model)
         self._vertex_bodies = np.array([self._model.body(f"v{i}").id for i in range(len(rest))])
         self._held: dict[int, int] = {}
@@ -88,6 +92,8 @@ class ClothSimulation:
         Raises:
             FloatingPointError: the simulation has become unstable.
         """
+        stiffness = self._weave.stiffness(self.positions)
+        self._model.flex_stiffness.reshape(len(stiffness), -1)[:, : stiffness.shape[1]] = stiffness
         mujoco.mj_step(self._model, self._data)
         if self._data.warning[mujoco.mjtWarning.mjWARN_BADQACC].number or not np.isfinite(self._data.qpos).all():
             raise FloatingPointError("the simulation has become unstable")

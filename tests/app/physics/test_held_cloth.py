@@ -68,6 +68,18 @@ def test_the_lowest_cloth_in_a_hand_is_laid_on_the_stack_and_stays_as_high_if_th
     assert HandWay(fold(), layers, is_fold=True, top=TOP).landing_on(0.0).rise_m == 0.0
 
 
+def test_fingers_close_a_loop_and_leave_layers_that_lie_on_one_another_as_they_are():
+    loop = HeldCloth(
+        (1, 2), np.array([[0.0, 0.0, 0.001], [0.0, 0.0, 0.015]]), np.array([[0.0] * 3, [0.0, 0.01, 0.006]])
+    )
+    half, closed = (loop.pressed(0.002, share).at(np.zeros(3)) for share in (0.5, 1.0))
+    assert (half[1][2], half[2][2]) == pytest.approx((0.001, 0.012))
+    assert closed[1] == pytest.approx([0.0, 0.0, 0.001])
+    assert closed[2] == pytest.approx([0.0, 0.01, 0.003])
+    layers = HeldCloth((1, 2, 3), np.array([[0.0, 0.0, z] for z in (0.001, 0.003, 0.005)]), np.zeros((3, 3)))
+    assert layers.pressed(0.002).between == pytest.approx(layers.between)
+
+
 def test_a_hand_that_holds_on_keeps_a_finger_between_its_cloth_and_the_stack():
     way = HandWay(replace(fold(), opens=False), held((0.0, 0.0, 0.001), (0.0, 0.0, 0.0)), is_fold=True, top=TOP)
     assert way.landing_on(0.009).at(2.0)[7][2] == pytest.approx(0.009 + UNDER_M)

@@ -20,7 +20,7 @@ G = 9.81
 def lying(length_m: float, width_m: float, fabric: Fabric, edge_m: float, x_m: float = 0.0) -> ClothSimulation:
     points, triangles = woven_mesh(rectangle(length_m, width_m, x_m), edge_m)
     rest = np.column_stack([points, np.full(len(points), fabric.thickness_m / 2.0)])
-    return ClothSimulation(rest, triangles, fabric, Resolution(edge_m, 0.004), Table())
+    return ClothSimulation(rest, points, triangles, fabric, Resolution(edge_m, 0.004), Table())
 
 
 def test_cloth_that_lies_stays_where_it_is():
@@ -41,27 +41,31 @@ def test_sliding_cloth_stops_after_the_way_of_a_block(friction: float):
     assert way == pytest.approx(speed**2 / (2.0 * friction * G), rel=0.05)
 
 
-def test_hung_cloth_stretches_by_its_weight():
-    # The end of a strip that hangs by its edge sinks by w L^2 / (2 K).
-    fabric, length = Fabric(stretch_n_m=100.0, poisson=0.0), 0.3
-    points, triangles = woven_mesh(rectangle(0.06, length), 0.03)
+@pytest.mark.parametrize("bias_rad", [0.0, math.pi / 4.0])
+def test_hung_cloth_stretches_by_its_weight_along_its_threads_and_more_across(bias_rad: float):
+    # The end of a strip that hangs by its edge sinks by w L^2 / (2 K). Pulled at 45 degrees to threads that do not
+    # contract, it grows by both threads' stretch and by shear: 4 / K is 2 / stretch + 1 / shear.
+    fabric, length = Fabric(stretch_n_m=100.0, push_n_m=100.0, shear_n_m=20.0), 0.3
+    stiffness = fabric.stretch_n_m if bias_rad == 0.0 else 4.0 / (2.0 / fabric.stretch_n_m + 1.0 / fabric.shear_n_m)
+    points, triangles = woven_mesh(rectangle(0.04, length), 0.02)
     rest = np.column_stack([points[:, 0], np.zeros(len(points)), points[:, 1]])
-    upright = ClothSimulation(rest, triangles, fabric, Resolution(0.03, 0.004))
+    turned = points @ np.array([[math.cos(bias_rad), math.sin(bias_rad)], [-math.sin(bias_rad), math.cos(bias_rad)]])
+    upright = ClothSimulation(rest, turned, triangles, fabric, Resolution(0.02, 0.004))
     top = np.flatnonzero(points[:, 1] > length - 1e-6)
     upright.hold({int(i): rest[i] for i in top})
     upright.run(2.0)
     sunk = (rest - upright.positions)[points[:, 1] < 1e-6, 2].mean()
-    assert sunk == pytest.approx(fabric.density_kg_m2 * G * length**2 / (2.0 * fabric.stretch_n_m), rel=0.1)
+    assert sunk == pytest.approx(fabric.density_kg_m2 * G * length**2 / (2.0 * stiffness), rel=0.1)
 
 
 def test_cloth_over_an_edge_droops_as_a_cantilever_of_its_bending_length():
     # Peirce (1930): where a strip of length l hangs over an edge and the line to its end is theta below the horizontal,
     # its bending length is l (cos(theta / 2) / (8 tan(theta)))^(1/3): half of l at 41.5 degrees.
     bending, edge = 0.03, 0.005
-    fabric = Fabric(bending_length_m=bending, poisson=0.0, drag_per_s=5.0)
+    fabric = Fabric(bending_length_m=bending, drag_per_s=5.0)
     points, triangles = woven_mesh(rectangle(2.0 * bending + 2.0 * edge, 2.0 * edge), edge)
     rest = np.column_stack([points, np.zeros(len(points))])
-    cloth = ClothSimulation(rest, triangles, fabric, Resolution(edge, 0.004))
+    cloth = ClothSimulation(rest, points, triangles, fabric, Resolution(edge, 0.004))
     clamped = np.flatnonzero(points[:, 0] < 2.0 * edge)
     cloth.hold({int(i): rest[i] for i in clamped})
     cloth.run(1.5)

@@ -1,0 +1,63 @@
+"""The stiffness of woven cloth in its plane: stiff to pull along its threads, softer to push, soft in shear.
+
+MuJoCo's own elasticity is alike in all directions, so cloth that hardly stretches would neither shear nor give way
+where it is pushed together. Real threads turn against each other, and buckle at once, on lengths that a mesh does not
+resolve; without that a mesh locks where a crease is folded over. MuJoCo's energy is quadratic in how much the squared
+lengths of a triangle's edges have grown, and so is that of threads, with other coefficients.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.physics.fabric import Fabric
+from planner.geometry.pose import FloatArray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Weave:
+    """The stiffness of each triangle; its edge i is the one opposite to corner i.
+
+    Attributes:
+        fabric: the cloth.
+        triangles: shape (m, 3).
+        squares: the squared lengths of the edges without tension, shape (m, 3), m^2.
+        strains: for warp, weft and shear the strain by each edge's growth in squared length, shape (m, 3, 3), 1/m^2.
+        areas: shape (m,), m^2.
+    """
+
+    fabric: Fabric
+    triangles: NDArray[np.int64]
+    squares: FloatArray
+    strains: FloatArray
+    areas: FloatArray
+
+    @staticmethod
+    def of(pattern: FloatArray, triangles: NDArray[np.int64], fabric: Fabric) -> "Weave":
+        """Return the weave of a mesh whose vertices are given in the frame of warp and weft, shape (n, 2), m."""
+        edges = _edges(pattern, triangles)
+        x, y = edges[..., 0], edges[..., 1]
+        strains = np.linalg.inv(2.0 * np.stack([x * x, y * y, x * y], axis=-1))
+        areas = np.abs(x[:, 0] * y[:, 1] - y[:, 0] * x[:, 1]) / 2.0
+        return Weave(fabric, triangles, (edges * edges).sum(axis=-1), strains, areas)
+
+    def stiffness(self, positions: FloatArray) -> FloatArray:
+        """Return each triangle's coefficients in MuJoCo's order where the vertices are somewhere, shape (n, 3), m.
+
+        Returns:
+            Shape (m, 6), N/m^3: with the growths d of the squared lengths the energy is d S d / 4, of which a row has
+            the upper half.
+        """
+        edges = _edges(positions, self.triangles)
+        grown = (edges * edges).sum(axis=-1) - self.squares
+        along = (self.strains[:, :2] * grown[:, None]).sum(axis=-1)
+        threads = np.where(along < 0.0, self.fabric.push_n_m, self.fabric.stretch_n_m)
+        moduli = np.column_stack([threads, np.full(len(threads), self.fabric.shear_n_m)]) * self.areas[:, None]
+        rows, columns = np.triu_indices(3)
+        return np.asarray(2.0 * (moduli[:, :, None] * self.strains[..., rows] * self.strains[..., columns]).sum(axis=1))
+
+
+def _edges(points: FloatArray, triangles: NDArray[np.int64]) -> FloatArray:
+    corners = points[triangles]
+    return np.asarray(np.roll(corners, 1, axis=1) - np.roll(corners, -1, axis=1))
