@@ -396,8 +396,9 @@ def test_articles_for_small_tables_are_shrunk_with_their_folds_and_small_ones_ar
 
 
 def test_a_crowd_edits_and_asks_for_plans(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):
-    for name, less in (("OPEN", 2), ("DRAGGED", 1), ("QUICK_S", 1.0), ("PLAN_LIMIT_S", 1.0)):
+    for name, less in (("OPEN", 2), ("DRAGGED", 1), ("QUICK_S", 1.0)):
         monkeypatch.setattr(f"bench.crowd.{name}", less)
+    monkeypatch.setattr("bench.load_clients.PLAN_LIMIT_S", 1.0)
     with served() as server:
         monkeypatch.setattr("bench.crowd.served", lambda: nullcontext(server))  # one for both: it starts for seconds
         report = crowd(["hand-towel"], 1)
