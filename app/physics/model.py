@@ -6,7 +6,7 @@ A socket is a body without dynamics, tied to a vertex while a grip holds it.
 
 Cloth bends at the rows of its mesh, with an energy that grows as 1 - cos of the angle: a crease folded flat at one row
 has no moment that opens it. Pulled along, it was at a dead centre, and dragged the layer below by up to 4 cm instead of
-rolling on to the next row. So vertices two rows apart keep as far from each other as a loop of cloth is wide.
+rolling on to the next row. So springs push vertices two rows apart from each other where a loop of cloth would.
 """
 
 import itertools
@@ -38,10 +38,13 @@ _LOOP = 0.907
 """The height of the loop of a heavy strip folded over, in bending lengths."""
 
 _OPEN = 0.5
-"""The share of a loop's width that is kept open: less, so that cloth whose rows are near enough bends by itself."""
+"""The share of a loop's width below which springs open it: less, so that cloth of near rows bends by itself."""
 
-_BENT = 5.74
-"""The force per width of a strip bent between two plates, in bending stiffnesses per square of their distance."""
+_BENT = 2.87
+"""The force per width of a strip bent between two plates, in bending stiffnesses per square of their distance.
+
+From the elastica, along which sin(angle) grows with the square of the curvature.
+"""
 
 _BESIDE = 0.2
 """How far beside the middle of two vertices the one between them may be, as a share of their distance."""
@@ -68,7 +71,7 @@ def model_xml(
         for i, ((x, y, z), mass) in enumerate(zip(rest.tolist(), masses.tolist(), strict=True))
     )
     loops = "".join(
-        f'<spatial springlength="{width:.9g} 9" stiffness="{_opening(width, fabric, resolution):.9g}">'
+        f'<spatial springlength="{width:.9g} 9" stiffness="{opening_stiffness(width, fabric, resolution):.9g}">'
         f'<site site="p{i}"/><site site="p{j}"/></spatial>'
         for (i, j), width in zip(*_kept_apart(rest, triangles, fabric), strict=True)
     )
@@ -92,7 +95,7 @@ def model_xml(
 
 
 def loop_width(along_m: float, fabric: Fabric) -> float:
-    """Return how far apart points of the cloth are kept that are so far apart along a thread (m).
+    """Return below which distance springs push points apart that are so far from each other along a thread (m).
 
     That is most of the chord between them where the loop of a crease has them at its two ends.
     """
@@ -100,13 +103,12 @@ def loop_width(along_m: float, fabric: Fabric) -> float:
     return _OPEN * 2.0 * radius_m * math.sin(min(along_m / (2.0 * radius_m), math.pi / 2.0))
 
 
-def _opening(width_m: float, fabric: Fabric, resolution: Resolution) -> float:
-    """Return the stiffness with which a loop of a row's width resists being pressed below a width (N/m).
+def opening_stiffness(width_m: float, fabric: Fabric, resolution: Resolution) -> float:
+    """Return the stiffness with which a loop as long as a row is apart resists being pressed below a width (N/m).
 
-    A strip bent between two plates, of which each touches it where it is straight, presses on them by 5.74 bending
-    stiffnesses per square of their distance. The spring has as much on average, from there to nothing.
+    Pressed to half of that it resists half as much as a strip between two plates: cloth bends by itself too.
     """
-    return 2.0 * _BENT * fabric.bend_nm * resolution.edge_m / width_m**3
+    return 4.0 * _BENT * fabric.bend_nm * resolution.edge_m / width_m**3
 
 
 def two_rows_apart(points: FloatArray, triangles: NDArray[np.int64]) -> NDArray[np.int64]:
@@ -130,7 +132,7 @@ def _is_middle(middle: FloatArray, one: FloatArray, other: FloatArray) -> bool:
 def _kept_apart(
     rest: FloatArray, triangles: NDArray[np.int64], fabric: Fabric
 ) -> tuple[list[tuple[int, int]], list[float]]:
-    """Return the pairs of vertices that a loop keeps apart, and how far (m)."""
+    """Return the pairs of vertices that springs keep apart, and up to which distance (m)."""
     pairs = two_rows_apart(rest, triangles)
     gaps = np.linalg.norm(rest[pairs[:, 0]] - rest[pairs[:, 1]], axis=1).tolist()
     return [(i, j) for i, j in pairs.tolist()], [loop_width(gap, fabric) for gap in gaps]

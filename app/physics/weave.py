@@ -38,7 +38,7 @@ class Weave:
         """Return the weave of a mesh whose vertices are given in the frame of warp and weft, shape (n, 2), m."""
         edges = _edges(pattern, triangles)
         x, y = edges[..., 0], edges[..., 1]
-        strains = np.linalg.inv(2.0 * np.stack([x * x, y * y, x * y], axis=-1))
+        strains: FloatArray = np.linalg.inv(2.0 * np.stack([x * x, y * y, x * y], axis=-1)).astype(np.float64)
         areas = np.abs(x[:, 0] * y[:, 1] - y[:, 0] * x[:, 1]) / 2.0
         return Weave(fabric, triangles, (edges * edges).sum(axis=-1), strains, areas)
 

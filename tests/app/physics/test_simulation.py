@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from app.physics.fabric import Fabric, Resolution
-from app.physics.model import two_rows_apart
+from app.physics.model import opening_stiffness, two_rows_apart
 from app.physics.pinch import pinched
 from app.physics.simulation import ClothSimulation
 from planner.geometry.table import Table
@@ -113,6 +113,17 @@ def test_a_crease_folded_flat_rolls_on_when_the_upper_layer_is_pulled():
         cloth.step()
     assert np.abs(cloth.positions - places)[still].max() < 0.002
     assert cloth.positions[:, 0].max() == pytest.approx(crease - pulled_m / 2.0, abs=0.007)
+
+
+def test_a_loop_pressed_to_half_its_width_resists_half_as_much_as_an_elastica_between_two_plates():
+    # Between plates at a distance h the curvature is (2 F sin(angle) / D)^(1/2), so h is the integral of
+    # (D sin(angle) / (2 F))^(1/2) over half a turn.
+    fabric, width, edge = Fabric(), 0.01, 0.02
+    angles = np.linspace(0.0, math.pi, 20001)
+    whole = float(np.trapezoid(np.sqrt(np.sin(angles)), angles))
+    force = fabric.bend_nm * edge * whole**2 / (2.0 * (width / 2.0) ** 2)
+    stiffness = opening_stiffness(width, fabric, Resolution(edge))
+    assert stiffness * width / 2.0 == pytest.approx(force / 2.0, rel=1e-3)
 
 
 def test_vertices_two_rows_apart_have_one_between_them_along_or_across_the_threads():
