@@ -151,3 +151,16 @@ def test_a_tool_point_off_the_fingertips_is_warned_of_with_its_numbers(tmp_path:
     told = " ".join(pleat("robot", "check", str(tmp_path / "mine.json")).stdout.split())
     assert "Warning: right: the fingertips reach 0.028 m beyond the tool point" in told
     assert "the fingers meet 0.009 m beside it" in told
+
+
+@pytest.mark.usefixtures("reach_known")
+def test_a_station_in_the_table_is_warned_of_with_how_far_back_it_is_free(tmp_path: Path) -> None:
+    card = json.loads(json.dumps(shipped_card("tiago-pro").to_dict()))
+    card["scene"]["stations"]["front"]["x_m"] += 0.3
+    (tmp_path / "mine.json").write_text(json.dumps(card))
+    answer = json.loads(pleat("robot", "check", str(tmp_path / "mine.json"), "--json", "-").stdout)
+    [warning] = answer["warnings"]
+    assert (warning["code"], warning["station"]) == ("station_in_table", "front")
+    assert 0.0 < warning["back_m"] <= 0.3
+    told = " ".join(pleat("robot", "check", str(tmp_path / "mine.json")).stdout.split())
+    assert "scene.stations: at front the base would stand in the table or its legs" in told
