@@ -61,6 +61,7 @@ class _OpenJob:
     job: Job[None] | None = None
     is_cancelled: bool = False
     saved_s: float = 0.0
+    release: Callable[[], None] = lambda: None
     listeners: list[Callable[[], None]] = field(default_factory=list)
 
 
@@ -167,7 +168,8 @@ class JobDesk:
 
     def _begin(self, kind: AnyKind, asked: object, stored: StoredJob) -> None:
         with self._lock:
-            found = self._open[stored.id] = _OpenJob(stored)
+            release = partial(kind.release, self._stores, asked)
+            found = self._open[stored.id] = _OpenJob(stored, release=release)
             try:
                 found.job = self._pool.start(partial(self._run, stored.id, kind, asked))
             except BaseException:
@@ -221,6 +223,7 @@ class JobDesk:
                 found.stored = _ended(found.stored, "failed", str(error))
             else:
                 del self._open[job_id]
+        found.release()
         _tell(found)
 
 
