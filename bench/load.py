@@ -13,13 +13,13 @@ import time
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from statistics import mean, median, quantiles
+from statistics import mean, median
 from typing import Any
 
 import httpx
 
-from bench.crowd import DRAGGED, EDITS_PER_S
-from bench.load_clients import Heard, ask_for_plans, client, drag, view
+from bench.crowd import DRAGGED
+from bench.load_clients import EDITS_PER_S, Heard, ask_for_plans, client, drag, view
 from bench.paper import TABLE_2
 from bench.processes import cpu_s, family, memory_mb, sockets
 from bench.report import Report, Row
@@ -155,8 +155,7 @@ async def _open(server: httpx.AsyncClient, pid: int) -> Counter[str]:
 
 def _row(minutes: float, found: Loaded) -> Row:
     heard, wanted = found.heard, DRAGGED * EDITS_PER_S * 60.0 * minutes
-    cuts = quantiles(heard.edits_ms, n=100, method="inclusive")
-    edits = {"median": median(heard.edits_ms), "p95": cuts[94], "p99": cuts[98], "most": max(heard.edits_ms)}
+    edits = heard.edit_figures()
     refused = sum(heard.plans[status] for status in _REFUSED)
     first, last = (_memory(found.memory_mb, end) for end in (_first(found.memory_mb), len(found.memory_mb)))
     line = (

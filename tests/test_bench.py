@@ -151,6 +151,7 @@ def test_a_garment_without_a_peer_is_left_out():
     assert yes_and_no(["hand-towel"], 1).rows == ()
 
 
+@pytest.mark.long
 def test_only_what_is_asked_for_is_run(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
     main(["--quick", "--only", "table-1", "first-plan", "hand-towel"], tmp_path)
     assert {path.name for path in tmp_path.iterdir()} == {"table-1.json", "first-plan.json"}
@@ -352,6 +353,7 @@ def test_a_rehearsal_tells_its_steps_the_first_lost_and_how_often_it_held():
     assert line == ("vest", "real", "on", "2 of 3", "1", "0.890", "12.0", "0 of 2", "0% to 84%", "0.50", "20.00")
 
 
+@pytest.mark.long
 def test_every_shipped_robot_has_a_row_of_reach(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):
     thin = {"POSES": 300, "RESTARTS": 3, "shipped_robots": lambda: ("so101-pair",), "heights": lambda *_: (0.0, 0.03)}
     for name, less in thin.items():
@@ -396,8 +398,9 @@ def test_articles_for_small_tables_are_shrunk_with_their_folds_and_small_ones_ar
 
 
 def test_a_crowd_edits_and_asks_for_plans(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):
-    for name, less in (("OPEN", 2), ("DRAGGED", 1), ("QUICK_S", 1.0), ("PLAN_LIMIT_S", 1.0)):
+    for name, less in (("OPEN", 2), ("DRAGGED", 1), ("QUICK_S", 1.0)):
         monkeypatch.setattr(f"bench.crowd.{name}", less)
+    monkeypatch.setattr("bench.load_clients.PLAN_LIMIT_S", 1.0)
     with served() as server:
         monkeypatch.setattr("bench.crowd.served", lambda: nullcontext(server))  # one for both: it starts for seconds
         report = crowd(["hand-towel"], 1)
@@ -410,7 +413,7 @@ def test_a_crowd_edits_and_asks_for_plans(monkeypatch: pytest.MonkeyPatch, tmp_p
     assert crowd(["scarf-halved"], 1).rows == ()
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_two_plans_at_once_are_set_beside_two_in_turn():
     (row,) = two_at_once(["hand-towel", "vest"], 1).rows
     assert row.data["plans"] == ["vest", "hand-towel"] or row.data["plans"] == ["hand-towel", "vest"]
@@ -418,6 +421,7 @@ def test_two_plans_at_once_are_set_beside_two_in_turn():
     assert two_at_once(["hand-towel"], 1).rows == ()
 
 
+@pytest.mark.long
 def test_a_load_tells_what_was_refused_what_grew_and_what_stayed_open(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:

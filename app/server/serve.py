@@ -113,7 +113,8 @@ def _token(settings: Settings, where: _Address) -> tuple[AccessToken | None, str
 
 def _listening(where: _Address) -> socket.socket:
     family, address = where
-    listener = socket.socket(family, socket.SOCK_STREAM)
+    # asyncio sends at once only where the protocol is named; else each answer would wait 40 ms for an acknowledgement.
+    listener = socket.socket(family, socket.SOCK_STREAM, socket.IPPROTO_TCP)
     try:
         listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         listener.bind(address)

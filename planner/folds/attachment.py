@@ -17,6 +17,7 @@ from planner.cloth.cloth_state import ClothState
 from planner.cloth.layer import Layer
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Point2
+from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 from planner.geometry.tolerance import LENGTH_M, SNAP_M
 
@@ -93,13 +94,10 @@ def place_of(attachment: Attachment, replay: Replay, *, is_red: bool) -> Point2 
     material = _material(attachment, replay)
     if material is None:
         return None
-    nearest, gap_m = None, SNAP_M
-    for layer in replay.seen(is_red=is_red):
-        piece = layer.pattern_piece
-        distance_m = 0.0 if piece.contains(material) else piece.boundary_distance(material)
-        if distance_m < gap_m:
-            nearest, gap_m = layer, distance_m
-    return None if nearest is None else nearest.isometry.apply_point(material)
+    layers = replay.seen(is_red=is_red)
+    gaps_m = Region.gaps([layer.pattern_piece for layer in layers], material)
+    nearest = int(np.argmin(gaps_m)) if len(layers) else 0
+    return layers[nearest].isometry.apply_point(material) if (gaps_m < SNAP_M).any() else None
 
 
 def attached(place: Point2, replay: Replay, *, is_red: bool) -> Attachment | None:

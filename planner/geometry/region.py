@@ -17,7 +17,7 @@ from planner.geometry.isometry import Isometry
 from planner.geometry.pose import BoolArray, FloatArray, Point2
 from planner.geometry.ring import corners, counter_clockwise, feet, inward_bisector
 from planner.geometry.segment import Segment
-from planner.geometry.shape import half_plane, polygonal, united, without_cracks
+from planner.geometry.shape import half_plane, not_within_largest, polygonal, united, without_cracks
 from planner.geometry.tolerance import AREA_M2, CUT_GRID_M, GRID_M, LENGTH_M
 
 _EVENED_M = 5e-4
@@ -59,8 +59,11 @@ class Region:
 
     @staticmethod
     def union(regions: Iterable["Region"]) -> "Region":
-        """Return what at least one of the regions covers, with hairline gaps between them closed."""
-        shapes = [r.shape for r in regions]
+        """Return what at least one of the regions covers, with hairline gaps between them closed.
+
+        Layers of folded cloth mostly lie within the largest of them; to see that takes a tenth of the time of a union.
+        """
+        shapes = not_within_largest([r.shape for r in regions])
         if len(shapes) == 1:
             return Region(shapes[0])
         whole = united(shapes)
@@ -107,11 +110,16 @@ class Region:
 
     def boundary_distance(self, point: Point2) -> float:
         """Return the distance of a point from the boundary (m)."""
-        return float(shapely.distance(self.shape.boundary, shapely.Point(point)))
+        return float(shapely.distance(self.shape.boundary, shapely.points(point)))
 
     def distance_to(self, segment: Segment) -> float:
         """Return the distance of a segment from the region (m); 0 if they meet."""
         return float(shapely.distance(self.shape, shapely.LineString([segment.start, segment.end])))
+
+    @staticmethod
+    def gaps(regions: Sequence["Region"], point: Point2) -> FloatArray:
+        """Return the distance of a point from each of some regions, shape (n,), m; 0 inside."""
+        return np.asarray(shapely.distance([region.shape for region in regions], shapely.points(point)), dtype=float)
 
     # truths
 
@@ -132,8 +140,10 @@ class Region:
 
     def contains_segment(self, segment: Segment) -> bool:
         """Return whether a segment runs inside or along the boundary, to the tolerance."""
-        line = shapely.LineString([segment.start, segment.end])
-        return bool(line.difference(self.shape.buffer(LENGTH_M)).length <= LENGTH_M)
+        outside = shapely.difference(shapely.LineString([segment.start, segment.end]), self.shape)
+        if shapely.length(outside) > LENGTH_M:  # mostly not: to grow the region takes five times as long
+            outside = shapely.difference(outside, shapely.buffer(self.shape, LENGTH_M))
+        return bool(shapely.length(outside) <= LENGTH_M)
 
     def runs_inside(self, segment: Segment) -> bool:
         """Return whether a part of a segment lies inside, further from the boundary than the tolerance."""
@@ -232,6 +242,8 @@ class Region:
     @cached_property
     def parts(self) -> tuple["Region", ...]:
         """The connected parts."""
+        if isinstance(self.shape, shapely.Polygon):
+            return () if self.shape.is_empty else (self,)
         return tuple(Region(p) for p in shapely.get_parts(self.shape))
 
     @cached_property

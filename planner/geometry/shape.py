@@ -1,8 +1,9 @@
 """Make and repair shapely geometries before they become regions."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from itertools import combinations
 
+import numpy as np
 import shapely
 from shapely.geometry.base import BaseGeometry
 
@@ -14,15 +15,24 @@ _FAR_M = 100.0
 
 _TOUCH_M = 10 * LENGTH_M
 """Length of the contact below which two parts near to each other only touch (m)."""
-_POLYGONAL = (int(shapely.GeometryType.POLYGON), int(shapely.GeometryType.MULTIPOLYGON))
 
 
 def polygonal(shape: BaseGeometry) -> BaseGeometry:
     """Return the polygons of a shape; the intersection of polygons that only touch also has lines and points."""
-    if shapely.get_type_id(shape) in _POLYGONAL:
+    if isinstance(shape, shapely.Polygon | shapely.MultiPolygon):
         return shape
     parts = shapely.get_parts(shape)
     return shapely.union_all(parts[shapely.get_dimensions(parts) == 2])
+
+
+def not_within_largest(shapes: Sequence[BaseGeometry]) -> list[BaseGeometry]:
+    """Return the largest of some shapes, and those that do not lie within it."""
+    if len(shapes) < 2:
+        return list(shapes)
+    largest = shapes[int(np.argmax(shapely.area(shapes)))]
+    shapely.prepare(largest)
+    others = np.flatnonzero(~shapely.covers(largest, shapes)).tolist()
+    return [largest, *(shapes[other] for other in others)]
 
 
 def united(shapes: Iterable[BaseGeometry]) -> BaseGeometry:
@@ -52,6 +62,5 @@ def half_plane(line: Segment) -> BaseGeometry:
     """Return what lies to the left of the line through a segment, as far as anything may lie."""
     nx, ny = line.left
     (ax, ay), (bx, by) = line.at(-_FAR_M), line.at(line.length + _FAR_M)
-    return shapely.Polygon(
-        [(ax, ay), (bx, by), (bx + _FAR_M * nx, by + _FAR_M * ny), (ax + _FAR_M * nx, ay + _FAR_M * ny)]
-    )
+    (cx, cy), (dx, dy) = (bx + _FAR_M * nx, by + _FAR_M * ny), (ax + _FAR_M * nx, ay + _FAR_M * ny)
+    return shapely.polygons([(ax, ay), (bx, by), (cx, cy), (dx, dy)])

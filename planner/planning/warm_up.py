@@ -2,13 +2,14 @@
 
 import gc
 import math
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from planner.cloth.garment import Garment
-from planner.geometry.pose import BoolArray, FloatArray, Point3
+from planner.geometry.pose import BoolArray, FloatArray, Point3, Pose2
 from planner.motion.timeline import Timeline
 from planner.planning.budget import Budget
 from planner.planning.driving_bound import DrivingBound
@@ -30,6 +31,9 @@ _PLACE = {"x_m": -0.75, "y_m": 0.15, "yaw_rad": -1.5707963267948966}
 
 _FAR, _EDGE = np.array([1.2, 0.0, 0.8]), np.array([0.9, 0.2, 0.9])
 """Tool points that are out of reach, and at its edge, base frame (m)."""
+
+_AWAY = (("away", Pose2(-20.0, 0.0, 0.0)),)
+"""A station out of reach of everything."""
 
 _BESIDE_M = ((0.6, 0.2, 0.9), (0.6, -0.2, 0.9))
 """Tool points at which two arms stay while they are led past each other, base frame (m)."""
@@ -53,9 +57,14 @@ stay: with Python's 700 a tenth of a plan's time goes into looking at them.
 """
 
 
-@cache
 def compile_kernels(name: str = DEFAULT_ROBOT) -> None:
-    """Compile the kernels for a robot, or load them from the cache, once per process; planning calls it too.
+    """Compile the kernels for a robot, or load them from the cache, once per process; planning calls it too."""
+    _use_kernels(name)
+
+
+@cache
+def _use_kernels(name: str) -> None:
+    """Use every kernel for a robot.
 
     A napkin is planned and played, the reach is asked why places are out of reach, and the arms are led past each
     other: together these use every kernel. Objects that exist by then, above all modules, are hidden from the garbage
@@ -78,11 +87,10 @@ def compile_kernels(name: str = DEFAULT_ROBOT) -> None:
     strips = np.ones((1, 2), dtype=np.uint32)
     travel(strips, 2)
     legs(strips[0], 0, 0, 1)
-    if name == DEFAULT_ROBOT:
-        DrivingBound(problem.context, problem.start)
-    else:  # the bound itself took 17 s for an arm that reaches the napkin in hundreds of ways
-        begun = np.zeros(2, dtype=np.int64)
-        reach.following((0,), np.array([[_FAR, _EDGE]]), (np.array([0]),), 0.05).least_driving(begun)
+    # The bound is asked from where nothing is in reach: from the table it takes half a second, for some arms 17 s.
+    scene = replace(default_scene(name), stations=_AWAY)
+    away = Problem.of(task_for(napkin(name), scene, robot=name, start_station=_AWAY[0][0]))
+    DrivingBound(away.context, away.start)
     compile_samples(name)
     robot, torso_m = problem.robot, problem.context.scene.torso_m
     beside = {arm: _staying(place) for arm, place in zip(range(len(robot.card.arms)), _BESIDE_M, strict=False)}

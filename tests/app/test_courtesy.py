@@ -3,8 +3,11 @@
 import threading
 from concurrent.futures import wait
 
-from app.jobs.courtesy import GIVE_WAY_S, RECENT_S, Courtesy, LongWork
+import pytest
+
+from app.jobs.courtesy import GIVE_WAY_S, RECENT_S, WAIT_SHARE, Courtesy, LongWork
 from app.jobs.job_pool import JobPool, ShouldStop
+from tests.patience import PATIENCE_S
 
 
 class Clock:
@@ -37,6 +40,51 @@ def ran_together(courtesy: Courtesy) -> int:
     wait([pool.start(work).future for _ in range(3)])
     pool.close()
     return most
+
+
+def test_short_work_is_done_one_after_the_other_unless_some_takes_long() -> None:
+    courtesy = Courtesy(Clock())
+    begun, go, order = threading.Event(), threading.Event(), list[str]()
+
+    def hold() -> None:
+        with courtesy.short_work():
+            begun.set()
+            assert go.wait(PATIENCE_S)
+            order.append("first")
+
+    def follow() -> None:
+        with courtesy.short_work():
+            order.append("second")
+
+    for ends, expected in ((True, ["first", "second"]), (False, ["second", "first"])):
+        order.clear()
+        begun.clear()
+        go.clear()
+        first, second = threading.Thread(target=hold), threading.Thread(target=follow)
+        first.start()
+        assert begun.wait(PATIENCE_S)
+        second.start()
+        if ends:  # the second waits in vain, and then goes on without a turn
+            threading.Timer(0.2 * GIVE_WAY_S, go.set).start()
+            first.join()
+            second.join()
+        else:
+            second.join()
+            go.set()
+            first.join()
+        assert order == expected
+
+
+def test_long_work_waits_for_short_work_in_proportion_to_what_it_has_done() -> None:
+    courtesy, clock = Courtesy(Clock()), Clock()
+    waited: list[float] = []
+    courtesy.give_way = waited.append  # type: ignore[method-assign]
+    work = LongWork(courtesy, clock)
+    for worked_s in (0.01, 0.2):
+        clock.now_s += worked_s
+        work.give_way()
+        work.end()
+    assert waited == pytest.approx([WAIT_SHARE * 0.01, WAIT_SHARE * 0.2])
 
 
 def test_searches_take_turns_while_short_work_keeps_coming() -> None:

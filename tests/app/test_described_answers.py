@@ -109,7 +109,7 @@ async def test_every_message_of_the_websocket_is_as_described(client: httpx.Asyn
         assert_described(message, LiveMessage)
 
 
-@pytest.mark.parametrize("name", ["letter-towel", "tie-halved", "big-towel"])
+@pytest.mark.parametrize("name", ["letter-towel", pytest.param("tie-halved", marks=pytest.mark.long), "big-towel"])
 def test_plans_and_the_reasons_why_there_is_none_are_as_described(name: str) -> None:
     plan = planned(name).answer
     assert_described({"id": "p", **plan.answer()}, PlanAnswer)

@@ -2,6 +2,8 @@
 
 from dataclasses import replace
 
+import pytest
+
 from app.api.answers import ReasonAnswer
 from app.api.live_messages import plan_message, status_text
 from app.document import Document
@@ -63,6 +65,7 @@ def test_whether_a_quicker_plan_is_looked_for_is_told_beside_the_same_words() ->
     assert [status_text(state) for state in states] == [told, told]
 
 
+@pytest.mark.long
 def test_a_reason_has_the_fields_that_are_described_and_no_others() -> None:
     (reason, *_) = planned("tie-halved").plan["reasons"]
     assert set(reason) == set(ReasonAnswer.model_fields)

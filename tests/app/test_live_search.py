@@ -2,6 +2,8 @@
 
 import gc
 
+import pytest
+
 from app.live_search import LiveSearch
 from planner import Plan, Task
 from planner.planning.problem import Problem
@@ -25,6 +27,7 @@ def problems_of(task: Task) -> int:
     return sum(isinstance(one, Problem) and one.task.garment == task.garment for one in gc.get_objects())
 
 
+@pytest.mark.long
 def test_a_no_is_remembered_without_what_it_was_found_with() -> None:
     search, task = LiveSearch(), Task.of(hammer(), max_expanded=50)
     *_, first = answer_to(search, task)

@@ -1,5 +1,6 @@
 """A server that really listens: its websockets, its guard, and its shutdown."""
 
+import asyncio
 import json
 import signal
 import socket
@@ -13,11 +14,30 @@ import pytest
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import ClientConnection, connect
 
+from app.server.serve import _listening
 from tests.app.conftest import REST, Served
 from tests.app.samples import towel
 from tests.patience import PATIENCE_S
 
 SUBPROTOCOL = "viser-v1.1.1"
+
+
+def test_answers_are_sent_at_once_and_not_held_back_for_an_acknowledgement() -> None:
+    async def accepted() -> bool:
+        is_at_once = asyncio.get_running_loop().create_future()
+
+        def accept(_: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+            wire = writer.get_extra_info("socket")
+            is_at_once.set_result(wire.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY) != 0)
+            writer.close()
+
+        listener = _listening((socket.AF_INET, ("127.0.0.1", 0)))
+        async with await asyncio.start_server(accept, sock=listener):
+            _, writer = await asyncio.open_connection(*listener.getsockname())
+            writer.close()
+            return await is_at_once
+
+    assert asyncio.run(accepted())
 
 
 def live_path(served: Served) -> str:

@@ -46,6 +46,14 @@ def test_nothing_spills_at_any_width_nor_at_200_per_cent(wide: Page, width: int,
     assert wide.evaluate(SPILT) == []
 
 
+@pytest.mark.parametrize("width", [1440, 960, 900, 800])
+def test_nothing_lies_over_the_tools_of_the_stage(wide: Page, width: int) -> None:
+    wide.set_viewport_size({"width": width, "height": 500})
+    wide.evaluate("document.getElementById('stage-views').hidden = false")  # as if its stage were there
+    for name in ("Who can fold this?", "Follow", "Free"):
+        wide.get_by_role("button", name=name, exact=True).click(trial=True)
+
+
 def test_between_an_open_sheet_and_the_bar_of_a_low_window_there_is_one_view(wide: Page) -> None:
     wide.set_viewport_size({"width": 720, "height": 450})
     inset, sheet = wide.locator("#swap"), wide.locator("#sheet")

@@ -255,6 +255,7 @@ def test_what_is_short_at_least_is_said_to_be(page: Page, designer: Served) -> N
     ]
 
 
+@pytest.mark.long
 def test_a_better_place_is_offered_and_taken_as_one_step(page: Page, new_sheet: Callable[[Garment], Sheet]) -> None:
     sheet = new_sheet(towel(placement={**FAR, "x_m": -0.1}))
     sheet.edit(keep_front_alone)

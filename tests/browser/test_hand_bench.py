@@ -27,6 +27,7 @@ def test_a_movement_lasts_until_it_is_drawn_and_a_release_until_its_plan_is_told
     assert (heard.to_plan_ms, heard.status) == (120.0, "infeasible")
 
 
+@pytest.mark.long
 def test_a_corner_is_dragged_in_a_browser_and_timed_by_the_page() -> None:
     (dragged,) = drags_of("hand-towel", 1, has_stage=False)
     assert len(dragged.to_ghost_ms) >= 3
@@ -35,6 +36,7 @@ def test_a_corner_is_dragged_in_a_browser_and_timed_by_the_page() -> None:
     assert dragged.status == "solved"
 
 
+@pytest.mark.long
 def test_without_a_browser_the_table_says_so(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setattr("bench.hand_page.SYSTEM_CHROMIUM", str(tmp_path / "nothing"))
     report = hand(["hand-towel"], 1)

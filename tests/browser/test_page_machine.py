@@ -282,5 +282,5 @@ def test_two_windows_and_rest_lose_nothing_and_show_nothing_stale(two: tuple[Win
     tries = settings().max_examples
     run_state_machine_as_test(
         lambda: PageMachine(two, sheet),
-        settings=settings(max_examples=max(8, tries // 20), stateful_step_count=max(8, tries // 50)),
+        settings=settings(max_examples=max(4, tries // 25), stateful_step_count=max(8, tries // 50)),
     )

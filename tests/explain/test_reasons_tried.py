@@ -70,6 +70,7 @@ def test_what_no_shift_brings_into_reach_is_the_cause_all_the_same():
     assert {other.code for other in waiting} == {Code.WAITS_FOR_FOLD}
 
 
+@pytest.mark.long
 def test_between_the_places_of_drags_a_small_move_does_what_no_drag_does():
     # Drags go by 0.1 m, and the halved tie is in reach only within a centimetre between two of their places.
     tie = load_garment("tie-halved")
@@ -172,7 +173,7 @@ def a_bit_less(reason: Reason, cloth: Garment, scene: Scene) -> dict[str, object
     return {"scene": less.to_dict()}
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_change_after_which_the_arms_collide_is_only_a_part_of_what_it_takes():
     # Two Pandas lack a millimetre of comfort for the big towel; with less an arm is in the other's first link.
     towel = shrunk(load_garment("big-towel"), LONGEST_M)

@@ -41,7 +41,7 @@ def asked(cloth: Garment, scene: Scene | None = None) -> Task:
     return Task.of(cloth, scene, max_expanded=1000)
 
 
-@pytest.mark.parametrize("name", ["tie-halved", "scarf-halved"])
+@pytest.mark.parametrize("name", ["tie-halved", pytest.param("scarf-halved", marks=pytest.mark.long)])
 def test_an_article_that_cannot_be_halved_is_told_to_be_folded_nearer_its_end(name: str):
     cloth = load_garment(name)
     known = planned(name).answer
@@ -72,6 +72,7 @@ def test_every_suggestion_is_proven_by_its_change_and_there_are_three_of_a_kind_
         assert planned_with(one.change, cloth, FRONT_ONLY).cost_s == pytest.approx(one.cost_s, abs=1e-9)
 
 
+@pytest.mark.long
 def test_a_garment_that_can_be_folded_is_told_of_nothing_but_a_better_place():
     cloth = towel(FAR)
     known = make_plan(cloth)
@@ -81,6 +82,7 @@ def test_a_garment_that_can_be_folded_is_told_of_nothing_but_a_better_place():
     assert found[0].cost_s < known.cost_s - 1.0
 
 
+@pytest.mark.long
 def test_two_folds_that_are_both_out_of_reach_are_told_to_be_shifted_together():
     # The table is so high that neither end of the strip can be lifted as far as it is to its line.
     lines = fold((0.235, 0.0), (0.235, 0.1), name="left end"), fold((0.725, 0.1), (0.725, 0.0), name="right end")

@@ -33,6 +33,32 @@ def test_the_length_is_the_longer_side_of_the_smallest_rectangle_round_it_howeve
         assert rectangle(0.3, 0.8).moved(Isometry.rotation(angle)).length == pytest.approx(0.8, abs=1e-5)
 
 
+def test_a_union_is_the_same_whether_or_not_parts_of_it_lie_within_the_largest():
+    rng = random.Random(1)
+    for _ in range(40):
+        large, *inner = (rectangle(0.5 * share, 0.4 * share) for share in (1.0, 0.2, 0.5, 0.9))
+        beside = rectangle(0.4, 0.2).moved(Isometry.rotation(1.0, rng.uniform(-0.4, 0.4), 0.0))
+        for parts in ([*inner, large, beside], [*inner, large]):
+            rng.shuffle(parts)
+            whole = shapely.union_all([part.shape for part in parts])
+            assert Region.union(parts).area == pytest.approx(shapely.area(whole), abs=1e-5)
+
+
+def test_a_segment_is_within_to_the_tolerance():
+    square = Region.polygon([(0.0, 0.0), (0.3, 0.0), (0.3, 0.3), (0.0, 0.3)])
+    for off_m, is_within in ((0.0, True), (0.5 * LENGTH_M, True), (3.0 * LENGTH_M, False)):
+        assert square.contains_segment(Segment((0.0, -off_m), (0.3, -off_m))) == is_within
+    assert square.contains_segment(Segment((0.1, 0.1), (0.2, 0.25)))
+    assert not square.contains_segment(Segment((0.1, 0.1), (0.2, 0.35)))
+
+
+def test_the_gaps_from_a_point_are_nothing_inside():
+    regions = [rectangle(0.2, 0.2), rectangle(0.2, 0.2).moved(Isometry.rotation(0.0, 0.5, 0.0))]
+    assert Region.gaps(regions, regions[0].inner_point)[0] == 0.0
+    assert Region.gaps(regions, (0.1, 0.1)) == pytest.approx([0.0, regions[1].bounds[0] - 0.1])
+    assert len(Region.gaps([], (0.0, 0.0))) == 0
+
+
 def test_both_sides_of_a_line_add_up_to_the_whole():
     rng = random.Random(0)
     for _ in range(40):

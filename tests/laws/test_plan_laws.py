@@ -127,6 +127,7 @@ def test_a_shipped_garment_never_takes_longer_with_more_room(name: str, what: st
         cost_s = wide_s
 
 
+@pytest.mark.long
 def test_the_scarf_and_the_tie_take_no_longer_than_with_less_room():
     # Of more ways the first few were worse: 22.6 s against 22.443 s in a narrower cone, 33.478 s against 33.4 s with
     # more comfort asked for.

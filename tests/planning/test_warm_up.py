@@ -1,10 +1,13 @@
 """Kernels are compiled before the first plan."""
 
+import math
 import subprocess
 import sys
 
+import pytest
+
 from planner.planning.robot_task import default_scene
-from planner.planning.warm_up import compile_kernels, napkin
+from planner.planning.warm_up import _use_kernels, compile_kernels, napkin
 from planner.robots.described_robot import shipped_robots
 
 # What the process prints at last: the functions that planning has still compiled, or loaded.
@@ -58,11 +61,18 @@ def test_every_shipped_robot_has_room_for_the_garment_that_is_planned_first():
         assert max(ys) - min(ys) <= 0.5 * min(table.depth_m, table.width_m)
 
 
-def test_no_bound_on_the_driving_of_a_described_robot_is_made_only_to_compile_it(monkeypatch):
-    # Two hands with a hundred ways each: for TIAGo Pro it took 17 s, at the first plan of every process.
-    made = []
-    monkeypatch.setattr("planner.planning.warm_up.DrivingBound", lambda *given: made.append(given))
-    compile_kernels.__wrapped__("so101-pair")
-    assert not made
-    compile_kernels.__wrapped__()
-    assert len(made) == 1
+@pytest.mark.parametrize("robot", ["pr2", "so101-pair"])
+def test_the_bound_on_the_driving_is_asked_where_nothing_is_in_reach(monkeypatch, robot):
+    # At the table two hands have a hundred ways each: for TIAGo Pro the bound took 17 s, in every process.
+    asked = []
+    monkeypatch.setattr("planner.planning.warm_up.DrivingBound", lambda context, start: asked.append(context))
+    _use_kernels.__wrapped__(robot)
+    (context,) = asked
+    assert all(math.hypot(pose.x_m, pose.y_m) > 10.0 for _, pose in context.scene.stations)
+
+
+def test_the_kernels_of_a_robot_are_used_once_by_whatever_name_it_is_asked_for(monkeypatch):
+    compile_kernels()
+    monkeypatch.setattr("planner.planning.warm_up.Problem.of", lambda *_: pytest.fail("used once more"))
+    compile_kernels("pr2")
+    compile_kernels(name="pr2")

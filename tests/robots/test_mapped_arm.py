@@ -76,6 +76,7 @@ def test_a_map_is_built_once_and_then_read(tmp_path, poses):
     np.testing.assert_array_equal(built.can_reach(*poses, TORSO_M), read.can_reach(*poses, TORSO_M))
 
 
+@pytest.mark.long
 def test_a_map_that_cannot_be_read_is_built_again(tmp_path, poses):
     built = mapped(tmp_path)
     for path in (tmp_path / "postures").iterdir():

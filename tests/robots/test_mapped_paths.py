@@ -126,6 +126,7 @@ def random_lines(bench: Bench, count: int, length_m: float) -> list[ToolPath]:
     return lines
 
 
+@pytest.mark.long
 def test_an_arm_of_six_joints_is_on_its_path_at_every_pose(ur5e):
     for pitch_deg in (30, 60, 90):
         path = line(before(ur5e, 0.5, -0.15, 0.03), before(ur5e, 0.6, 0.15, 0.1), pitch_deg)

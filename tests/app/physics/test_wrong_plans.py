@@ -53,7 +53,7 @@ def test_cloth_hung_beyond_friction_slides_off_the_table_and_less_of_it_stays(
     assert verdict_on(world, task, ()).held == holds
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_folds_made_out_of_order_are_lost():
     lies = Pose2(-LONG / 2.0, -WIDE / 2.0, 0.0)
     task = Task.of(garment(rectangle_points(LONG, WIDE), HALF, QUARTER, placement=lies))

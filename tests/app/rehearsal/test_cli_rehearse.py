@@ -17,7 +17,7 @@ def test_an_option_that_cannot_be_is_refused_by_its_name(option: tuple[str, str]
     assert option[0] in refused.stderr
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_towel_is_rehearsed_from_its_plan_file(tmp_path: Path):
     path = tmp_path / "towel.plan.json"
     write_plan(towel_plan(), path)
