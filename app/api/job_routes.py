@@ -34,7 +34,8 @@ LastEventId = Annotated[str | None, Header(alias="last-event-id")]
 
 async def begun(request: Request, kind: AnyKind, data: dict[str, Any]) -> JSONResponse:
     """Return the answer to a request that starts a job: 202, and where it is."""
-    job = await run_in_threadpool(_submitted, workspace_of(request).jobs, kind, data, client_of(request))
+    jobs = workspace_of(request).jobs
+    job = await run_in_threadpool(jobs.submit, kind, data, client_of(request), within_request)
     location = f"{request.scope.get('root_path', '')}/api/jobs/{job.id}"
     return JSONResponse({**job_entry(job), "result": None}, 202, headers={"location": location})
 
@@ -57,11 +58,6 @@ for _kind in BY_JSON:
         responses={202: {"model": JobAnswer}, **problems(404, 409, 413, 422, 429, 503)},
         openapi_extra=taking(JsonBody(_kind.body, _kind.example)),
     )
-
-
-def _submitted(jobs: JobDesk, kind: AnyKind, data: dict[str, Any], client: str) -> StoredJob:
-    with within_request():
-        return jobs.submit(kind, data, client)
 
 
 @router.get("/api/jobs", responses={200: {"model": JobsAnswer}, **problems(404, 422)})

@@ -42,7 +42,7 @@ _ARCHIVE = {
 _BENCH = {**shipped_card("so101-pair").to_dict(), "name": "bench", "title": "My bench"}
 CardBody = Annotated[CardFile, Depends(JsonBody(CardFile, _BENCH))]
 _ASYNC = "respond-async"
-Prefer = Annotated[str | None, Header(description=f"`{_ASYNC}`: import it as a job.", examples=[None])]
+Prefer = Annotated[str | None, Header(description=f"`{_ASYNC}`: import it as a job.")]
 AnyName = Annotated[str, Path(examples=[DEFAULT_ROBOT])]
 OwnName = Annotated[str, Path(examples=[_BENCH["name"]])]
 
