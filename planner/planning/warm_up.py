@@ -32,6 +32,9 @@ _PLACE = {"x_m": -0.75, "y_m": 0.15, "yaw_rad": -1.5707963267948966}
 _FAR, _EDGE = np.array([1.2, 0.0, 0.8]), np.array([0.9, 0.2, 0.9])
 """Tool points that are out of reach, and at its edge, base frame (m)."""
 
+_COMFORT_M = 0.2
+"""A comfort radius that is hardly to be had where a tool point is in reach (m)."""
+
 _AWAY = (("away", Pose2(-20.0, 0.0, 0.0)),)
 """A station out of reach of everything."""
 
@@ -84,6 +87,9 @@ def _use_kernels(name: str) -> None:
         reach.shortfall_together(0, point[None, None], np.array([0]))
         reach.at_least_short(0, point[None, None], np.array([0]), 1, 0.05)
     reach.standoffs(0, np.array([_FAR, _EDGE]), np.array([0]), 2, 0.05)
+    torso_m = problem.context.scene.torso_m
+    problem.robot.reach(torso_m, _COMFORT_M).shortfall(0, np.array(_BESIDE_M[0]), np.array([0]))
+    reach.shortfall(0, _FAR, np.array([0]), 0.01)
     strips = np.ones((1, 2), dtype=np.uint32)
     travel(strips, 2)
     legs(strips[0], 0, 0, 1)
@@ -92,7 +98,7 @@ def _use_kernels(name: str) -> None:
     away = Problem.of(task_for(napkin(name), scene, robot=name, start_station=_AWAY[0][0]))
     DrivingBound(away.context, away.start)
     compile_samples(name)
-    robot, torso_m = problem.robot, problem.context.scene.torso_m
+    robot = problem.robot
     beside = {arm: _staying(place) for arm, place in zip(range(len(robot.card.arms)), _BESIDE_M, strict=False)}
     robot.arm_paths(beside, torso_m, 0.0, dict.fromkeys(beside, _anywhere), _InTheWay())
     gc.freeze()  # compiled code is no garbage either

@@ -13,9 +13,11 @@ from planner.robots.described_robot import shipped_robots
 # What the process prints at last: the functions that planning has still compiled, or loaded.
 PROGRAM = """
 import sys
+from random import Random
 from numba.core.dispatcher import Dispatcher
 from planner import load_garment, make_plan
 from planner.planning.warm_up import compile_kernels
+from tests.laws.tasks import rough_task
 
 def compiled():
     modules = [module for name, module in sys.modules.items() if name.startswith("planner.")]
@@ -26,6 +28,8 @@ compile_kernels()
 before = compiled()
 assert len(before) > 10
 plans = [make_plan(load_garment(name)) for name in sys.argv[1:]]
+for seed in (3, 16):  # places that a hand has within reach but not within comfort, and beyond all displacements tried
+    rough_task(Random(seed)).plan()
 print([plan.status for plan in plans], [name for _, name, _ in compiled() - before])
 """
 
