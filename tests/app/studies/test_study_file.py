@@ -279,7 +279,7 @@ def test_a_request_in_json_has_every_field_of_a_file_and_says_the_same_study():
     written = tomllib.loads(ALL_FIELDS)
     assert set(written) == set(FIELDS), "a field is missing above"
     wanted = STUDIES.form.read(json.loads(json.dumps(written)))
-    nowhere = SimpleNamespace(garments=SimpleNamespace(garment=load_garment), studies=Path())
+    nowhere = SimpleNamespace(garments=SimpleNamespace(garment=load_garment), studies=SimpleNamespace(folder=Path()))
     asked, _ = STUDIES.prepare(cast(Stores, nowhere), wanted)
     assert asked == study_of(written, Sources())
     assert asked.count == 5
