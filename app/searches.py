@@ -129,6 +129,25 @@ def read_file(
     return import_file(filename, data, units, scale, creases, measured, like, line)
 
 
+_ARRIVED, _UNPACKED = "archive.zip", "robot"
+"""What a folder for an archive has: the archive, and the folder into which it is unpacked."""
+
+
+def put_archive(data: bytes, folder: Path) -> None:
+    """Put an archive into a folder, for `read_archive`."""
+    with storing("the robot could not be saved"):
+        (folder / _ARRIVED).write_bytes(data)
+
+
+def read_archive(folder: Path) -> tuple[Path, CardFile]:
+    """Return the folder into which an archive is unpacked, and the robot's card; as `read_robot` does."""
+    unpacked = folder / _UNPACKED
+    with storing("the robot could not be unpacked"):
+        unpacked.mkdir()
+        data = (folder / _ARRIVED).read_bytes()
+    return unpacked, read_robot(lambda _: None, unpacked, data)
+
+
 def read_robot(_: Tell, folder: Path, given: bytes | CardFile) -> CardFile:
     """Return a robot's card once all that it names is there: that of an archive, unpacked into a folder, or a card."""
     if isinstance(given, CardFile):

@@ -25,6 +25,7 @@ from app.store.older.take_over import take_over
 from app.store.plan_store import PlanStore
 from app.store.robot_repository import RobotRepository
 from app.store.share_repository import ShareRepository
+from app.store.study_store import StudyStore
 from app.store.trace_store import TraceStore
 from planner.errors import FoldingError
 from planner.robots.own_robots import use_robots_folder
@@ -40,8 +41,8 @@ An open document holds its plans and what they were found with: 0.3 to 5 MB (mea
 from document to document and wait for each plan.
 """
 
-_LOOK_EVERY_S = 10.0
-"""Period of the check for unused documents (s)."""
+_LOOK_EVERY_S = 2.0
+"""Period of the check for unused documents, and for robots that other servers have changed (s)."""
 
 _AT_REST_S = 1.0
 """Time after its last use in which a document makes no room for another of the same client (s)."""
@@ -63,6 +64,7 @@ class Workspace:
         shares: the links to documents.
         plans: the plans made so far.
         traces: the traces of rehearsed runs.
+        study_store: the studies.
         lanes: the workers for everything that takes time.
         database: the database.
         jobs: the jobs, running and ended.
@@ -73,14 +75,15 @@ class Workspace:
         self.folder = DataFolder(settings.data)
         self.database = Database(self.folder.database, settings.database)
         self.garments = GarmentRepository(self.database)
-        self.robots = RobotRepository(self.folder.robots)
+        self.robots = RobotRepository(self.folder.robots, self.database)
         use_robots_folder(self.folder.robots)
         self.documents = DocumentRepository(self.database)
         self.shares = ShareRepository(self.database)
         self.plans = PlanStore(self.database)
         self.traces = TraceStore(self.database)
         self.lanes = Lanes()
-        stores = Stores(self.garments, self.plans, self.folder.studies, self.traces)
+        self.study_store = StudyStore(self.folder.studies, self.database)
+        stores = Stores(self.garments, self.plans, self.study_store, self.traces, self.robots)
         self.jobs = JobDesk(kinds, stores, JobRepository(self.database), self.lanes.jobs)
         self._of_client_max = settings.open_documents
         self._open: dict[str, OpenDocument] = {}
@@ -100,12 +103,16 @@ class Workspace:
 
     def start(self) -> None:
         """Open the document that the page shows first, and start closing unused ones."""
+        self.robots.recover()
+        try:
+            self.robots.take_over()
+        except FoldingError as error:
+            _log.error("%s", error)
         try:
             self.opened(self.first()).show()
         except FoldingError as error:
             _log.error("no document could be opened: %s", error)
         start_template()
-        self.robots.recover()
         try:
             self.jobs.resume()
         except FoldingError as error:
@@ -233,5 +240,7 @@ class Workspace:
         while not self._closing.wait(_LOOK_EVERY_S):
             try:
                 self.close_unused()
+                if self.database.is_shared:
+                    self.robots.refresh()
             except Exception:
-                _log.exception("what nobody uses could not be closed")
+                _log.exception("what nobody uses could not be closed, or robots not be followed")

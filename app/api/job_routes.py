@@ -15,7 +15,7 @@ from app.api.body import JsonBody, read_object
 from app.api.described import problems, taking
 from app.api.job_answers import STREAM, JobAnswer, JobsAnswer, job_entry
 from app.api.waiting import waking
-from app.job_kinds.kinds import KINDS
+from app.job_kinds.kinds import BY_JSON
 from app.jobs.job_desk import JobDesk
 from app.jobs.job_kind import AnyKind
 from app.store.job_repository import StoredJob
@@ -32,17 +32,22 @@ _LOOK_S = 2.0
 LastEventId = Annotated[str | None, Header(alias="last-event-id")]
 
 
+async def begun(request: Request, kind: AnyKind, data: dict[str, Any]) -> JSONResponse:
+    """Return the answer to a request that starts a job: 202, and where it is."""
+    jobs = workspace_of(request).jobs
+    job = await run_in_threadpool(jobs.submit, kind, data, client_of(request), within_request)
+    location = f"{request.scope.get('root_path', '')}/api/jobs/{job.id}"
+    return JSONResponse({**job_entry(job), "result": None}, 202, headers={"location": location})
+
+
 def _starting(kind: AnyKind) -> Callable[[Request], Awaitable[JSONResponse]]:
     async def start(request: Request) -> JSONResponse:
-        data = await read_object(request, most=kind.largest_body)
-        job = await run_in_threadpool(_submitted, workspace_of(request).jobs, kind, data, client_of(request))
-        location = f"{request.scope.get('root_path', '')}/api/jobs/{job.id}"
-        return JSONResponse({**job_entry(job), "result": None}, 202, headers={"location": location})
+        return await begun(request, kind, await read_object(request, most=kind.largest_body))
 
     return start
 
 
-for _kind in KINDS.values():
+for _kind in BY_JSON:
     router.add_api_route(
         _kind.route,
         _starting(_kind),
@@ -53,11 +58,6 @@ for _kind in KINDS.values():
         responses={202: {"model": JobAnswer}, **problems(404, 409, 413, 422, 429, 503)},
         openapi_extra=taking(JsonBody(_kind.body, _kind.example)),
     )
-
-
-def _submitted(jobs: JobDesk, kind: AnyKind, data: dict[str, Any], client: str) -> StoredJob:
-    with within_request():
-        return jobs.submit(kind, data, client)
 
 
 @router.get("/api/jobs", responses={200: {"model": JobsAnswer}, **problems(404, 422)})

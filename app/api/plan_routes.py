@@ -21,6 +21,7 @@ from app.jobs.job_pool import ShouldStop
 from app.workspace import Workspace
 from planner import Plan, Timeline, fold_dag
 from planner.errors import UnsolvedPlanError
+from planner.task.task import Task
 
 router = APIRouter(prefix="/api", tags=["plans"], route_class=DescribedRoute)
 
@@ -157,7 +158,12 @@ def _dag(workspace: Workspace, wanted: DagRequest) -> dict[str, Any]:
 def _plan(workspace: Workspace, wanted: PlanRequest, limit: TimeLimit, should_stop: ShouldStop) -> bytes:
     task = asked_task(workspace, wanted, limit)
     with within_request():
-        packed = run_apart(searches.plan, should_stop, ignore, task)
+        return planned(workspace, task, should_stop)
+
+
+def planned(workspace: Workspace, task: Task, should_stop: ShouldStop) -> bytes:
+    """Plan a task in a process of its own, keep the plan, and return it in its REST form, as JSON."""
+    packed = run_apart(searches.plan, should_stop, ignore, task)
     return b'{"id":"%b",%b' % (workspace.plans.add_packed(packed).encode(), packed.answer.removeprefix(b"{"))
 
 

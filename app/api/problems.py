@@ -25,8 +25,8 @@ from app.store.document_errors import BrokenDocumentError, NewerDocumentError, U
 from app.store.job_repository import UnknownJobError
 from app.store.plan_store import UnknownPlanError
 from app.store.storage_error import ForbiddenStorageError, FullStorageError, StorageError, storage_error
+from app.store.study_store import UnknownStudyError
 from app.store.trace_store import UnknownTraceError
-from app.studies.study_job import UnknownStudyError
 from planner.errors import (
     FieldError,
     FoldingError,

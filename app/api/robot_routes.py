@@ -4,7 +4,7 @@ from functools import partial
 from pathlib import Path as FilePath
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Depends, Path, Request, Response
+from fastapi import APIRouter, Depends, Header, Path, Request, Response
 from fastapi.concurrency import run_in_threadpool
 from starlette.responses import JSONResponse
 
@@ -13,8 +13,11 @@ from app.api.answers import RobotEntry
 from app.api.asked import workspace_of
 from app.api.body import JsonBody, read_bytes
 from app.api.described import DescribedRoute, problems
+from app.api.job_answers import JobAnswer
+from app.api.job_routes import begun
 from app.api.waiting import answer_of
 from app.files.robot_archive import PACKED_BYTES_MAX
+from app.job_kinds.robots import ROBOTS
 from app.jobs.apart import LostProcessError, ignore, run_apart
 from app.jobs.job_pool import ShouldStop
 from app.store.robot_repository import RobotRepository
@@ -38,6 +41,8 @@ _ARCHIVE = {
 
 _BENCH = {**shipped_card("so101-pair").to_dict(), "name": "bench", "title": "My bench"}
 CardBody = Annotated[CardFile, Depends(JsonBody(CardFile, _BENCH))]
+_ASYNC = "respond-async"
+Prefer = Annotated[str | None, Header(description=f"`{_ASYNC}`: import it as a job.")]
 AnyName = Annotated[str, Path(examples=[DEFAULT_ROBOT])]
 OwnName = Annotated[str, Path(examples=[_BENCH["name"]])]
 
@@ -52,17 +57,27 @@ async def list_robots() -> list[dict[str, Any]]:
 @router.post(
     "/imports",
     openapi_extra=_ARCHIVE,
-    responses={200: {"model": RobotEntry}, 201: {"model": RobotEntry}, **problems(403, 409, 413, 422, 503, 507)},
+    responses={
+        200: {"model": RobotEntry},
+        201: {"model": RobotEntry},
+        202: {"model": JobAnswer},
+        **problems(403, 409, 413, 422, 429, 503, 507),
+    },
 )
-async def post_robot_import(request: Request) -> JSONResponse:
+async def post_robot_import(request: Request, prefer: Prefer = None) -> JSONResponse:
     """Save or replace a robot of one's own: 201 if it is new, 200 if it existed.
 
     The body is a zip archive of `robot.json`, its URDF and its meshes. The errors name the card's field, and the frame,
     joint or mesh that is missing; those of the archive itself are about the field `file`. Where the robot's arms can
     reach is found when it is first planned for, which takes up to half a minute an arm.
+
+    With `Prefer: respond-async` it is a job, answered by 202, which also finds where the arms can reach; its result has
+    `robot` and `is_new`.
     """
     data = await read_bytes(request, PACKED_BYTES_MAX)
     workspace = workspace_of(request)
+    if _ASYNC in (prefer or "").replace(" ", "").lower().split(","):
+        return await _as_job(request, workspace.robots, data)
     work = partial(_imported, workspace.robots, data)
     card, is_new = await answer_of(request, workspace.lanes.files, work)
     return JSONResponse(robot_entry(card), status_code=201 if is_new else 200)
@@ -96,6 +111,18 @@ async def remove_robot(request: Request, name: OwnName) -> Response:
     """Remove a robot of one's own with its files."""
     await run_in_threadpool(workspace_of(request).robots.remove, name)
     return Response(status_code=204)
+
+
+async def _as_job(request: Request, robots: RobotRepository, data: bytes) -> JSONResponse:
+    folder = await run_in_threadpool(robots.new_folder)
+    try:
+        await run_in_threadpool(searches.put_archive, data, folder)
+        answer = await begun(request, ROBOTS, {"folder": folder.name})
+    except BaseException:
+        robots.discard(folder)
+        raise
+    answer.headers["preference-applied"] = _ASYNC
+    return answer
 
 
 def _imported(robots: RobotRepository, data: bytes, should_stop: ShouldStop) -> tuple[CardFile, bool]:

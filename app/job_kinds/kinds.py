@@ -5,16 +5,18 @@ from collections.abc import Mapping
 from app.job_kinds.comparisons import COMPARISONS
 from app.job_kinds.placements import PLACEMENTS
 from app.job_kinds.rehearsals import REHEARSALS
+from app.job_kinds.robots import ROBOTS
 from app.job_kinds.studies import STUDIES
 from app.job_kinds.suggestions import SUGGESTIONS
 from app.jobs.job_kind import AnyKind
 
-_ALL: tuple[AnyKind, ...] = (
+BY_JSON: tuple[AnyKind, ...] = (
     COMPARISONS,
     PLACEMENTS,
     REHEARSALS,
     STUDIES,
     SUGGESTIONS,
 )
+"""The kinds that are asked for with a body of JSON, each at a route that is made of it."""
 
-KINDS: Mapping[str, AnyKind] = {kind.name: kind for kind in _ALL}
+KINDS: Mapping[str, AnyKind] = {kind.name: kind for kind in (*BY_JSON, ROBOTS)}

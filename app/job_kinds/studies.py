@@ -1,21 +1,27 @@
 """A study as a job: the product of its axes, a plan for each cell, one table and one report."""
 
+import json
+import logging
 from pathlib import Path
 from typing import Any
 
 from app.jobs.job_kind import JobKind, Stores
+from app.store.storage_error import storing
+from app.store.study_store import ID_PATTERN, StudyStore
 from app.studies.garment_entries import Sources
+from app.studies.results import Results
 from app.studies.study import Study
 from app.studies.study_fields import StudyFields
 from app.studies.study_file import study_of
 from app.studies.study_job import do_study
 from app.studies.table import CSV, PARQUET, TIMING
-from planner.errors import RequestError
+from planner.errors import FoldingError, RequestError
 from planner.robots.known_robots import require_name
 
 CELLS_LIMIT = 10_000
 """The most cells of a study that a server takes: an hour or so of one core."""
 
+_log = logging.getLogger(__name__)
 _REPORT = "report.html"
 STUDY_FILES = {
     _REPORT: "text/html; charset=utf-8",
@@ -32,12 +38,45 @@ def _prepare(stores: Stores, wanted: StudyFields) -> tuple[Study, Path]:
             require_name(robot)  # the path of a card would name the server's own files
         except RequestError as error:
             raise RequestError(f"robots[{number}]", error.message) from None
-    return study_of(wanted.content, Sources(stores.garments.garment), CELLS_LIMIT), stores.studies
+    return study_of(wanted.content, Sources(stores.garments.garment), CELLS_LIMIT), stores.studies.folder
 
 
-def _finish(_: Stores, answer: dict[str, Any]) -> dict[str, Any]:
-    paths = {name.replace(".", "_"): f"/api/studies/{answer['study_id']}/{name}" for name in STUDY_FILES}
+def _finish(stores: Stores, answer: dict[str, Any]) -> dict[str, Any]:
+    study_id = answer["study_id"]
+    keep_study(stores.studies, study_id)
+    paths = {name.replace(".", "_"): f"/api/studies/{study_id}/{name}" for name in STUDY_FILES}
     return {**answer, "files": paths}
+
+
+def keep_study(studies: StudyStore, study_id: str) -> bool:
+    """Put a study that is done in its folder into the database; return whether there is one.
+
+    Raises:
+        StorageError: the system or the database refuses.
+        StudyFolderError: the folder holds no results of a study, or they are in use.
+    """
+    folder = studies.folder / study_id
+    if not all((folder / name).is_file() for name in STUDY_FILES):
+        return False
+    with storing(f"study {study_id} could not be kept"):
+        with Results(folder) as results:
+            study = results.study()
+        files = {name: (folder / name).read_bytes() for name in STUDY_FILES}
+    if study is None:
+        return False
+    studies.keep(study_id, study.title, json.dumps(study.to_dict()), files)
+    return True
+
+
+def take_studies_over(studies: StudyStore) -> None:
+    """Put the studies into the database that versions before have kept as folders alone; their folders stay."""
+    folders = [path.name for path in sorted(studies.folder.glob("*")) if ID_PATTERN.fullmatch(path.name)]
+    known = studies.known() if folders else ()
+    for study_id in (name for name in folders if name not in known):
+        try:
+            keep_study(studies, study_id)
+        except FoldingError as error:
+            _log.warning("study %s could not be taken over: %s", study_id, error)
 
 
 STUDIES = JobKind(

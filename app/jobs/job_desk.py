@@ -10,7 +10,7 @@ import threading
 import time
 from collections.abc import Callable, Mapping
 from concurrent.futures import wait
-from contextlib import suppress
+from contextlib import AbstractContextManager, nullcontext, suppress
 from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
@@ -61,6 +61,7 @@ class _OpenJob:
     job: Job[None] | None = None
     is_cancelled: bool = False
     saved_s: float = 0.0
+    release: Callable[[], None] = lambda: None
     listeners: list[Callable[[], None]] = field(default_factory=list)
 
 
@@ -89,13 +90,16 @@ class JobDesk:
             except FoldingError as error:
                 self._repository.keep(_ended(stored, "failed", f"{_SERVER_STOPPED}, and then: {error}"))
 
-    def submit(self, kind: AnyKind, data: object, client: str) -> StoredJob:
+    def submit(
+        self, kind: AnyKind, data: object, client: str, naming: Callable[[], AbstractContextManager[None]] = nullcontext
+    ) -> StoredJob:
         """Take a job and return it; it is in the database by then.
 
         Args:
             kind: its kind.
             data: the body of the request, as JSON.
             client: who asks.
+            naming: a context that names the fields of the body in what `prepare` raises.
 
         Raises:
             FoldingError: the request is bad.
@@ -103,7 +107,9 @@ class JobDesk:
             BusyError: the queue is full.
             StorageError: the database refuses.
         """
-        asked = kind.prepare(self._stores, kind.form.read(data))
+        body = kind.form.read(data)
+        with naming():
+            asked = kind.prepare(self._stores, body)
         with self._lock:
             if self._repository.open_count(client) >= OPEN_OF_CLIENT_MAX:
                 retry_after_s = self._pool.busy().retry_after_s
@@ -167,7 +173,8 @@ class JobDesk:
 
     def _begin(self, kind: AnyKind, asked: object, stored: StoredJob) -> None:
         with self._lock:
-            found = self._open[stored.id] = _OpenJob(stored)
+            release = partial(kind.release, self._stores, asked)
+            found = self._open[stored.id] = _OpenJob(stored, release=release)
             try:
                 found.job = self._pool.start(partial(self._run, stored.id, kind, asked))
             except BaseException:
@@ -221,6 +228,7 @@ class JobDesk:
                 found.stored = _ended(found.stored, "failed", str(error))
             else:
                 del self._open[job_id]
+        found.release()
         _tell(found)
 
 

@@ -9,11 +9,12 @@ and returns the result as JSON.
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from pathlib import Path
 from typing import Any, Generic, TypeAlias, TypeVar
 
 from app.store.garment_repository import GarmentRepository
 from app.store.plan_store import PlanStore
+from app.store.robot_repository import RobotRepository
+from app.store.study_store import StudyStore
 from app.store.trace_store import TraceStore
 from planner.json_form import JsonForm
 
@@ -30,19 +31,25 @@ LARGEST_BODY = 1 << 20
 
 @dataclass(frozen=True, slots=True)
 class Stores:
-    """The repositories that a kind's functions may read, and the stores of plans and traces, to which they may add.
+    """The repositories and stores that a kind's functions may use; they add plans, traces, studies and robots.
 
     Attributes:
         garments: the garments.
         plans: the plans made so far.
-        studies: the folder of studies.
+        studies: the studies.
         traces: the traces of rehearsed runs.
+        robots: the robots of one's own.
     """
 
     garments: GarmentRepository
     plans: PlanStore
-    studies: Path
+    studies: StudyStore
     traces: TraceStore
+    robots: RobotRepository
+
+
+def _nothing(_: Stores, __: object) -> None:
+    """Leave everything as it is: a `release`."""
 
 
 @dataclass(frozen=True)
@@ -57,6 +64,7 @@ class JobKind(Generic[Body, Asked, Answer]):
         prepare: returns the argument of `work`; it must be picklable. Raises a `FoldingError` for a bad request.
         work: a module-level function, in a module that is cheap to import. Its result must be picklable.
         finish: returns the result as JSON.
+        release: called once the job has ended in whatever way, with what `prepare` returned.
         path: the path of the route that starts such jobs; by default `/api/jobs/{name}`.
         largest_body: the largest body (bytes).
         may_begin_anew: whether a job that the server's end interrupted is done again at the next start.
@@ -69,6 +77,7 @@ class JobKind(Generic[Body, Asked, Answer]):
     prepare: Callable[[Stores, Body], Asked]
     work: Callable[[Asked, Progress], Answer]
     finish: Callable[[Stores, Answer], Any]
+    release: Callable[[Stores, Asked], None] = _nothing
     path: str | None = None
     largest_body: int = LARGEST_BODY
     may_begin_anew: bool = False

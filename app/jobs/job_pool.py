@@ -95,7 +95,7 @@ class JobPool:
         self._waiting_max = waiting_max
         self._courtesy = courtesy or Courtesy()
         self._jobs: queue.SimpleQueue[Job[Any] | None] = queue.SimpleQueue()
-        self._open: set[Job[Any]] = set()
+        self._open: dict[Future[Any], Job[Any]] = {}
         self._threads: list[threading.Thread] = []
         self._lock = threading.Lock()
         self._is_closed = False
@@ -113,12 +113,13 @@ class JobPool:
                 job.stop()
                 return job
             self._require_room()
-            self._open.add(job)
+            self._open[job.future] = job
             if len(self._threads) < self._workers:
                 thread = threading.Thread(target=self._run, name="job", daemon=True)
                 self._threads.append(thread)
                 thread.start()
-        job.future.add_done_callback(lambda _: self._forget(job))
+        # A callback that knew the job would be a cycle, which keeps all that the job has to do with.
+        job.future.add_done_callback(self._forget)
         self._jobs.put(job)
         return job
 
@@ -141,7 +142,7 @@ class JobPool:
     def stop(self) -> None:
         """Stop all running and waiting jobs."""
         with self._lock:
-            stopped = tuple(self._open)
+            stopped = tuple(self._open.values())
         for job in stopped:
             job.stop()
 
@@ -166,16 +167,16 @@ class JobPool:
 
     def _waiting(self) -> int:
         """Return the number of jobs that no thread has started, without the stopped ones."""
-        return sum(1 for job in self._open if not job.future.running())
+        return sum(1 for future in self._open if not future.running())
 
     def _busy(self) -> BusyError:
         wait_s = self._mean_s * (self._waiting() + 1) / self._workers
         low, high = _RETRY_S
         return BusyError(min(max(math.ceil(wait_s), low), high))
 
-    def _forget(self, job: Job[Any]) -> None:
+    def _forget(self, future: Future[Any]) -> None:
         with self._lock:
-            self._open.discard(job)
+            self._open.pop(future, None)
 
     def _run(self) -> None:
         while (job := self._jobs.get()) is not None:

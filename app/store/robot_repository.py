@@ -1,14 +1,26 @@
-"""The repository of robots: shipped ones, and the user's own, each in a folder with its card and its files."""
+"""The repository of robots of one's own: in the database, and as folders, from which planning reads them.
+
+The database has each robot as an archive. The folders of a server are copies, brought up to date at its start and,
+where other servers use the database too, every few seconds: `refresh`. Without other servers a folder that differs from
+the database was changed by hand, or by a version that kept robots as folders alone, and is taken over.
+"""
 
 import json
+import logging
 import shutil
 import tempfile
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
+from sqlalchemy import delete, insert, select
+from sqlalchemy.orm import Session
+
+from app.store.database import Database
 from app.store.durable_file import sync_folder, write_at_once
+from app.store.robot_folder import digest_of, packed, sync_tree, unpack
+from app.store.schema import RobotRow
 from app.store.storage_error import storing
 from planner.errors import ReadOnlyRobotError, UnknownRobotError
 from planner.robots.card_file import CardFile
@@ -18,14 +30,18 @@ from planner.robots.own_robots import CARD
 _BEFORE, _NEW = ".before-", ".new-"
 """Prefixes of the folders of robots that are being replaced, and of new ones."""
 
+_log = logging.getLogger(__name__)
+
 
 class RobotRepository:
-    """The user's own robots. Shipped ones are read-only."""
+    """The user's own robots; safe to use from any thread. Shipped ones are read-only."""
 
-    def __init__(self, folder: Path) -> None:
-        """Use a folder for the user's robots; saving the first one makes it."""
+    def __init__(self, folder: Path, database: Database) -> None:
+        """Use a folder for the copies of the robots, which the first one makes, and a database."""
         self._folder = folder
-        self._lock = threading.Lock()
+        self._database = database
+        self._digests: dict[str, str] = {}
+        self._lock = threading.RLock()
 
     def place(self, name: str) -> Path:
         """Return the folder of a robot of one's own, for a valid name; it need not exist.
@@ -40,13 +56,22 @@ class RobotRepository:
     @contextmanager
     def beside(self) -> Iterator[Path]:
         """Yield an empty folder in which a robot may be unpacked; it is removed unless it is taken (see `take`)."""
-        with storing("the robot could not be saved"):
-            self._folder.mkdir(parents=True, exist_ok=True)
-            beside = Path(tempfile.mkdtemp(dir=self._folder, prefix=_NEW))
+        beside = self.new_folder()
         try:
             yield beside
         finally:
             shutil.rmtree(beside, ignore_errors=True)
+
+    def new_folder(self) -> Path:
+        """Return an empty folder in which a robot may be unpacked; what is left of it is removed by `recover`."""
+        with storing("the robot could not be saved"):
+            self._folder.mkdir(parents=True, exist_ok=True)
+            return Path(tempfile.mkdtemp(dir=self._folder, prefix=_NEW))
+
+    def discard(self, folder: Path) -> None:
+        """Remove a folder that `new_folder` has made, with all that is in it."""
+        if folder.parent == self._folder and folder.name.startswith(_NEW):
+            shutil.rmtree(folder, ignore_errors=True)
 
     def take(self, name: str, unpacked: Path) -> bool:
         """Make an unpacked folder a robot's, instead of the one it may have had; return whether it is new.
@@ -55,22 +80,10 @@ class RobotRepository:
             ReadOnlyRobotError: a shipped robot has this name.
             StorageError: it could not be saved; the earlier robot is unchanged.
         """
-        place, before = self.place(name), self._folder / f"{_BEFORE}{name}"
+        place = self.place(name)
         with storing(f"robot {name!r} could not be saved"), self._lock:
-            unpacked.chmod(0o755)
-            for path in (unpacked, *(one for one in unpacked.rglob("*") if one.is_dir())):
-                sync_folder(path)
             is_new = not (place / CARD).is_file()
-            if place.exists():
-                place.rename(before)
-            try:
-                unpacked.rename(place)
-            except OSError:
-                with suppress(FileNotFoundError):
-                    before.rename(place)
-                raise
-            shutil.rmtree(before, ignore_errors=True)
-            sync_folder(self._folder)
+            self._swap(name, unpacked, lambda: self._keep(name, place))
         return is_new
 
     def save(self, card: CardFile) -> bool:
@@ -81,11 +94,11 @@ class RobotRepository:
             StorageError: it could not be saved; the earlier card is unchanged.
         """
         place = self.place(card.name)
-        with storing(f"robot {card.name!r} could not be saved"), self._lock:
-            is_new = not (place / CARD).exists()
-            place.mkdir(parents=True, exist_ok=True)
-            write_at_once(place / CARD, json.dumps(card.to_dict(), indent=1).encode())
-        return is_new
+        with storing(f"robot {card.name!r} could not be saved"), self._lock, self.beside() as beside:
+            if place.exists():
+                shutil.copytree(place, beside, dirs_exist_ok=True)
+            write_at_once(beside / CARD, json.dumps(card.to_dict(), indent=1).encode())
+            return self.take(card.name, beside)
 
     def remove(self, name: str) -> None:
         """Remove a robot of one's own with all its files.
@@ -99,11 +112,10 @@ class RobotRepository:
         with storing(f"robot {name!r} could not be removed"), self._lock:
             if place.parent != self._folder or name.startswith(".") or not (place / CARD).is_file():
                 raise UnknownRobotError(name)
-            before = self._folder / f"{_BEFORE}{name}"
-            # Its card goes first: interrupted between the two, the rest is no robot, and is removed by `recover`.
-            (place / CARD).unlink()
-            place.rename(before)
-            shutil.rmtree(before)
+            digest = digest_of(place)
+            with self._database.writing(f"robot {name!r} could not be removed") as session:
+                _put(session, name, digest, None)
+            self._drop(name)
 
     def recover(self) -> None:
         """Finish what the end of a server has interrupted: a robot that was being replaced is as it was before."""
@@ -114,3 +126,95 @@ class RobotRepository:
                     path.rename(place)
             for path in (*self._folder.glob(f"{_BEFORE}*"), *self._folder.glob(f"{_NEW}*")):
                 shutil.rmtree(path, ignore_errors=True)
+
+    def take_over(self) -> None:
+        """Bring folders and database together when a server starts; do nothing where nothing can be written.
+
+        Raises:
+            StorageError: the system or the database refuses.
+        """
+        what = "the robots could not be taken over"
+        with storing(what), self._lock:
+            self._digests = {
+                path.parent.name: digest_of(path.parent)
+                for path in self._folder.glob(f"*/{CARD}")
+                if not path.parent.name.startswith(".")
+            }
+            with self._database.reading(what) as session:
+                rows = {name: (digest, is_there) for name, digest, is_there in session.execute(_ROWS)}
+            if self._database.is_copy:
+                return
+            for name, digest in self._digests.items():
+                known, is_there = rows.get(name, ("", False))
+                if digest != known and not (self._database.is_shared and is_there):
+                    self._keep(name, self._folder / name)
+            self.refresh()
+
+    def refresh(self) -> None:
+        """Bring the folders up to date with the database.
+
+        Raises:
+            StorageError: the system or the database refuses.
+        """
+        what = "the robots could not be brought up to date"
+        with storing(what), self._lock:
+            with self._database.reading(what) as session:
+                rows = session.execute(_ROWS).all()
+            for name, digest, is_there in rows:
+                if is_there and self._digests.get(name) != digest:
+                    self._fetch(name)
+                elif not is_there and self._digests.get(name) == digest:
+                    self._drop(name)
+
+    def _keep(self, name: str, folder: Path) -> None:
+        """Save a folder as a robot in the database."""
+        digest = digest_of(folder)
+        with self._database.writing(f"robot {name!r} could not be saved") as session:
+            _put(session, name, digest, packed(folder))
+        self._digests[name] = digest
+
+    def _fetch(self, name: str) -> None:
+        """Make the folder of a robot what the database has."""
+        with self._database.reading(f"robot {name!r} could not be read") as session:
+            found = session.execute(select(RobotRow.digest, RobotRow.content).where(RobotRow.name == name)).first()
+        if found is None or found.content is None:
+            return
+        with self.beside() as beside:
+            unpack(found.content, beside)
+            self._swap(name, beside, lambda: None)
+        self._digests[name] = found.digest
+        _log.info("robot %r is as in the database", name)
+
+    def _swap(self, name: str, unpacked: Path, and_then: Callable[[], None]) -> None:
+        """Put a folder in the place of a robot's; if what follows raises an error, the earlier one is put back."""
+        place, before = self._folder / name, self._folder / f"{_BEFORE}{name}"
+        unpacked.chmod(0o755)
+        sync_tree(unpacked)
+        if place.exists():
+            place.rename(before)
+        try:
+            unpacked.rename(place)
+            and_then()
+        except BaseException:
+            shutil.rmtree(place, ignore_errors=True)
+            with suppress(FileNotFoundError):
+                before.rename(place)
+            raise
+        shutil.rmtree(before, ignore_errors=True)
+        sync_folder(self._folder)
+
+    def _drop(self, name: str) -> None:
+        """Remove a robot's folder; its card goes first, so that what an interruption leaves is no robot."""
+        place, before = self._folder / name, self._folder / f"{_BEFORE}{name}"
+        (place / CARD).unlink(missing_ok=True)
+        place.rename(before)
+        shutil.rmtree(before)
+        self._digests.pop(name, None)
+
+
+_ROWS = select(RobotRow.name, RobotRow.digest, RobotRow.content.is_not(None))
+
+
+def _put(session: Session, name: str, digest: str, content: bytes | None) -> None:
+    session.execute(delete(RobotRow).where(RobotRow.name == name))
+    session.execute(insert(RobotRow).values(name=name, digest=digest, content=content))

@@ -119,3 +119,37 @@ class ShareRow(Table):
     hash: Mapped[str] = mapped_column(primary_key=True)
     document_id: Mapped[str] = mapped_column(ForeignKey("documents.id", ondelete="CASCADE"), index=True)
     created_s: Mapped[float]
+
+
+class RobotRow(Table):
+    """A robot of the user's own: its folder as an archive, and a digest of its files (`app.store.robot_folder`).
+
+    A robot that was removed keeps its row without content, so that other servers on the database remove theirs.
+    """
+
+    __tablename__ = "robots"
+
+    name: Mapped[str] = mapped_column(primary_key=True)
+    digest: Mapped[str]
+    content: Mapped[bytes | None] = mapped_column(LargeBinary, deferred=True)
+
+
+class StudyRow(Table):
+    """A study that is done, as JSON, and when (s since the epoch)."""
+
+    __tablename__ = "studies"
+
+    id: Mapped[str] = mapped_column(primary_key=True)
+    title: Mapped[str] = mapped_column(Text)
+    done_s: Mapped[float]
+    content: Mapped[str] = mapped_column(Text, deferred=True)
+
+
+class StudyFileRow(Table):
+    """A file of a study that is done: its table or its report."""
+
+    __tablename__ = "study_files"
+
+    study_id: Mapped[str] = mapped_column(ForeignKey("studies.id", ondelete="CASCADE"), primary_key=True)
+    name: Mapped[str] = mapped_column(primary_key=True)
+    content: Mapped[bytes] = mapped_column(LargeBinary)

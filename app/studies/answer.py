@@ -13,6 +13,7 @@ from typing import Any
 
 from app.comfort_margin import comfort_margin_m
 from app.studies.cell import Cell
+from app.studies.rehearsed import rehearsed
 from planner.planning.margins import margins_of
 from planner.task.plan import Plan
 from planner.task.task import Task
@@ -60,7 +61,7 @@ class Answer:
 
     Attributes:
         index: the cell's number.
-        row: the values of `RESULT_COLUMNS`.
+        row: the values of `RESULT_COLUMNS`, and of what else the study asks for.
         timing: the values of `TIMING_COLUMNS`, as far as they are known.
         plan: the plan's file, compressed; None where it is not kept.
     """
@@ -81,6 +82,7 @@ def answered(cell: Cell, make_plan: MakePlan, *, keep_plan: bool = False) -> Ans
         planned_s, margins = time.perf_counter() - began_s, _margins(plan)
         if cell.has_comfort_margin and plan.is_solved:
             margins[COMFORT_MARGIN] = comfort_margin_m(cell.task, make_plan)
+        held = rehearsed(plan, cell.rehearsal) if cell.rehearsal is not None and plan.is_solved else {}
     except Exception as error:
         return failed(cell, f"{type(error).__name__}: {error}")
     timing = {
@@ -91,7 +93,7 @@ def answered(cell: Cell, make_plan: MakePlan, *, keep_plan: bool = False) -> Ans
         "ik_queries": float(plan.statistics.ik_queries),
     }
     kept = gzip.compress(json.dumps(plan.to_dict()).encode(), mtime=0) if keep_plan else None
-    return Answer(cell.index, {**_row(plan, planned_s), **margins}, timing, kept)
+    return Answer(cell.index, {**_row(plan, planned_s), **margins, **held}, timing, kept)
 
 
 def failed(cell: Cell, error: str) -> Answer:

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from app.rehearsal.rehearse import RehearsalOptions
 from app.studies.axis import Value
 from app.studies.garment_case import GarmentCase
 from planner.cloth.garment import Garment
@@ -35,6 +36,7 @@ class Cell:
         task: its task; None where the values make none.
         error: why there is none.
         has_comfort_margin: whether its answer is to tell the comfort margin.
+        rehearsal: how its plan is rehearsed; None: not at all.
     """
 
     index: int
@@ -43,6 +45,7 @@ class Cell:
     task: Task | None
     error: str | None = None
     has_comfort_margin: bool = False
+    rehearsal: RehearsalOptions | None = None
 
 
 def cell_of(

@@ -16,11 +16,13 @@ from numpy.typing import NDArray
 
 from app.studies.answer import FAILED, INFEASIBLE, OUT_OF_BUDGET, SOLVED
 from app.studies.axis import Axis
+from app.studies.rehearsed import RUNS_HELD
 from app.studies.results import Results
 from app.studies.study import Study
 from planner.geometry.pose import BoolArray, FloatArray
 
 STATUSES = (SOLVED, INFEASIBLE, OUT_OF_BUDGET, FAILED)
+_NOT_REHEARSED = -1
 _IS_KNOWN = 2
 """The first statuses, solved and infeasible, are answers; beyond them nothing is known."""
 
@@ -66,6 +68,7 @@ class Findings:
         cells: the numbers of the cells that have answers, ascending, shape (n,).
         status: their statuses as indices into `STATUSES`, shape (n,).
         cost_s: their costs (s), not a number unless solved, shape (n,).
+        held: how many of their rehearsed runs held, -1 where there were none, shape (n,).
         reasons: how many cells each reason code is given for, the most frequent first.
     """
 
@@ -75,16 +78,18 @@ class Findings:
         every = study.all_axes
         self._kept = [n for n, axis in enumerate(every) if n == 0 or len(axis.values) > 1]
         self.axes: Sequence[Axis] = [every[n] for n in self._kept]
-        cells, status, cost_s = array("q"), array("b"), array("d")
+        cells, status, cost_s, held = array("q"), array("b"), array("d"), array("q")
         reasons: Counter[str] = Counter()
         for cell, row, _ in results.rows():
             cells.append(cell)
             status.append(STATUSES.index(row["status"]))
             cost_s.append(math.nan if row["cost_s"] is None else row["cost_s"])
+            held.append(row.get(RUNS_HELD, _NOT_REHEARSED))
             reasons.update((row["reason_codes"] or "").split())
         self.cells: NDArray[np.int64] = np.array(cells)
         self.status: NDArray[np.int8] = np.array(status)
         self.cost_s: FloatArray = np.array(cost_s)
+        self.held: NDArray[np.int64] = np.array(held)
         self.reasons: Sequence[tuple[str, int]] = sorted(reasons.items(), key=lambda pair: (-pair[1], pair[0]))
 
     @cached_property
@@ -114,6 +119,17 @@ class Findings:
         total_s = np.bincount(flat[self.is_solved], self.cost_s[self.is_solved], minlength=size)
         cost_s = np.divide(total_s, solved, out=np.full(size, np.nan), where=solved > 0)
         return Tally(solved.reshape(shape), cells.reshape(shape), cost_s.reshape(shape))
+
+    def held_by(self, *axes: int) -> Tally:
+        """Return the runs that held of those rehearsed, over some axes, as `tally` does for cells; without costs."""
+        shape = tuple(len(self.axes[n].values) for n in axes)
+        flat = np.ravel_multi_index(tuple(self.digits[list(axes)]), shape)
+        is_rehearsed = self.held != _NOT_REHEARSED
+        each = 0 if self.study.rehearsal is None else self.study.rehearsal.runs
+        runs, held = np.zeros(int(np.prod(shape)), np.int64), np.zeros(int(np.prod(shape)), np.int64)
+        np.add.at(runs, flat[is_rehearsed], each)
+        np.add.at(held, flat[is_rehearsed], self.held[is_rehearsed])
+        return Tally(held.reshape(shape), runs.reshape(shape), np.full(shape, np.nan))
 
     def pairs(self, most: int) -> Iterator[tuple[int, int]]:
         """Yield the pairs of axes, garments left out, whose product has at most some number of fields."""

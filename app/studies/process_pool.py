@@ -38,6 +38,9 @@ _GRACE = 2.0
 _GRACE_S = 30.0
 """A worker is ended after this many times the cell's time limit, and so much more."""
 
+_RUN_S = 1200.0
+"""What a worker is given for each run of a rehearsal besides (s); one takes 0.5 to 5 minutes of a core (measured)."""
+
 _LOOK_EVERY_S = 1.0
 """Period of the check whether a cell hangs (s)."""
 
@@ -95,8 +98,12 @@ class _Worker:
     @property
     def hangs(self) -> bool:
         """Whether its cell takes so long that it will not end by itself."""
-        task = self.cells[0].task if self.cells else None
-        return task is not None and time.monotonic() - self.began_s > _GRACE * task.limits.time_limit_s + _GRACE_S
+        cell = self.cells[0] if self.cells else None
+        if cell is None or cell.task is None:
+            return False
+        runs = 0 if cell.rehearsal is None else cell.rehearsal.runs
+        longest_s = _GRACE * cell.task.limits.time_limit_s + _GRACE_S + _RUN_S * runs
+        return time.monotonic() - self.began_s > longest_s
 
     def end(self) -> int | None:
         """End it; return its exit code."""

@@ -1,11 +1,13 @@
 """The report of a study: one HTML file without scripts, that needs no network."""
 
+import math
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from html import escape
 from itertools import islice
 
 from app.studies.findings import STATUSES, Findings
+from app.studies.rehearsed import NOISE_AXIS
 from app.studies.report_style import STYLE
 from app.studies.report_tables import plain_table, share_cell, shown, values_of
 from app.studies.results import Results
@@ -43,6 +45,7 @@ def report_page(findings: Findings) -> str:
         for parts in (
             _head(findings),
             _who_folds_what(findings),
+            _what_holds(findings),
             _best(findings),
             _each_axis(findings),
             _heat_maps(findings),
@@ -93,6 +96,27 @@ def _who_folds_what(findings: Findings) -> Iterator[str]:
     more = "" if len(garments.values) <= _ROWS else f"; the first {_ROWS} of {len(garments.values)} garments"
     what = "all cells" if by == 0 else axis.name
     yield plain_table(f"Share of cells solved, and their mean time, by garment and {what}{more}", "", heads, rows)
+
+
+def _what_holds(findings: Findings) -> Iterator[str]:
+    """Yield the share of rehearsed runs that held, garments by noise."""
+    rehearsal = findings.study.rehearsal
+    if rehearsal is None or not len(findings.cells):
+        return
+    by = next((n for n, axis in enumerate(findings.axes) if axis.name == NOISE_AXIS), None)
+    tally = findings.held_by(0) if by is None else findings.held_by(0, by)
+    garments = findings.axes[0].values
+    held, runs = (part.reshape(len(garments), -1) for part in (tally.solved, tally.cells))
+    noise = next(axis.values for axis in findings.study.axes if axis.name == NOISE_AXIS)
+    rows = (
+        (shown(name), [share_cell(*field, math.nan, "runs") for field in zip(held[n], runs[n], strict=True)])
+        for n, name in enumerate(garments[:_ROWS])
+    )
+    yield "<h2>What holds</h2>"
+    told = (
+        f"Share of rehearsed runs that held, {rehearsal.runs} of each plan from seed {rehearsal.seed}, by garment and"
+    )
+    yield plain_table(f"{told} noise", "", [shown(value) for value in noise], rows)
 
 
 def _best(findings: Findings) -> Iterator[str]:

@@ -25,13 +25,13 @@ def plain_table(caption: str, corner: str, heads: Sequence[str], rows: Iterable[
     return f'<div class="wide"><table>{told}<thead><tr>{top}</tr></thead><tbody>{body}</tbody></table></div>'
 
 
-def share_cell(solved: int, cells: int, cost_s: float) -> str:
-    """Return a field coloured by the share of cells that are solved, with their mean time."""
+def share_cell(solved: int, cells: int, cost_s: float, what: str = "cells") -> str:
+    """Return a field coloured by the share of cells that are solved, with their mean time; or of something else."""
     if not cells:
         return EMPTY
     share = round(100 * solved / cells)
     time = f"<small>{cost_s:.1f} s</small>" if math.isfinite(cost_s) else ""
-    return f'<td class="share" style="--share:{share}%" title="{solved} of {cells} cells">{share}%{time}</td>'
+    return f'<td class="share" style="--share:{share}%" title="{solved} of {cells} {what}">{share}%{time}</td>'
 
 
 def shown(value: Value) -> str:

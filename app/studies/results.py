@@ -122,4 +122,6 @@ def _difference(before: Study, now: Study) -> str:
         return "the stations"
     if before.has_comfort_margin != now.has_comfort_margin:
         return "`comfort_margin`"
+    if before.rehearsal != now.rehearsal:
+        return "the rehearsal"
     return "a garment's drawing, or a placement"

@@ -11,6 +11,7 @@ from typing import Any
 from app.studies.axis import Axis, Value
 from app.studies.cell import Cell, cell_of
 from app.studies.garment_case import GarmentCase
+from app.studies.rehearsed import NOISE_AXIS, StudyRehearsal
 from planner.geometry.pose import Pose2
 from planner.task.scene import Scene
 
@@ -45,6 +46,7 @@ class Study:
         placements: the poses that the axis ``placement`` counts.
         sample: the sample; None for all cells.
         has_comfort_margin: whether the answers tell the comfort margin, which takes further plans.
+        rehearsal: how plans are rehearsed; None: not at all.
     """
 
     title: str
@@ -55,6 +57,7 @@ class Study:
     placements: tuple[Pose2, ...] = ()
     sample: Sample | None = None
     has_comfort_margin: bool = False
+    rehearsal: StudyRehearsal | None = None
 
     @property
     def all_axes(self) -> tuple[Axis, ...]:
@@ -88,7 +91,8 @@ class Study:
             axis.name: axis.values[digit] for axis, digit in zip(self.axes, digits[1:], strict=True)
         }
         made = cell_of(index, self.garments[digits[0]], values, self.scene, self.placements, self.has_stations)
-        return replace(made, has_comfort_margin=self.has_comfort_margin)
+        rehearsal = None if self.rehearsal is None else self.rehearsal.options(str(values[NOISE_AXIS]))
+        return replace(made, has_comfort_margin=self.has_comfort_margin, rehearsal=rehearsal)
 
     def digits(self, index: int) -> tuple[int, ...]:
         """Return which value of each axis a cell has, the garments' first."""
@@ -100,7 +104,8 @@ class Study:
 
     def to_dict(self) -> dict[str, Any]:
         """Return the study as JSON, all files that it names read in; later options only where they are used."""
-        options = {"has_comfort_margin": True} if self.has_comfort_margin else {}
+        options: dict[str, Any] = {"has_comfort_margin": True} if self.has_comfort_margin else {}
+        options |= {} if self.rehearsal is None else {"rehearsal": self.rehearsal.to_dict()}
         return {
             "pleat_study": VERSION,
             "title": self.title,
@@ -125,6 +130,7 @@ class Study:
             tuple(Pose2(**pose) for pose in data["placements"]),
             None if data["sample"] is None else Sample(**data["sample"]),
             data.get("has_comfort_margin", False),
+            StudyRehearsal(**data["rehearsal"]) if "rehearsal" in data else None,
         )
 
     @property

@@ -26,6 +26,7 @@ class StudyFields:
     limits: dict[str, Any] | None = None
     sample: dict[str, Any] | None = None
     comfort_margin: bool | None = None
+    rehearsal: dict[str, Any] | None = None
     cells_max: int | None = None
 
     @property

@@ -10,6 +10,7 @@ from app.studies.axis import Axis, number_axis
 from app.studies.cell import CARD, LIMITS, MIDDLE, MOVED, PLACEMENT, ROBOT, SCENE, START, TABLE
 from app.studies.fields import require_known, table, text, truth, whole
 from app.studies.garment_entries import Sources, read_garments
+from app.studies.rehearsed import StudyRehearsal, read_rehearsal
 from app.studies.study import Sample, Study
 from app.studies.study_error import StudyError
 from app.studies.study_fields import FIELDS
@@ -86,6 +87,7 @@ def study_of(content: Mapping[str, Any], sources: Sources, cells_limit: int = CE
     robots = content.get("robots", [DEFAULT_ROBOT])
     scene, axes = _scene(table("scene", content.get("scene", {})))
     poses, placed = _placements(content.get("placements", "own"))
+    rehearsal, noise = _rehearsal(content)
     study = Study(
         text("title", content.get("title", "Study")),
         read_garments(content.get("garments"), sources),
@@ -97,19 +99,23 @@ def study_of(content: Mapping[str, Any], sources: Sources, cells_limit: int = CE
             *axes,
             *placed,
             *_limits(table("limits", content.get("limits", {}))),
+            *noise,
         ),
         scene,
         _STATIONS in content.get("scene", {}),
         poses,
         _sample(content),
         truth("comfort_margin", content.get("comfort_margin", False)),
+        rehearsal,
     )
     most = whole("cells_max", content.get("cells_max", min(CELLS_MAX, cells_limit)), 1, cells_limit)
-    if study.count > most:
-        text_of = " x ".join(f"{len(axis.values)} {axis.name}" for axis in study.all_axes if len(axis.values) > 1)
+    runs = 1 if rehearsal is None else rehearsal.runs
+    if study.count * runs > most:
+        varied = [f"{len(axis.values)} {axis.name}" for axis in study.all_axes if len(axis.values) > 1]
+        text_of = " x ".join([*varied, *([f"{runs} runs"] if runs > 1 else [])])
         raise StudyError(
             "cells_max",
-            f"there are {study.count:,} cells ({text_of}), more than {most:,}; "
+            f"there are {study.count:,} cells{' to rehearse' if runs > 1 else ''} ({text_of}), more than {most:,}; "
             "draw some of them with [sample] cells = N, or allow more",
         )
     return study
@@ -194,6 +200,14 @@ def _limits(given: Mapping[str, Any]) -> Iterator[Axis]:
     if heuristics is not None:
         listed = heuristics if isinstance(heuristics, list) else [heuristics]
         yield _names(f"{LIMITS}heuristic", "limits.heuristic", listed, lambda name: Limits(heuristic=name))  # type: ignore[arg-type]
+
+
+def _rehearsal(content: Mapping[str, Any]) -> tuple[StudyRehearsal | None, tuple[Axis, ...]]:
+    """Return how plans are rehearsed, if they are, and the axis of noise."""
+    if "rehearsal" not in content:
+        return None, ()
+    found, noise = read_rehearsal(table("rehearsal", content["rehearsal"]))
+    return found, (noise,)
 
 
 def _sample(content: Mapping[str, Any]) -> Sample | None:

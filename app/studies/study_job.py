@@ -1,7 +1,6 @@
 """A study as a job of the server: in a folder of its own, where it goes on after the server's end."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -11,19 +10,8 @@ from app.studies.run_study import Progress, run_study
 from app.studies.study import Study
 from app.studies.study_error import StudyError, StudyFolderError
 from app.studies.workers import InProcess
-from planner.errors import FoldingError
 
 _ID_LETTERS = 32
-
-
-@dataclass
-class UnknownStudyError(FoldingError):
-    """No study has this id, or it has no such file."""
-
-    study_id: str
-
-    def __str__(self) -> str:
-        return f"there is no study with the id {self.study_id[:80]!r}, or it is not done"
 
 
 def study_id(study: Study) -> str:

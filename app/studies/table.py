@@ -8,6 +8,7 @@ import pyarrow as pa
 from pyarrow import parquet
 
 from app.studies.answer import COMFORT_MARGIN, RESULT_COLUMNS, TIMING_COLUMNS
+from app.studies.rehearsed import REHEARSAL_COLUMNS
 from app.studies.results import Results
 from app.studies.study import GARMENT, Study
 
@@ -25,7 +26,8 @@ def columns_of(study: Study) -> dict[str, type]:
     measures = {f"{_MEASURE}{name}": float for case in study.garments for name in case.measures}
     axes = {axis.name: type(axis.values[0]) for axis in study.axes}
     searched = {COMFORT_MARGIN: float} if study.has_comfort_margin else {}
-    return {"cell": int, GARMENT: str, _SEED: int, **measures, **axes, **RESULT_COLUMNS, **searched}
+    rehearsed = {} if study.rehearsal is None else REHEARSAL_COLUMNS
+    return {"cell": int, GARMENT: str, _SEED: int, **measures, **axes, **RESULT_COLUMNS, **searched, **rehearsed}
 
 
 def table_rows(study: Study, results: Results) -> Iterator[dict[str, Any]]:

@@ -239,19 +239,23 @@ class Region:
 
     # new regions
 
-    @cached_property
+    @property
     def parts(self) -> tuple["Region", ...]:
         """The connected parts."""
-        if isinstance(self.shape, shapely.Polygon):
+        if isinstance(self.shape, shapely.Polygon):  # not kept: a region that has itself would never be freed at once
             return () if self.shape.is_empty else (self,)
-        return tuple(Region(p) for p in shapely.get_parts(self.shape))
+        return self._parts
 
     @cached_property
+    def _parts(self) -> tuple["Region", ...]:
+        return tuple(Region(p) for p in shapely.get_parts(self.shape))
+
+    @property
     def pieces(self) -> tuple["Region", ...]:
         """The connected parts without slivers."""
         return tuple(p for p in self.parts if not p.is_sliver)
 
-    @cached_property
+    @property
     def slivers(self) -> tuple["Region", ...]:
         """The connected parts that are too small to count as cloth."""
         return tuple(p for p in self.parts if p.is_sliver)

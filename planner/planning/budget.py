@@ -9,8 +9,10 @@ import math
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import partial
 
 from planner.planning.problem import Problem
+from planner.primitives.context import Patience
 
 # Fitted to the CPU time of 25 requests on two busy cores of 2026: the articles here and there on the table, and cloth
 # with two dozen loose folds.
@@ -65,6 +67,11 @@ class Budget:
         self._folds = max(self._folds, len(problem.context.sequence.folds))
         return problem
 
+    def limit(self, patience: Patience) -> None:
+        """Let a patience end with the time; it knows nothing of the problems watched, whose contexts know it."""
+        patience.is_over = partial(_is_past, self.deadline_s, self.should_stop)
+        patience.is_long_over = partial(_is_past, self.deadline_s + _GRACE_S, self.should_stop)
+
     @property
     def spent_s(self) -> float:
         """The work done so far (s)."""
@@ -99,14 +106,14 @@ class Budget:
     @property
     def is_late(self) -> bool:
         """Whether the time is up, whatever work is left, or the search was told to stop."""
-        return self.left_s < 0.0 or self.should_stop()
+        return _is_past(self.deadline_s, self.should_stop)
 
     @property
     def left_s(self) -> float:
         """The time that is left, whatever work is (s); negative once it is up."""
         return self.deadline_s - clock_s()
 
-    @property
-    def is_overdue(self) -> bool:
-        """Whether the time has been up for so long that a step under way must end, or the search was told to stop."""
-        return self.left_s < -_GRACE_S or self.should_stop()
+
+def _is_past(deadline_s: float, should_stop: Callable[[], bool]) -> bool:
+    """Return whether a deadline (by `clock_s`, s) is past, or the search was told to stop."""
+    return clock_s() > deadline_s or should_stop()

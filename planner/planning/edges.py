@@ -5,6 +5,7 @@ from functools import partial
 from typing import NamedTuple, TypeAlias
 
 from planner.geometry.tolerance import TIME_S
+from planner.planning.weakly import weakly
 from planner.primitives.context import Context
 from planner.primitives.primitive import Deferred, Step, in_time
 from planner.primitives.primitive_set import PRIMITIVES
@@ -46,6 +47,7 @@ class Edges:
                 are any.
         """
         self._primitives = [kind(context) for kind in PRIMITIVES]
+        self._compute = weakly(self._computed)
         self._context = context
         self._possible = possible
         self._is_wanted = is_wanted
@@ -115,7 +117,7 @@ class Edges:
         edges = self._deferred.get(later)
         if edges is None:
             towards = later.towards if later.is_there else _anywhere(later.towards)
-            edges = DeferredEdges(later.duration_s, towards, partial(self._computed, state, later))
+            edges = DeferredEdges(later.duration_s, towards, partial(self._compute, state, later))
             self._deferred[later] = edges
         return edges
 

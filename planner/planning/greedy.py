@@ -16,6 +16,7 @@ from planner.planning.edges import Edges
 from planner.planning.effort import Effort
 from planner.planning.heuristic import arm_time
 from planner.planning.problem import Problem
+from planner.planning.weakly import weakly
 from planner.primitives.primitive import Step
 from planner.primitives.state import State, StateKey
 from planner.search.a_star import a_star
@@ -64,7 +65,7 @@ class _Greedy:
         self._is_over = is_over
         self._wanted = (1 << len(problem.context.sequence.folds)) - 1 if wanted is None else wanted
         self._remaining = arm_time(problem.context, self._wanted)
-        self._edges = Edges(problem.context, self._possible, lambda held: held.grasp in self._doubted)
+        self._edges = Edges(problem.context, weakly(self._possible), weakly(self._is_in_doubt))
         self._made: dict[tuple[StateKey, ...], Transfer | None] = {}
         self._struck: set[tuple[StateKey, StateKey]] = set()
         self._doubted: set[tuple[object, ...]] = set()
@@ -95,6 +96,9 @@ class _Greedy:
 
     def _possible(self, _state: State, steps: Iterable[Step]) -> Iterator[tuple[Step, float]]:
         return ((step, step.duration_s) for step in steps if _ends(step) not in self._struck)
+
+    def _is_in_doubt(self, held: State) -> bool:
+        return held.grasp in self._doubted
 
     def _real(self, steps: Sequence[Step]) -> tuple[Act, ...] | None:
         """Validate steps, transfer by transfer; where a transfer fails, reject its last step."""

@@ -22,6 +22,7 @@ from planner.planning.problem import Problem
 from planner.planning.single_fold import SingleFold
 from planner.planning.surcharges import ChargedEdges, Reached
 from planner.planning.trial import Explainer, Trial
+from planner.planning.weakly import weakly
 from planner.primitives.obstacle import BlockingContact, situation
 from planner.primitives.primitive import Step
 from planner.primitives.state import State
@@ -71,11 +72,10 @@ class PathSearch:
         self._blocking: list[int] = []
         self._validator = self._validator_with(QUICK)
         budget.watch(problem)
-        problem.context.patience.is_over = lambda: budget.is_late
-        problem.context.patience.is_long_over = lambda: budget.is_overdue
+        budget.limit(problem.context.patience)
         self._found: tuple[Act, ...] = ()
         self._bound_s: float | None = None
-        self._edges = Edges(problem.context, self._possible, self._is_wanted)
+        self._edges = Edges(problem.context, weakly(self._possible), weakly(self._is_wanted))
         self._explored = 0
         self._joint_time_s = 0.0
         self._is_looked_at_alone = False
@@ -88,7 +88,7 @@ class PathSearch:
 
     def _validator_with(self, tries: Tries, transfers_max: float = math.inf) -> MotionValidator:
         """Return a validator with nothing rejected, and limits on what it tries."""
-        return MotionValidator(self._problem.maker, self._is_out_of_budget, tries, transfers_max)
+        return MotionValidator(self._problem.maker, weakly(self._is_out_of_budget), tries, transfers_max)
 
     def _validated_path(self, start: State) -> tuple[SearchResult[Any, Step], tuple[Act, ...]]:
         """Return the search's result for the quickest validated path, and the acts of that path."""

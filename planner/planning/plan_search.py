@@ -77,13 +77,14 @@ class PlanSearch(PathSearch):
         self._shown_s = math.inf if known is None else known.plan.cost_s or 0.0
         self._tried_s = 0.0
         self._has_tried_less = False
-        self._tightened: list[Problem] = []
+        self._others: list[Problem] = []
 
     def plan(self) -> FoundPlan:
         """Return the quickest plan, or none with the reasons for it if there is an explainer."""
         found = self._plan()
-        for problem in (self._problem, *self._tightened):  # a plan's steps keep their contexts
+        for problem in (self._problem, *self._others):  # a plan's steps keep their contexts
             problem.context.forget()
+            problem.context.patience.end()
         return found
 
     def _plan(self) -> FoundPlan:
@@ -144,7 +145,7 @@ class PlanSearch(PathSearch):
         """
         if work_s <= 0.0 or not self._is_in_doubt:
             return 0.0
-        self._tightened.append(problem)
+        self._others.append(problem)
         budget = Budget(0.0, self._budget.deadline_s, self._budget.should_stop)
         search = PathSearch(problem, self._heuristic, budget, self._max_expanded, self._known)
         begun_s = budget.spent_s
@@ -169,6 +170,7 @@ class PlanSearch(PathSearch):
 
     def _try_folds(self, problem: Problem, may_collide: bool, folds: int) -> Trial:
         """Try whether some folds of a relaxed problem can be done; it shares what is known of the robot's reach."""
+        self._others.append(problem)
         budget = self._budget.part(0.0)
         search = TrialSearch(problem, budget, folds, self._explainer)
         begun_s = budget.spent_s

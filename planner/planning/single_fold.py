@@ -22,6 +22,7 @@ from planner.folds.fold_path import REST_HEIGHT_M
 from planner.geometry.pose import BoolArray, FloatArray, Pose2
 from planner.geometry.tolerance import LENGTH_M, grid_key
 from planner.planning.single_fold_cases import Case, Cases
+from planner.planning.weakly import weakly
 from planner.primitives.context import STANDOFF_STEP_M, Context
 from planner.primitives.drag_grips import dragged, longest_drag
 from planner.primitives.drag_offsets import drag_offsets
@@ -69,7 +70,7 @@ class SingleFold:
         self._station = station
         self._offsets = drag_offsets(context, OFFSETS_MAX)
         self._places = self._offsets
-        self._cases = Cases(context, station, self._offsets, self._has_to_stop)
+        self._cases = Cases(context, station, self._offsets, weakly(self._has_to_stop))
         self._answers: dict[_ReachKey, BoolArray] = {}
 
     def is_impossible(self, fold: int) -> bool:

@@ -56,6 +56,10 @@ class Patience:
     is_over: Callable[[], bool] = never
     is_long_over: Callable[[], bool] = never
 
+    def end(self) -> None:
+        """Limit nothing any more, and know nothing of who waited."""
+        self.is_over = self.is_long_over = never
+
 
 @dataclass(frozen=True)
 class Context:

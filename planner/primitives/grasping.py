@@ -131,7 +131,7 @@ def approaches_from_outside(
         grip: a point of the stack, article frame (m).
         arm: the arm that takes it.
     """
-    return context.kept(_Pinches).of(done, heading_in_base, grip, side_of(context, arm))
+    return context.kept(_Pinches).of(context, done, heading_in_base, grip, side_of(context, arm))
 
 
 def like_approach(context: Context, approaches: NDArray[np.int64], one: int, count: int) -> NDArray[np.int64]:
@@ -148,23 +148,23 @@ def like_approach(context: Context, approaches: NDArray[np.int64], one: int, cou
 class _Pinches:
     """The directions from which cloth may be pinched, kept because the same grips are queried again and again."""
 
-    def __init__(self, context: Context) -> None:
-        self._context = context
+    def __init__(self, _: Context) -> None:
+        # The context keeps this, so that it must not keep the context: a cycle stays long after a search.
         self._headings: dict[tuple[int, Point2], float | None] = {}
         self._known: dict[tuple[int, float, Point2, float], NDArray[np.int64]] = {}
 
-    def of(self, done: int, heading_in_base: float, grip: Point2, side: float) -> NDArray[np.int64]:
+    def of(self, context: Context, done: int, heading_in_base: float, grip: Point2, side: float) -> NDArray[np.int64]:
         key = (done, heading_in_base, grip, side)
         if key not in self._known:
-            inward = self._inward_heading(done, grip)
+            inward = self._inward_heading(context, done, grip)
             heading = None if inward is None else heading_in_base + inward
-            self._known[key] = _from_outside(self._context, heading, side)
+            self._known[key] = _from_outside(context, heading, side)
         return self._known[key]
 
-    def _inward_heading(self, done: int, grip: Point2) -> float | None:
+    def _inward_heading(self, context: Context, done: int, grip: Point2) -> float | None:
         """Return the direction into the cloth, article frame (rad); None for a grip that is not at its edge."""
         if (done, grip) not in self._headings:
-            inward = self._context.sequence.cloth(done).silhouette.inward_bisector(grip)
+            inward = context.sequence.cloth(done).silhouette.inward_bisector(grip)
             self._headings[done, grip] = None if inward is None else math.atan2(inward[1], inward[0])
         return self._headings[done, grip]
 

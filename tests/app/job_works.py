@@ -18,6 +18,8 @@ from app.store.database import Database
 from app.store.garment_repository import GarmentRepository
 from app.store.job_repository import JobRepository, StoredJob
 from app.store.plan_store import PlanStore
+from app.store.robot_repository import RobotRepository
+from app.store.study_store import StudyStore
 from app.store.trace_store import TraceStore
 from planner.errors import RequestError
 from planner.strict_model import StrictModel
@@ -97,7 +99,8 @@ KINDS: Mapping[str, AnyKind] = {
 def desk(folder: Path, *, workers: int = 2, waiting_max: int | None = None) -> Iterator[JobDesk]:
     """Open a desk on the database of a folder, as a server does; at the end it stops as a server does."""
     pool, database = JobPool(workers, waiting_max), Database(folder / "pleat.db")
-    stores = Stores(GarmentRepository(database), PlanStore(database), folder / "studies", TraceStore(database))
+    studies, robots = StudyStore(folder / "studies", database), RobotRepository(folder / "robots", database)
+    stores = Stores(GarmentRepository(database), PlanStore(database), studies, TraceStore(database), robots)
     try:
         yield JobDesk(KINDS, stores, JobRepository(database), pool)
     finally:

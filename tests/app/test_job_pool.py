@@ -1,4 +1,7 @@
+import gc
 import threading
+import weakref
+from concurrent.futures import wait
 
 import pytest
 
@@ -89,3 +92,25 @@ def test_a_jobs_error_comes_with_its_answer() -> None:
 def test_a_stopped_search_ends_as_out_of_budget() -> None:
     plan = make_plan(load_garment("shirt"), should_stop=lambda: True)
     assert plan.status == "budget_exceeded"
+
+
+def test_a_job_that_has_ended_is_freed_at_once_with_all_that_its_work_knew() -> None:
+    class Known:
+        pass
+
+    pool = JobPool(workers=1)
+    gc.disable()
+    try:
+        for is_stopped in (False, True):
+            known = Known()
+            gone = weakref.ref(known)
+            job = pool.start(lambda should_stop, known=known: None)
+            if is_stopped:
+                job.stop()
+            wait([job.future])
+            del known, job
+            pool.start(lambda _: None).future.result()  # the thread has let go of the one before by then
+            assert gone() is None
+    finally:
+        gc.enable()
+        pool.close()

@@ -99,6 +99,8 @@ async def test_a_cancelled_job_ends_for_those_who_follow_it(client: httpx.AsyncC
         ("suggestions", {"garment": "tie", "scene": {"friction": -1.0}}, 422, "scene.friction"),
         ("../comparisons", {"garment": "tie", "robots": ["pr2", "r2d2"]}, 422, "robots[1]"),
         ("../comparisons", {"garment": "tie", "robots": []}, 422, "robots"),
+        ("placements", {"garment": towel(outline=[[0, 0], [0, 0], [0, 1]])}, 422, "garment.outline[1]"),
+        ("suggestions", {"garment": towel(outline=[[0, 0], [0, 0], [0, 1]])}, 422, "garment.outline[1]"),
         ("nothing", {}, 405, None),
     ],
 )

@@ -10,9 +10,10 @@ import pytest
 
 from app.files.robot_archive import DEPTH_MAX, FILES_MAX, UNPACKED_BYTES_MAX
 from planner.robots.described_robot import shipped_card, shipped_robots
-from planner.robots.load_robot import load_robot, robot_card_file
+from planner.robots.load_robot import load_robot, prepare_robot, robot_card_file
 from tests.app.robot_archives import BOX, archive, box_card, box_urdf
 from tests.app.test_cli import pleat
+from tests.app.test_job_routes import ended
 from tests.app.test_robots import NAPKIN
 
 pytestmark = pytest.mark.anyio
@@ -191,3 +192,38 @@ async def test_a_robot_that_cannot_be_replaced_stays_as_it_was(client: httpx.Asy
     bad = {"robot.json": json.dumps(box_card(title="Bad")), "urdf/box.urdf": box_urdf(BOX, lower="9")}
     assert (await client.post(IMPORTS, content=archive(bad))).status_code == 422
     assert (await client.get("/api/robots/bench")).json()["title"] == "My bench"
+
+
+async def test_an_import_may_be_a_job_after_which_the_robot_is_there_and_mapped(
+    client: httpx.AsyncClient, tmp_path: Path
+) -> None:
+    begun = await client.post(IMPORTS, content=archive(robot_files()), headers={"prefer": "respond-async"})
+    assert (begun.status_code, begun.headers["preference-applied"]) == (202, "respond-async"), begun.text
+    assert begun.json()["kind"] == "robots"
+    assert (await client.get("/api/robots/bench")).status_code == 404, "it is not there before it is whole"
+    job = await ended(client, begun.headers["location"])
+    assert job["status"] == "done", job["message"]
+    assert job["result"]["is_new"] is True and job["result"]["robot"]["name"] == "bench"
+    assert sorted(path.name for path in (tmp_path / "robots").rglob("*")) == ["bench", "box.urdf", "robot.json", "urdf"]
+
+    def mapped(_: float) -> None:
+        raise AssertionError("its arms were to be mapped by the job")
+
+    prepare_robot("bench", mapped)
+    again = await client.post(IMPORTS, content=archive(robot_files()), headers={"prefer": "wait=5, respond-async"})
+    assert (await ended(client, again.headers["location"]))["result"]["is_new"] is False
+
+
+async def test_a_job_whose_archive_is_none_says_why_and_leaves_nothing(
+    client: httpx.AsyncClient, tmp_path: Path
+) -> None:
+    bad = {"robot.json": json.dumps(box_card(title="Bad")), "urdf/box.urdf": box_urdf(BOX, lower="9")}
+    for body, why in ((b"no archive", "archive"), (archive(bad), "shoulder")):
+        begun = await client.post(IMPORTS, content=body, headers={"prefer": "respond-async"})
+        job = await ended(client, begun.headers["location"])
+        assert job["status"] == "failed" and why in job["message"], job
+    begun = await client.post(IMPORTS, content=archive(robot_files()), headers={"prefer": "respond-async"})
+    stopped = await client.post(f"{begun.headers['location']}/cancel")
+    assert stopped.json()["status"] in ("cancelled", "running")
+    assert (await ended(client, begun.headers["location"]))["status"] == "cancelled"
+    assert list((tmp_path / "robots").iterdir()) == []

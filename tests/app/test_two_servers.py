@@ -1,5 +1,7 @@
-"""Two servers on one PostgreSQL database, each in a process of its own, see each other's documents."""
+"""Two servers on one PostgreSQL database, each in a process of its own, see what the other has."""
 
+import time
+from collections.abc import Callable
 from pathlib import Path
 
 import httpx
@@ -11,7 +13,15 @@ from tests.databases import emptied
 from tests.patience import PATIENCE_S
 
 
-def test_two_servers_on_one_database_see_each_others_documents(tmp_path: Path, postgresql_server: str) -> None:
+def until(holds: Callable[[], bool]) -> None:
+    """Wait until something holds: servers look for what others have changed every few seconds."""
+    until_s = time.monotonic() + PATIENCE_S
+    while not holds():
+        assert time.monotonic() < until_s
+        time.sleep(0.2)
+
+
+def test_two_servers_on_one_database_see_what_each_other_has(tmp_path: Path, postgresql_server: str) -> None:
     url = emptied(postgresql_server)
     servers: list[Served] = []
     try:
@@ -36,6 +46,18 @@ def test_two_servers_on_one_database_see_each_others_documents(tmp_path: Path, p
 
             planned = first.post("/api/plans", json={"garment": towel()}).json()
             assert second.get(f"/api/plans/{planned['id']}").json() == planned
+
+            card = {**first.get("/api/robots/so101-pair").json(), "name": "bench"}
+            assert first.put("/api/robots/bench", json=card).status_code == 201
+            until(lambda: second.get("/api/robots/bench").status_code == 200)
+            assert second.delete("/api/robots/bench").status_code == 204
+            until(lambda: first.get("/api/robots/bench").status_code == 404)
+
+            asked = {"garments": [{"garment": towel()}], "limits": {"work_limit_s": 1.0}}
+            job = first.post("/api/studies", json=asked).headers["location"]
+            until(lambda: second.get(job).json()["status"] == "done")
+            report = second.get(job).json()["result"]["files"]["report_html"]
+            assert second.get(report).text == first.get(report).text != ""
 
             assert second.delete(address).status_code == 204
             assert made["id"] not in {entry["id"] for entry in first.get("/api/documents").json()}

@@ -223,6 +223,12 @@ def test_a_study_reads_back_from_its_json():
         ({"sample": {"cells": 0}}, "sample.cells", "0"),
         ({"cells_max": 3}, "cells_max", "4 cells (4 table.height_m)"),
         ({"comfort_margin": 1}, "comfort_margin", "neither true nor false"),
+        ({"rehearsal": {"noise": ["loud"]}}, "rehearsal.noise[0]", "'loud'"),
+        ({"rehearsal": {"noise": []}}, "rehearsal.noise", "0 values"),
+        ({"rehearsal": {"runs": 0}}, "rehearsal.runs", "0"),
+        ({"rehearsal": {"seed": -1}}, "rehearsal.seed", "-1"),
+        ({"rehearsal": {"feedback": "on"}}, "rehearsal.feedback", "neither true nor false"),
+        ({"rehearsal": {"sound": 1}}, "rehearsal.sound", "known"),
     ],
 )
 def test_what_is_wrong_is_told_with_field_and_value(changes: dict[str, Any], field: str, told: str):
@@ -263,6 +269,9 @@ comfort_radius_m = 0.01
 [sample]
 cells = 5
 seed = 2
+[rehearsal]
+noise = ["none", "real"]
+runs = 2
 """
 
 
@@ -270,7 +279,7 @@ def test_a_request_in_json_has_every_field_of_a_file_and_says_the_same_study():
     written = tomllib.loads(ALL_FIELDS)
     assert set(written) == set(FIELDS), "a field is missing above"
     wanted = STUDIES.form.read(json.loads(json.dumps(written)))
-    nowhere = SimpleNamespace(garments=SimpleNamespace(garment=load_garment), studies=Path())
+    nowhere = SimpleNamespace(garments=SimpleNamespace(garment=load_garment), studies=SimpleNamespace(folder=Path()))
     asked, _ = STUDIES.prepare(cast(Stores, nowhere), wanted)
     assert asked == study_of(written, Sources())
     assert asked.count == 5
