@@ -27,10 +27,11 @@ DOOR = (
     "planner.robots.mesh_file",
     "planner.robots.openings",
     "planner.robots.own_robots",
-    "planner.robots.varied_card",
+    "planner.robots.station_room",
     "planner.robots.table_reach",
     "planner.robots.tool_path",
     "planner.robots.tool_point",
+    "planner.robots.varied_card",
 )
 """What others may import of the robots: descriptions, the way to load one, types of questions and answers."""
 

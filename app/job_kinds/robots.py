@@ -11,8 +11,9 @@ from app.jobs.job_kind import JobKind, Progress, Stores
 from app.searches import read_archive
 from planner.json_form import STRICT
 from planner.robots.card_file import CardFile
-from planner.robots.card_robot import CardRobot
-from planner.robots.described_robot import DescribedRobot, robot_entry
+from planner.robots.described_robot import robot_entry
+from planner.robots.load_robot import prepare_robot
+from planner.robots.own_robots import CARD
 
 _READ_SHARE = 0.1
 """The share of the job that is done once the archive is read."""
@@ -40,8 +41,8 @@ def _work(folder: Path, progress: Progress) -> tuple[CardFile, Path]:
     progress(0.0, "reading")
     unpacked, card = read_archive(folder)
     progress(_READ_SHARE, "mapping the arms")
-    CardRobot(DescribedRobot.of(card, unpacked)).prepare(
-        lambda share: progress(_READ_SHARE + (1.0 - _READ_SHARE) * share, "mapping the arms")
+    prepare_robot(
+        str(unpacked / CARD), lambda share: progress(_READ_SHARE + (1.0 - _READ_SHARE) * share, "mapping the arms")
     )
     return card, unpacked
 
