@@ -6,7 +6,7 @@ import pytest
 
 from app.live_search import LiveSearch
 from planner import Plan, Task
-from planner.planning.problem import Problem
+from planner.primitives.context import Context
 from tests.planning.provoked import hammer, strip
 
 
@@ -22,9 +22,9 @@ def answer_to(search: LiveSearch, task: Task) -> list[Plan]:
     return told
 
 
-def problems_of(task: Task) -> int:
+def contexts_of(task: Task) -> int:
     gc.collect()
-    return sum(isinstance(one, Problem) and one.task.garment == task.garment for one in gc.get_objects())
+    return sum(isinstance(one, Context) and one.sequence.garment == task.garment for one in gc.get_objects())
 
 
 @pytest.mark.long
@@ -32,7 +32,7 @@ def test_a_no_is_remembered_without_what_it_was_found_with() -> None:
     search, task = LiveSearch(), Task.of(hammer(), max_expanded=50)
     *_, first = answer_to(search, task)
     assert not first.is_solved
-    assert problems_of(task) == 0
+    assert contexts_of(task) == 0
 
 
 def test_what_was_planned_is_not_planned_again_and_its_cloth_is_kept_for_the_next_drawing() -> None:
@@ -41,4 +41,4 @@ def test_what_was_planned_is_not_planned_again_and_its_cloth_is_kept_for_the_nex
     assert first.is_solved
     (again,) = answer_to(search, task)
     assert again == first  # its figures too, and so the time that its search took
-    assert problems_of(task) >= 1
+    assert contexts_of(task) >= 1
