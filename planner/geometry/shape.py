@@ -1,9 +1,8 @@
 """Make and repair shapely geometries before they become regions."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from itertools import combinations
 
-import numpy as np
 import shapely
 from shapely.geometry.base import BaseGeometry
 
@@ -23,16 +22,6 @@ def polygonal(shape: BaseGeometry) -> BaseGeometry:
         return shape
     parts = shapely.get_parts(shape)
     return shapely.union_all(parts[shapely.get_dimensions(parts) == 2])
-
-
-def not_within_largest(shapes: Sequence[BaseGeometry]) -> list[BaseGeometry]:
-    """Return the largest of some shapes, and those that do not lie within it."""
-    if len(shapes) < 2:
-        return list(shapes)
-    largest = shapes[int(np.argmax(shapely.area(shapes)))]
-    shapely.prepare(largest)
-    others = np.flatnonzero(~shapely.covers(largest, shapes)).tolist()
-    return [largest, *(shapes[other] for other in others)]
 
 
 def united(shapes: Iterable[BaseGeometry]) -> BaseGeometry:

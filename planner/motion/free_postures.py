@@ -15,6 +15,7 @@ from planner.motion.moments import Moments
 from planner.motion.opened_collisions import OpenedCollisions
 from planner.motion.robot_port import Collisions, RobotPort
 from planner.robots.joint_layout import JointLayout
+from planner.weakly import weakly
 
 _LOOKED_AT = 5
 """The moments at which the arms' postures are tested together before a path is searched."""
@@ -40,8 +41,8 @@ class FreePostures:
         self._torso_m = torso_m
         self._layout = JointLayout.of(machine.card)
         self._rolling = np.array([-1.0 if arm.is_mirrored else 1.0 for arm in machine.card.arms])
-        self._free_postures = lru_cache(_PLACES_KEPT)(self._search_postures)
-        self._are_apart = lru_cache(_PLACES_KEPT)(self._search_apart)
+        self._free_postures = lru_cache(_PLACES_KEPT)(weakly(self._search_postures))
+        self._are_apart = lru_cache(_PLACES_KEPT)(weakly(self._search_apart))
 
     def can_hold(self, moments: Moments, first: Iterable[int] = (), ways: Sequence[Holds] = ()) -> bool:
         """Return whether the arms have free postures at a few moments; without them there is hardly ever a path.

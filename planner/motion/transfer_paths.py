@@ -19,6 +19,7 @@ from planner.motion.opened_collisions import OpenedCollisions
 from planner.motion.robot_port import RobotPort
 from planner.robots.joint_layout import JointLayout
 from planner.robots.tool_path import IsFree, NoPath
+from planner.weakly import weakly
 
 _TRANSFERS_KEPT = 256
 """Size of the cache of transfers, some 45 kB each. Twice as many save no time while a garment is drawn (measured)."""
@@ -61,7 +62,7 @@ class TransferPaths:
         self._height_m = height_m
         self._layout = JointLayout.of(machine.card)
         self._rolling = np.array([-1.0 if arm.is_mirrored else 1.0 for arm in machine.card.arms])
-        self._searched = lru_cache(_TRANSFERS_KEPT)(self._search)
+        self._searched = lru_cache(_TRANSFERS_KEPT)(weakly(self._search))
         self.postures = FreePostures(machine, collisions, torso_m)
 
     def carried(self, moments: Moments, cloths: Cloths, ways: Sequence[Holds] = ()) -> Carried | NoPath:

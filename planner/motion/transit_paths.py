@@ -22,6 +22,7 @@ from planner.motion.path_timing import quickest
 from planner.motion.robot_port import Collisions, RobotPort
 from planner.robots.joint_layout import JointLayout
 from planner.robots.openings import OPENING_M
+from planner.weakly import weakly
 
 _LEADS = (0.25, 0.5, 0.75)
 """The fractions of their path by which some arms are tried ahead of the others."""
@@ -64,7 +65,7 @@ class TransitPaths:
         self._machine, self._torso_m = machine, torso_m
         self._opened, self._collisions = collisions, collisions.wide
         self.layout = JointLayout.of(machine.card)
-        self._searched = lru_cache(_WAYS_KEPT)(self._search)
+        self._searched = lru_cache(_WAYS_KEPT)(weakly(self._search))
         self._tested = AnswerMemory[bool](_ANSWERS_KEPT)
         self._lengths_m = AnswerMemory[float](_ANSWERS_KEPT)
 

@@ -5,12 +5,12 @@ from functools import partial
 from typing import NamedTuple, TypeAlias
 
 from planner.geometry.tolerance import TIME_S
-from planner.planning.weakly import weakly
 from planner.primitives.context import Context
 from planner.primitives.primitive import Deferred, Step, in_time
 from planner.primitives.primitive_set import PRIMITIVES
 from planner.primitives.state import ANYWHERE, State
 from planner.search.a_star import DeferredEdges, Edge, Successors
+from planner.weakly import weakly
 
 Possible: TypeAlias = Callable[[State, Iterable[Step]], Iterable[tuple[Step, float]]]
 """Selects the steps that the search may follow from a state, each with its cost (s)."""

@@ -16,10 +16,10 @@ from planner.planning.edges import Edges
 from planner.planning.effort import Effort
 from planner.planning.heuristic import arm_time
 from planner.planning.problem import Problem
-from planner.planning.weakly import weakly
 from planner.primitives.primitive import Step
 from planner.primitives.state import State, StateKey
 from planner.search.a_star import a_star
+from planner.weakly import weakly
 
 WEIGHT = 10.0
 """Weight of the remaining time against the time so far."""

@@ -22,12 +22,12 @@ from planner.planning.problem import Problem
 from planner.planning.single_fold import SingleFold
 from planner.planning.surcharges import ChargedEdges, Reached
 from planner.planning.trial import Explainer, Trial
-from planner.planning.weakly import weakly
 from planner.primitives.obstacle import BlockingContact, situation
 from planner.primitives.primitive import Step
 from planner.primitives.state import State
 from planner.search.a_star import Outcome, SearchResult, a_star
 from planner.task.reason import Reason
+from planner.weakly import weakly
 
 # Most plans are found with fewer.
 LOOK_ALONE_AFTER = 180

@@ -22,7 +22,6 @@ from planner.folds.fold_path import REST_HEIGHT_M
 from planner.geometry.pose import BoolArray, FloatArray, Pose2
 from planner.geometry.tolerance import LENGTH_M, grid_key
 from planner.planning.single_fold_cases import Case, Cases
-from planner.planning.weakly import weakly
 from planner.primitives.context import STANDOFF_STEP_M, Context
 from planner.primitives.drag_grips import dragged, longest_drag
 from planner.primitives.drag_offsets import drag_offsets
@@ -30,6 +29,7 @@ from planner.primitives.fold_obstacles import geometric_obstacle, geometric_obst
 from planner.primitives.fold_trial import FoldTrial, fold_trials
 from planner.primitives.fold_way import attempt_of, can_follow
 from planner.primitives.state import State
+from planner.weakly import weakly
 
 _SETS_MAX = 64
 """Sets of folds that may precede a fold; a fold with more sets is left to the search."""
