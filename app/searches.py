@@ -130,7 +130,7 @@ def read_file(
 
 
 _ARRIVED, _UNPACKED = "archive.zip", "robot"
-"""What a folder for an archive has: the archive, and the folder into which it is unpacked."""
+"""Names in the folder for an archive: the archive itself, and the folder into which it is unpacked."""
 
 
 def put_archive(data: bytes, folder: Path) -> None:

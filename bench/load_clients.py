@@ -38,7 +38,7 @@ _CONFLICT = 409
 
 @dataclass(slots=True)
 class Heard:
-    """What the clients were answered.
+    """The answers to the clients, and their times.
 
     Attributes:
         edits_ms: for each edit, the time from when the hand was there to its answer (ms).
