@@ -39,7 +39,7 @@ _GRACE_S = 30.0
 """A worker is ended after this many times the cell's time limit, and so much more."""
 
 _RUN_S = 1200.0
-"""Further time that a worker is given for each run of a rehearsal (s); one takes 0.5 to 5 minutes of a core (measured)."""
+"""Further time for each run of a rehearsal (s); one takes 0.5 to 5 minutes of a core (measured)."""
 
 _LOOK_EVERY_S = 1.0
 """Period of the check whether a cell hangs (s)."""
