@@ -6,7 +6,7 @@ NODE := $(CURDIR)/$(BIN)/node
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 # Bytecode is written by whoever first imports a module: most of the modules installed are never imported.
 INSTALL := $(PIP) install --no-compile
-PYTEST := $(BIN)/python -m pytest
+PYTEST := $(BIN)/python -m pytest --rerun-show-tracebacks
 # How many tests run at once: two more than cores, for tests of servers and browsers wait for a third of their time.
 # Each wants some 2 GB with its server and its browser; where that is too much: make test JOBS=2
 JOBS ?= $(shell echo $$(($$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 2) + 2)))

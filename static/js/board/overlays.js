@@ -10,6 +10,9 @@ import { reasonWithPlace } from "./draw_reason.js";
 const PARTS = ["reach", "slip", "base", "paths"];
 const SHORTFALL = "shortfall";
 const EVERY_MS = 200;
+/** A server that is too busy, or away, is asked again after this. */
+const AGAIN_MS = 1000;
+const BUSY = [429, 503];
 
 /** The work that the cost map may take, and so much time that mostly the work ends it. */
 const MAPPED = {
@@ -79,7 +82,8 @@ export class Overlays {
   async ask() {
     const [query, names] = [this.query, this.wanted];
     this.asked = query;
-    const found = await told(`${this.board.store.path}/overlays?${query.split("#")[0]}`);
+    const isWanted = () => this.wanted.length > 0 && this.query === query;
+    const found = await told(`${this.board.store.path}/overlays?${query.split("#")[0]}`, isWanted);
     this.timer = undefined;
     this.found = found;
     this.known = found ? names : [];
@@ -121,7 +125,8 @@ export class Overlays {
     this.stopPlaces = new AbortController();
     const { signal } = this.stopPlaces;
     this.isMapping = true;
-    const places = await told(`${store.path}/overlays/places`, { ...MAPPED, signal });
+    const isWanted = () => key === this.askedPlaces;
+    const places = await told(`${store.path}/overlays/places`, isWanted, { ...MAPPED, signal });
     if (key !== this.askedPlaces) return;
     this.places = places;
     this.isMapping = false;
@@ -153,11 +158,17 @@ export class Overlays {
 const startOf = ({ plan, state }) => (plan && plan.version === state?.version ? plan.start : null);
 
 /**
- * What the server answers; null where it does not, or is not waited for.
+ * What the server answers; null where it has no answer, or none before it is no longer waited for.
  * @param {string} url
+ * @param {() => boolean} isWanted whether a server that is too busy is asked again
  * @param {RequestInit} how
  */
-const told = (url, how = {}) =>
-  fetch(url, how)
-    .then((answer) => (answer.ok ? answer.json() : null))
-    .catch(() => null);
+async function told(url, isWanted, how = {}) {
+  for (;;) {
+    const answer = await fetch(url, how).catch(() => null);
+    if (answer?.ok) return answer.json().catch(() => null);
+    if (answer && !BUSY.includes(answer.status)) return null;
+    await new Promise((resolve) => setTimeout(resolve, AGAIN_MS));
+    if (!isWanted()) return null;
+  }
+}

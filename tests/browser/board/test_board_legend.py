@@ -116,13 +116,15 @@ def test_all_of_the_legend_is_on_the_board_also_in_large_letters(
     for name in ("Reach", "Slip limit"):
         chip(page, name).click()
     width, height = size
-    page.set_viewport_size({"width": width, "height": height})
-    page.evaluate("(size) => document.documentElement.style.setProperty('font-size', size)", text)
-    expect(legend.get_by_role("listitem")).to_have_count(3)
-    page.wait_for_timeout(200)  # the board is measured anew a frame later
-    box, board = legend.bounding_box(), Hand(page).board.bounding_box()
-    page.evaluate("document.documentElement.style.removeProperty('font-size')")
-    page.set_viewport_size({"width": 1280, "height": 800})
+    try:
+        page.set_viewport_size({"width": width, "height": height})
+        page.evaluate("(size) => document.documentElement.style.setProperty('font-size', size)", text)
+        expect(legend.get_by_role("listitem")).to_have_count(3)
+        page.wait_for_timeout(200)  # the board is measured anew a frame later
+        box, board = legend.bounding_box(), Hand(page).board.bounding_box()
+    finally:
+        page.evaluate("document.documentElement.style.removeProperty('font-size')")
+        page.set_viewport_size({"width": 1280, "height": 800})
     assert box is not None and board is not None
     assert board["x"] <= box["x"] and box["x"] + box["width"] <= board["x"] + board["width"]
     assert board["y"] <= box["y"] and box["y"] + box["height"] <= board["y"] + board["height"]

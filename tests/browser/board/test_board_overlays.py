@@ -49,6 +49,30 @@ def test_what_the_robot_can_reach_is_shown_when_asked_for(page: Page, towel: Des
     page.unroute("**/overlays?*")
 
 
+@pytest.mark.parametrize("status", [None, 429, 503])
+def test_a_server_that_is_busy_or_away_is_asked_again(page: Page, towel: Desk, status: int | None) -> None:
+    expect_planned(page)
+    refused: list[Route] = []
+
+    def refuse_the_first(route: Route) -> None:
+        if refused:
+            route.continue_()
+            return
+        refused.append(route)
+        if status is None:
+            route.abort()
+        else:
+            route.fulfill(status=status, headers={"retry-after": "1"}, json={"detail": "busy"})
+
+    page.route("**/overlays?*", refuse_the_first)
+    reach = page.get_by_role("button", name="Reach", exact=True)
+    reach.click()
+    expect(page.locator(".layer-under .reach")).to_have_count(2)
+    assert refused
+    reach.click()
+    page.unroute("**/overlays?*")
+
+
 def test_the_cost_map_is_kept_while_the_drawing_stays(page: Page, towel: Desk) -> None:
     expect_planned(page)
     asked: list[str] = []
