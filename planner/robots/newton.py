@@ -23,7 +23,7 @@ EXACT_M = 1e-6
 STEP_MAX = 0.5
 """Largest change of a joint in one step (rad, m)."""
 
-PATIENCE, PROGRESS = 2, 0.6
+PATIENCE, PROGRESS = 4, 0.6
 """A start is given up where the error has not fallen to this share of itself within so many steps."""
 
 HOPELESS = 0.5
