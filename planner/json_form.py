@@ -11,8 +11,8 @@ from functools import cache
 from typing import Annotated, Any, Generic, TypeVar, cast, get_args, get_origin, get_type_hints
 
 from annotated_types import Interval
-from pydantic import BeforeValidator, ConfigDict, TypeAdapter, ValidationError
-from pydantic_core import PydanticSerializationError, PydanticUseDefault, to_json
+from pydantic import ConfigDict, GetCoreSchemaHandler, GetPydanticSchema, TypeAdapter, ValidationError
+from pydantic_core import CoreSchema, PydanticSerializationError, PydanticUseDefault, core_schema, to_json
 
 from planner.errors import FieldError, RequestError
 from planner.strict_model import first_error
@@ -44,12 +44,13 @@ class JsonForm(Generic[T]):
 
     def read(self, data: object) -> T:
         """Return the value that JSON holds; raises the form's error, which names the field."""
+        whole = self._completed(data)
         try:
-            return self._adapter.validate_json(to_json(self._completed(data)))
+            return self._adapter.validate_json(to_json(whole))
         except PydanticSerializationError:
             raise self._error("", "is nested too deeply, or has text that is no Unicode") from None
         except ValidationError as error:
-            raise first_error(error, self._error) from None
+            raise first_error(error, self._error, whole) from None
 
 
 def require_intervals(value: Any, error: type[FieldError]) -> None:  # noqa: ANN401
@@ -91,5 +92,12 @@ def _default_for_null(value: object) -> object:
     return value
 
 
-NULL_IS_DEFAULT = BeforeValidator(_default_for_null)
+def _or_null(source: Any, schema: GetCoreSchemaHandler) -> CoreSchema:  # noqa: ANN401
+    """Return the schema that reads null as the default, and says so where reading is described."""
+    given = schema(source)
+    described = core_schema.nullable_schema(given)
+    return core_schema.no_info_before_validator_function(_default_for_null, given, json_schema_input_schema=described)
+
+
+NULL_IS_DEFAULT = GetPydanticSchema(_or_null)
 """Marks a field for which null counts as left out."""

@@ -1,7 +1,7 @@
 """Read JSON strictly: refuse unknown fields by name, and accept only finite JSON numbers."""
 
-from collections.abc import Mapping
-from typing import Annotated, Any
+from collections.abc import Mapping, Sequence
+from typing import Annotated, Any, cast
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
@@ -31,15 +31,37 @@ def field_path(location: tuple[int | str, ...]) -> str:
     return path
 
 
-def first_error(error: ValidationError, kind: type[FieldError]) -> FieldError:
+def first_error(error: ValidationError, kind: type[FieldError], data: object = None) -> FieldError:
     """Return the first of pydantic's errors as one of our own.
 
     Errors of type come before errors that a value raised itself; those are kept as they are.
+
+    Args:
+        error: the errors.
+        kind: the type of the error returned.
+        data: what was read; without it the field's path has the names of variants of unions in it.
     """
     details = [one for one in error.errors(include_url=False) if one["type"] != "default_factory_not_called"]
     detail = next((one for one in details if _told(one) is None), details[0])
-    path, told = field_path(detail["loc"]), _told(detail)
+    place = detail["loc"] if data is None else _in_data(detail["loc"], data, is_missing=detail["type"] == "missing")
+    path, told = field_path((*place, *_tag(detail))), _told(detail)
     return kind(path, plain_message(dict(detail))) if told is None else told.within(path)
+
+
+def _in_data(location: tuple[int | str, ...], data: object, *, is_missing: bool) -> tuple[int | str, ...]:
+    """Return a pydantic location without the names of variants of unions, which are no fields of the data."""
+    found: list[int | str] = []
+    for part in location[:-1] if is_missing else location:
+        is_key = isinstance(data, Mapping) and part in data
+        if is_key or (isinstance(part, int) and isinstance(data, Sequence)):
+            found.append(part)
+            data = cast("Any", data)[part]
+    return (*found, location[-1]) if is_missing else tuple(found)
+
+
+def _tag(detail: Mapping[str, Any]) -> tuple[str, ...]:
+    """Return the field that tells the variants of a union apart, if it is to blame."""
+    return (detail["ctx"]["discriminator"].strip("'"),) if detail["type"].startswith("union_tag_") else ()
 
 
 def _told(detail: Mapping[str, Any]) -> FieldError | None:
@@ -52,8 +74,10 @@ def plain_message(detail: dict[str, Any]) -> str:
     """Return one of pydantic's errors in words that name the offending value."""
     if detail["type"] in ("extra_forbidden", "unexpected_keyword_argument"):
         return "is not a known field"
-    if detail["type"] == "missing":
+    if detail["type"] in ("missing", "union_tag_not_found"):
         return "is missing"
+    if detail["type"] == "union_tag_invalid":
+        return f"{detail['ctx']['tag'][:80]!r} is none of {detail['ctx']['expected_tags']}"
     shown = repr(detail["input"])
     text = detail["msg"].replace("valid array", "valid list").replace("valid tuple", "valid list")
     return f"{text}, not {shown if len(shown) <= 80 else shown[:77] + '...'}"

@@ -29,19 +29,20 @@ class JsonBody(Generic[Body]):
     Attributes:
         may_be_empty: whether an empty body counts as an object without fields.
         example: a valid body, for the description.
+        form: reads the body from JSON.
     """
 
     def __init__(self, kind: type[Body], example: dict[str, Any], *, may_be_empty: bool = False) -> None:
         """Read bodies of this type."""
         self.may_be_empty, self.example = may_be_empty, example
         self._kind: Any = kind
-        self._form: JsonForm[Body] = JsonForm(kind)
+        self.form: JsonForm[Body] = JsonForm(kind)
 
     async def __call__(self, request: Request) -> Body:
         """Return the value; raises as `read_object` does, and the `FieldError` of the first wrong field."""
         body = await read_bytes(request, LARGEST_BODY)
         data = _object(request, body, may_be_empty=self.may_be_empty)
-        return self._form.read(data) if len(body) <= SMALL_BODY else await run_in_threadpool(self._form.read, data)
+        return self.form.read(data) if len(body) <= SMALL_BODY else await run_in_threadpool(self.form.read, data)
 
     def schema(self) -> dict[str, Any]:
         """Return the JSON schema of the body."""

@@ -171,7 +171,7 @@ def drawing_from_dict(data: Mapping[str, Any]) -> Drawing:
     try:
         return DrawingModel.model_validate(data).value()
     except ValidationError as error:
-        raise first_error(error, RequestError) from None
+        raise first_error(error, RequestError, data) from None
 
 
 def drawing_to_dict(drawing: Drawing) -> dict[str, Any]:

@@ -4,11 +4,10 @@ from collections.abc import Mapping
 from dataclasses import fields
 from typing import Annotated, Any, TypeVar
 
-from pydantic import BeforeValidator, GetCoreSchemaHandler, GetPydanticSchema, PlainSerializer
+from pydantic import BeforeValidator, Field, GetCoreSchemaHandler, GetPydanticSchema, PlainSerializer
 from pydantic_core import CoreSchema, PydanticKnownError, core_schema
 
 from planner.geometry.pose import Pose2
-from planner.json_form import NULL_IS_DEFAULT
 from planner.strict_model import Bounded
 
 T = TypeVar("T")
@@ -53,6 +52,15 @@ GivenPose = Annotated[Pose2, GetPydanticSchema(_bounded)]
 """A pose (m, rad)."""
 
 
+def _as_object(described: dict[str, Any]) -> None:
+    """Describe a default as the object that it is in JSON; pydantic would describe the pairs."""
+    if "default" in described:
+        described["default"] = dict(described["default"])
+
+
+_OBJECT_DEFAULT = Field(json_schema_extra=_as_object)
+
+
 def _pairs(named: Mapping[str, T]) -> tuple[tuple[str, T], ...]:
     return tuple(named.items())
 
@@ -63,7 +71,7 @@ NamedPoses = Annotated[
         lambda _, schema: core_schema.no_info_after_validator_function(_pairs, schema(dict[str, GivenPose]))
     ),
     PlainSerializer(dict, return_type=dict[str, Pose2]),
-    NULL_IS_DEFAULT,
+    _OBJECT_DEFAULT,
 ]
 """Poses by name, in order; in JSON one object."""
 
@@ -71,5 +79,6 @@ NamedNumbers = Annotated[
     tuple[tuple[str, float], ...],
     GetPydanticSchema(lambda _, schema: core_schema.no_info_after_validator_function(_pairs, schema(dict[str, float]))),
     PlainSerializer(dict, return_type=dict[str, float]),
+    _OBJECT_DEFAULT,
 ]
 """Numbers by name, in order; in JSON one object."""

@@ -66,7 +66,7 @@ class Scene:
     __pydantic_config__ = STRICT
 
     table: Annotated[Table, NULL_IS_DEFAULT] = field(default_factory=Table)
-    stations: NamedPoses = tuple(DEFAULT_STATIONS.items())
+    stations: Annotated[NamedPoses, NULL_IS_DEFAULT] = tuple(DEFAULT_STATIONS.items())
     torso_m: Annotated[float, Interval(ge=0.0, le=1.0), NULL_IS_DEFAULT] = 0.29
     friction: Annotated[float, Interval(ge=0.0, le=FRICTION_MAX), NULL_IS_DEFAULT] = 1.0
     support_angle_rad: Annotated[float, Interval(ge=0.0, le=SUPPORT_ANGLE_MAX_RAD), NULL_IS_DEFAULT] = math.radians(5.0)
