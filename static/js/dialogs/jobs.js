@@ -1,9 +1,13 @@
-/** Jobs: work that goes on when nobody looks. The list follows them while it is open. */
+/**
+ * Jobs: work that goes on when nobody looks. The list follows them while it is open, and tells the window by the event
+ * `robots` of robots that jobs have imported.
+ */
 
 import { capital } from "../dock/words.js";
 import { button, element, sayable } from "../dom.js";
 import { times } from "../language/language.js";
 import { say } from "../language/say.js";
+import { percent } from "../messages/lengths.js";
 import { word } from "../messages/names.js";
 import { openDialog } from "./dialog.js";
 import { fetched } from "./fetched.js";
@@ -106,18 +110,21 @@ class JobRow {
     this.link.href = `${JOBS}/${job.id}`;
     this.link.setAttribute("aria-label", say("jobs.result_of", { name, when }));
     const head = element("span", "job-name", `${name}, ${when}`);
+    this.isDone = false;
     this.root = element("li", "job", head, this.status, this.bar, this.message, this.stop, this.link);
   }
 
   /** @param {Job} job as it is now */
-  show({ status, progress, message }) {
+  show({ kind, status, progress, message }) {
     const isOpen = status === "queued" || status === "running";
     const word = WORDS[status];
     if (this.status.textContent !== word) this.status.textContent = word;
     this.bar.value = progress;
     this.bar.hidden = !isOpen;
-    this.message.textContent = message;
+    this.message.textContent = isOpen ? percent(progress) : message;
     this.stop.hidden = !isOpen;
     this.link.hidden = status !== "done";
+    if (status === "done" && kind === "robots" && !this.isDone) dispatchEvent(new Event("robots"));
+    this.isDone = status === "done";
   }
 }
