@@ -6,7 +6,8 @@ A socket is a body without dynamics, tied to a vertex while a grip holds it.
 
 Cloth bends at the rows of its mesh, with an energy that grows as 1 - cos of the angle: a crease folded flat at one row
 has no moment that opens it. Pulled along, it was at a dead centre, and dragged the layer below by up to 4 cm instead of
-rolling on to the next row. So springs push vertices two rows apart on a thread from each other where a loop of cloth would.
+rolling on to the next row. So springs push vertices two rows apart on a thread from each other where a loop of cloth
+would.
 """
 
 import itertools
