@@ -143,8 +143,8 @@ def _is_middle(middle: FloatArray, one: FloatArray, other: FloatArray) -> bool:
 
 
 def _is_along(one: FloatArray, other: FloatArray) -> bool:
-    across, along = sorted(np.abs(one - other).tolist())
-    return across <= _BESIDE * along
+    x, y = np.abs(one - other).tolist()
+    return bool(min(x, y) <= _BESIDE * max(x, y))
 
 
 def _kept_apart(
