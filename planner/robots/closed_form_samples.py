@@ -46,7 +46,7 @@ def solutions(
     count = len(positions)
     size = 2 * SAMPLES + 1
     joints, costs = np.zeros((count, size, 7)), np.full((count, size), np.inf)
-    arcs, frame, near = np.empty((MOST_ARCS, 2)), np.empty((3, 3)), np.zeros(7)
+    arcs, near = np.empty((MOST_ARCS, 2)), np.zeros(7)
     for i in range(count):
         x, y, z = positions[i]
         aim = aim_at(shape, x, y, z, rotations[i, 0, 0], rotations[i, 1, 0], rotations[i, 2, 0])
@@ -69,7 +69,7 @@ def solutions(
             if slack < 0.0:
                 continue
             place_wrist(shape, aim, pan, branch, joints[i, number])
-            turn_hand(shape, aim, rotations[i], near, joints[i, number], frame)
+            turn_hand(shape, aim, rotations[i], near, joints[i, number])
             if np.isnan(joints[i, number].sum()):
                 continue
             costs[i, number] = _sample_cost(shape, joints[i, number], slack, floor)
@@ -103,7 +103,7 @@ def filled(
     """
     count = len(positions)
     joints, is_found = np.empty((count, 7)), np.ones(count, dtype=np.bool_)
-    frame, near = np.empty((3, 3)), guides[0].copy()
+    near = guides[0].copy()
     for i in range(count):
         x, y, z = positions[i]
         aim = aim_at(shape, x, y, z, rotations[i, 0, 0], rotations[i, 1, 0], rotations[i, 2, 0])
@@ -115,7 +115,7 @@ def filled(
         is_good = abs(cos_roll) >= _MEET and shape.pan.low <= pan <= shape.pan.high
         if is_good and slacks(shape, aim, pan)[0 if is_inside else 1] >= 0.0:
             place_wrist(shape, aim, pan, 1.0 if is_inside else -1.0, joints[i])
-            turn_hand(shape, aim, rotations[i], near, joints[i], frame)
+            turn_hand(shape, aim, rotations[i], near, joints[i])
         if np.isnan(joints[i].sum()):
             near[:4], near[5] = guides[i, :4], guides[i, 5]
             is_found[i], joints[i] = nearby_joints(shape, positions[i], rotations[i], near)

@@ -18,7 +18,7 @@ from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import ANGLE_RAD
 from planner.robots.aim import ToolPose, aim_at
 from planner.robots.arm import ArmShape, Sector
-from planner.robots.forward_kinematics import X, Y, Z, turn
+from planner.robots.forward_kinematics import BASE_FRAME, Vector, about_x, about_y, about_z
 from planner.robots.kernel import witness
 from planner.robots.pan_arcs import MOST_ARCS, pan_arcs, pan_on
 
@@ -67,33 +67,24 @@ def place_wrist(shape: ArmShape, aim: ToolPose, pan: float, branch: float, joint
 
 
 @njit(cache=True, nogil=True)
-def _along(frame: FloatArray, aim: ToolPose, axis: int) -> float:
-    """Return the component of the approach axis along an axis of a frame."""
-    component: float = aim.ax * frame[0, axis] + aim.ay * frame[1, axis] + aim.az * frame[2, axis]
+def _along(axis: Vector, aim: ToolPose) -> float:
+    """Return the component of the approach axis along an axis."""
+    component: float = aim.ax * axis[0] + aim.ay * axis[1] + aim.az * axis[2]
     return component
 
 
 @njit(cache=True, nogil=True)
-def turn_hand(
-    shape: ArmShape, aim: ToolPose, rotation: FloatArray, near: FloatArray, joints: FloatArray, frame: FloatArray
-) -> None:
-    """Set the last three joints so that the tool has a rotation; `frame` is scratch space, shape (3, 3)."""
-    frame[:] = 0.0
-    frame[0, 0] = frame[1, 1] = frame[2, 2] = 1.0
-    turn(frame, X, Y, joints[0])
-    turn(frame, Z, X, joints[1])
-    turn(frame, Y, Z, joints[2])
-    turn(frame, Z, X, joints[3])
-    ahead, left, up = _along(frame, aim, X), _along(frame, aim, Y), _along(frame, aim, Z)
+def turn_hand(shape: ArmShape, aim: ToolPose, rotation: FloatArray, near: FloatArray, joints: FloatArray) -> None:
+    """Set the last three joints so that the tool has a rotation."""
+    frame = about_x(about_y(about_z(BASE_FRAME, joints[0]), joints[1]), joints[2])
+    frame = about_y(frame, joints[3])
+    ahead, left, up = _along(frame[0], aim), _along(frame[1], aim), _along(frame[2], aim)
     sideways = math.hypot(left, up)
     joints[4] = near[4] if sideways <= ANGLE_RAD else _unwound(math.atan2(-left, up), near[4])
     joints[5] = _within(shape.wrist, -math.atan2(sideways, ahead))
-    turn(frame, Y, Z, joints[4])
-    turn(frame, Z, X, joints[5])
-    cos, sin = 0.0, 0.0
-    for row in range(3):
-        cos += frame[row, Y] * rotation[row, Y]
-        sin += frame[row, Z] * rotation[row, Y]
+    _, y, z = about_y(about_x(frame, joints[4]), joints[5])
+    cos = y[0] * rotation[0, 1] + y[1] * rotation[1, 1] + y[2] * rotation[2, 1]
+    sin = z[0] * rotation[0, 1] + z[1] * rotation[1, 1] + z[2] * rotation[2, 1]
     joints[6] = _unwound(math.atan2(sin, cos), near[6])
 
 
@@ -106,11 +97,10 @@ def _solve_on(
     arc: FloatArray,
     theta: float,
     joints: FloatArray,
-    frame: FloatArray,
 ) -> float:
     """Set the joints at a point of an arc's curve; return the squared distance from `near`, or infinity."""
     place_wrist(shape, aim, pan_on(arc, theta), math.copysign(1.0, math.sin(theta)), joints)
-    turn_hand(shape, aim, rotation, near, joints, frame)
+    turn_hand(shape, aim, rotation, near, joints)
     distance = 0.0
     for i in range(7):
         distance += (joints[i] - near[i]) * (joints[i] - near[i])
@@ -129,17 +119,17 @@ def nearest_joints(
 ) -> tuple[bool, FloatArray]:
     """Return whether any joints bring the tool to a pose, and those nearest to `near`, shape (7,)."""
     aim = aim_at(shape, position[0], position[1], position[2], rotation[0, 0], rotation[1, 0], rotation[2, 0])
-    arcs, joints, frame = np.empty((MOST_ARCS, 2)), np.empty(7), np.empty((3, 3))
+    arcs, joints = np.empty((MOST_ARCS, 2)), np.empty(7)
     step = math.pi / SAMPLES
     best_arc, best_theta = witness(shape, aim, arcs)
     best = math.inf
     if best_arc >= 0:
-        best = _solve_on(shape, aim, rotation, near, arcs[best_arc], best_theta, joints, frame)
+        best = _solve_on(shape, aim, rotation, near, arcs[best_arc], best_theta, joints)
     for arc in range(pan_arcs(shape, aim, arcs)):
         present = _theta_of(arcs[arc], near[0])
         for sample in range(-2, 2 * SAMPLES):
             theta = (sample + 0.5) * step if sample >= 0 else (2 * sample + 3) * present
-            distance = _solve_on(shape, aim, rotation, near, arcs[arc], theta, joints, frame)
+            distance = _solve_on(shape, aim, rotation, near, arcs[arc], theta, joints)
             if distance < best:
                 best, best_arc, best_theta = distance, arc, theta
     if best == math.inf:
@@ -147,10 +137,10 @@ def nearest_joints(
     while step > FINEST:
         step *= 0.5
         for theta in (best_theta - step, best_theta + step):
-            distance = _solve_on(shape, aim, rotation, near, arcs[best_arc], theta, joints, frame)
+            distance = _solve_on(shape, aim, rotation, near, arcs[best_arc], theta, joints)
             if distance < best:
                 best, best_theta = distance, theta
-    _solve_on(shape, aim, rotation, near, arcs[best_arc], best_theta, joints, frame)
+    _solve_on(shape, aim, rotation, near, arcs[best_arc], best_theta, joints)
     return True, joints
 
 
@@ -164,23 +154,23 @@ def nearby_joints(
     path.
     """
     aim = aim_at(shape, position[0], position[1], position[2], rotation[0, 0], rotation[1, 0], rotation[2, 0])
-    arcs, joints, frame = np.empty((MOST_ARCS, 2)), np.empty(7), np.empty((3, 3))
+    arcs, joints = np.empty((MOST_ARCS, 2)), np.empty(7)
     best, best_arc, best_theta = math.inf, -1, 0.0
     for arc in range(pan_arcs(shape, aim, arcs)):
         present = _theta_of(arcs[arc], near[0])
         for theta in (present, -present):
-            distance = _solve_on(shape, aim, rotation, near, arcs[arc], theta, joints, frame)
+            distance = _solve_on(shape, aim, rotation, near, arcs[arc], theta, joints)
             if distance < best:
                 best, best_arc, best_theta = distance, arc, theta
     if best_arc < 0:
         return False, joints
     ahead = np.empty(7)
-    _solve_on(shape, aim, rotation, near, arcs[best_arc], best_theta, joints, frame)
+    _solve_on(shape, aim, rotation, near, arcs[best_arc], best_theta, joints)
     while True:
-        step = _step_towards(shape, aim, rotation, near, arcs[best_arc], best_theta, joints, ahead, frame)
+        step = _step_towards(shape, aim, rotation, near, arcs[best_arc], best_theta, joints, ahead)
         is_nearer = False
         while abs(step) > SETTLED and not is_nearer:
-            distance = _solve_on(shape, aim, rotation, near, arcs[best_arc], best_theta + step, ahead, frame)
+            distance = _solve_on(shape, aim, rotation, near, arcs[best_arc], best_theta + step, ahead)
             is_nearer = distance < best
             if is_nearer:
                 best, best_theta = distance, best_theta + step
@@ -200,16 +190,15 @@ def _step_towards(
     theta: float,
     joints: FloatArray,
     ahead: FloatArray,
-    frame: FloatArray,
 ) -> float:
     """Return how far along an arc's curve the linearised joints are nearest to `near` (rad).
 
-    `ahead` and `frame` are scratch space, shapes (7,) and (3, 3).
+    `ahead` is scratch space, shape (7,).
     """
     probe = PROBE
-    if _solve_on(shape, aim, rotation, joints, arc, theta + probe, ahead, frame) == math.inf:
+    if _solve_on(shape, aim, rotation, joints, arc, theta + probe, ahead) == math.inf:
         probe = -PROBE
-        if _solve_on(shape, aim, rotation, joints, arc, theta + probe, ahead, frame) == math.inf:
+        if _solve_on(shape, aim, rotation, joints, arc, theta + probe, ahead) == math.inf:
             return 0.0
     along, squared = 0.0, 0.0
     for i in range(7):

@@ -26,6 +26,9 @@ STEP_MAX = 0.5
 PATIENCE, PROGRESS = 4, 0.6
 """A start is given up where the error has not fallen to this share of itself within so many steps."""
 
+HOPELESS = 0.5
+"""A start is given up where more than this share of the error is left even if the arm moves as its Jacobian says."""
+
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
 def _pitch_row(point: FloatArray, rotation: FloatArray, scratch: Scratch) -> tuple[float, float, float]:
@@ -47,7 +50,7 @@ def _pitch_row(point: FloatArray, rotation: FloatArray, scratch: Scratch) -> tup
     return lacking - math.tau * math.floor(lacking / math.tau + 0.5), hx, hy
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+@njit(cache=True, nogil=True, inline="always", error_model="numpy", fastmath={"contract", "nsz", "arcp"})
 def set_rows(chain: Chain, point: FloatArray, rotation: FloatArray, rows: int, scratch: Scratch) -> float:
     """Set the errors and the Jacobian of a pose; return the error's length (m)."""
     errors, jacobian, frame, scale = scratch.errors, scratch.rows, scratch.frame, chain.scale
@@ -85,22 +88,24 @@ def set_rows(chain: Chain, point: FloatArray, rotation: FloatArray, rows: int, s
                 if sine <= 1e-9:
                     ex, ey, ez = math.pi * frame[0, 0], math.pi * frame[1, 0], math.pi * frame[2, 0]
             errors[3], errors[4], errors[5] = scale * ex, scale * ey, scale * ez
+    axes, places = scratch.axes, scratch.places
+    px, py, pz = scratch.point[0], scratch.point[1], scratch.point[2]
+    lx, ly, lz = scale * frame[0, 1], scale * frame[1, 1], scale * frame[2, 1]
+    ux, uy, uz = scale * frame[0, 2], scale * frame[1, 2], scale * frame[2, 2]
     for i in range(joints):
-        wx, wy, wz = scratch.axes[i, 0], scratch.axes[i, 1], scratch.axes[i, 2]
+        wx, wy, wz = axes[i, 0], axes[i, 1], axes[i, 2]
         if chain.is_prismatic[i]:
             jacobian[0, i], jacobian[1, i], jacobian[2, i] = wx, wy, wz
             wx, wy, wz = 0.0, 0.0, 0.0
         else:
-            dx = scratch.point[0] - scratch.places[i, 0]
-            dy = scratch.point[1] - scratch.places[i, 1]
-            dz = scratch.point[2] - scratch.places[i, 2]
+            dx, dy, dz = px - places[i, 0], py - places[i, 1], pz - places[i, 2]
             jacobian[0, i], jacobian[1, i] = wy * dz - wz * dy, wz * dx - wx * dz
             jacobian[2, i] = wx * dy - wy * dx
         if rows == PITCH:
             jacobian[3, i] = scale * (wx * tx + wy * ty + wz * tz)
         elif rows == AXIS:
-            jacobian[3, i] = scale * (wx * frame[0, 1] + wy * frame[1, 1] + wz * frame[2, 1])
-            jacobian[4, i] = scale * (wx * frame[0, 2] + wy * frame[1, 2] + wz * frame[2, 2])
+            jacobian[3, i] = wx * lx + wy * ly + wz * lz
+            jacobian[4, i] = wx * ux + wy * uy + wz * uz
         else:
             jacobian[3, i], jacobian[4, i], jacobian[5, i] = scale * wx, scale * wy, scale * wz
     squared = 0.0
@@ -109,9 +114,9 @@ def set_rows(chain: Chain, point: FloatArray, rotation: FloatArray, rows: int, s
     return math.sqrt(squared)
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+@njit(cache=True, nogil=True, inline="always", error_model="numpy", fastmath={"contract", "nsz", "arcp"})
 def set_step(rows: int, damping: float, scratch: Scratch) -> None:
-    """Set the damped least-squares step of the joints that are not held."""
+    """Set the damped least-squares step of the joints; those that are held rest."""
     jacobian, normal, errors, step = scratch.rows, scratch.normal, scratch.errors, scratch.step
     solution = scratch.solution
     joints = len(step)
@@ -119,28 +124,47 @@ def set_step(rows: int, damping: float, scratch: Scratch) -> None:
         for b in range(a + 1):
             total = damping if a == b else 0.0
             for i in range(joints):
-                if not scratch.is_held[i]:
-                    total += jacobian[a, i] * jacobian[b, i]
+                total += jacobian[a, i] * jacobian[b, i]
             for k in range(b):
                 total -= normal[a, k] * normal[b, k]
-            normal[a, b] = math.sqrt(max(total, 1e-18)) if a == b else total / normal[b, b]
-    for i in range(joints):
-        step[i] = 0.0
+            # The diagonal holds reciprocals: it only divides.
+            normal[a, b] = 1.0 / math.sqrt(max(total, 1e-18)) if a == b else total * normal[b, b]
     for a in range(rows):
         total = errors[a]
         for k in range(a):
             total -= normal[a, k] * solution[k]
-        solution[a] = total / normal[a, a]
+        solution[a] = total * normal[a, a]
     for back in range(rows):
         a = rows - 1 - back
         total = solution[a]
         for k in range(a + 1, rows):
             total -= normal[k, a] * solution[k]
-        solution[a] = total / normal[a, a]
+        solution[a] = total * normal[a, a]
     for i in range(joints):
-        if not scratch.is_held[i]:
-            for a in range(rows):
-                step[i] += jacobian[a, i] * solution[a]
+        total = 0.0
+        for a in range(rows):
+            total += jacobian[a, i] * solution[a]
+        step[i] = total
+
+
+@njit(cache=True, nogil=True, inline="always")
+def hold(joint: int, scratch: Scratch) -> None:
+    """Leave a joint where it is in the steps that follow, until the Jacobian is set again."""
+    scratch.is_held[joint] = True
+    for row in range(len(scratch.errors)):
+        scratch.rows[row, joint] = 0.0
+
+
+@njit(cache=True, nogil=True, inline="always", error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+def _squared_left(rows: int, scratch: Scratch) -> float:
+    """Return the square of the error that is left after the step, by the Jacobian (m2)."""
+    squared = 0.0
+    for row in range(rows):
+        left = scratch.errors[row]
+        for i in range(len(scratch.step)):
+            left -= scratch.rows[row, i] * scratch.step[i]
+        squared += left * left
+    return squared
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
@@ -177,9 +201,12 @@ def solve(
                     continue
                 step = scratch.step[i]
                 if (step < 0.0 and joints[i] <= chain.low[i]) or (step > 0.0 and joints[i] >= chain.high[i]):
-                    scratch.is_held[i] = is_new = True
+                    hold(i, scratch)
+                    is_new = True
             if not is_new:
                 break
+        if _squared_left(rows, scratch) > (HOPELESS * error) ** 2:
+            return False
         longest = 0.0
         for i in range(count):
             longest = max(longest, abs(scratch.step[i]))

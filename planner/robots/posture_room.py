@@ -107,7 +107,7 @@ def blocked_for(room: Room, label: int, aim: ToolPose, towards: FloatArray) -> f
 @njit(cache=True, nogil=True)
 def has_room(shape: ArmShape, room: Room, aim: ToolPose, arcs: FloatArray) -> bool:
     """Return whether some posture at a tool pose is clear; `arcs`, shape (MOST_ARCS, 2), is scratch space."""
-    joints, frame, near, rotation = np.empty(7), np.empty((3, 3)), np.zeros(7), np.zeros((3, 3))
+    joints, near, rotation = np.empty(7), np.zeros(7), np.zeros((3, 3))
     _level(aim, rotation)
     count = pan_arcs(shape, aim, arcs)
     per = max(SAMPLES // max(count, 1), 2)
@@ -119,7 +119,7 @@ def has_room(shape: ArmShape, room: Room, aim: ToolPose, arcs: FloatArray) -> bo
             if slacks(shape, aim, pan)[sample % 2] < 0.0:
                 continue
             place_wrist(shape, aim, pan, branch, joints)
-            turn_hand(shape, aim, rotation, near, joints, frame)
+            turn_hand(shape, aim, rotation, near, joints)
             if not np.isnan(joints.sum()) and _is_clear(shape, room, joints):
                 return True
     return False

@@ -46,29 +46,35 @@ def pose_chain(chains: ArmChains, lift_m: float, arm: int, joints: FloatArray, p
     last, above = chains.first_parts[arm + 1], chains.first_joints[arm]
     r00, r01, r02, r10, r11, r12, r20, r21, r22 = 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0
     x, y, z = chains.roots[arm, 0], chains.roots[arm, 1], chains.roots[arm, 2] + lift_m
+    f, t = chains.rotations, chains.offsets
     for i in range(len(joints)):
-        f, t = chains.rotations[above + i], chains.offsets[above + i]
-        x += r00 * t[0] + r01 * t[1] + r02 * t[2]
-        y += r10 * t[0] + r11 * t[1] + r12 * t[2]
-        z += r20 * t[0] + r21 * t[1] + r22 * t[2]
-        a0, a1 = r00 * f[0, 0] + r01 * f[1, 0] + r02 * f[2, 0], r00 * f[0, 1] + r01 * f[1, 1] + r02 * f[2, 1]
-        a2 = r00 * f[0, 2] + r01 * f[1, 2] + r02 * f[2, 2]
-        b0, b1 = r10 * f[0, 0] + r11 * f[1, 0] + r12 * f[2, 0], r10 * f[0, 1] + r11 * f[1, 1] + r12 * f[2, 1]
-        b2 = r10 * f[0, 2] + r11 * f[1, 2] + r12 * f[2, 2]
-        c0, c1 = r20 * f[0, 0] + r21 * f[1, 0] + r22 * f[2, 0], r20 * f[0, 1] + r21 * f[1, 1] + r22 * f[2, 1]
-        c2 = r20 * f[0, 2] + r21 * f[1, 2] + r22 * f[2, 2]
-        if chains.is_prismatic[above + i]:
-            r00, r01, r02, r10, r11, r12, r20, r21, r22 = a0, a1, a2, b0, b1, b2, c0, c1, c2
+        n = above + i
+        x += r00 * t[n, 0] + r01 * t[n, 1] + r02 * t[n, 2]
+        y += r10 * t[n, 0] + r11 * t[n, 1] + r12 * t[n, 2]
+        z += r20 * t[n, 0] + r21 * t[n, 1] + r22 * t[n, 2]
+        f00, f01, f02 = f[n, 0, 0], f[n, 0, 1], f[n, 0, 2]
+        f10, f11, f12 = f[n, 1, 0], f[n, 1, 1], f[n, 1, 2]
+        f20, f21, f22 = f[n, 2, 0], f[n, 2, 1], f[n, 2, 2]
+        a0, a1 = r00 * f00 + r01 * f10 + r02 * f20, r00 * f01 + r01 * f11 + r02 * f21
+        b0, b1 = r10 * f00 + r11 * f10 + r12 * f20, r10 * f01 + r11 * f11 + r12 * f21
+        c0, c1 = r20 * f00 + r21 * f10 + r22 * f20, r20 * f01 + r21 * f11 + r22 * f21
+        r02, r12, r22 = (
+            r00 * f02 + r01 * f12 + r02 * f22,
+            r10 * f02 + r11 * f12 + r12 * f22,
+            r20 * f02 + r21 * f12 + r22 * f22,
+        )
+        if chains.is_prismatic[n]:
+            r00, r01, r10, r11, r20, r21 = a0, a1, b0, b1, c0, c1
             x, y, z = x + joints[i] * r02, y + joints[i] * r12, z + joints[i] * r22
         else:
             c, s = math.cos(joints[i]), math.sin(joints[i])
-            r00, r01, r02 = c * a0 + s * a1, c * a1 - s * a0, a2
-            r10, r11, r12 = c * b0 + s * b1, c * b1 - s * b0, b2
-            r20, r21, r22 = c * c0 + s * c1, c * c1 - s * c0, c2
+            r00, r01 = c * a0 + s * a1, c * a1 - s * a0
+            r10, r11 = c * b0 + s * b1, c * b1 - s * b0
+            r20, r21 = c * c0 + s * c1, c * c1 - s * c0
         while part < last and chains.carriers[part] == i:
-            pose = poses[part - first]
-            pose[0, 0], pose[0, 1], pose[0, 2] = r00, r01, r02
-            pose[1, 0], pose[1, 1], pose[1, 2] = r10, r11, r12
-            pose[2, 0], pose[2, 1], pose[2, 2] = r20, r21, r22
-            pose[PLACE, 0], pose[PLACE, 1], pose[PLACE, 2] = x, y, z
+            at = part - first
+            poses[at, 0, 0], poses[at, 0, 1], poses[at, 0, 2] = r00, r01, r02
+            poses[at, 1, 0], poses[at, 1, 1], poses[at, 1, 2] = r10, r11, r12
+            poses[at, 2, 0], poses[at, 2, 1], poses[at, 2, 2] = r20, r21, r22
+            poses[at, PLACE, 0], poses[at, PLACE, 1], poses[at, PLACE, 2] = x, y, z
             part += 1

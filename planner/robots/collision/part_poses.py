@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from planner.geometry.pose import FloatArray
 from planner.robots.arm import ArmShape
 from planner.robots.collision.parts import ARM_PARTS, PALM
-from planner.robots.forward_kinematics import X, Y, Z, turn
+from planner.robots.forward_kinematics import BASE_FRAME, Frame, Vector, about_x, about_y, about_z, ahead
 
 EACH = len(ARM_PARTS)
 """Number of parts of an arm."""
@@ -28,13 +28,13 @@ Index = NDArray[np.int64]
 
 
 @njit(cache=True, nogil=True)
-def _set_pose(pose: FloatArray, frame: FloatArray, x: float, y: float, z: float, side: float) -> None:
+def _set_pose(poses: FloatArray, part: int, frame: Frame, place: Vector, side: float) -> None:
     """Set a part's pose from the left arm's frame; `side` is -1 for the right arm."""
-    for column in range(3):
-        pose[0, column] = frame[0, column]
-        pose[1, column] = side * frame[1, column]
-        pose[2, column] = frame[2, column]
-    pose[PLACE, 0], pose[PLACE, 1], pose[PLACE, 2] = x, side * y, z
+    x, y, z = frame
+    poses[part, 0, 0], poses[part, 0, 1], poses[part, 0, 2] = x[0], y[0], z[0]
+    poses[part, 1, 0], poses[part, 1, 1], poses[part, 1, 2] = side * x[1], side * y[1], side * z[1]
+    poses[part, 2, 0], poses[part, 2, 1], poses[part, 2, 2] = x[2], y[2], z[2]
+    poses[part, PLACE, 0], poses[part, PLACE, 1], poses[part, PLACE, 2] = place[0], side * place[1], place[2]
 
 
 @njit(cache=True, nogil=True)
@@ -48,26 +48,25 @@ def pose_arm(shape: ArmShape, lift_m: float, joints: FloatArray, side: float, po
         side: 1 for the left arm, -1 for the right.
         poses: the poses to set, shape (EACH, 5, 3).
     """
-    frame = np.eye(3)
-    x, y, z = shape.shoulder_x, shape.shoulder_y, shape.shoulder_z + lift_m
-    turn(frame, X, Y, side * joints[0])
-    _set_pose(poses[0], frame, x, y, z, side)
-    x, y, z = x + shape.offset * frame[0, 0], y + shape.offset * frame[1, 0], z + shape.offset * frame[2, 0]
-    turn(frame, Z, X, joints[1])
-    _set_pose(poses[1], frame, x, y, z, side)
-    turn(frame, Y, Z, side * joints[2])
-    _set_pose(poses[2], frame, x, y, z, side)
-    x, y, z = x + shape.upper * frame[0, 0], y + shape.upper * frame[1, 0], z + shape.upper * frame[2, 0]
-    turn(frame, Z, X, joints[3])
-    _set_pose(poses[3], frame, x, y, z, side)
-    turn(frame, Y, Z, side * joints[4])
-    _set_pose(poses[4], frame, x, y, z, side)
-    x, y, z = x + shape.fore * frame[0, 0], y + shape.fore * frame[1, 0], z + shape.fore * frame[2, 0]
-    turn(frame, Z, X, joints[5])
-    _set_pose(poses[5], frame, x, y, z, side)
-    turn(frame, Y, Z, side * joints[6])
+    place = (shape.shoulder_x, shape.shoulder_y, shape.shoulder_z + lift_m)
+    frame = about_z(BASE_FRAME, side * joints[0])
+    _set_pose(poses, 0, frame, place, side)
+    place = ahead(place, frame, shape.offset)
+    frame = about_y(frame, joints[1])
+    _set_pose(poses, 1, frame, place, side)
+    frame = about_x(frame, side * joints[2])
+    _set_pose(poses, 2, frame, place, side)
+    place = ahead(place, frame, shape.upper)
+    frame = about_y(frame, joints[3])
+    _set_pose(poses, 3, frame, place, side)
+    frame = about_x(frame, side * joints[4])
+    _set_pose(poses, 4, frame, place, side)
+    place = ahead(place, frame, shape.fore)
+    frame = about_y(frame, joints[5])
+    _set_pose(poses, 5, frame, place, side)
+    frame = about_x(frame, side * joints[6])
     for part in range(PALM, EACH):
-        _set_pose(poses[part], frame, x, y, z, side)
+        _set_pose(poses, part, frame, place, side)
 
 
 @njit(cache=True, nogil=True)
@@ -82,11 +81,11 @@ def pose_table(base: FloatArray, tables: FloatArray, poses: FloatArray) -> None:
     cos, sin = math.cos(base[2]), math.sin(base[2])
     for part in range(len(tables)):
         x, y = tables[part, 0] - base[0], tables[part, 1] - base[1]
-        pose = poses[part]
-        pose[0, 0], pose[0, 1], pose[0, 2] = cos, sin, 0.0
-        pose[1, 0], pose[1, 1], pose[1, 2] = -sin, cos, 0.0
-        pose[2, 0], pose[2, 1], pose[2, 2] = 0.0, 0.0, 1.0
-        pose[PLACE, 0], pose[PLACE, 1], pose[PLACE, 2] = cos * x + sin * y, cos * y - sin * x, tables[part, 2]
+        poses[part, 0, 0], poses[part, 0, 1], poses[part, 0, 2] = cos, sin, 0.0
+        poses[part, 1, 0], poses[part, 1, 1], poses[part, 1, 2] = -sin, cos, 0.0
+        poses[part, 2, 0], poses[part, 2, 1], poses[part, 2, 2] = 0.0, 0.0, 1.0
+        poses[part, PLACE, 0], poses[part, PLACE, 1] = cos * x + sin * y, cos * y - sin * x
+        poses[part, PLACE, 2] = tables[part, 2]
 
 
 @njit(cache=True, nogil=True)

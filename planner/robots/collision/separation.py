@@ -53,7 +53,7 @@ class Parts(NamedTuple):
     arms: Index
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, inline="always")
 def _towards(bounds: FloatArray, poses: FloatArray, a: int, b: int) -> tuple[float, float, float]:
     """Return the way from the box round part b to the centre of part a (m); zero if that is inside."""
     dx = poses[a, MIDDLE, 0] - poses[b, MIDDLE, 0]
@@ -70,7 +70,7 @@ def _towards(bounds: FloatArray, poses: FloatArray, a: int, b: int) -> tuple[flo
     return ox, oy, oz
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, inline="always")
 def _room_between(
     corners: FloatArray, spans: Index, bounds: FloatArray, poses: FloatArray, a: int, b: int, margin: float
 ) -> float:
@@ -102,7 +102,7 @@ def first_close_pair(
     return -1
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, inline="always")
 def _add_ways(bounds: FloatArray, before: FloatArray, poses: FloatArray, gone: FloatArray) -> None:
     """Add to the distances (m) that any point of each part has moved those since the last pose, and keep the pose.
 
@@ -119,7 +119,9 @@ def _add_ways(bounds: FloatArray, before: FloatArray, poses: FloatArray, gone: F
             moved += change * change
         if turned + moved != 0.0:
             gone[part] += math.sqrt(moved) + bounds[part, RADIUS] * math.sqrt(0.5 * turned)
-            before[part] = poses[part]
+            for axis in range(3):
+                for row in (0, 1, 2, MIDDLE):
+                    before[part, row, axis] = poses[part, row, axis]
 
 
 @njit(cache=True, nogil=True)
@@ -181,7 +183,7 @@ def first_close(
         _add_ways(bounds, before, poses, gone)
         found[i] = -1
         for pair in range(start[i], len(pairs)):
-            a, b = pairs[pair]
+            a, b = pairs[pair, 0], pairs[pair, 1]
             if gone[a] + gone[b] < apart_until[pair]:
                 continue
             room = _room_between(corners, spans, bounds, poses, a, b, margins[pair])
