@@ -49,7 +49,7 @@ class HandWay:
 
     def held_at(self, t_s: float) -> HeldCloth:
         """Return the cloth between the fingers at a time since the step's start (s)."""
-        way = self._ahead
+        way = ahead(self.grip)
         if not self.is_fold or way is None:
             return self.held
         done = float(np.interp(t_s, self.grip.times_s, way_done(np.array(self.grip.points))))
@@ -61,15 +61,15 @@ class HandWay:
         return self.held_at(t_s).at(fingertip(self.grip.at(t_s)))
 
     @property
-    def _ahead(self) -> FloatArray | None:
-        """The direction of the way on the ground, shape (2,); None if it goes nowhere."""
-        shift = np.subtract(self.grip.points[-1][:2], self.grip.points[0][:2])
-        length = float(np.linalg.norm(shift))
-        return None if length < _STILL_M else np.asarray(shift / length)
-
-    @property
     def _turn_rad(self) -> float:
         """The angle by which the cloth beside the fingers turns over: half a turn, more where it hangs."""
         ends = np.array([self.grip.points[0], self.grip.points[-1]])
         hanging = sum(not self.top.covers(end[None]) for end in ends)
         return math.pi * (1.0 + 0.5 * hanging)
+
+
+def ahead(grip: GripMotion) -> FloatArray | None:
+    """Return the direction of a hand's way on the ground, of length 1, shape (2,); None if it goes nowhere."""
+    shift = np.subtract(grip.points[-1][:2], grip.points[0][:2])
+    length = float(np.linalg.norm(shift))
+    return None if length < _STILL_M else np.asarray(shift / length)

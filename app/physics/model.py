@@ -6,7 +6,8 @@ A socket is a body without dynamics, tied to a vertex while a grip holds it.
 
 Cloth bends at the rows of its mesh, with an energy that grows as 1 - cos of the angle: a crease folded flat at one row
 has no moment that opens it. Pulled along, it was at a dead centre, and dragged the layer below by up to 4 cm instead of
-rolling on to the next row. So springs push vertices two rows apart from each other where a loop of cloth would.
+rolling on to the next row. So springs push vertices two rows apart on a thread from each other where a loop of cloth
+would.
 """
 
 import itertools
@@ -47,16 +48,23 @@ From the elastica, along which sin(angle) grows with the square of the curvature
 """
 
 _BESIDE = 0.2
-"""How far beside the middle of two vertices the one between them may be, as a share of their distance."""
+"""How far beside the middle of two vertices the one between them may be, and they beside a thread, as a share of their
+distance."""
 
 
 def model_xml(
-    rest: FloatArray, triangles: NDArray[np.int64], fabric: Fabric, resolution: Resolution, table: Table | None
+    rest: FloatArray,
+    pattern: FloatArray,
+    triangles: NDArray[np.int64],
+    fabric: Fabric,
+    resolution: Resolution,
+    table: Table | None,
 ) -> str:
     """Return the model as MJCF.
 
     Args:
         rest: the vertices of the flat cloth, shape (n, 3), m.
+        pattern: the vertices in the frame of warp and weft, shape (n, 2), m.
         triangles: shape (m, 3).
         fabric: the cloth.
         resolution: the time step and the solver's effort.
@@ -73,7 +81,7 @@ def model_xml(
     loops = "".join(
         f'<spatial springlength="{width:.9g} 9" stiffness="{opening_stiffness(width, fabric, resolution):.9g}">'
         f'<site site="p{i}"/><site site="p{j}"/></spatial>'
-        for (i, j), width in zip(*_kept_apart(rest, triangles, fabric), strict=True)
+        for (i, j), width in _kept_apart(pattern, triangles, fabric)
     )
     sockets = "".join(f'<body name="s{i}" mocap="true" pos="0 0 -9"/>' for i in range(SOCKETS))
     ties = "".join(f'<connect body1="s{i}" body2="v0" anchor="0 0 0" active="false" {_HELD}/>' for i in range(SOCKETS))
@@ -112,7 +120,12 @@ def opening_stiffness(width_m: float, fabric: Fabric, resolution: Resolution) ->
 
 
 def two_rows_apart(points: FloatArray, triangles: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Return the pairs of vertices with another in their middle that is joined to both, shape (k, 2)."""
+    """Return the pairs of vertices along a thread with another in their middle that is joined to both, shape (k, 2).
+
+    Args:
+        points: the vertices in the frame of warp and weft, shape (n, 2), m.
+        triangles: shape (m, 3).
+    """
     pairs = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
     joined = np.unique(np.concatenate([pairs, pairs[:, ::-1]]), axis=0)
     starts = np.searchsorted(joined[:, 0], np.arange(len(points) + 1))
@@ -120,7 +133,7 @@ def two_rows_apart(points: FloatArray, triangles: NDArray[np.int64]) -> NDArray[
         (int(one), int(other))
         for first, last in itertools.pairwise(starts.tolist())
         for one, other in itertools.combinations(joined[first:last, 1], 2)
-        if _is_middle(points[joined[first, 0]], points[one], points[other])
+        if _is_along(points[one], points[other]) and _is_middle(points[joined[first, 0]], points[one], points[other])
     }
     return np.array(sorted(found), dtype=np.int64).reshape(-1, 2)
 
@@ -129,13 +142,18 @@ def _is_middle(middle: FloatArray, one: FloatArray, other: FloatArray) -> bool:
     return float(np.linalg.norm(one + other - 2.0 * middle)) <= _BESIDE * float(np.linalg.norm(one - other))
 
 
+def _is_along(one: FloatArray, other: FloatArray) -> bool:
+    x, y = np.abs(one - other).tolist()
+    return bool(min(x, y) <= _BESIDE * max(x, y))
+
+
 def _kept_apart(
-    rest: FloatArray, triangles: NDArray[np.int64], fabric: Fabric
-) -> tuple[list[tuple[int, int]], list[float]]:
+    pattern: FloatArray, triangles: NDArray[np.int64], fabric: Fabric
+) -> list[tuple[tuple[int, int], float]]:
     """Return the pairs of vertices that springs keep apart, and up to which distance (m)."""
-    pairs = two_rows_apart(rest, triangles)
-    gaps = np.linalg.norm(rest[pairs[:, 0]] - rest[pairs[:, 1]], axis=1).tolist()
-    return [(i, j) for i, j in pairs.tolist()], [loop_width(gap, fabric) for gap in gaps]
+    pairs = two_rows_apart(pattern, triangles)
+    gaps = np.linalg.norm(pattern[pairs[:, 0]] - pattern[pairs[:, 1]], axis=1).tolist()
+    return [((i, j), loop_width(gap, fabric)) for (i, j), gap in zip(pairs.tolist(), gaps, strict=True)]
 
 
 def compiled(xml: str) -> mujoco.MjModel:

@@ -5,9 +5,9 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from app.physics.fabric import Fabric, Resolution
-from app.physics.hand_way import HandWay
+from app.physics.hand_way import HandWay, ahead
 from app.physics.held_cloth import HeldCloth
-from app.physics.pinch import fingertip, pinched
+from app.physics.pinch import clamped, fingertip, pinched
 from app.physics.simulation import ClothSimulation
 from app.rehearsal.planned_cloth import planned_positions
 from app.rehearsal.world import GripMotion, Observation, Performed, StepMotion, Truth
@@ -105,11 +105,13 @@ class PhysicsWorld:
         if grip.arm in self._grips and not grip.closes:
             return True
         tool, now = grip.at(grip.times_s[0]), self.simulation.positions
-        found = pinched(now, self.simulation.triangles, tool, self._top, self._clear_m)
+        triangles, tip, way = self.simulation.triangles, fingertip(tool), ahead(grip)
+        found = pinched(now, triangles, tool, self._top, self._clear_m)
+        found = found if way is None else clamped(found, now, triangles, tip, way)
         taken = {vertex: point for vertex, point in found.items() if vertex not in self.simulation.held}
         if taken:
-            self._grips[grip.arm] = held = HeldCloth.of(taken, now, fingertip(tool))
-            self.simulation.hold(held.at(fingertip(tool)))
+            self._grips[grip.arm] = held = HeldCloth.of(taken, now, tip)
+            self.simulation.hold(held.at(tip))
         return bool(taken)
 
     def _press(self, grips: Mapping[str, GripMotion]) -> None:

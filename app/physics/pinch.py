@@ -1,5 +1,7 @@
 """Find the vertices of the cloth that two closing fingers pinch, by geometry alone: the layers are not known."""
 
+from collections.abc import Mapping
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -18,6 +20,9 @@ _OPENING_M = 0.03
 
 _ALIKE_M = 0.003
 """Edges of several layers that are about equally far count as one (m)."""
+
+_BESIDE = 0.7
+"""The cosine of the angle to the line across a hand's way up to which a vertex lies beside another."""
 
 
 def pinched(
@@ -62,6 +67,36 @@ def pinched(
         -gaps[taken], kind="stable"
     ).tolist()  # of a vertex's triangles the nearest comes last, and stays
     return {vertices[i]: points[taken[i]] for i in order}
+
+
+def clamped(
+    found: Mapping[int, FloatArray],
+    positions: FloatArray,
+    triangles: NDArray[np.int64],
+    tip: FloatArray,
+    way: FloatArray,
+) -> dict[int, FloatArray]:
+    """Return what is pinched with a second vertex beside each that has none beside it, across the way of the hand.
+
+    A pad is as wide as a row of the mesh, and cloth does not turn between fingers. Held by one vertex it would.
+
+    Args:
+        found: the point between the fingers for each vertex, shape (3,), m.
+        positions: the vertices, table frame, shape (n, 3), m.
+        triangles: shape (m, 3).
+        tip: where the fingers have closed, shape (3,), m.
+        way: the direction of the hand's way, horizontal, of length 1, shape (2,).
+    """
+    across = np.array([-way[1], way[0], 0.0])
+    taken = dict(found)
+    for vertex, point in found.items():
+        near = np.unique(triangles[(triangles == vertex).any(axis=1)])
+        offsets = positions[near] - positions[vertex]
+        is_beside = np.abs(offsets @ across) > _BESIDE * np.linalg.norm(offsets, axis=1)
+        beside = near[is_beside]
+        if len(beside) and not taken.keys() & set(beside.tolist()):
+            taken[int(beside[np.linalg.norm(positions[beside] - tip, axis=1).argmin()])] = point
+    return taken
 
 
 def fingertip(tool: FloatArray) -> FloatArray:

@@ -17,10 +17,10 @@ _NEAR = 1.0 / 3.0
 """The share of the radius at which it is tried first: most fingers that miss have closed just beside an edge."""
 
 SHORT_M = 0.008
-"""How far short of its place an edge is laid down upon the stack, or where the same hands lift it again (m).
+"""How far short of its place an edge is laid down where the same hands lift it again (m).
 
-Cloth turns over in a loop: with the edge at its place the crease would come to lie inside of its line by half of that
-(`app.vision.fit_creased`), or push the layers below aside.
+Cloth turns over in a loop, so that the edge below ends inside of its place too, and the upper one would hang down
+before it.
 """
 
 

@@ -1,4 +1,4 @@
-"""Where exactly hands take the cloth, and which edges they lay upon the stack."""
+"""Where exactly hands take the cloth, and which edges they lay down short of their place."""
 
 import math
 
@@ -10,9 +10,6 @@ from planner.geometry.pose import Point2, Pose2
 from planner.geometry.tolerance import LENGTH_M
 from planner.task.plan import Plan
 from planner.task.plan_step import PlanStep
-
-_AHEAD_M = 0.02
-"""With so much of the stack ahead of it, an edge laid down is not at the outline (m)."""
 
 
 def on_the_flap(step: PlanStep, carried: Isometry, seen: SeenStack | None, radius_m: float) -> dict[str, Point2]:
@@ -35,15 +32,9 @@ def on_the_flap(step: PlanStep, carried: Isometry, seen: SeenStack | None, radiu
 def laid_short(plan: Plan, step: PlanStep) -> frozenset[str]:
     """Return the arms that a fold has lay their edge of the cloth down short of its place.
 
-    That is where it comes to lie upon the stack, well inside of the outline ahead, and where the same hands lift it
-    again: beyond the edge below it would hang down, and hook that one. A red fold goes on from where the one before has
-    ended.
+    That is where the same hands lift it again: beyond the edge below it would hang down, and hook that one. A red fold
+    goes on from where the one before has ended.
     """
-    if step.fold is None or not step.holdings or plan.sequence.folds[step.fold].is_red:
+    if step.fold is None or plan.sequence.folds[step.fold].is_red or not step.details.get("holds"):
         return frozenset()
-    if step.details.get("holds"):
-        return frozenset(one.arm for one in step.holdings)
-    line = plan.sequence.folds[step.fold].line
-    landed = Isometry.reflection(line).apply(np.array([one.point for one in step.holdings]))
-    gaps = plan.sequence.cloth(step.after.done).silhouette.distances_to(landed - _AHEAD_M * np.array(line.left))
-    return frozenset(one.arm for one, gap_m in zip(step.holdings, gaps.tolist(), strict=True) if gap_m <= LENGTH_M)
+    return frozenset(one.arm for one in step.holdings)

@@ -8,7 +8,7 @@ import pytest
 
 from app.physics.hand_way import UNDER_M, HandWay
 from app.physics.held_cloth import HeldCloth
-from app.physics.pinch import fingertip, nearest_weights, pinched
+from app.physics.pinch import clamped, fingertip, nearest_weights, pinched
 from app.rehearsal.world import GripMotion
 from planner.folds.fold_path import REST_HEIGHT_M
 from planner.geometry.table import Table
@@ -101,6 +101,19 @@ def test_of_several_triangles_at_a_vertex_the_one_nearest_to_the_fingers_tells_w
     triangles = np.array([[0, 3, 4], [0, 1, 2]])
     found = pinched(positions, triangles, np.array([0.008, 0.004, REST_HEIGHT_M]), TOP, 0.03)
     assert found[0] == pytest.approx([0.008, 0.004, 0.0])
+
+
+@pytest.mark.parametrize(("way", "second"), [((1.0, 0.0), 2), ((0.0, -1.0), 1)])
+def test_fingers_hold_two_vertices_across_their_way_so_that_cloth_does_not_turn_in_them(
+    way: tuple[float, float], second: int
+):
+    # Of a square that is held by its first corner the one after it lies along x, the other along y.
+    positions = np.array([[0.0, 0.0, 0.0], [0.02, 0.0, 0.0], [0.0, 0.02, 0.0], [0.02, 0.02, 0.0]])
+    triangles, point, tip = np.array([[0, 1, 2], [1, 3, 2]]), np.array([0.001, 0.002, 0.0]), np.zeros(3)
+    taken = clamped({0: point}, positions, triangles, tip, np.array(way))
+    assert list(taken) == [0, second]
+    assert taken[second] == pytest.approx(point)
+    assert clamped(taken, positions, triangles, tip, np.array(way)).keys() == taken.keys()
 
 
 @pytest.mark.parametrize(

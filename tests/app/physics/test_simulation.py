@@ -7,7 +7,7 @@ import pytest
 
 from app.physics.fabric import Fabric, Resolution
 from app.physics.model import opening_stiffness, two_rows_apart
-from app.physics.pinch import pinched
+from app.physics.pinch import clamped, pinched
 from app.physics.simulation import ClothSimulation
 from planner.geometry.table import Table
 from planner.geometry.table_top import TableTop
@@ -132,7 +132,26 @@ def test_vertices_two_rows_apart_have_one_between_them_along_or_across_the_threa
     along = np.abs(points[pairs[:, 0]] - points[pairs[:, 1]])
     in_rows = (along.min(axis=1) < 1e-3) & (np.abs(along.max(axis=1) - 0.04) < 1e-3)
     assert in_rows.sum() > 10
+    assert (along.min(axis=1) < 0.2 * along.max(axis=1) + 1e-9).all()
     assert np.hypot(*along.T).max() < 0.075
+
+
+def test_cloth_held_by_its_edge_beside_its_middle_hangs_level_and_does_not_turn_in_the_fingers():
+    # An upright strip, 10 cm long, is held 3 cm from one end. Free to turn it would hang with its middle below.
+    points, triangles = woven_mesh(rectangle(0.1, 0.04), 0.02)
+    rest = np.column_stack([points[:, 0], np.zeros(len(points)), points[:, 1]])
+    tip = np.array([0.03, 0.0, 0.04])
+    nearest = int(np.linalg.norm(rest - tip, axis=1).argmin())
+    sunk = {}
+    for is_clamped in (False, True):
+        strip = ClothSimulation(rest, points, triangles, Fabric(), Resolution())
+        found = {nearest: rest[nearest]}
+        taken = clamped(found, rest, triangles, tip, np.array([0.0, 1.0])) if is_clamped else found
+        strip.hold({vertex: rest[vertex] for vertex in taken})
+        strip.run(1.0)
+        sunk[is_clamped] = float((rest - strip.positions)[points[:, 0] > 0.1 - 1e-6, 2].mean())
+    assert sunk[False] > 0.03
+    assert abs(sunk[True]) < 0.005
 
 
 def test_fingers_pinch_all_layers_at_their_place_and_nothing_beside_the_cloth():

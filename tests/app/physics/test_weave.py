@@ -18,7 +18,7 @@ ALIKE = Fabric(stretch_n_m=300.0, push_n_m=300.0, shear_n_m=150.0)
 
 
 def test_cloth_alike_in_all_directions_has_the_stiffness_that_mujoco_gives_it():
-    model = mujoco.MjModel.from_xml_string(model_xml(FLAT, TRIANGLES, ALIKE, Resolution(), None))
+    model = mujoco.MjModel.from_xml_string(model_xml(FLAT, POINTS, TRIANGLES, ALIKE, Resolution(), None))
     own = model.flex_stiffness.reshape(len(TRIANGLES), -1)
     found = Weave.of(POINTS, TRIANGLES, ALIKE).stiffness(1.1 * FLAT)
     assert found == pytest.approx(own[:, :6], rel=1e-6, abs=1e-6 * own.max())
