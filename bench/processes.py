@@ -1,4 +1,4 @@
-"""What Linux's /proc says of a process and of those that it has started."""
+"""Memory, CPU time and sockets of a process and of its children, read from /proc."""
 
 import os
 from collections.abc import Iterable

@@ -8,7 +8,7 @@ from planner.geometry.pose import Point3
 from planner.geometry.tolerance import LENGTH_M
 
 Cause: TypeAlias = Literal["too_far", "too_near", "joint_limit", "comfort_only", "own_body"]
-"""What is wrong with a place: it should be nearer to the shoulder, further from it, or elsewhere at the same distance;
+"""Why a place is out of reach: it should be nearer to the shoulder, further from it, or elsewhere at the same distance;
 or the tool can be there, but not everywhere within the comfort radius around it; or the joints would allow it, but the
 robot's own body is in the way."""
 

@@ -28,7 +28,7 @@ LAYER_GAP_M = 0.0015
 """The distance at which neighbouring layers are drawn (m)."""
 
 _Seen = tuple[int, int | None, float, Pose2, TableTop, float]
-"""All that the shape of the cloth depends on: folds done, current fold, its sweep, placement, table top, droop."""
+"""The key of a shape of the cloth: folds done, current fold, its sweep, placement, table top, droop."""
 
 
 @dataclass(frozen=True, slots=True)

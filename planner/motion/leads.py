@@ -67,7 +67,7 @@ class Lines:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Lead:
-    """One arm's part in a transfer.
+    """The tool path of one arm in a transfer, and its ways to the grip and from it.
 
     Attributes:
         arm: the arm.

@@ -17,7 +17,7 @@ Possible: TypeAlias = Callable[[State, Iterable[Step]], Iterable[tuple[Step, flo
 
 
 class _Found(NamedTuple):
-    """What a primitive found: deferred steps, and steps."""
+    """The deferred steps and the steps that a primitive found."""
 
     deferred: tuple[Deferred[Step], ...]
     steps: tuple[Step, ...]

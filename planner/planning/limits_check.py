@@ -19,7 +19,7 @@ Keyframes: TypeAlias = tuple[FloatArray, FloatArray, FloatArray]
 """Times (s), shape (n,), with values and their rates (1/s), shape (n, k); rates may be empty."""
 
 _ROUNDING = 1.001
-"""What a speed or an acceleration may be, as a share of the greatest; what exceeds 1 allows for rounding."""
+"""The largest speed or acceleration accepted, as a share of its limit; the excess over 1 allows for rounding."""
 
 
 def require_limits(problem: Problem, path: Trajectory) -> None:

@@ -27,7 +27,7 @@ _MIDDLE_BEHIND_PX = 3.0
 
 @dataclass(frozen=True, slots=True)
 class _Grip:
-    """What is held: a corner, or the middle of the edge that begins there.
+    """The handle under the pointer: a corner, or the middle of the edge that begins there.
 
     Attributes:
         corner: the name of the corner.
@@ -43,7 +43,7 @@ class _Grip:
 
     @property
     def label(self) -> str:
-        """What the step is called."""
+        """The name of the step that a drag makes."""
         return BEND_EDGE if self.is_middle else MOVE_CORNER
 
     def change(self, aim: Aim) -> Change:
