@@ -15,12 +15,13 @@ from app.resources import static_dir
 _FROM = re.compile(r'^((?:import|export)(?:\s[^;"()=]*\bfrom)?\s*)"(\.{1,2}/[^"]+)"', re.MULTILINE)
 _STYLES = re.compile(r'^@import "\./([^"]+)";$', re.MULTILINE)
 
-# A module is named in a debugger as it lies in the folder.
+# A module is named in a debugger as it lies in the folder. Its address holds its text: a blob's would be asked for, one
+# after the other, in the browser's main process.
 _SCRIPT = """\
 const imports = {{}};
 for (const [name, text] of Object.entries({texts})) {{
   const source = `${{text}}\\n//# sourceURL=${{name}}`;
-  imports[name] = URL.createObjectURL(new Blob([source], {{ type: "text/javascript" }}));
+  imports[name] = `data:text/javascript;charset=utf-8,${{encodeURIComponent(source)}}`;
 }}
 const map = document.createElement("script");
 map.type = "importmap";

@@ -4,7 +4,7 @@ import pytest
 from playwright.sync_api import Browser, expect
 
 from tests.app.conftest import Served
-from tests.browser.conftest import IS_THERE, REST, STAGE_PATIENCE_MS, Garment, Sheet
+from tests.browser.conftest import IS_THERE, REST, Garment, Sheet, new_stage_page
 from tests.browser.prefix_proxy import PREFIX, below_prefix
 from tests.browser.status_pill import expect_planned
 
@@ -16,8 +16,7 @@ def test_page_stage_and_edits_work_below_a_proxys_prefix(
     REST.get(new_sheet("t-shirt").page_url).raise_for_status()  # the address without a document leads to the last one
     with below_prefix(designer.port) as url:
         faults: list[str] = []
-        page = browser.new_page(viewport={"width": 900, "height": 500})
-        page.set_default_timeout(STAGE_PATIENCE_MS)
+        page = new_stage_page(browser)
         page.on("pageerror", lambda error: faults.append(str(error)))
         page.on("response", lambda answer: faults.append(answer.url) if answer.status >= 400 else None)
         page.goto(f"{url}/")
