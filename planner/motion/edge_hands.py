@@ -1,7 +1,7 @@
 """Have hands hold edges with one finger under the cloth, where that costs no time.
 
-The search asks where hands may be, whatever they are like; which of equally quick ways has room for a finger between
-cloth and table is looked for once a plan is found.
+The search asks where hands may be, whatever they are like. Which of equally quick ways has room for a finger between
+cloth and table is looked for when the search validates a path, and once more in the plan that it has found.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -12,6 +12,7 @@ from planner.folds.fold_path import REST_HEIGHT_M
 from planner.geometry.tolerance import TIME_S
 from planner.motion.act import Act, duration_s, in_turn
 from planner.motion.robot_port import RobotPort
+from planner.motion.transfer import Transfer
 from planner.motion.transfer_planner import TransferPlanner
 from planner.primitives.context import Context
 from planner.primitives.primitive import Step
@@ -32,6 +33,16 @@ class EdgeHands:
     def __init__(self, context: Context, machine: RobotPort, maker: TransferPlanner) -> None:
         """Keep the planning context, the robot, and the planner of the transfers."""
         self._context, self._machine, self._maker = context, machine, maker
+        self._known: dict[tuple[object, ...], list[Step]] = {}
+
+    def ways(self, steps: Sequence[Step]) -> Iterator[Transfer]:
+        """Yield transfers that do as some steps do, as quick, in which hands hold edges."""
+        first, *others = steps
+        able = [self._at_edges(first), *([*self._at_edges(step), step] for step in others)]
+        for way in islice(product(*able), _TRIED):
+            transfer = self._maker.made_at_edges(self._maker.candidate(way))
+            if transfer is not None:
+                yield transfer
 
     def held(self, acts: Sequence[Act], is_over: Callable[[], bool]) -> tuple[Act, ...]:
         """Return acts that follow one another, with more hands that hold edges where these take no longer.
@@ -66,18 +77,22 @@ class EdgeHands:
         """Yield acts between the same states, of the same duration, in which more hands hold edges."""
         if act.transfer is None:
             return
-        edges = sum(hold.is_narrow for hold in act.transfer.holds)
-        if edges == int(act.transfer.carried.moments.is_used.sum()):
-            return
-        first, *others = act.steps
-        able = [self._at_edges(first), *([*self._at_edges(step), step] for step in others)]
-        for steps in islice(product(*able), _TRIED):
-            transfer = self._maker.made_at_edges(self._maker.candidate(steps))
-            if transfer is not None and sum(hold.is_narrow for hold in transfer.holds) > edges:
-                yield Act(act.first, transfer.steps, transfer)
+        edges = act.transfer.edges
+        if edges < int(act.transfer.carried.moments.is_used.sum()):
+            for transfer in self.ways(act.steps):
+                if transfer.edges > edges:
+                    yield Act(act.first, transfer.steps, transfer)
 
     def _at_edges(self, step: Step) -> list[Step]:
-        """Return a few ways to do a step, as quick and by the same arms, whose hands may hold edges, most first."""
+        """Return a few ways to do a step, as quick and by the same arms, whose hands may hold edges, most first.
+
+        They are sought once.
+        """
+        if step.motion not in self._known:
+            self._known[step.motion] = self._sought(step)
+        return self._known[step.motion]
+
+    def _sought(self, step: Step) -> list[Step]:
         alike = takewhile(lambda one: one.duration_s <= step.duration_s + TIME_S, islice(step.variants(), _LOOKED_AT))
         of_count: dict[int, list[Step]] = {}
         for one in alike:

@@ -40,6 +40,11 @@ class Transfer:
         return self.carried.lines.holds
 
     @property
+    def edges(self) -> int:
+        """How many hands hold an edge with one finger under it."""
+        return sum(hold.is_narrow for hold in self.holds)
+
+    @property
     def free_phases(self) -> tuple[Phase, ...]:
         """The phases before the hands reach the grips: the base drives, the hands reach."""
         return tuple(p for p in self.steps[0].phases() if p.duration_s > 0.0 and not is_carrying(p))

@@ -31,6 +31,10 @@ _GRACE_S = 0.15
 """Time that a step may take after the deadline before it is cut short (s): callers allow half a second in all."""
 
 
+class OutOfTimeError(Exception):
+    """No time was left to validate steps, or no more work was allowed."""
+
+
 @dataclass(slots=True)
 class Budget:
     """The work and the time that a search has left.

@@ -17,24 +17,24 @@ and the rest are found only once no path is left that takes no longer than the o
 """
 
 import math
-from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import islice
 
 from planner.geometry.tolerance import TIME_S
 from planner.motion.act import Act, duration_s, in_turn, transfers_of
+from planner.motion.edge_hands import EdgeHands
 from planner.motion.transfer import Transfer
 from planner.motion.transfer_candidate import Candidate, ways_of
 from planner.motion.transfer_planner import TransferPlanner
 from planner.motion.tries import QUICK, Tries
+from planner.planning.budget import OutOfTimeError
+from planner.planning.edge_acts import EdgeActs
+from planner.planning.given_up import GivenUp
 from planner.planning.rejection import Rejection
 from planner.planning.surcharges import Surcharges, step_key
 from planner.primitives.primitive import Step
 from planner.primitives.state import State
-
-
-class OutOfTimeError(Exception):
-    """No time was left to validate steps, or no more work was allowed."""
+from planner.weakly import weakly
 
 
 class MotionValidator:
@@ -52,6 +52,7 @@ class MotionValidator:
         is_over: Callable[[], bool],
         tries: Tries = QUICK,
         transfers_max: float = math.inf,
+        hands: EdgeHands | None = None,
     ) -> None:
         """Start with nothing known.
 
@@ -60,18 +61,20 @@ class MotionValidator:
             is_over: polled before each transfer and each look; true means that there is no time left.
             tries: how much is tried.
             transfers_max: the most transfers that the arms are led through.
+            hands: finds transfers in which hands hold edges; None where it does not matter how they hold.
         """
         self._maker = maker
         self._is_over = is_over
         self._tries = tries
         self._last_try = maker.tries + transfers_max
         self._made: dict[tuple[object, ...], Transfer | None] = {}
+        self._edges = hands and EdgeActs(
+            hands, maker, weakly(self._real), weakly(self._known_s), weakly(self._require_time)
+        )
         self._least_s: dict[object, float] = {}
         self._others: dict[object, tuple[Step, ...]] = {}
         self._real_steps: set[object] = set()
-        self._failures: Counter[tuple[object, ...]] = Counter()
-        self._succeeded: set[tuple[object, ...]] = set()
-        self._given_up: dict[tuple[object, ...], int] = {}
+        self._given_up = GivenUp(tries.failures)
         self._doubted: set[tuple[object, ...]] = set()
         self._postponed: list[Rejection] = []
         self.rejected: list[tuple[Step, ...]] = []
@@ -85,7 +88,7 @@ class MotionValidator:
         situations: dict[tuple[object, ...], None] = {}
         found: list[Step] = []
         for step in steps:
-            if self._given_up and step.task in self._given_up:
+            if step in self._given_up:
                 continue
             situation = step.situation
             situations[situation] = None
@@ -103,7 +106,7 @@ class MotionValidator:
 
     def is_in_doubt(self, held: State) -> bool:
         """Return whether ways to or from a grasp have failed or turned out to take longer than assumed."""
-        return held.grasp in self._doubted or held.station in self._given_up.values()
+        return held.grasp in self._doubted or self._given_up.is_given_up_from(held.station)
 
     def acts(self, steps: Sequence[Step]) -> tuple[Act, ...] | None:
         """Validate a plan's steps; return None if a step was rejected, or if some take longer than assumed.
@@ -115,6 +118,9 @@ class MotionValidator:
         """
         self.slower = ()
         seemed_s = sum(self._known_s(step) for step in steps) + self.surcharges.of(steps)
+        held = self._edges.acts(steps) if self._edges else None
+        if held is not None and duration_s(held) <= seemed_s + TIME_S:
+            return held
         found: list[Act] = []
         transfers: list[tuple[tuple[Step, ...], Transfer]] = []
         for first, part in transfers_of(steps):
@@ -142,7 +148,8 @@ class MotionValidator:
         key = tuple(step_key(step) for step in steps)
         if key not in self._made:
             ways = self._in_time(ways_of(steps, self._tries))
-            self._made[key] = self._maker.first_valid(ways, self._tries)
+            made = self._maker.first_valid(ways, self._tries)
+            self._made[key] = self._edges.transfer(steps) if made is None and self._edges else made
         return self._made[key]
 
     def _reject(self, steps: tuple[Step, ...], path_s: float) -> None:
@@ -163,10 +170,8 @@ class MotionValidator:
         else:
             self._replace(rejection)
         if self._others[culprit.situation]:
-            self._succeeded.add(culprit.task)
-        self._failures[culprit.task] += 1
-        if self._failures[culprit.task] >= self._tries.failures and culprit.task not in self._succeeded:
-            self._given_up[culprit.task] = culprit.before.station
+            self._given_up.succeed(culprit)
+        self._given_up.fail(culprit)
 
     def _as_good(self, rejection: Rejection) -> tuple[Step, ...]:
         """Return a valid way to the same state that takes no longer than the rejected step; empty if none is found."""
@@ -239,8 +244,7 @@ class MotionValidator:
             is_known &= lasts_s <= known + TIME_S
             self._least_s[step_key(step)] = max(lasts_s, known)
             self._real_steps.add(step_key(step))
-            self._succeeded.add(step.task)
-            self._given_up.pop(step.task, None)
+            self._given_up.succeed(step)
         if not is_known:
             self._doubt(steps)
         return is_known

@@ -10,14 +10,15 @@ from typing import Any
 from planner.cloth.g_state import Unrest
 from planner.geometry.tolerance import TIME_S
 from planner.motion.act import Act, duration_s
+from planner.motion.edge_hands import EdgeHands
 from planner.motion.fewer_hands import with_fewer_hands
 from planner.motion.tries import QUICK, Tries
-from planner.planning.budget import Budget
+from planner.planning.budget import Budget, OutOfTimeError
 from planner.planning.driving_bound import DrivingBound
 from planner.planning.edges import Edges
 from planner.planning.found_plan import FoundPlan
 from planner.planning.heuristic import HEURISTICS, Heuristic
-from planner.planning.motion_validator import MotionValidator, OutOfTimeError
+from planner.planning.motion_validator import MotionValidator
 from planner.planning.problem import Problem
 from planner.planning.single_fold import SingleFold
 from planner.planning.surcharges import ChargedEdges, Reached
@@ -48,6 +49,7 @@ class PathSearch:
         max_expanded: int,
         known: FoundPlan | None = None,
         explainer: Explainer | None = None,
+        hands: EdgeHands | None = None,
     ) -> None:
         """Prepare a search.
 
@@ -58,8 +60,10 @@ class PathSearch:
             max_expanded: the most states to expand.
             known: a plan for the problem; the search looks only for a quicker one.
             explainer: says why there is no path; None if this is not wanted.
+            hands: has hands hold edges; None where it does not matter how they hold.
         """
         self._problem = problem
+        self._hands = hands
         self._context = problem.context
         self._heuristic = heuristic
         self._budget = budget
@@ -88,7 +92,8 @@ class PathSearch:
 
     def _validator_with(self, tries: Tries, transfers_max: float = math.inf) -> MotionValidator:
         """Return a validator with nothing rejected, and limits on what it tries."""
-        return MotionValidator(self._problem.maker, weakly(self._is_out_of_budget), tries, transfers_max)
+        is_over = weakly(self._is_out_of_budget)
+        return MotionValidator(self._problem.maker, is_over, tries, transfers_max, self._hands)
 
     def _validated_path(self, start: State) -> tuple[SearchResult[Any, Step], tuple[Act, ...]]:
         """Return the search's result for the quickest validated path, and the acts of that path."""

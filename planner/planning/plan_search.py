@@ -68,7 +68,8 @@ class PlanSearch(PathSearch):
             explainer: says why there is no plan; None if this is not wanted, since it takes further planning.
             is_patient: whether to try more ways for each step where the first few gave no plan.
         """
-        super().__init__(problem, heuristic, budget, max_expanded, known, explainer)
+        self._edge_hands = EdgeHands(problem.context, problem.robot, problem.maker)
+        super().__init__(problem, heuristic, budget, max_expanded, known, explainer, self._edge_hands)
         self._started = time.perf_counter()
         self._like = like
         self._on_found = on_found
@@ -240,8 +241,7 @@ class PlanSearch(PathSearch):
         is_exhaustive = not is_cut_short and (bool(self._blocking) or not self._validator.has_doubts)
         held = acts
         if is_last:
-            hands = EdgeHands(self._context, self._problem.robot, self._problem.maker)
-            held = hands.held(acts, lambda: self._budget.is_late)
+            held = self._edge_hands.held(acts, lambda: self._budget.is_late)
         if self._known is not None and held == self._known.acts:
             return self._known.told_again(self._problem.task, statistics, is_exhaustive=is_exhaustive)
         return FoundPlan.of(self._problem, outcome.value, held, why, statistics, is_exhaustive=is_exhaustive)

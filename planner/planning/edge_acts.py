@@ -1,0 +1,89 @@
+"""The acts of a path in which hands hold edges, looked for when the path is validated.
+
+Hands at edges come from few directions, for which there is mostly a path: then no others need be looked for.
+"""
+
+from collections.abc import Callable, Sequence
+from itertools import chain, islice
+
+from planner.geometry.tolerance import TIME_S
+from planner.motion.act import Act, duration_s, in_turn, transfers_of
+from planner.motion.edge_hands import EdgeHands
+from planner.motion.transfer import Transfer
+from planner.motion.transfer_planner import TransferPlanner
+from planner.planning.surcharges import step_key
+from planner.primitives.primitive import Step
+
+
+class EdgeActs:
+    """Finds acts in which hands hold edges; those of a transfer are looked for once."""
+
+    def __init__(
+        self,
+        hands: EdgeHands,
+        maker: TransferPlanner,
+        real: Callable[[tuple[Step, ...]], Transfer | None],
+        known_s: Callable[[Step], float],
+        require_time: Callable[[], None],
+    ) -> None:
+        """Keep what finds transfers.
+
+        Args:
+            hands: finds those in which hands hold edges.
+            maker: plans how hands come from one to the next.
+            real: finds a transfer whose hands may hold in any way.
+            known_s: returns the least time that a step is known to take (s).
+            require_time: called before each transfer is looked for; raises an error where there is no time.
+        """
+        self._hands, self._maker = hands, maker
+        self._real, self._known_s, self._require_time = real, known_s, require_time
+        self._made: dict[tuple[object, ...], Transfer | None] = {}
+
+    def transfer(self, steps: Sequence[Step]) -> Transfer | None:
+        """Return a transfer that does as some steps do and in which hands hold edges; None if none is found."""
+        key = tuple(step_key(step) for step in steps)
+        if key not in self._made:
+            self._require_time()
+            self._made[key] = next(self._hands.ways(steps), None)
+        return self._made[key]
+
+    def acts(self, steps: Sequence[Step]) -> tuple[Act, ...] | None:
+        """Return the acts of a path, with hands at edges where they are not late for it; None without any, or a path.
+
+        Where such an act takes longer than is known of its steps, others are tried in its place.
+        """
+        parts = list(transfers_of(steps))
+        held = [self.transfer(part) if _is_transfer(part) else None for _, part in parts]
+        acts = self._acts_of(parts, held) if any(held) else None
+        if acts is None:
+            return None
+        for number, (_, part) in enumerate(parts):
+            if held[number] is None or not self._is_late(acts[number]):
+                continue
+            for other in chain(islice(self._hands.ways(part), 1, None), [None]):
+                tried = self._acts_of(parts, [*held[:number], other, *held[number + 1 :]])
+                if tried is not None and duration_s(tried) < duration_s(acts) - TIME_S:
+                    acts, held[number] = tried, other
+                if not self._is_late(acts[number]):
+                    break
+                self._require_time()
+        return acts
+
+    def _acts_of(
+        self, parts: Sequence[tuple[int, tuple[Step, ...]]], transfers: Sequence[Transfer | None]
+    ) -> tuple[Act, ...] | None:
+        """Return the acts of a path, with the transfers given and others where there are none; None without a path."""
+        acts = []
+        for (first, part), given in zip(parts, transfers, strict=True):
+            made = given or (self._real(part) if _is_transfer(part) else None)
+            if made is None and _is_transfer(part):
+                return None
+            acts.append(Act(first, part if made is None else made.steps, made))
+        return in_turn(acts, self._maker)
+
+    def _is_late(self, act: Act) -> bool:
+        return sum(act.durations_s()) > sum(map(self._known_s, act.steps)) + TIME_S
+
+
+def _is_transfer(steps: Sequence[Step]) -> bool:
+    return any(step.grips for step in steps)

@@ -1,0 +1,46 @@
+"""Hands at edges are looked for when the search validates a path, before others."""
+
+import pytest
+
+from planner import load_garment
+from planner.motion.act import duration_s
+from planner.motion.edge_hands import EdgeHands
+from planner.motion.transfer_planner import TransferPlanner
+from planner.planning.motion_validator import MotionValidator
+from tests.planning.found import found_plan
+
+EDGES = {"hand-towel": 4, "t-shirt": 7, "vest": 0}
+"""How many grips of a plan hold edges."""
+
+
+@pytest.mark.parametrize("name", EDGES)
+def test_the_search_itself_finds_hands_at_edges(monkeypatch: pytest.MonkeyPatch, name: str):
+    monkeypatch.setattr(EdgeHands, "held", lambda self, acts, is_over: acts)
+    plan = found_plan(load_garment(name), time_limit_s=60.0).plan
+    assert plan.is_proven
+    assert [grip.kind for step in plan.steps for grip in step.grips].count("edge") == EDGES[name]
+
+
+def test_where_hands_hold_edges_no_others_are_led_along_the_path(monkeypatch: pytest.MonkeyPatch):
+    def unwanted(*_: object) -> None:
+        raise AssertionError("a path for hands that open widely was looked for")
+
+    monkeypatch.setattr(TransferPlanner, "first_valid", unwanted)
+    assert found_plan(load_garment("hand-towel"), time_limit_s=60.0).plan.is_proven
+
+
+def test_hands_that_come_late_to_an_edge_hold_otherwise(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(EdgeHands, "held", lambda self, acts, is_over: acts)
+    rounds: list[float | None] = []
+    validated = MotionValidator.acts
+
+    def noted(self, steps):
+        acts = validated(self, steps)
+        rounds.append(None if acts is None else duration_s(acts))
+        return acts
+
+    monkeypatch.setattr(MotionValidator, "acts", noted)
+    found = found_plan(load_garment("shirt"), time_limit_s=60.0)
+    assert found.plan.is_proven
+    assert rounds == [pytest.approx(found.plan.cost_s)], "the first path is taken, as quick as it seemed"
+    assert not any(act.late_s > 0.0 for act in found.acts)
