@@ -23,7 +23,7 @@ _LOOKED_AT = 120
 _EACH = 2
 """Ways to do a step with a number of hands that may hold edges that are combined with those of the other steps."""
 
-_TRIED = 4
+TRIED = 4
 """Transfers for which joint paths are sought."""
 
 
@@ -35,11 +35,11 @@ class EdgeHands:
         self._context, self._machine, self._maker = context, machine, maker
         self._known: dict[tuple[object, ...], list[Step]] = {}
 
-    def ways(self, steps: Sequence[Step]) -> Iterator[Transfer]:
-        """Yield transfers that do as some steps do, as quick, in which hands hold edges."""
+    def ways(self, steps: Sequence[Step], tried: int = TRIED) -> Iterator[Transfer]:
+        """Yield transfers that do as some steps do, as quick, in which hands hold edges; so many are tried."""
         first, *others = steps
         able = [self._at_edges(first), *([*self._at_edges(step), step] for step in others)]
-        for way in islice(product(*able), _TRIED):
+        for way in islice(product(*able), tried):
             transfer = self._maker.made_at_edges(self._maker.candidate(way))
             if transfer is not None:
                 yield transfer

@@ -14,6 +14,9 @@ from planner.motion.transfer_planner import TransferPlanner
 from planner.planning.surcharges import step_key
 from planner.primitives.primitive import Step
 
+_TRIED = 2
+"""Transfers in which hands hold edges that are tried for each part of a path; more are once a plan is found."""
+
 
 class EdgeActs:
     """Finds acts in which hands hold edges; those of a transfer are looked for once."""
@@ -40,11 +43,11 @@ class EdgeActs:
         self._made: dict[tuple[object, ...], Transfer | None] = {}
 
     def transfer(self, steps: Sequence[Step]) -> Transfer | None:
-        """Return a transfer that does as some steps do and in which hands hold edges; None if none is found."""
+        """Return a transfer that does as some steps do and in which hands hold edges; None if none is soon found."""
         key = tuple(step_key(step) for step in steps)
         if key not in self._made:
             self._require_time()
-            self._made[key] = next(self._hands.ways(steps), None)
+            self._made[key] = next(self._hands.ways(steps, _TRIED), None)
         return self._made[key]
 
     def acts(self, steps: Sequence[Step]) -> tuple[Act, ...] | None:
@@ -60,7 +63,7 @@ class EdgeActs:
         for number, (_, part) in enumerate(parts):
             if held[number] is None or not self._is_late(acts[number]):
                 continue
-            for other in chain(islice(self._hands.ways(part), 1, None), [None]):
+            for other in chain(islice(self._hands.ways(part, _TRIED), 1, None), [None]):
                 tried = self._acts_of(parts, [*held[:number], other, *held[number + 1 :]])
                 if tried is not None and duration_s(tried) < duration_s(acts) - TIME_S:
                     acts, held[number] = tried, other

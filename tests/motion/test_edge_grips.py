@@ -150,7 +150,7 @@ def test_exported_poses_say_how_each_hand_holds():
 
 @each_name
 def test_hands_at_edges_cost_no_time(monkeypatch: pytest.MonkeyPatch, name: str):
-    monkeypatch.setattr(EdgeHands, "ways", lambda self, steps: iter(()))
+    monkeypatch.setattr(EdgeHands, "ways", lambda *_: iter(()))
     without = found_plan(load_garment(name), time_limit_s=60.0).plan
     assert {grip.kind for step in without.steps for grip in step.grips} == {"top"}
     assert planned(name).answer.cost_s <= without.cost_s + 1e-6

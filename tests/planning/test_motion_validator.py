@@ -117,7 +117,7 @@ def test_a_plan_costs_what_the_search_finds_that_makes_every_run_real_at_once(
     # Both try the same ways for each run: tighter tasks, in which others come first that may be quicker, are left out.
     for name in ("with_more_comfort", "with_narrower_cones"):
         monkeypatch.setattr(plan_search, name, lambda problem: ())
-    monkeypatch.setattr(EdgeHands, "ways", lambda self, steps: iter(()))  # such hands may be quicker too
+    monkeypatch.setattr(EdgeHands, "ways", lambda *_: iter(()))  # such hands may be quicker too
     found = found_plan(napkin(*folds), scene(arm_motion_s, back_off_max_m), time_limit_s=60.0)
     plan, seeming_s = found.plan, sum(step.duration_s for act in found.acts for step in act.steps)
     assert (plan.cost_s > seeming_s + 0.01) == (arm_motion_s == HURRIED_S), "else nothing is to be found out"
