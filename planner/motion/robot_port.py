@@ -129,7 +129,8 @@ class RobotPort(PathFinder, Kinematics, Hashable, Protocol):
     def reach(self, torso_m: float, comfort_m: float, *, is_passing: bool = False) -> Reach:
         """Return the reach with the lift at a height, for a comfort radius (m).
 
-        Where it is passing, for a few queries only, it takes no memory from earlier plans and leaves none.
+        Where it is passing, for a few queries about paths that are there already, it takes no memory from earlier plans
+        and leaves none, and the robot's body, of which a path keeps clear, is no obstacle.
         """
         ...
 

@@ -31,8 +31,8 @@ class Margins:
 
     Attributes:
         reach_m: the radius of the circle round each tool place, while cloth is held, that the arm reaches from where
-            the base stands then and from the same direction: the least of all, rounded down to a millimetre (m), and
-            `COMFORT_MAX_M` where it is that or more; None where nothing is held.
+            the base stands then and from the same direction, its joints' limits alone considered: the least of all,
+            rounded down to a millimetre (m), and `COMFORT_MAX_M` where it is that or more; None where nothing is held.
         reach_step: the step that has it; None also where all have `COMFORT_MAX_M`.
         grips_m: by how much two grips held at once are further apart than two hands must be, the least of all (m); None
             where there is never more than one.

@@ -43,7 +43,8 @@ class Pr2(ArmedRobot):
         """
         memories = None if is_passing else self._memories_of(torso_m, comfort_m)
         names = tuple(arm.name for arm in self._card.arms)
-        return Pr2Reach(names, self._arms, float(torso_m), float(comfort_m), self._room(float(torso_m)), memories)
+        room = None if is_passing else self._room(float(torso_m))
+        return Pr2Reach(names, self._arms, float(torso_m), float(comfort_m), room, memories)
 
     def _room(self, torso_m: float) -> Room:
         """Return the room that the body leaves an arm; cached, because every plan needs it."""
