@@ -58,7 +58,7 @@ def _inlined(schema: Any, definitions: dict[str, Any]) -> Any:  # noqa: ANN401
     """Return a schema with the model's own definitions put in place of references to them.
 
     Discriminators are left out: their mappings would still point at the definitions, and the variants tell themselves
-    apart by their constants.
+    apart by their constants, which have to be given, though the types of the variants have them as defaults.
     """
     if isinstance(schema, list):
         return [_inlined(part, definitions) for part in schema]
@@ -67,7 +67,10 @@ def _inlined(schema: Any, definitions: dict[str, Any]) -> Any:  # noqa: ANN401
     name = str(schema.get("$ref", "")).rpartition("/")[2]
     if name in definitions:
         return _inlined(definitions[name], definitions)
-    return {key: _inlined(value, definitions) for key, value in schema.items() if key != "discriminator"}
+    whole = {key: _inlined(value, definitions) for key, value in schema.items() if key != "discriminator"}
+    if "discriminator" in schema:
+        whole["required"] = [schema["discriminator"]["propertyName"]]
+    return whole
 
 
 def describe(app: FastAPI, *models: type[BaseModel]) -> None:

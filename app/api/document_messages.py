@@ -2,9 +2,10 @@
 
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, PlainValidator
+from pydantic import ConfigDict, Field, PlainValidator
 from pydantic_core import PydanticCustomError
 
+from app.api.conditions import either, gives, leaves_out
 from app.api.messages import GarmentField
 from app.drawing.drawing_json import DrawingModel
 from planner.geometry.given import PlanePoint
@@ -18,6 +19,8 @@ Arcs = Annotated[
     Field(description="whether edges that stand for the arc of a circle, as in an imported drawing, become curves"),
 ]
 
+_IS_CANCEL = {"properties": {"phase": {"const": "cancel"}}, "required": ["phase"]}
+
 
 def _drawing(value: Any) -> Any:  # noqa: ANN401
     if not isinstance(value, dict):
@@ -27,6 +30,8 @@ def _drawing(value: Any) -> Any:  # noqa: ANN401
 
 class NewDocument(StrictModel):
     """A request for a new document: for a garment, as a copy of another document, or blank."""
+
+    model_config = ConfigDict(json_schema_extra=either(leaves_out("garment"), leaves_out("copy_of")))
 
     garment: GarmentField | None = None
     copy_of: str | None = None
@@ -40,6 +45,8 @@ class EditRequest(StrictModel):
     Successive commits with the same key `coalesce` are one step. A change with another key `gesture` first commits a
     gesture that is still open.
     """
+
+    model_config = ConfigDict(json_schema_extra=either(gives(drawing="object"), _IS_CANCEL))
 
     base_version: Version
     label: Label = "Edit"
@@ -88,6 +95,12 @@ class Line(StrictModel):
 
 class CreaseRequest(StrictModel):
     """A request for the position of a new fold, after some number of folds: by grab and drop, or along a line."""
+
+    model_config = ConfigDict(
+        json_schema_extra=either(
+            {"allOf": [gives(grab="object"), leaves_out("line")]}, {"allOf": [gives(line="object"), leaves_out("grab")]}
+        )
+    )
 
     after: Annotated[int, Field(ge=0)] | None = None
     kind: Literal["blue", "red"] = "blue"

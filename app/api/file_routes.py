@@ -22,9 +22,10 @@ from app.files.crease_reading import Creases
 from app.files.export import Export, UnavailableFileError
 from app.files.exports import EXPORTS, find_export
 from app.files.import_errors import ImportedFileError, UnitsNeededError
-from app.files.import_file import Imported, largest
+from app.files.import_file import ENDINGS, SCALES, Imported, largest
 from app.files.recording import DEFAULT_RATE_HZ, RATES_HZ
 from app.files.seam_allowance import Line
+from app.files.sketch_size import UNITS_M
 from app.jobs.apart import ignore, run_apart
 from app.jobs.job_pool import ShouldStop
 from app.templates.catalogue import find_template
@@ -40,9 +41,17 @@ _ANY_FILE = {
     }
 }
 
-FileName = Annotated[str, Query(max_length=300)]
-Units = Annotated[str | None, Query(description="what one unit of the drawing is: mm, cm, m or in")]
-Scale = Annotated[float, Query(allow_inf_nan=False)]
+_ENDING = "|".join("".join(f"[{letter.upper()}{letter}]" for letter in ending) for ending in ENDINGS)
+
+FileName = Annotated[str, Query(max_length=300, json_schema_extra={"pattern": rf"[^/\\]\.({_ENDING})$"})]
+Units = Annotated[
+    str | None,
+    Query(
+        description="what one unit of the drawing is: mm, cm, m or in",
+        json_schema_extra={"anyOf": [{"enum": list(UNITS_M)}, {"type": "null"}]},
+    ),
+]
+Scale = Annotated[float, Query(allow_inf_nan=False, json_schema_extra={"minimum": SCALES[0], "maximum": SCALES[1]})]
 Lines = Annotated[
     Creases | None, Query(description="the cloth that fold lines are drawn on: as the folds before leave it, or flat")
 ]

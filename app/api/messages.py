@@ -4,9 +4,10 @@ from dataclasses import dataclass
 from typing import Annotated, Any, Literal, TypeAlias, cast
 
 from annotated_types import Interval
-from pydantic import Field, PlainValidator
+from pydantic import ConfigDict, Field, PlainValidator
 from pydantic_core import PydanticCustomError
 
+from app.api.conditions import either, gives
 from app.language import Language
 from app.playback import SPEED_MAX, SPEED_MIN
 from planner.cloth.garment import FOLDS_MAX, Garment
@@ -40,6 +41,10 @@ class DagRequest(StrictModel):
 
 class BaseField(StrictModel):
     """The base's place: at a station, at a standoff from it, or at a pose in the table frame (m, rad)."""
+
+    model_config = ConfigDict(
+        json_schema_extra=either(gives(station="string"), gives(x_m="number", y_m="number", yaw_rad="number"))
+    )
 
     station: str | None = None
     back_off_m: Annotated[float, Field(ge=0.0, le=LARGEST_M)] = 0.0

@@ -30,10 +30,16 @@ PlanRequestBody = Annotated[PlanRequest, Depends(JsonBody(PlanRequest, {"garment
 
 PLAN_FILE_TYPE = "application/vnd.pleat.plan+json"
 
+_PLAN_FILE = {
+    "type": "object",
+    "properties": {"pleat_plan": {"type": "integer", "minimum": 1}},
+    "required": ["pleat_plan"],
+}
+
 _PLAN_FILE_BODY = {
     "requestBody": {
         "required": True,
-        "content": {kind: {"schema": {"type": "object"}} for kind in ("application/json", PLAN_FILE_TYPE)},
+        "content": {kind: {"schema": _PLAN_FILE} for kind in ("application/json", PLAN_FILE_TYPE)},
     }
 }
 

@@ -6,13 +6,15 @@ drawing changes, so that a tie keeps its corner when other corners are added or 
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass
-from typing import TypeAlias
+from dataclasses import dataclass, replace
+from typing import TypeAlias, TypeVar
 
 from app.drawing.curve import Curve
 from planner.geometry.pose import Point2, Pose2
 from planner.task.scene import Scene
 from planner.task.task import DEFAULT_ROBOT
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True, slots=True)
@@ -152,6 +154,25 @@ class Drawing:
     def points(self) -> tuple[Point2, ...]:
         """The positions of the outline's corners (m)."""
         return tuple(corner.point for corner in self.outline)
+
+    def sharing(self, other: "Drawing") -> "Drawing":
+        """Return an equal drawing that takes from another one the corners, folds and scene that are equal there.
+
+        A history of steps, each of which changes little, takes a third of the memory.
+        """
+        return replace(
+            self,
+            outline=_shared(self.outline, other.outline),
+            folds=_shared(self.folds, other.folds),
+            placement=other.placement if other.placement == self.placement else self.placement,
+            scene=other.scene if other.scene == self.scene else self.scene,
+        )
+
+
+def _shared(parts: tuple[T, ...], others: tuple[T, ...]) -> tuple[T, ...]:
+    """Return the parts, those that are equal to one of the others as that object."""
+    known = {other: other for other in others}
+    return tuple(known.get(part, part) for part in parts)
 
 
 def fresh_ids(prefix: str, taken: Iterable[str | None], count: int) -> list[str]:

@@ -48,7 +48,8 @@ class History:
 
     def stepped(self, label: str, before: Drawing) -> "History":
         """Return the history after one more step, with nothing left to redo."""
-        return History((*self.past, Step(label, before))[-STEPS_MAX:])
+        kept = before.sharing(self.past[-1].drawing) if self.past else before
+        return History((*self.past, Step(label, kept))[-STEPS_MAX:])
 
     def undone(self, now: Drawing) -> tuple[Drawing, "History"]:
         """Return the drawing before the last step, and the history after undoing it; no change at the start."""

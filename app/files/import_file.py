@@ -42,6 +42,9 @@ _SKETCHES: dict[str, Callable[[bytes], Sketch]] = {"svg": read_svg, "dxf": _read
 _JSON = "json"
 _PICTURES = {"png": "png", "jpg": "jpeg", "jpeg": "jpeg"}
 
+ENDINGS = (_JSON, *_SKETCHES, *_PICTURES)
+"""The endings of the names of files that can be imported, in lower case."""
+
 
 @dataclass(frozen=True, slots=True)
 class Imported:
@@ -114,7 +117,7 @@ def import_file(
     if ending in _PICTURES:
         return _picture(_PICTURES[ending], path.stem, data, measured, like)
     if ending not in _SKETCHES:
-        endings = ", ".join(f".{known}" for known in (_JSON, *_SKETCHES, *_PICTURES))
+        endings = ", ".join(f".{known}" for known in ENDINGS)
         raise ImportedFileError("filename", f"{path.name[:80]!r} ends in none of {endings}")
     found = garment_of(_SKETCHES[ending](data), path.stem, units, scale, creases, line)
     return Imported(ending, found.garment, found.notes, found.creases, found.sizes, allowance=found.allowance)

@@ -23,7 +23,12 @@ class ComparisonRequest(StrictModel):
     """A request for a garment's plans for several robots, each at its own table; without robots, for all of them."""
 
     garment: GarmentField
-    robots: Annotated[list[str], Field(min_length=1, max_length=_ROBOTS_MAX)] | None = None
+    robots: (
+        Annotated[
+            list[Annotated[str, Field(json_schema_extra={"minLength": 1})]], Field(min_length=1, max_length=_ROBOTS_MAX)
+        ]
+        | None
+    ) = None
     time_limit_s: TimeLimit = 10.0
 
 

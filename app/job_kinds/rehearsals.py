@@ -1,11 +1,14 @@
 """A rehearsal as a job: a plan performed in simulated physics, every step judged."""
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any
+
+from pydantic import Field
 
 from app.files.import_file import LARGEST_PLAN_FILE
 from app.jobs.job_kind import JobKind, Progress, Stores
-from app.rehearsal.rehearse import PhysicsMissingError, RehearsalOptions, rehearse, require_physics
+from app.rehearsal.noise import NOISE
+from app.rehearsal.rehearse import RUNS_MAX, PhysicsMissingError, RehearsalOptions, rehearse, require_physics
 from planner.errors import FieldError, RequestError, UnsolvedPlanError
 from planner.json_form import STRICT
 from planner.message import Message
@@ -30,9 +33,9 @@ class RehearsalRequest:
     __pydantic_config__ = STRICT
 
     plan: str | dict[str, Any]
-    runs: int = 1
+    runs: Annotated[int, Field(json_schema_extra={"minimum": 1, "maximum": RUNS_MAX})] = 1
     seed: int = 0
-    noise: str = "none"
+    noise: Annotated[str, Field(json_schema_extra={"enum": list(NOISE)})] = "none"
     feedback: bool = True
 
 

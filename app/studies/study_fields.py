@@ -1,9 +1,25 @@
 """The fields of a study: the same in its TOML file and in a request of JSON (docs/studies.md)."""
 
 from dataclasses import dataclass, fields
-from typing import Any
+from typing import Annotated, Any
 
+from pydantic import Field, WithJsonSchema
+
+from planner.geometry.pose import Pose2
 from planner.json_form import STRICT
+
+_Text = Annotated[str, Field(json_schema_extra={"minLength": 1})]
+_Names = Annotated[list[_Text], Field(json_schema_extra={"minItems": 1})]
+
+_POSE = {"type": "object", "required": [field.name for field in fields(Pose2)]}
+_PLACEMENTS = {
+    "anyOf": [
+        {"const": "own"},
+        {"type": "array", "minItems": 1, "items": _POSE},
+        {"type": "object", "oneOf": [{"required": ["moved"]}, {"required": ["middle"]}]},
+    ]
+}
+_ENTRY = {"type": "object", "oneOf": [{"required": [kind]} for kind in ("name", "garment", "template", "random")]}
 
 
 @dataclass(frozen=True, slots=True)
@@ -15,19 +31,19 @@ class StudyFields:
 
     __pydantic_config__ = STRICT
 
-    garments: list[dict[str, Any]]
-    title: str | None = None
-    robots: list[str] | None = None
+    garments: Annotated[list[dict[str, Any]], Field(json_schema_extra={"minItems": 1, "items": _ENTRY})]
+    title: _Text | None = None
+    robots: _Names | None = None
     card: dict[str, Any] | None = None
-    start_stations: list[str] | None = None
+    start_stations: _Names | None = None
     table: dict[str, Any] | None = None
     scene: dict[str, Any] | None = None
-    placements: str | list[Any] | dict[str, Any] | None = None
+    placements: Annotated[str | list[Any] | dict[str, Any], WithJsonSchema(_PLACEMENTS)] | None = None
     limits: dict[str, Any] | None = None
     sample: dict[str, Any] | None = None
     comfort_margin: bool | None = None
     rehearsal: dict[str, Any] | None = None
-    cells_max: int | None = None
+    cells_max: Annotated[int, Field(json_schema_extra={"minimum": 1})] | None = None
 
     @property
     def content(self) -> dict[str, Any]:

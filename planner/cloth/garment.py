@@ -87,7 +87,9 @@ class Garment:
 
     name: Annotated[str, Field(json_schema_extra={"pattern": f"^{NAME_PATTERN.pattern}$"})]
     title: Annotated[Title, NULL_IS_DEFAULT, Field(default_factory=lambda given: given["name"])]
-    outline: Annotated[tuple[PlanePoint, ...], Field(json_schema_extra={"minItems": 3, "maxItems": POINTS_MAX})]
+    outline: Annotated[
+        tuple[PlanePoint, ...], Field(json_schema_extra={"minItems": 3, "maxItems": POINTS_MAX, "uniqueItems": True})
+    ]
     areal_density_kg_m2: Annotated[Positive, Field(default=DEFAULT_DENSITY_KG_M2)]
     folds: Annotated[tuple[DrawnFold, ...], Field(default=(), json_schema_extra={"maxItems": FOLDS_MAX})]
     grip_radius_m: Annotated[Positive, Field(default=DEFAULT_GRIP_RADIUS_M)]

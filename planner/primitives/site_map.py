@@ -16,6 +16,7 @@ from planner.primitives.drag_service import Service
 from planner.primitives.holding_drags import STEPS_PER_DRAG
 from planner.primitives.relaxed_sites import NOWHERE, OUTSIDE, Sites
 from planner.primitives.state import State
+from planner.weakly import weakly
 
 SiteKey = tuple[int, int, int]
 """A site on the grid: the article's place (x, y) and the station."""
@@ -49,7 +50,7 @@ class SiteMap:
         self._start = Site(start.offset, start.station)
         self._moves = context.kept(BaseMove)
         self._longest = longest_drag(context)
-        self._move_s = cache(self._moved_s)
+        self._move_s = cache(weakly(self._moved_s))
 
     def within(self, horizon_s: float, most: int) -> tuple[tuple[Site, ...], bool]:
         """Return up to `most` sites within a horizon of the start (s), nearest first, and whether these are all."""

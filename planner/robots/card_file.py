@@ -44,7 +44,9 @@ class ArmFile:
     """
 
     name: Annotated[str, Field(min_length=1, max_length=NAME_MAX)]
-    joints: tuple[str, ...]
+    joints: Annotated[
+        tuple[str, ...], Field(json_schema_extra={"minItems": 1, "maxItems": JOINTS_MAX, "uniqueItems": True})
+    ]
     tool: ToolFile
     home: tuple[float, ...]
     gripper: GripperFile
@@ -131,11 +133,11 @@ class CardFile:
 
     __pydantic_config__ = STRICT
 
-    pleat_robot: int
+    pleat_robot: Annotated[int, Field(json_schema_extra={"const": VERSION})]
     name: Annotated[str, Field(pattern=r"^[a-z0-9][a-z0-9-]{0,63}$")]
     title: Annotated[str, Field(min_length=1, max_length=TITLE_MAX)]
     urdf: UrdfFile
-    arms: tuple[ArmFile, ...]
+    arms: Annotated[tuple[ArmFile, ...], Field(json_schema_extra={"minItems": 1, "maxItems": ARMS_MAX})]
     base: BaseFile
     scene: SuitableScene
     mounts: tuple[Mount, ...] = (Mount(),)

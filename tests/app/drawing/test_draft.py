@@ -1,6 +1,8 @@
 """Steps, gestures and nudges."""
 
+from copy import deepcopy
 from dataclasses import replace
+from itertools import pairwise
 
 import pytest
 
@@ -15,7 +17,7 @@ TOWEL = towel_drawing(folds=[])
 
 def moved(steps: int) -> Drawing:
     """Return the towel with its first corner moved left by some millimetres."""
-    return pulled(TOWEL, 0, -0.001 * steps, 0.0)
+    return pulled(deepcopy(TOWEL), 0, -0.001 * steps, 0.0)
 
 
 def edited(draft: Draft, *edits: tuple[Phase, int], gesture: str | None = None) -> Draft:
@@ -34,6 +36,16 @@ def test_a_commit_is_one_named_step():
     assert draft.history.can_undo == "to 1"
     assert draft.undone().drawing == TOWEL
     assert draft.undone().history.can_redo == "to 1"
+
+
+def test_steps_share_all_that_stays_as_it_was():
+    draft = edited(draft_of(TOWEL), *((Phase.COMMIT, steps) for steps in range(1, 5)))
+    drawings = [step.drawing for step in draft.history.past]
+    assert drawings == [TOWEL, moved(1), moved(2), moved(3)]
+    for before, after in pairwise(drawings):
+        assert before.outline[0] is not after.outline[0]
+        assert all(one is other for one, other in zip(before.outline[1:], after.outline[1:], strict=True))
+        assert before.scene is after.scene and before.placement is after.placement
 
 
 def test_previews_make_no_step_and_the_commit_takes_them_all_back():
