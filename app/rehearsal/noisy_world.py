@@ -7,17 +7,19 @@ import numpy as np
 
 from app.camera.posture import Posture
 from app.rehearsal.corrections import carry
+from app.rehearsal.judge import slide_of
 from app.rehearsal.noise import Noise
-from app.rehearsal.world import GripMotion, Observation, Performed, StepMotion, Truth, World
+from app.rehearsal.world import GripMotion, Observation, Performed, StepMotion, Truth, World, way_done
 from planner.geometry.isometry import Isometry
-from planner.geometry.pose import Pose2
+from planner.geometry.pose import FloatArray, Pose2
 
 
 class NoisyWorld:
     """Another world, seen and acted on with errors.
 
     The robot believes that its base is where it should be. What it sees it places in the frame of its base (an overhead
-    camera sees the base too), so a correction by what is seen takes off the base's error.
+    camera sees the base too), so a correction by what is seen takes off the base's error. Where a drag has stopped
+    short, hands that hold on go on from there; once they are free, the base is driven to where it should be.
     """
 
     def __init__(self, world: World, noise: Noise, seed: int, base: Pose2) -> None:
@@ -26,6 +28,8 @@ class NoisyWorld:
         self._rng = np.random.default_rng(seed)
         self._calibrated = Isometry.rotation(0.0, *self._rng.normal(0.0, noise.camera_m, 2).tolist())
         self._error = self._driven(base)
+        self._short = Isometry()
+        self._arm_errors: dict[str, FloatArray] = {}
 
     def observe(self) -> Observation:
         """Return what is seen, with camera and outline as seen from where the robot believes to be."""
@@ -42,9 +46,16 @@ class NoisyWorld:
         missed = {grip.arm for grip in motion.grips if grip.closes and self._rng.random() < self._noise.miss}
         if missed and motion.needs_all:
             return Performed({grip.arm: grip.arm not in missed for grip in motion.grips})
+        made = tuple(grip for grip in motion.grips if grip.arm not in missed)
+        if all(grip.closes for grip in made):
+            self._short = Isometry()
         short = self._rng.uniform(0.0, self._noise.undershoot) if motion.kind == "drag" else 0.0
-        found = (self._off(grip, short) for grip in motion.grips if grip.arm not in missed)
-        answer = self._world.perform(replace(motion, grips=tuple(found)))
+        found = tuple(self._off(grip, short) for grip in made)
+        answer = self._world.perform(replace(motion, grips=found))
+        if made and motion.is_drag:
+            planned = np.array([grip.points[-1][:2] for grip in made])
+            stopped = [np.subtract(grip.points[-1][:2], self._arm_errors[grip.arm]) for grip in found]
+            self._short = slide_of(self._error.apply(planned), np.array(stopped)).isometry
         return Performed({**answer.has_cloth, **dict.fromkeys(missed, False)})
 
     def truth(self) -> Truth | None:
@@ -66,7 +77,12 @@ class NoisyWorld:
         return replace(ends, base=Pose2(x, y, ends.base.yaw_rad + math.atan2(self._error.c, self._error.a)))
 
     def _off(self, grip: GripMotion, short: float) -> GripMotion:
+        """Return the motion that a hand really makes; one that holds on goes on from where it is."""
         points = np.array(grip.points)
+        done = way_done(points)[:, None]
         points[:, :2] = points[0, :2] + (1.0 - short) * (points[:, :2] - points[0, :2])
-        points[:, :2] = self._error.apply(points[:, :2]) + self._rng.normal(0.0, self._noise.arm_m, 2)
+        after = self._rng.normal(0.0, self._noise.arm_m, 2)
+        before = after if grip.closes else self._arm_errors.get(grip.arm, after)
+        self._arm_errors[grip.arm] = after
+        points[:, :2] = self._short.apply(self._error.apply(points[:, :2])) + (1.0 - done) * before + done * after
         return replace(grip, points=tuple((x, y, z) for x, y, z in points.tolist()))

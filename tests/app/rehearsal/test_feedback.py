@@ -194,3 +194,22 @@ def test_a_robot_that_sees_from_where_it_stands_corrects_its_base_error_too():
     (asked,), (planned,) = world.asked, step_motions(towel_plan())
     for grip, former in zip(asked.grips, planned.grips, strict=True):
         assert math.dist(grip.points[0], former.points[0]) < 2e-3
+
+
+def test_hands_that_hold_on_go_on_from_where_a_drag_has_stopped_short():
+    # Else the cloth in them would jump by as much within one time step.
+    plan = make_plan(Task.of(load_garment("skirt")))
+    world = NotedWorld(np.empty((0, 2)))
+    noisy = NoisyWorld(world, Noise(undershoot=0.2, arm_m=0.003, base_rad=0.01), 3, plan.task.start.base.pose)
+    planned = step_motions(plan)
+    for motion in planned:
+        noisy.perform(motion)
+    drag, fold = world.asked[:2]
+    assert planned[0].is_drag and planned[1].is_fold and not planned[0].grips[0].opens
+    for number, grip in enumerate(drag.grips):
+        way, planned_way = (math.dist(one.points[0], one.points[-1]) for one in (grip, planned[0].grips[number]))
+        assert 0.8 * planned_way < way + 0.006 and way < 0.99 * planned_way
+        assert fold.grips[number].points[0] == pytest.approx(grip.points[-1], abs=2e-3)
+    closing = next(motion for motion in planned[1:] if motion.grips[0].closes)
+    (grip, former) = (world.asked[closing.step].grips[0].points[0], closing.grips[0].points[0])
+    assert math.dist(grip, former) < 0.02  # hands free, the base was driven to where it should be
