@@ -49,7 +49,16 @@ def bodies(tmp_path_factory: pytest.TempPathFactory) -> list[JsonBody[Any]]:
 def variants(schema: dict[str, Any]) -> list[dict[str, Any]]:
     """Return the schemas of which a value has to suit one."""
     found = schema.get("anyOf") or schema.get("oneOf")
-    return [schema] if found is None else [one for part in found for one in variants(part)]
+    shared = {name: part for name, part in schema.items() if name not in ("anyOf", "oneOf")}
+    return [schema] if found is None else [one for part in found for one in variants(both(shared, part))]
+
+
+def both(schema: dict[str, Any], other: dict[str, Any]) -> dict[str, Any]:
+    """Return the schema of what suits two; of a field in both, the first says what it is by itself."""
+    for part in other.get("allOf", ()):
+        schema = both(schema, part)
+    fields = {**other.get("properties", {}), **schema.get("properties", {})}
+    return {**schema, **other, **({"properties": fields} if fields else {})}
 
 
 def may_be_null(schema: dict[str, Any]) -> bool:
