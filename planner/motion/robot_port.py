@@ -126,11 +126,15 @@ class RobotPort(PathFinder, Kinematics, Hashable, Protocol):
         """The robot's description."""
         ...
 
-    def reach(self, torso_m: float, comfort_m: float, *, is_passing: bool = False) -> Reach:
+    def reach(self, torso_m: float, comfort_m: float, *, is_passing: bool = False, minds_body: bool = True) -> Reach:
         """Return the reach with the lift at a height, for a comfort radius (m).
 
-        Where it is passing, for a few queries about paths that are there already, it takes no memory from earlier plans
-        and leaves none, and the robot's body, of which a path keeps clear, is no obstacle.
+        Args:
+            torso_m: how far the lift is raised (m).
+            comfort_m: the comfort radius (m).
+            is_passing: whether it is for a few queries only: it takes no memory from earlier plans and leaves none.
+            minds_body: whether a place is out of reach where the robot's body may be in the arm's way. What that leaves
+                is told in cells of 2 cm; a path that keeps clear of the body knows better.
         """
         ...
 

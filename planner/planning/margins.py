@@ -101,7 +101,7 @@ def _reach(problem: Problem, plan: Plan, path: Trajectory) -> tuple[float | None
     """Return the reach margin (m) and its step."""
 
     def is_reached(hold: _Hold, radius_m: float) -> bool:
-        reach = problem.robot.reach(path.torso_m, radius_m, is_passing=True)
+        reach = problem.robot.reach(path.torso_m, radius_m, is_passing=True, minds_body=False)
         approaches = np.array([hold.approach])
         return bool(reach.from_anywhere(hold.arm, hold.places, approaches, _ONE_STANDOFF, STANDOFF_STEP_M).all())
 

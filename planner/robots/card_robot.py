@@ -30,7 +30,9 @@ class CardRobot(ArmedRobot):
         self._mapping = threading.Lock()
         self._mapped: tuple[MappedArm, ...] | None = None
 
-    def reach(self, torso_m: float, comfort_m: float, *, is_passing: bool = False) -> MappedReach:
+    def reach(
+        self, torso_m: float, comfort_m: float, *, is_passing: bool = False, minds_body: bool = True
+    ) -> MappedReach:
         """Return the reach with the lift raised by `torso_m`, for a comfort radius (m); see `RobotPort.reach`.
 
         Raises:

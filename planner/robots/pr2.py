@@ -34,7 +34,7 @@ class Pr2(ArmedRobot):
         shape = read_arm(self._model)
         return SidedArm(shape, is_mirrored=False), SidedArm(shape, is_mirrored=True)
 
-    def reach(self, torso_m: float, comfort_m: float, *, is_passing: bool = False) -> Pr2Reach:
+    def reach(self, torso_m: float, comfort_m: float, *, is_passing: bool = False, minds_body: bool = True) -> Pr2Reach:
         """Return the reach with the torso raised by `torso_m`, for a comfort radius (m); see `RobotPort.reach`.
 
         Raises:
@@ -43,7 +43,7 @@ class Pr2(ArmedRobot):
         """
         memories = None if is_passing else self._memories_of(torso_m, comfort_m)
         names = tuple(arm.name for arm in self._card.arms)
-        room = None if is_passing else self._room(float(torso_m))
+        room = self._room(float(torso_m)) if minds_body else None
         return Pr2Reach(names, self._arms, float(torso_m), float(comfort_m), room, memories)
 
     def _room(self, torso_m: float) -> Room:
