@@ -141,7 +141,7 @@ class MotionValidator:
             self._doubt(late)
         if is_known:
             return acts
-        self.slower = acts
+        self.slower = acts if held is None else min(acts, held, key=duration_s)
         return None
 
     def _real(self, steps: tuple[Step, ...]) -> Transfer | None:
