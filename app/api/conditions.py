@@ -1,4 +1,7 @@
-"""What the fields of a JSON object ask of each other, as parts of its JSON schema; null and left out are the same."""
+"""Conditions between the fields of an object, as parts of its JSON schema: which must be given, and which left out.
+
+A field that is null counts as left out.
+"""
 
 from typing import Any
 

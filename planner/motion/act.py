@@ -59,6 +59,11 @@ def duration_s(acts: Sequence[Act]) -> float:
     return sum(sum(act.durations_s()) for act in acts)
 
 
+def is_transfer(steps: Sequence[Step]) -> bool:
+    """Return whether hands hold cloth in some of the steps."""
+    return any(step.grips for step in steps)
+
+
 def transfers_of(steps: Sequence[Step]) -> Iterator[tuple[int, tuple[Step, ...]]]:
     """Yield the transfers of a plan: steps that follow one another without letting go, with the index of the first.
 

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from itertools import chain, islice
 
 from planner.geometry.tolerance import TIME_S
-from planner.motion.act import Act, duration_s, in_turn, transfers_of
+from planner.motion.act import Act, duration_s, in_turn, is_transfer, transfers_of
 from planner.motion.edge_hands import EdgeHands
 from planner.motion.transfer import Transfer
 from planner.motion.transfer_planner import TransferPlanner
@@ -56,7 +56,7 @@ class EdgeActs:
         Where such an act takes longer than is known of its steps, others are tried in its place.
         """
         parts = list(transfers_of(steps))
-        held = [self.transfer(part) if _is_transfer(part) else None for _, part in parts]
+        held = [self.transfer(part) if is_transfer(part) else None for _, part in parts]
         acts = self._acts_of(parts, held) if any(held) else None
         if acts is None:
             return None
@@ -78,15 +78,11 @@ class EdgeActs:
         """Return the acts of a path, with the transfers given and others where there are none; None without a path."""
         acts = []
         for (first, part), given in zip(parts, transfers, strict=True):
-            made = given or (self._real(part) if _is_transfer(part) else None)
-            if made is None and _is_transfer(part):
+            made = given or (self._real(part) if is_transfer(part) else None)
+            if made is None and is_transfer(part):
                 return None
             acts.append(Act(first, part if made is None else made.steps, made))
         return in_turn(acts, self._maker)
 
     def _is_late(self, act: Act) -> bool:
         return sum(act.durations_s()) > sum(map(self._known_s, act.steps)) + TIME_S
-
-
-def _is_transfer(steps: Sequence[Step]) -> bool:
-    return any(step.grips for step in steps)

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import count
 
-from planner.motion.act import Act, transfers_of
+from planner.motion.act import Act, is_transfer, transfers_of
 from planner.motion.transfer import Transfer
 from planner.motion.tries import QUICK
 from planner.planning.edges import Edges
@@ -113,7 +113,7 @@ class _Greedy:
         return tuple(acts)
 
     def _act(self, first: int, steps: tuple[Step, ...]) -> Act | None:
-        if not any(step.grips for step in steps):
+        if not is_transfer(steps):
             return Act(first, steps, None)
         key = (steps[0].before.key, *(step.after.key for step in steps))
         if key not in self._made:

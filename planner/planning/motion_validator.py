@@ -21,7 +21,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import islice
 
 from planner.geometry.tolerance import TIME_S
-from planner.motion.act import Act, duration_s, in_turn, transfers_of
+from planner.motion.act import Act, duration_s, in_turn, is_transfer, transfers_of
 from planner.motion.edge_hands import EdgeHands
 from planner.motion.transfer import Transfer
 from planner.motion.transfer_candidate import Candidate, ways_of
@@ -124,11 +124,11 @@ class MotionValidator:
         found: list[Act] = []
         transfers: list[tuple[tuple[Step, ...], Transfer]] = []
         for first, part in transfers_of(steps):
-            made = self._real(part) if any(step.grips for step in part) else None
+            made = self._real(part) if is_transfer(part) else None
             found.append(Act(first, part if made is None else made.steps, made))
             if made is not None:
                 transfers.append((part, made))
-            elif any(step.grips for step in part):
+            elif is_transfer(part):
                 self._all_agree(transfers)
                 self._reject(part, seemed_s)
                 return None

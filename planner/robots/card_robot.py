@@ -35,6 +35,8 @@ class CardRobot(ArmedRobot):
     ) -> MappedReach:
         """Return the reach with the lift raised by `torso_m`, for a comfort radius (m); see `RobotPort.reach`.
 
+        The body is left to the joint paths, whether it is to be minded or not.
+
         Raises:
             SceneError: the lift does not go there.
             RequestError: the radius is negative or no number.
