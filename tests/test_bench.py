@@ -250,6 +250,7 @@ def test_more_stations_stand_beside_the_table_and_face_it(count: int):
         assert abs(ahead[0]) <= 0.8 and abs(ahead[1]) <= 0.49
 
 
+@pytest.mark.long
 def test_growth_is_measured_and_drawn(tmp_path: Path):
     report = growth([], 1)
     rows = {(row["grows"], row["series"]): row for row in written(report, tmp_path)["rows"]}
@@ -397,6 +398,7 @@ def test_articles_for_small_tables_are_shrunk_with_their_folds_and_small_ones_ar
     assert shrunk(towel, LONGEST_M).outline == towel.outline
 
 
+@pytest.mark.long
 def test_a_crowd_edits_and_asks_for_plans(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):
     for name, less in (("OPEN", 2), ("DRAGGED", 1), ("QUICK_S", 1.0)):
         monkeypatch.setattr(f"bench.crowd.{name}", less)

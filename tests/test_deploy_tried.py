@@ -18,6 +18,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import httpx
+import pytest
 
 from tests.patience import PATIENCE_S
 from tests.test_deploy import ROOT, UNIT, instructions
@@ -94,6 +95,7 @@ def copied(source: Path, target: Path) -> None:
         shutil.copy(source, target)
 
 
+@pytest.mark.long
 def test_what_the_unit_starts_makes_its_token_in_its_state_directory_and_stops(tmp_path: Path) -> None:
     state, cache = tmp_path / "lib", tmp_path / "cache"
     mode = int(re.findall(r"^StateDirectoryMode=(\d+)", UNIT, re.MULTILINE)[0], 8)

@@ -107,6 +107,7 @@ def test_a_template_that_cannot_load_the_planner_is_told_and_replaced() -> None:
     assert "the kernels are for another machine" in done.stderr
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_a_template_that_was_ended_from_outside_is_replaced() -> None:
     assert apart(count, 1)

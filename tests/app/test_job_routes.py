@@ -130,6 +130,7 @@ async def test_an_unknown_job_is_not_found(client: httpx.AsyncClient, method: st
     assert answer.headers["content-type"] == "application/problem+json"
 
 
+@pytest.mark.long
 def test_jobs_and_their_results_outlive_a_server_that_is_killed(served: Served) -> None:
     with httpx.Client(base_url=served.url, timeout=PATIENCE_S) as client:
         done = client.post("/api/jobs/placements", json=MAP).headers["location"]

@@ -1,5 +1,7 @@
 """The plans that a document remembers: the latest of each kind, the quickest first."""
 
+import pytest
+
 from app.known_plans import KnownPlans
 from planner import load_garment
 from tests.planning.found import found_plan
@@ -20,6 +22,7 @@ def test_the_latest_plan_of_each_way_is_known_and_the_quickest_comes_first() -> 
     assert known.of(None) is None
 
 
+@pytest.mark.long
 def test_what_is_no_plan_is_not_known() -> None:
     known = KnownPlans()
     known.add(found_plan(load_garment("scarf-halved")))

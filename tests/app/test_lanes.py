@@ -147,7 +147,7 @@ def post_and_leave(url: str, body: dict[str, Any]) -> None:
         httpx.post(url, timeout=1.0, **body)
 
 
-@pytest.mark.parametrize("end", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
+@pytest.mark.parametrize("end", [pytest.param(signal.SIGINT, marks=pytest.mark.long), signal.SIGTERM, signal.SIGKILL])
 def test_no_process_outlives_the_server(tmp_path: Path, end: signal.Signals) -> None:
     server = Served(tmp_path)
     try:

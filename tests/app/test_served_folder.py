@@ -5,6 +5,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 from tests.app.conftest import REST, Served
 from tests.patience import PATIENCE_S
 
@@ -15,6 +17,7 @@ def serve(data: Path) -> subprocess.CompletedProcess[str]:
     return subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE_S)
 
 
+@pytest.mark.long
 def test_a_second_server_on_a_folder_says_who_has_it_and_ends_until_the_first_is_killed(tmp_path: Path) -> None:
     first = Served(tmp_path)
     try:

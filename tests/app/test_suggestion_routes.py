@@ -127,6 +127,7 @@ async def test_the_server_answers_others_while_it_searches(client: httpx.AsyncCl
     await asyncio.gather(search, return_exceptions=True)
 
 
+@pytest.mark.long
 async def test_when_the_client_goes_away_the_search_stops(served: Served) -> None:
     async with httpx.AsyncClient(base_url=served.url, timeout=PATIENCE_S) as browser:
         async with browser.stream("POST", "/api/suggestions", json={**STUCK, **LONG}) as stream:

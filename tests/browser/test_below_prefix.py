@@ -9,6 +9,7 @@ from tests.browser.prefix_proxy import PREFIX, below_prefix
 from tests.browser.status_pill import expect_planned
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_page_stage_and_edits_work_below_a_proxys_prefix(
     browser: Browser, designer: Served, new_sheet: Callable[[Garment], Sheet]

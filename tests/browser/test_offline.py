@@ -54,6 +54,7 @@ def test_a_corner_that_is_dragged_when_the_server_dies_stays_and_is_sent_when_it
     assert napkin_sheet.can_undo == "Move vertex"
 
 
+@pytest.mark.long
 def test_without_a_server_the_tools_rest_and_the_board_says_why(
     page: Page, designer: Served, napkin_sheet: Sheet
 ) -> None:

@@ -236,6 +236,7 @@ def test_a_document_that_is_not_there_is_told_of(browser: Browser, designer: Ser
         page.close()
 
 
+@pytest.mark.long
 def test_page_and_stage_come_back_by_themselves_when_the_server_does(page: Page, designer: Served) -> None:
     page.evaluate("document.getElementById('stage').contentWindow.isOfBefore = true")
     designer.stop()

@@ -278,6 +278,7 @@ def sheet(new_sheet: Callable[[Garment], Sheet]) -> Sheet:
     return new_sheet(towel())
 
 
+@pytest.mark.long
 def test_two_windows_and_rest_lose_nothing_and_show_nothing_stale(two: tuple[Window, Window], sheet: Sheet) -> None:
     tries = settings().max_examples
     run_state_machine_as_test(

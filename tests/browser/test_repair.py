@@ -4,6 +4,7 @@ import json
 import re
 from collections.abc import Callable
 
+import pytest
 from playwright.sync_api import Page, Route, expect
 
 from tests.app.conftest import REST
@@ -39,6 +40,7 @@ def foot_of_strip_px(page: Page) -> float:
     return box["y"] + box["height"]
 
 
+@pytest.mark.long
 def test_an_apron_halved_lengthwise_is_split_by_the_keyboard_and_put_back_by_one_undo(
     page: Page, new_sheet: Callable[[Garment], Sheet]
 ) -> None:
@@ -130,6 +132,7 @@ def test_all_cards_that_come_are_at_hand_and_none_moves_while_others_come(
     assert "RUBBISH" not in page.locator("body").inner_text()
 
 
+@pytest.mark.long
 def test_another_robot_that_can_is_a_card_one_click_and_one_undo(
     page: Page, new_sheet: Callable[[Garment], Sheet]
 ) -> None:

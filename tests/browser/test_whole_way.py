@@ -10,6 +10,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import pytest
 from playwright.sync_api import Browser, Page, expect
 
 from app.files.exports import EXPORTS
@@ -151,12 +152,14 @@ def exported(page: Page, folder: Path) -> dict[str, str]:
     return saved
 
 
+@pytest.mark.long
 def test_with_the_keyboard_alone(chromium: Browser, new_sheet: Callable[[Garment], Sheet]) -> None:
     with windows(chromium, viewport=SMALL) as context:
         page = context.new_page()
         there_and_back(page, ByKeyboard(page), new_sheet(None))
 
 
+@pytest.mark.long
 def test_with_a_finger_on_a_phone(chromium: Browser, new_sheet: Callable[[Garment], Sheet]) -> None:
     with windows(chromium, **PHONE) as context:
         page = context.new_page()

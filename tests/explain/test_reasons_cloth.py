@@ -104,6 +104,7 @@ def test_cloth_that_covers_a_corner_at_the_start_says_so_of_no_fold():
     assert all(r.fold is not None for r in make_plan(fixed, time_limit_s=60.0).reasons)
 
 
+@pytest.mark.long
 def test_cloth_that_slips_at_the_start_says_what_hangs_and_what_lies():
     # 0.4 m wide, from y = 0.39 to 1.19 where the table ends at 0.49: 0.1 m lie and 0.7 m hang.
     over = fold((0.4, 0.4), (0.0, 0.4))
@@ -117,6 +118,7 @@ def test_cloth_that_slips_at_the_start_says_what_hangs_and_what_lies():
     assert all(r.fold is not None for r in held.reasons)
 
 
+@pytest.mark.long
 def test_cloth_beside_the_table_says_how_far_it_is_from_it():
     cloth = garment(rectangle_points(0.4, 0.4), fold((0.4, 0.2), (0.0, 0.2)), placement=Pose2(1.0, -0.2, 0.0))
     (reason,) = refused(cloth).reasons

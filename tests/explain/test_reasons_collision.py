@@ -89,6 +89,7 @@ def test_a_drag_that_only_another_would_make_useful_is_told_of_no_fold(monkeypat
     assert drag.message.startswith("to drag the cloth by (-0.10, 0.00) m, from front ")
 
 
+@pytest.mark.long
 def test_arms_that_collide_in_the_fold_itself_are_told_before_those_that_do_in_a_drag(monkeypatch):
     # From where the napkin is within reach as it lies; drags only lead to more of the same.
     barred(monkeypatch, lambda arm, base: True)

@@ -19,6 +19,7 @@ from planner.primitives.state import State
 from planner.robots.shortfall import DIRECTIONS
 from tests.builders import fold, garment, rectangle_points
 from tests.planning.provoked import met, refused
+from tests.sweep import sweep
 
 PROBLEMS = {
     "scarf": (load_garment("scarf-halved"), Scene()),
@@ -31,7 +32,7 @@ PROBLEMS = {
 START = (0.0, 0.0)
 
 
-@pytest.mark.parametrize("name", PROBLEMS)
+@sweep("name", PROBLEMS, ("sheet",))
 def test_no_attempt_came_closer(name):
     context = _met(name)
     places = Places(context, ())
@@ -50,7 +51,7 @@ def test_no_attempt_came_closer(name):
     assert nearest.short_by_m == pytest.approx(min(o.short_by_m for o in others if o is not None), abs=1e-9)
 
 
-@pytest.mark.parametrize("name", PROBLEMS)
+@sweep("name", PROBLEMS, ("sheet",))
 def test_the_robot_can_bring_the_cloth_to_where_it_came_closest(name):
     context = _met(name)
     nearest = nearest_miss(context, 0, {0}, Places(context, ()))
@@ -109,6 +110,7 @@ def test_with_the_drag_taken_back_the_point_is_over_the_cloth_as_it_starts():
     assert f"(the cloth dragged by ({told_x:.2f}, {told_y:.2f}) m" in reason.message
 
 
+@pytest.mark.long
 def test_a_reason_is_the_same_every_time():
     again = refused(*PROBLEMS["scarf"])
     assert again.to_dict()["reasons"] == _answer("scarf").plan.to_dict()["reasons"]

@@ -151,6 +151,7 @@ def test_what_is_far_away_is_short_by_at_least_its_distance():
     assert "1.21 m nearer to the robot: move the cloth" in reason.message
 
 
+@pytest.mark.long
 def test_where_no_shift_would_do_the_reason_says_so():
     (reason, *_) = planned("scarf-halved").answer.reasons
     assert reason.shift_m is None

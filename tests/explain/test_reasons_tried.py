@@ -37,6 +37,7 @@ def test_a_strip_in_balance_that_a_fold_brings_out_of_it_slips_and_is_nowhere_be
     assert not with_friction(strip, Scene(), A_BIT_LESS * reason.needed_friction).is_solved
 
 
+@pytest.mark.long
 def test_a_line_a_centimetre_off_the_table_is_what_is_wrong_with_it():
     # Across the table the cloth lies from y = 1 to -1; its line is at y = 0.5, and the table ends at 0.49.
     sheet = garment(rectangle_points(2.0, 0.3), fold((0.5, 0.0), (0.5, 0.3)), placement=Pose2(-0.6, 1.0, BACK))

@@ -84,6 +84,7 @@ def test_where_two_things_stand_in_every_way_both_are_named():
     assert all(r.code is not Code.SLIPS for r in refused(towel, rough).reasons)
 
 
+@pytest.mark.long
 def test_folds_that_wait_come_last_and_name_what_they_wait_for():
     found = planned("tie-halved").answer.reasons
     assert [(r.fold, r.code) for r in found] == [

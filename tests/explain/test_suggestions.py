@@ -41,7 +41,8 @@ def asked(cloth: Garment, scene: Scene | None = None) -> Task:
     return Task.of(cloth, scene, max_expanded=1000)
 
 
-@pytest.mark.parametrize("name", ["tie-halved", pytest.param("scarf-halved", marks=pytest.mark.long)])
+@pytest.mark.long
+@pytest.mark.parametrize("name", ["tie-halved", "scarf-halved"])
 def test_an_article_that_cannot_be_halved_is_told_to_be_folded_nearer_its_end(name: str):
     cloth = load_garment(name)
     known = planned(name).answer
@@ -125,6 +126,7 @@ def test_the_grip_radius_that_is_suggested_is_the_least_in_whole_millimetres():
         assert found.change["garment"]["folds"][0]["grip_radius_m"] == pytest.approx(0.025)
 
 
+@pytest.mark.long
 def test_where_the_other_part_could_move_at_the_same_line_that_is_suggested():
     # Drawn the wrong way round: all of the cloth but a strip would move.
     line = fold((0.0, 0.1), (0.9, 0.1))
@@ -336,6 +338,7 @@ def slow() -> bool:
     return False
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("work_s", [0.4, 1.0])
 def test_on_a_slow_machine_the_same_changes_are_suggested(work_s: float):
     limits = {"work_limit_s": work_s, "time_limit_s": 60.0}

@@ -12,6 +12,7 @@ from planner.primitives.primitive_set import PRIMITIVES
 from planner.task.scene import DEFAULT_STATIONS, Scene
 from tests.laws.law import law
 from tests.laws.scenes import FOLDABLE, Problem, problems
+from tests.sweep import sweep
 
 SECOND = 1e-6
 PROPER_SUBSETS = tuple(some for n in range(len(PRIMITIVES)) for some in combinations(PRIMITIVES, n))
@@ -50,7 +51,7 @@ def test_more_room_to_back_off_never_costs_more(problem: Problem, steps: int):
     assert roomy.cost_s() <= problem.cost_s() + SECOND
 
 
-@pytest.mark.parametrize("name", FOLDABLE)
+@sweep("name", FOLDABLE, ("vest", "hand-towel", "letter-towel"))
 @pytest.mark.slow
 def test_a_shipped_garment_is_no_cheaper_with_less_friction_a_station_less_or_a_primitive_less(name: str):
     problem = Problem(load_garment(name), Scene(), "front", 0.03)

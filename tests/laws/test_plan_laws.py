@@ -6,14 +6,16 @@ from dataclasses import replace
 from random import Random
 
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from planner import Plan, Scene, load_garment, make_plan
 from tests.laws.images import mirrored, redrawn, reordered, turned
-from tests.laws.law import LONG, law
+from tests.laws.law import law
 from tests.laws.scenes import Problem
 from tests.laws.tasks import plain_task
+from tests.replay.planned import SOLVABLE
+from tests.sweep import sweep
 
 SECOND = 1e-6
 
@@ -109,13 +111,9 @@ WIDER = {
 }
 """Variants of a task from the tightest to the widest: fields of the scene, and the comfort radius (m)."""
 
-IS_LONG = settings.get_current_profile_name() == LONG
-CHEAP = ["vest", "jeans", "letter-towel"]
-DEAR = ["scarf", "tie", "skirt", "hand-towel", "big-towel", "shirt", "t-shirt"]
-
 
 @pytest.mark.parametrize("what", WIDER)
-@pytest.mark.parametrize("name", [*CHEAP, *DEAR] if IS_LONG else CHEAP)
+@sweep("name", SOLVABLE, ("vest", "letter-towel"))
 def test_a_shipped_garment_never_takes_longer_with_more_room(name: str, what: str):
     cost_s = math.inf
     for fields, comfort_m in WIDER[what]:

@@ -6,14 +6,14 @@ import pytest
 
 from planner import Plan, make_plan
 from planner.task.world_state import HeldPoint
-from tests.replay.planned import SOLVABLE, planned
+from tests.replay.planned import each_solvable, planned
 
 
 def left_s(plan: Plan, step: int) -> float:
     return (plan.cost_s or 0.0) - (0.0 if step < 0 else plan.steps[step].end_s)
 
 
-@pytest.mark.parametrize("name", SOLVABLE)
+@each_solvable
 def test_planning_from_the_world_after_a_step_costs_what_is_left(name: str) -> None:
     plan = planned(name).answer
     for step in range(-1, len(plan.steps)):

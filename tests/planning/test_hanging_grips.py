@@ -59,6 +59,7 @@ def test_it_does_so_as_deep_as_the_arms_reach():
     require_clear(Timeline.of(plan), plan.scene.table, every_s=0.37)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("x_m", [0.6, -0.1])
 def test_so_does_it_at_the_sides_and_the_mirrored_task_has_the_mirrored_plan(x_m: float):
     left, right = (required(aside(0.1, x_m, side)) for side in (1.0, -1.0))

@@ -59,6 +59,7 @@ def test_grips_are_apart_by_more_than_they_must_be():
     assert margins.grips_m == pytest.approx(min(np.linalg.norm(a - b) for a, b in pairs) - 0.1)
 
 
+@pytest.mark.long
 def test_where_there_is_no_plan_there_are_no_margins():
     plan = planned("tie-halved").answer
     assert not plan.is_solved and margins_of(plan) is None

@@ -13,12 +13,13 @@ from planner.primitives.drag_offsets import drag_offsets
 from planner.task.reason import Code
 from tests.planning.found import found_plan
 from tests.replay.planned import planned
+from tests.sweep import sweep
 
 HALVED = ("scarf-halved", "tie-halved")
 SOLVABLE = [name for name in shipped_garment_names() if name not in HALVED]
 
 
-@pytest.mark.parametrize("name", SOLVABLE)
+@sweep("name", SOLVABLE)
 def test_a_fold_that_can_be_done_is_never_called_impossible(name, monkeypatch):
     monkeypatch.setattr(planning, "LOOK_ALONE_AFTER", 1)
     looked_at = make_plan(load_garment(name), time_limit_s=60.0)
@@ -28,7 +29,7 @@ def test_a_fold_that_can_be_done_is_never_called_impossible(name, monkeypatch):
     assert looked_at.cost_s == pytest.approx(searched.cost_s, abs=1e-9)
 
 
-@pytest.mark.parametrize("name", HALVED)
+@sweep("name", HALVED, ("tie-halved",))
 def test_what_is_called_impossible_is_so_when_all_states_are_exhausted(name, monkeypatch):
     quick = planned(name).answer
     monkeypatch.setattr(planning, "LOOK_ALONE_AFTER", 1_000_000_000)

@@ -34,6 +34,7 @@ print([plan.status for plan in plans], [name for _, name, _ in compiled() - befo
 """
 
 
+@pytest.mark.long
 def test_no_garment_has_to_wait_for_the_compiler():
     # One arm and two, drags, hanging cloth, arms that must be led past each other, and no plan with its reasons.
     garments = ("shirt", "scarf", "big-towel", "t-shirt", "scarf-halved")

@@ -7,6 +7,7 @@ from typing import Any
 from planner import Plan, load_garment
 from planner.planning.found_plan import FoundPlan
 from tests.planning.found import found_plan
+from tests.sweep import sweep
 
 SOLVABLE = (
     "t-shirt",
@@ -21,6 +22,9 @@ SOLVABLE = (
     "letter-towel",
 )
 IMPOSSIBLE = ("tie-halved", "scarf-halved")
+
+each_solvable = sweep("name", SOLVABLE)
+"""Give a test the name of each of them."""
 
 
 @dataclass(frozen=True)

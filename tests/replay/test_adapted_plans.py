@@ -5,7 +5,6 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
-from hypothesis import settings
 
 from app.drawing.garment_drawing import drawing_of
 from app.drawing.solve import solve
@@ -16,15 +15,13 @@ from planner.geometry.table import Table
 from planner.motion.timeline import Timeline
 from planner.planning.found_plan import FoundPlan
 from tests.builders import fold, garment, rectangle_points
-from tests.laws.law import LONG
 from tests.planning.found import found_plan
 from tests.replay.checker import check
 from tests.replay.joints import require_clear, require_speeds
-from tests.replay.planned import IMPOSSIBLE, SOLVABLE, planned
+from tests.replay.planned import IMPOSSIBLE, SOLVABLE, each_solvable, planned
+from tests.sweep import sweep
 
 CENTIMETRE = ((0.01, 0.0), (0.0, 0.01), (-0.01, 0.0), (0.0, -0.01))
-
-each_solvable = pytest.mark.parametrize("name", SOLVABLE)
 
 
 def moved(name: str, vertex: int, by: tuple[float, float]) -> Garment:
@@ -96,7 +93,7 @@ def test_what_is_adapted_to_a_garment_with_a_vertex_moved_by_a_centimetre_replay
     assert adapted, "each garment has a vertex that may be pulled without another plan"
 
 
-@pytest.mark.parametrize("name", SOLVABLE if settings.get_current_profile_name() == LONG else ("jeans", "scarf"))
+@sweep("name", SOLVABLE, ("jeans", "scarf"))
 def test_the_arms_can_follow_what_is_adapted_again_and_again(name: str):
     # A centimetre, millimetre by millimetre: each plan's joints are near to those of the plan before.
     found = planned(name).found

@@ -30,10 +30,10 @@ def pulled_tie(corner: int, by_m: float, towards_rad: float) -> Garment:
     ("corner", "by_m", "towards_rad"),
     [
         # Of the orientations in which the second fold is in reach few keep the arms off the table and each other.
-        (0, 0.03, 3.4614),
+        pytest.param(0, 0.03, 3.4614, marks=pytest.mark.long),
         # The arms have a way, but none in which one of them goes as it would alone.
         (0, 0.01, 1.0868),
-        (2, 0.01, 4.1663),
+        pytest.param(2, 0.01, 4.1663, marks=pytest.mark.long),
     ],
 )
 def test_two_hands_fold_a_narrow_end(corner: int, by_m: float, towards_rad: float):

@@ -12,17 +12,15 @@ from tests.laws.law import LONG
 from tests.replay.free_hands import Look, in_table, looks, too_low
 from tests.replay.hands import CLOSED_M
 from tests.replay.joints import speed_limits
-from tests.replay.planned import SOLVABLE, planned
+from tests.replay.planned import SOLVABLE, each_solvable, planned
+from tests.sweep import sweep
 
 IS_LONG = settings.get_current_profile_name() == LONG
 RATE_HZ = 50.0 if IS_LONG else 4.0
-LOOKED_AT = SOLVABLE if IS_LONG else ("t-shirt", "shirt", "vest", "big-towel")
-"""The plans that are checked: comparing hulls with the cloth takes 3 ms a sample."""
-
 FINGERS = {"left": "l_gripper_l_finger_joint", "right": "r_gripper_l_finger_joint"}
 
-each_solvable = pytest.mark.parametrize("name", SOLVABLE)
-each_looked_at = pytest.mark.parametrize("name", LOOKED_AT)
+each_looked_at = sweep("name", SOLVABLE, ("vest", "hand-towel"))
+"""Give a test the name of each plan; comparing hulls with the cloth takes 3 ms a sample."""
 
 
 @cache

@@ -11,13 +11,11 @@ from planner.motion.timeline import Timeline
 from tests.laws.law import LONG
 from tests.replay.checker import check
 from tests.replay.hands import Moment, distance_to_way, require_joint_limits, seen
-from tests.replay.planned import SOLVABLE, planned
+from tests.replay.planned import each_solvable, planned
 from tests.replay.world import Way
 
 NEAR_M = 0.005
 RATE_HZ = 50.0 if settings.get_current_profile_name() == LONG else 20.0
-
-each_solvable = pytest.mark.parametrize("name", SOLVABLE)
 
 
 @cache

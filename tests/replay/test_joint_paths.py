@@ -12,14 +12,12 @@ from planner.motion.timeline import Timeline
 from tests.laws.law import LONG
 from tests.replay.hands import robot
 from tests.replay.joints import RATE_HZ, arm_joints, require_clear, require_speeds, speed_limits
-from tests.replay.planned import SOLVABLE, planned
+from tests.replay.planned import each_solvable, planned
 
 CHECKED_S = 1.0 / RATE_HZ if settings.get_current_profile_name() == LONG else 0.9
 """The time between two checks of the hulls (s): a check takes 1.3 ms, and a plan half a minute."""
 
 TURNS = ("forearm_roll", "wrist_roll")
-
-each_solvable = pytest.mark.parametrize("name", SOLVABLE)
 
 
 @each_solvable

@@ -9,19 +9,17 @@ from planner import Plan
 from planner.motion.motion_limits import MotionLimits
 from planner.motion.motion_values import accelerations_at, positions_at, velocities_at
 from planner.task.trajectory import ArmTrack, GripperTrack
-from tests.replay.planned import SOLVABLE, planned
+from tests.replay.planned import each_solvable, planned
 from tests.replay.smooth import require_smooth
 from tests.small_plan import CARD, small_plan
 
-each_name = pytest.mark.parametrize("name", SOLVABLE)
 
-
-@each_name
+@each_solvable
 def test_speeds_and_accelerations_keep_their_limits_and_all_rests_between_the_steps(name: str):
     require_smooth(planned(name).answer, CARD)
 
 
-@each_name
+@each_solvable
 def test_steps_last_as_long_as_their_motions(name: str):
     plan = planned(name).answer
     assert plan.trajectory is not None
@@ -31,7 +29,7 @@ def test_steps_last_as_long_as_their_motions(name: str):
         assert segments[-1].start_s + segments[-1].duration_s == pytest.approx(step.end_s, abs=1e-9)
 
 
-@each_name
+@each_solvable
 def test_a_plan_takes_little_longer_than_the_model_says_and_never_less(name: str):
     plan = planned(name).answer
     assert plan.cost_s is not None and plan.bound_s is not None

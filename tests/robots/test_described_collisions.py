@@ -13,6 +13,7 @@ from planner.robots.collision.collisions import Collisions
 from planner.robots.collision.described_parts import described_parts
 from planner.robots.described_robot import DescribedRobot, read_robot, shipped_robots
 from tests.replay.described_hulls import Hulls
+from tests.sweep import sweep
 
 OPENING_M = 0.04
 
@@ -53,7 +54,7 @@ def test_every_robot_is_free_at_home_at_its_stations(name):
         assert asked.body_free(pose)
 
 
-@pytest.mark.parametrize("name", ["ur5e-pair", "panda-pair", "so101-pair", "baxter", "tiago-pro"])
+@sweep("name", ["ur5e-pair", "panda-pair", "so101-pair", "baxter", "tiago-pro"], ("panda-pair", "so101-pair"))
 def test_what_is_free_is_free_for_the_hulls_of_pinocchio(name):
     robot, count = read_robot(name), 60
     truth, asked, base = Hulls(robot), collisions(robot, opening_m=OPENING_M), station(robot)

@@ -29,6 +29,7 @@ def test_a_towel_folded_with_one_of_two_grips_is_lost():
     assert verdict.iou < 0.9
 
 
+@pytest.mark.long
 def test_a_towel_gripped_eight_centimetres_inwards_is_lost():
     (motion,) = step_motions(towel_plan())
     left, right = motion.grips
@@ -69,6 +70,7 @@ def test_hands_roll_over_with_the_cloth_as_the_plan_has_them_roll():
         assert list(grip.turned_rad) == sorted(grip.turned_rad)
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_the_same_rehearsal_twice_is_the_same_alone_and_side_by_side():
     options = RehearsalOptions(2, seed=4, resolution=Resolution(edge_m=0.06, settle_s=0.1))

@@ -114,6 +114,7 @@ def test_a_run_of_a_towel_is_traced_from_where_it_lies_to_where_the_plan_has_it(
     assert (again.pictures, again.steps[0].outlines) == (trace.pictures, step.outlines)
 
 
+@pytest.mark.long
 def test_runs_beyond_those_that_are_traced_have_no_trace():
     options = RehearsalOptions(2, resolution=replace(COARSE, edge_m=0.06, settle_s=0.1), workers=1, traced=1)
     assert [run.trace is None for run in rehearse(towel_plan(), options).runs] == [False, True]

@@ -102,6 +102,7 @@ def test_no_acknowledged_edit_is_lost_by_a_power_cut(events: list[Event], tmp_pa
     assert lost(events, random.Random(1), tmp_path) == []
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("events", ["synchronous=NORMAL"], indirect=True)
 def test_with_fewer_syncs_edits_would_be_lost(events: list[Event], tmp_path: Path) -> None:
     assert lost(events, random.Random(1), tmp_path) != []

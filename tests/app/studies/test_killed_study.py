@@ -4,6 +4,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 from app.studies.results import Results
 from app.studies.run_study import Progress, run_study
 from app.studies.table import CSV, PARQUET
@@ -38,6 +40,7 @@ def run_and_kill(folder: Path) -> int:
     return int(told[-1])
 
 
+@pytest.mark.long
 def test_a_study_killed_five_times_loses_no_answer_and_gives_the_table_of_one_that_was_not(tmp_path: Path):
     told = [run_and_kill(tmp_path / "parts") for _ in range(KILLS)]
     assert told == sorted(told)

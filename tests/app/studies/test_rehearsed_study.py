@@ -27,6 +27,7 @@ REHEARSED = {
 """A napkin on a table and on one that is too high, performed once without noise and once with it."""
 
 
+@pytest.mark.long
 def test_noise_is_an_axis_and_every_solved_plan_is_performed_with_it(tmp_path: Path):
     asked = study(**REHEARSED)
     with Results(tmp_path) as results:

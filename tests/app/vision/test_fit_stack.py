@@ -31,6 +31,7 @@ def test_a_stack_is_found_where_it_lies_though_an_arm_hides_some_of_it(name: str
     assert most_off(stack.silhouette, fit.placement, placement) < 0.01
 
 
+@pytest.mark.long
 def test_the_error_told_covers_what_is_off_in_most_cases():
     stack = ClothState.spread_out(load_garment("jeans").pattern)
     placement = Pose2(-0.3, 0.2, 0.5)

@@ -51,6 +51,7 @@ def test_what_is_like_a_template_brings_its_folds(shirt: str):
     assert seen["sure"]["share_within"] > 0.9
 
 
+@pytest.mark.long
 def test_a_garment_that_is_not_folded_is_seen_to_be_so(shirt: str):
     result = see(shirt, "--scale", "a4", "--state-of", "t-shirt", "--json", "-")
     assert result.exit_code == 0, result.output

@@ -21,6 +21,7 @@ def test_which_fold_was_done_last_is_told_and_how_far_off_it_is():
     assert found.fit.offset_m == pytest.approx(0.016, abs=0.004)
 
 
+@pytest.mark.long
 def test_what_is_none_of_the_states_is_not_known():
     sequence = replayed(load_garment("tie"))
     _, unknown = state_of(seen(load_garment("vest").pattern, PLACEMENT), sequence)

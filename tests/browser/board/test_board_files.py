@@ -64,6 +64,7 @@ def test_a_measure_out_of_range_is_refused_in_words(page: Page, shirt: Desk) -> 
     expect(dialog).to_have_count(0)
 
 
+@pytest.mark.long
 def test_a_towel_wider_than_the_table_is_made_and_explained_on_the_board(page: Page, shirt: Desk) -> None:
     page.get_by_role("button", name="New", exact=True).click()
     dialog = page.get_by_role("dialog", name="New garment")

@@ -73,6 +73,7 @@ def test_a_server_that_is_busy_or_away_is_asked_again(page: Page, towel: Desk, s
     page.unroute("**/overlays?*")
 
 
+@pytest.mark.long
 def test_the_cost_map_is_kept_while_the_drawing_stays(page: Page, towel: Desk) -> None:
     expect_planned(page)
     asked: list[str] = []
