@@ -10,10 +10,14 @@ from app.store.job_repository import JobStatus, StoredJob
 
 
 class JobEntry(BaseModel):
-    """A job in the list: its status, the share that is done, what is being done or why it failed; times in UTC."""
+    """A job in the list: its status, the share that is done, what is being done or why it failed; times in UTC.
+
+    `about` is the title of the garment or study that it is about, empty where it is about none.
+    """
 
     id: str
     kind: str
+    about: str
     status: JobStatus
     progress: float
     message: str
@@ -33,6 +37,7 @@ EVENTS = (JobEntry, JobAnswer)
 _BEGUN: dict[str, Any] = {
     "id": "0123456789abcdef0123456789abcdef",
     "kind": "placements",
+    "about": "Hand towel",
     "status": "running",
     "progress": 0.5,
     "message": "6 of 12 places",
@@ -59,6 +64,7 @@ def job_entry(job: StoredJob) -> dict[str, Any]:
     return {
         "id": job.id,
         "kind": job.kind,
+        "about": job.about,
         "status": job.status,
         "progress": job.progress,
         "message": job.message,

@@ -75,6 +75,7 @@ COMPARISONS = JobKind(
     prepare=_prepare,
     work=compare,
     finish=as_it_is,
+    about=lambda asked: asked.garment.title,
     path="/api/comparisons",
     may_begin_anew=True,
 )

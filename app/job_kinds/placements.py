@@ -19,5 +19,6 @@ PLACEMENTS = JobKind(
     prepare=_prepare,
     work=searches.whole_map,
     finish=as_it_is,
+    about=lambda asked: asked[0].garment.title,
     may_begin_anew=True,
 )

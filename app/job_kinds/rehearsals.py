@@ -80,6 +80,7 @@ REHEARSALS = JobKind(
     prepare=_prepare,
     work=_work,
     finish=_finish,
+    about=lambda asked: asked[0].garment.title,
     path="/api/rehearsals",
     largest_body=LARGEST_PLAN_FILE,
     may_begin_anew=True,

@@ -87,6 +87,7 @@ STUDIES = JobKind(
     prepare=_prepare,
     work=do_study,
     finish=_finish,
+    about=lambda asked: asked[0].title,
     path="/api/studies",
     may_begin_anew=True,
 )

@@ -28,5 +28,6 @@ SUGGESTIONS = JobKind(
     prepare=_prepare,
     work=searches.all_suggestions,
     finish=_finish,
+    about=lambda asked: asked[0].garment.title,
     may_begin_anew=True,
 )

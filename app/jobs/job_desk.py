@@ -115,7 +115,7 @@ class JobDesk:
                 retry_after_s = self._pool.busy().retry_after_s
                 raise TooManyError(f"there are {OPEN_OF_CLIENT_MAX} open jobs of yours already", retry_after_s)
             self._pool.require_room()
-            stored = self._repository.add(kind.name, client, data)
+            stored = self._repository.add(kind.name, client, kind.about(asked), data)
             self._begin(kind, asked, stored)
         return self.job(stored.id)
 

@@ -48,6 +48,11 @@ class Stores:
     robots: RobotRepository
 
 
+def _unnamed(_: object) -> str:
+    """Return no name: an `about`."""
+    return ""
+
+
 def _nothing(_: Stores, __: object) -> None:
     """Leave everything as it is: a `release`."""
 
@@ -64,6 +69,7 @@ class JobKind(Generic[Body, Asked, Answer]):
         prepare: returns the argument of `work`; it must be picklable. Raises a `FoldingError` for a bad request.
         work: a module-level function, in a module that is cheap to import. Its result must be picklable.
         finish: returns the result as JSON.
+        about: tells jobs of a kind apart for people: the title of the garment or study, from what `prepare` returned.
         release: called once the job has ended in whatever way, with what `prepare` returned.
         path: the path of the route that starts such jobs; by default `/api/jobs/{name}`.
         largest_body: the largest body (bytes).
@@ -77,6 +83,7 @@ class JobKind(Generic[Body, Asked, Answer]):
     prepare: Callable[[Stores, Body], Asked]
     work: Callable[[Asked, Progress], Answer]
     finish: Callable[[Stores, Answer], Any]
+    about: Callable[[Asked], str] = _unnamed
     release: Callable[[Stores, Asked], None] = _nothing
     path: str | None = None
     largest_body: int = LARGEST_BODY

@@ -39,6 +39,7 @@ class StoredJob:
         id: its id.
         kind: the name of its kind.
         client: who asked for it.
+        about: the title of the garment or study that it is about; empty where it is about none.
         status: whether it waits, runs, or how it ended.
         progress: the share that is done, 0..1.
         message: what is being done, or why it failed.
@@ -52,6 +53,7 @@ class StoredJob:
     id: str
     kind: str
     client: str
+    about: str
     status: JobStatus
     progress: float
     message: str
@@ -77,9 +79,9 @@ class JobRepository:
         """Use a database; read nothing yet."""
         self._database = database
 
-    def add(self, kind: str, client: str, body: object) -> StoredJob:
+    def add(self, kind: str, client: str, about: str, body: object) -> StoredJob:
         """Return a new job, queued; drop the oldest ended ones beyond `KEPT_MAX`."""
-        job = StoredJob(uuid.uuid4().hex, kind, client, "queued", 0.0, "", time.time(), None, None, 0, 0)
+        job = StoredJob(uuid.uuid4().hex, kind, client, about, "queued", 0.0, "", time.time(), None, None, 0, 0)
         with self._database.writing("the job could not be saved", is_lasting=False) as session:
             row = JobRow(**_values(job), server=self._database.number, body=json.dumps(body), result=None)
             session.add(row)

@@ -12,8 +12,8 @@ class JobRow(Table):
     """A job: its request, its progress and its result.
 
     `number` grows from job to job. Times are seconds since the epoch. `body` and `result` are JSON. `begun` counts how
-    often the job was started, since a job that ends the server must not be started anew for ever. `server` is the
-    number of the server that does it (see `Database.number`).
+    often the job was started, since a job that ends the server must not be started anew for ever. `about` is the title
+    of the garment or study that it is about, and `server` the number of the server that does it (`Database.number`).
     """
 
     __tablename__ = "jobs"
@@ -23,6 +23,7 @@ class JobRow(Table):
     id: Mapped[str] = mapped_column(unique=True)
     kind: Mapped[str]
     client: Mapped[str]
+    about: Mapped[str] = mapped_column(Text, server_default="")
     server: Mapped[int] = mapped_column(BigInteger, server_default="0")
     status: Mapped[str]
     progress: Mapped[float]

@@ -81,7 +81,7 @@ def test_jobs_that_the_end_of_the_server_interrupted_are_begun_anew_or_marked(tm
 def test_a_job_that_ended_the_server_again_and_again_is_given_up(tmp_path: Path) -> None:
     database = Database(tmp_path / "pleat.db")
     repository = JobRepository(database)
-    job = repository.add("halve", "me", {"number": 1})
+    job = repository.add("halve", "me", "", {"number": 1})
     repository.keep(replace(job, status="running", begun=BEGUN_MAX))
     database.close()
     with desk(tmp_path) as jobs:

@@ -35,7 +35,7 @@ async def test_a_map_as_a_job_is_the_map_that_is_waited_for(client: httpx.AsyncC
     assert answer.headers["location"] == f"/api/jobs/{answer.json()['id']}"
     job = await ended(client, answer.headers["location"])
     assert_described(job, JobAnswer)
-    assert (job["kind"], job["status"], job["progress"]) == ("placements", "done", 1.0)
+    assert (job["kind"], job["about"], job["status"], job["progress"]) == ("placements", "My towel", "done", 1.0)
     assert job["result"] == (await client.post("/api/placements", json=MAP)).json()
     listed = (await client.get("/api/jobs")).json()
     assert_described(listed, JobsAnswer)

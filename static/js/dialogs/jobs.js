@@ -97,7 +97,7 @@ class JobRow {
    * @param {(id: string) => void} cancel
    */
   constructor(job, cancel) {
-    const name = capital(word("job_kind", job.kind));
+    const name = [capital(word("job_kind", job.kind)), job.about].filter(Boolean).join(", ");
     const when = new Date(job.created).toLocaleString(times, { dateStyle: "short", timeStyle: "short" });
     this.status = element("span", "job-status");
     this.status.setAttribute("role", "status");

@@ -28,7 +28,7 @@ def test_a_restored_folder_has_documents_garments_and_jobs_while_the_server_work
     garment = Garment.from_dict(towel(name="my-towel"))
     GarmentRepository(database).save(garment)
     documents = DocumentRepository(database)
-    jobs = [JobRepository(database).add("kind", "me", {"number": number}) for number in range(2)]
+    jobs = [JobRepository(database).add("kind", "me", "", {"number": number}) for number in range(2)]
     ids = [documents.new_id() for _ in range(3)]
     keepers = {document_id: documents.keeper(document_id) for document_id in ids}
     draft = draft_of(drawing_of(garment))
@@ -65,7 +65,7 @@ def test_a_restored_folder_has_documents_garments_and_jobs_while_the_server_work
         assert all(again.kept(document_id).draft.history == draft.history for document_id in ids)
         assert GarmentRepository(copied).garment("my-towel") == garment
         assert JobRepository(copied).newest(10) == jobs[::-1]
-        JobRepository(copied).add("kind", "me", {})
+        JobRepository(copied).add("kind", "me", "", {})
         copied.close()
         assert (restored.path / "studies" / "mine").read_text() == "a study"
         assert not (restored.path / "server.json").exists()

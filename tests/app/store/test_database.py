@@ -49,19 +49,19 @@ def test_what_is_no_database_is_an_error_of_storage(tmp_path: Path) -> None:
     database = Database(tmp_path / "pleat.db")
     assert "not a database" in (database.problem() or "")
     with pytest.raises(StorageError):
-        JobRepository(database).add("kind", "me", {})
+        JobRepository(database).add("kind", "me", "", {})
 
 
 def test_a_change_that_fails_is_undone_and_a_reader_sees_one_moment(database: Database) -> None:
     jobs = JobRepository(database)
-    first = jobs.add("kind", "me", {})
+    first = jobs.add("kind", "me", "", {})
     with pytest.raises(RuntimeError), database.writing("try") as session:
         session.execute(delete(JobRow))
         raise RuntimeError
     with database.reading("look") as session:
         count = select(func.count()).select_from(JobRow)
         assert session.scalar(count) == 1
-        jobs.add("kind", "me", {})
+        jobs.add("kind", "me", "", {})
         assert session.scalar(count) == 1
     assert [job.id for job in jobs.newest(10)][1:] == [first.id]
 
@@ -69,7 +69,7 @@ def test_a_change_that_fails_is_undone_and_a_reader_sees_one_moment(database: Da
 def test_many_threads_may_write_at_once(database: Database) -> None:
     jobs = JobRepository(database)
     with ThreadPoolExecutor(8) as threads:
-        made = list(threads.map(lambda number: jobs.add("kind", "me", number).id, range(40)))
+        made = list(threads.map(lambda number: jobs.add("kind", "me", "", number).id, range(40)))
     assert {job.id for job in jobs.newest(100)} == set(made)
 
 
@@ -77,13 +77,13 @@ def test_in_a_folder_that_cannot_be_written_there_is_a_copy_in_memory(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     written = Database(tmp_path / "pleat.db")
-    job = JobRepository(written).add("kind", "me", {})  # it is in the write-ahead log only
+    job = JobRepository(written).add("kind", "me", "", {})  # it is in the write-ahead log only
     before = (tmp_path / "pleat.db").read_bytes()
     with refused(monkeypatch, tmp_path, "EROFS", databases_too=False):
         copied = Database(tmp_path / "pleat.db")
         jobs = JobRepository(copied)
         assert jobs.job(job.id) == job
-        assert jobs.add("kind", "me", {}).id in [one.id for one in jobs.newest(10)]
+        assert jobs.add("kind", "me", "", {}).id in [one.id for one in jobs.newest(10)]
         with pytest.raises(ForbiddenStorageError), copied.writing("try"):
             pass
     copied.close()
@@ -94,7 +94,7 @@ def test_in_a_folder_that_cannot_be_written_there_is_a_copy_in_memory(
 
 def test_what_is_committed_survives_a_copy_of_the_files_at_that_moment(tmp_path: Path) -> None:
     database = Database(tmp_path / "pleat.db")
-    job = JobRepository(database).add("kind", "me", {"number": 1})
+    job = JobRepository(database).add("kind", "me", "", {"number": 1})
     (tmp_path / "copy").mkdir()
     for file in tmp_path.glob("pleat.db*"):
         (tmp_path / "copy" / file.name).write_bytes(file.read_bytes())
@@ -108,9 +108,9 @@ def test_what_is_committed_survives_a_copy_of_the_files_at_that_moment(tmp_path:
 def test_only_the_newest_jobs_are_kept_and_all_open_ones(database: Database, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(job_repository, "KEPT_MAX", 3)
     repository = JobRepository(database)
-    still_open, done = repository.add("kind", "me", {}), repository.add("kind", "me", {})
+    still_open, done = repository.add("kind", "me", "", {}), repository.add("kind", "me", "", {})
     repository.keep_result(replace(done, status="done"), 1)
-    newest = [repository.add("kind", "me", {}) for _ in range(3)]
+    newest = [repository.add("kind", "me", "", {}) for _ in range(3)]
     assert [job.id for job in repository.newest(10)] == [*reversed([job.id for job in newest]), still_open.id]
     with pytest.raises(UnknownJobError):
         repository.job(done.id)
@@ -119,7 +119,7 @@ def test_only_the_newest_jobs_are_kept_and_all_open_ones(database: Database, mon
 def test_a_server_takes_up_only_the_jobs_of_servers_that_have_ended(tmp_path: Path, postgresql_server: str) -> None:
     url = emptied(postgresql_server)
     first, second = Database(tmp_path / "x", url), Database(tmp_path / "x", url)
-    job = JobRepository(first).add("kind", "me", {})
+    job = JobRepository(first).add("kind", "me", "", {})
     assert JobRepository(second).interrupted() == []
     first.close()
     assert JobRepository(second).interrupted() == [job]
