@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -18,7 +19,7 @@ _STILL_M = 1e-3
 """The way on the ground below which a hand is taken to turn nothing over (m)."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class HandWay:
     """The way of one hand.
 
@@ -49,18 +50,26 @@ class HandWay:
 
     def held_at(self, t_s: float) -> HeldCloth:
         """Return the cloth between the fingers at a time since the step's start (s)."""
-        way = ahead(self.grip)
-        if not self.is_fold or way is None:
+        if not self.is_fold or self._ahead is None:
             return self.held
-        done = float(np.interp(t_s, self.grip.times_s, way_done(np.array(self.grip.points))))
-        turned = self.held.turned(way, self.grip.turned_at(t_s), done * self._turn_rad)
+        done = float(np.interp(t_s, self.grip.times_s, self._done))
+        turned = self.held.turned(self._ahead, self.grip.turned_at(t_s), done * self._turn_rad)
         return turned.raised(self.rise_m * max(0.0, 2.0 * done - 1.0))  # from the apex on
 
     def at(self, t_s: float) -> dict[int, FloatArray]:
         """Return the place of each vertex held at a time since the step's start (s), shape (3,), m."""
         return self.held_at(t_s).at(fingertip(self.grip.at(t_s)))
 
-    @property
+    @cached_property
+    def _ahead(self) -> FloatArray | None:
+        return ahead(self.grip)
+
+    @cached_property
+    def _done(self) -> FloatArray:
+        """The share of the way that is done at each point of the grip's motion."""
+        return way_done(np.array(self.grip.points))
+
+    @cached_property
     def _turn_rad(self) -> float:
         """The angle by which the cloth beside the fingers turns over: half a turn, more where it hangs."""
         ends = np.array([self.grip.points[0], self.grip.points[-1]])

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Protocol
 
 import numpy as np
@@ -12,7 +13,7 @@ from app.camera.posture import Posture
 from planner.geometry.pose import FloatArray, Point3, Pose2
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class GripMotion:
     """The motion of one hand while it holds cloth.
 
@@ -34,11 +35,17 @@ class GripMotion:
 
     def at(self, t_s: float) -> FloatArray:
         """Return the tool's position at a time since the step's start (s), shape (3,), m."""
-        return np.array([np.interp(t_s, self.times_s, axis) for axis in zip(*self.points, strict=True)])
+        times, *axes = self._track
+        return np.array([np.interp(t_s, times, axis) for axis in axes])
 
     def turned_at(self, t_s: float) -> float:
         """Return how far the hand has rolled over with the cloth at a time since the step's start (rad)."""
         return float(np.interp(t_s, self.times_s, self.turned_rad)) if self.turned_rad else 0.0
+
+    @cached_property
+    def _track(self) -> FloatArray:
+        """The times and the points' coordinates, each a row: a simulation asks at every time step."""
+        return np.ascontiguousarray(np.column_stack([self.times_s, self.points]).T)
 
 
 def way_done(points: FloatArray) -> FloatArray:
