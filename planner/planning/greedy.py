@@ -2,7 +2,8 @@
 
 It is the search for the quickest plan with the remaining time weighted several times over (weighted A*, Pohl 1970), so
 that it prefers to finish what it has begun. Its plan can be performed, but may be far from the quickest. It gives up
-early, since after that it is usually no quicker than the optimal search.
+early, since after that it is usually no quicker than the optimal search; a patient one, for tasks in which that has
+found nothing for long, tries several times as much.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -24,21 +25,27 @@ from planner.weakly import weakly
 WEIGHT = 10.0
 """Weight of the remaining time against the time so far."""
 
-_EXPANDED_MAX, _EXPANDED_PER_FOLD = 50, 2
-"""States that are expanded, and further states for each fold."""
+_EXPANDED_MAX, _PATIENT_EXPANDED_MAX, _EXPANDED_PER_FOLD = 50, 300, 2
+"""States that are expanded, by a patient search too, and further states for each fold."""
 
 _LOOKS_PER_STATE = 12
 """States and deferred successors looked at, per state that may be expanded."""
 
-_FAILURES_MAX = 8
-"""Transfers that may fail before the search gives up."""
+_FAILURES_MAX, _PATIENT_FAILURES_MAX = 8, 40
+"""Transfers that may fail before the search, or a patient one, gives up."""
 
 _ALONE, _TOGETHER = replace(QUICK, ways=4, late=1), replace(QUICK, ways=1, late=1)
 """Tries with one hand, and with both hands, whose failures are mostly final and slow to find."""
 
 
 def greedy(
-    problem: Problem, start: State, effort: Effort, is_over: Callable[[], bool], wanted: int | None = None
+    problem: Problem,
+    start: State,
+    effort: Effort,
+    is_over: Callable[[], bool],
+    wanted: int | None = None,
+    *,
+    is_patient: bool = False,
 ) -> tuple[Act, ...] | None:
     """Find acts that lead from a state to the goal.
 
@@ -48,21 +55,27 @@ def greedy(
         effort: counters that the work is added to.
         is_over: polled repeatedly; true means that there is no time left.
         wanted: the folds to be done, as a bit mask that includes the folds they depend on; None for all.
+        is_patient: whether to give up later.
 
     Returns:
         The acts, the first beginning with primitive 0; None where the search soon found no way that the arms can
             follow.
     """
-    return _Greedy(problem, effort, is_over, wanted).acts(start)
+    return _Greedy(problem, effort, is_over, wanted, is_patient=is_patient).acts(start)
 
 
 class _Greedy:
     """A greedy search in one planning problem."""
 
-    def __init__(self, problem: Problem, effort: Effort, is_over: Callable[[], bool], wanted: int | None) -> None:
+    def __init__(
+        self, problem: Problem, effort: Effort, is_over: Callable[[], bool], wanted: int | None, *, is_patient: bool
+    ) -> None:
         self._problem = problem
         self._effort = effort
         self._is_over = is_over
+        self._failures_max = _PATIENT_FAILURES_MAX if is_patient else _FAILURES_MAX
+        expanded_max = _PATIENT_EXPANDED_MAX if is_patient else _EXPANDED_MAX
+        self._expanded_max = expanded_max + _EXPANDED_PER_FOLD * len(problem.context.sequence.folds)
         self._wanted = (1 << len(problem.context.sequence.folds)) - 1 if wanted is None else wanted
         self._remaining = arm_time(problem.context, self._wanted)
         self._edges = Edges(problem.context, weakly(self._possible), weakly(self._is_in_doubt))
@@ -71,17 +84,16 @@ class _Greedy:
         self._doubted: set[tuple[object, ...]] = set()
 
     def acts(self, start: State) -> tuple[Act, ...] | None:
-        expanded_max = _EXPANDED_MAX + _EXPANDED_PER_FOLD * len(self._problem.context.sequence.folds)
         looks = count()
-        while len(self._struck) < _FAILURES_MAX and not self._is_over():
+        while len(self._struck) < self._failures_max and not self._is_over():
             self._edges.begin()
             result = a_star(
                 start,
                 self._edges.leaving,
                 lambda state: state.done & self._wanted == self._wanted,
                 lambda state: WEIGHT * self._remaining(state),
-                expanded_max,
-                lambda: next(looks) > _LOOKS_PER_STATE * expanded_max or self._is_over(),
+                self._expanded_max,
+                lambda: next(looks) > _LOOKS_PER_STATE * self._expanded_max or self._is_over(),
                 is_consistent=False,
             )
             self._effort.expanded += result.expanded

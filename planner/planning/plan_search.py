@@ -20,8 +20,8 @@ from planner.search.a_star import Outcome
 from planner.task.reason import Reason
 from planner.task.statistics import Statistics
 
-GREEDY_AFTER_S = 1.0
-"""Work without a plan after which the search looks for some plan to fall back on (s, see `Budget`)."""
+GREEDY_AFTER_S, PATIENT_GREEDY_AFTER_S = 1.0, 3.0
+"""Work without a plan after which some plan to fall back on is looked for, and again, patiently (s, see `Budget`)."""
 
 LESS_ROOM_AFTER_S = 1.0
 """Work after which a search that found only plans slower than assumed looks at tightened tasks (s, see `Budget`)."""
@@ -74,7 +74,7 @@ class PlanSearch(PathSearch):
         self._like = like
         self._on_found = on_found
         self._is_patient = is_patient
-        self._greedy_at_s = GREEDY_AFTER_S
+        self._fall_backs = [(GREEDY_AFTER_S, False), (PATIENT_GREEDY_AFTER_S, True)]
         self._shown_s = math.inf if known is None else known.plan.cost_s or 0.0
         self._tried_s = 0.0
         self._has_tried_less = False
@@ -199,13 +199,15 @@ class PlanSearch(PathSearch):
 
     def _look(self) -> None:
         super()._look()
-        if not self._has_plan and not self._blocking and self._budget.spent_s >= self._greedy_at_s:
-            self._greedy_at_s = math.inf
-            self._fall_back()
+        if not self._fall_backs or self._has_plan or self._blocking:
+            return
+        if self._budget.spent_s >= self._fall_backs[0][0]:
+            self._fall_back(is_patient=self._fall_backs.pop(0)[1])
 
-    def _fall_back(self) -> None:
+    def _fall_back(self, *, is_patient: bool) -> None:
         """Look for some plan, and continue with it as the known plan."""
-        self._known = quickly_planned(self._budget.watch(self._problem.anew()), self._like, self._is_out_of_budget)
+        problem = self._budget.watch(self._problem.anew())
+        self._known = quickly_planned(problem, self._like, self._is_out_of_budget, is_patient=is_patient)
         if self._known is None:
             return
         self._shown_s = self._known.plan.cost_s or 0.0
