@@ -1,6 +1,6 @@
 """Keeps the newest plans in the database, by id, so that they can be read after a restart too.
 
-The plans made last also stay in memory, packed (`app.store.packed_plan`), and those read last as objects: an object takes
+The plans made last also stay in memory, packed (`app.store.packed_plan`), and those read last as objects: these take
 0.7 MB, six times as much, and hardly anybody asks for the plan of a drawing that has been changed since.
 """
 
