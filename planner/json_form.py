@@ -8,6 +8,7 @@ only the value itself can tell, its `__post_init__` refuses with a `FieldError`;
 from collections.abc import Callable, Hashable
 from dataclasses import fields
 from functools import cache
+from numbers import Real
 from typing import Annotated, Any, Generic, TypeVar, cast, get_args, get_origin, get_type_hints
 
 from annotated_types import Interval
@@ -54,10 +55,14 @@ class JsonForm(Generic[T]):
 
 
 def require_intervals(value: Any, error: type[FieldError]) -> None:  # noqa: ANN401
-    """Raise an error that names the first field of a dataclass whose number is outside of its annotated `Interval`."""
+    """Raise an error that names the first field of a dataclass that is no number of its annotated `Interval`."""
     for name, interval in _intervals(cast("Hashable", type(value))):
         found = getattr(value, name)
-        if found is not None and not _is_within(found, interval):
+        if found is None:
+            continue
+        if isinstance(found, bool) or not isinstance(found, Real):
+            raise error(name, f"{found!r:.80} is no number")
+        if not _is_within(found, interval):
             raise error(name, f"{found} is not {_said(interval)}")
 
 

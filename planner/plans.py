@@ -16,6 +16,7 @@ from collections.abc import Callable, Sequence
 from typing import Unpack
 
 from planner.cloth.garment import Garment
+from planner.errors import RequestError
 from planner.explain.explanation import Explanation
 from planner.planning.budget import Budget
 from planner.planning.found_plan import FoundPlan
@@ -50,8 +51,10 @@ def make_plan(
 
     Raises:
         FoldError: a fold is not legal on the cloth as the folds before it leave it.
-        RequestError: an option is out of range.
+        RequestError: an option is out of range, or neither a task nor a garment was given.
     """
+    if not isinstance(what, Task | Garment):
+        raise RequestError("garment", f"{what!r:.80} is no garment; `load_garment` returns one by its name or file")
     task = what if isinstance(what, Task) else task_for(what, scene, **options)
     return find_plan(task, should_stop=should_stop).plan
 

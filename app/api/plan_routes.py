@@ -88,7 +88,7 @@ async def post_plan_file(request: Request) -> JSONResponse:
 )
 async def read_plan(request: Request, plan_id: str) -> Response:
     """Return a plan made before; with task and trajectory, as a plan file, if `Accept` asks for that."""
-    plan = workspace_of(request).plans.plan(plan_id)
+    plan = await _kept(request, plan_id)
     if PLAN_FILE_TYPE in request.headers.get("accept", ""):
         return await _plan_file(plan)
     return JSONResponse(await run_in_threadpool(plan_answer, plan_id, plan), headers={"Vary": "Accept"})
@@ -101,7 +101,7 @@ async def read_plan(request: Request, plan_id: str) -> Response:
 )
 async def read_plan_file(request: Request, plan_id: str) -> Response:
     """Return a plan made before as a plan file: with its task and its trajectory."""
-    return await _plan_file(workspace_of(request).plans.plan(plan_id))
+    return await _plan_file(await _kept(request, plan_id))
 
 
 @router.get(
@@ -110,24 +110,27 @@ async def read_plan_file(request: Request, plan_id: str) -> Response:
 )
 async def read_timeline(request: Request, plan_id: str, rate_hz: SampleRate = 30.0) -> Response:
     """Return a solved plan's timeline, sampled from 0 to its end."""
-    workspace = workspace_of(request)
-    plan = workspace.plans.plan(plan_id)
+    plan = await _kept(request, plan_id)
     if plan.status != "solved":
         raise UnsolvedPlanError(plan.status)
-    sampled = await answer_of(request, workspace.lanes.files, partial(_timeline, plan, rate_hz))
+    sampled = await answer_of(request, workspace_of(request).lanes.files, partial(_timeline, plan, rate_hz))
     return Response(sampled, media_type="application/json")
 
 
 @router.get("/plans/{plan_id}/pictures", responses={200: {"model": list[PictureAnswer]}, **problems(404)})
 async def read_pictures(request: Request, plan_id: str) -> JSONResponse:
     """Return cloth and base before each step of a plan and after the last, as seen from above."""
-    plan = workspace_of(request).plans.plan(plan_id)
-    return JSONResponse(await run_in_threadpool(_pictures, plan))
+    return JSONResponse(await run_in_threadpool(_pictures, await _kept(request, plan_id)))
 
 
 def plan_answer(plan_id: str, plan: Plan) -> dict[str, Any]:
     """Return a plan in its REST form."""
     return {"id": plan_id, **plan.answer()}
+
+
+async def _kept(request: Request, plan_id: str) -> Plan:
+    """Return a plan by its id; it may have to be read and unpacked, so other requests go on meanwhile."""
+    return await run_in_threadpool(workspace_of(request).plans.plan, plan_id)
 
 
 async def _plan_file(plan: Plan) -> Response:

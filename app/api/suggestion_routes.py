@@ -10,6 +10,7 @@ from functools import partial
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Depends, Query, Request
+from fastapi.concurrency import run_in_threadpool
 from fastapi.sse import EventSourceResponse, ServerSentEvent
 from pydantic import BaseModel
 from starlette.responses import JSONResponse
@@ -71,10 +72,10 @@ class PlacementsAnswer(BaseModel):
 class SuggestionSearch:
     """A search for one client, begun before the answer starts so that a bad request is answered as an error."""
 
-    def __init__(self, workspace: Workspace, wanted: PlanRequest, known: str | None) -> None:
-        """Prepare the search; plan nothing yet. `known` is the id of the answer to the request, if there is one."""
+    def __init__(self, workspace: Workspace, wanted: PlanRequest, known: Plan | None) -> None:
+        """Prepare the search; plan nothing yet. `known` is the answer to the request, if there is one."""
         self._workspace = workspace
-        self._known = None if known is None else _still_kept(workspace, known)
+        self._known = known
         self._wanted = wanted
         self._limit = TimeLimit(wanted.time_limit_s)
         self._started = time.perf_counter()
@@ -162,7 +163,9 @@ def _still_kept(workspace: Workspace, plan_id: str) -> Plan | None:
 
 async def _begun(request: Request, wanted: PlanRequestBody, known: Known = None) -> SuggestionSearch:
     """Return the search of a request that has been checked."""
-    search = SuggestionSearch(workspace_of(request), wanted, known)
+    workspace = workspace_of(request)
+    plan = None if known is None else await run_in_threadpool(_still_kept, workspace, known)
+    search = SuggestionSearch(workspace, wanted, plan)
     await search.begin(request)
     return search
 

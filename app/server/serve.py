@@ -10,6 +10,7 @@ import uvicorn
 from starlette.applications import Starlette
 
 from app.api.create_app import create_app
+from app.server.arenas import use_few_arenas
 from app.server.log import logging_to, standard_error
 from app.server.timed_protocol import TimedProtocol
 from app.settings import Settings
@@ -69,6 +70,7 @@ def serve(settings: Settings, announce: Callable[[str, str | None], None]) -> No
         NewerDatabaseError: a newer version of Pleat has changed its tables.
     """
     sys.setswitchinterval(_SWITCH_S)
+    use_few_arenas()
     address = _address(settings)
     with DataFolder(settings.data).held() as tell_others, _listening(address) as listener:
         token, made = _token(settings, address)

@@ -21,8 +21,8 @@ from planner.robots.joint_layout import JointLayout
 from planner.robots.tool_path import IsFree, NoPath
 from planner.weakly import weakly
 
-_TRANSFERS_KEPT = 128
-"""Size of the cache of transfers, some 45 kB each. While three garments are drawn, over 64 save nothing (measured)."""
+_TRANSFERS_KEPT = 64
+"""Size of the cache of transfers, some 45 kB each. While three garments are drawn, more save nothing (measured)."""
 
 _DIGEST_BYTES = 16
 

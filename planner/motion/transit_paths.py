@@ -35,8 +35,8 @@ Spared = tuple[FloatArray, FloatArray]
 """Length of path on which each arm may be low over cloth: at the beginning, and at the end (m), shape (arms,) each."""
 
 
-_WAYS_KEPT = 512
-"""Size of the cache of paths, some 3 kB each. Twice as many save no time while a garment is drawn (measured)."""
+_WAYS_KEPT = 128
+"""Size of the cache of paths, some 7 kB each. While three garments are drawn, more save nothing (measured)."""
 
 _ANSWERS_KEPT = 4096
 """Answers kept about motions, and as many about the lengths of lines."""

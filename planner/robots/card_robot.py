@@ -1,7 +1,6 @@
 """A robot as its card and its URDF describe it, ready for planning."""
 
 import threading
-from functools import cached_property
 
 import numpy as np
 
@@ -18,6 +17,7 @@ from planner.robots.mapped_comfort import ARM_LABELS, MappedArms, mapped_arms, r
 from planner.robots.mapped_reach import MappedReach
 from planner.robots.openings import OPENING_M
 from planner.robots.posture_maps import Progress
+from planner.robots.shared_maps import shared_maps
 
 
 class CardRobot(ArmedRobot):
@@ -28,7 +28,7 @@ class CardRobot(ArmedRobot):
         super().__init__(robot_card(described))
         self._described = described
         self._mapping = threading.Lock()
-        self._mapped: tuple[MappedArm, ...] | None = None
+        self._mapped: tuple[MappedArms, tuple[MappedArm, ...]] | None = None
 
     def reach(
         self, torso_m: float, comfort_m: float, *, is_passing: bool = False, minds_body: bool = True
@@ -45,7 +45,7 @@ class CardRobot(ArmedRobot):
         names = tuple(arm.name for arm in self._card.arms)
         ask = np.arange(1, len(ALL_ROUND) + 1)
         labels = tuple(ARM_LABELS * number + ask for number in range(len(names)))
-        numbers = rooted(self._numbers, [arm.shoulder(float(torso_m)) for arm in self._arms])
+        numbers = rooted(self._prepared()[0], [arm.shoulder(float(torso_m)) for arm in self._arms])
         asked = AskedArms(names, self._arms, numbers, ALL_ROUND, labels)
         joints = tuple(arm.joint_names for arm in self._card.arms)
         lengths = tuple(arm.length_m for arm in self._arms)
@@ -67,19 +67,22 @@ class CardRobot(ArmedRobot):
         Args:
             progress: is told how far the maps are that must be built (0 to 1).
         """
+        return self._prepared(progress)[1]
+
+    def _prepared(self, progress: Progress | None = None) -> tuple[MappedArms, tuple[MappedArm, ...]]:
+        """Return the arms for the compiled queries, and each alone: they share their maps, some 20 MB an arm."""
         with self._mapping:
             if self._mapped is None:
-                self._mapped = all_arms(self._described, progress)
+                arms = all_arms(self._described, progress)
+                maps = [arm.known for arm in arms]
+                asked = mapped_arms([arm.chain for arm in arms], maps)
+                shared = zip(arms, shared_maps(asked, maps), strict=True)
+                self._mapped = asked, tuple(arm.with_map(known) for arm, known in shared)
             return self._mapped
 
     @property
     def _arms(self) -> tuple[MappedArm, ...]:
         return self.prepare()
-
-    @cached_property
-    def _numbers(self) -> MappedArms:
-        arms = self._arms
-        return mapped_arms([arm.chain for arm in arms], [arm.known for arm in arms])
 
     def collisions(
         self, table: Table, torso_m: float, opening_m: float = OPENING_M, margin_m: float = 0.0

@@ -19,7 +19,8 @@ CLOSED_FORMS = {"pr2": Pr2}
 _SCENE = "scene."
 """Fields of a card that do not concern the robot itself begin with this."""
 
-_ROBOTS_KEPT = 16
+_ROBOTS_KEPT = 8
+"""Robots that are kept, some 20 MB an arm once they have been planned for: all shipped ones."""
 
 _Stamp: TypeAlias = tuple[int, int, int]
 """The identity of a card's file, which changes when it is written anew."""

@@ -47,6 +47,7 @@ class MappedArm:
 
     def __init__(self, arm: DescribedArm, known: PostureMap) -> None:
         """Take the arm and its map."""
+        self._described = arm
         self._chain = arm.chain
         self._root = arm.root
         self._is_endless = arm.is_endless
@@ -66,6 +67,10 @@ class MappedArm:
     def known(self) -> PostureMap:
         """The map of its postures."""
         return self._known
+
+    def with_map(self, known: PostureMap) -> "MappedArm":
+        """Return the arm with the same map at another place in memory."""
+        return MappedArm(self._described, known)
 
     @property
     def length_m(self) -> float:

@@ -83,3 +83,10 @@ def test_what_is_no_scene_is_refused_by_its_field(data: dict[str, object], field
 def test_a_table_built_directly_is_held_to_the_same():
     with pytest.raises(SceneError, match=r"width_m: 11\.0 is not between 0\.1 and 10"):
         Table(width_m=11.0)
+
+
+@pytest.mark.parametrize("value", ["1", True, [1.0]])
+def test_a_scene_built_directly_of_what_is_no_number_is_refused_by_its_field(value: object):
+    with pytest.raises(SceneError) as caught:
+        Scene(torso_m=value)  # type: ignore[arg-type]
+    assert caught.value.field == "torso_m" and "is no number" in caught.value.message

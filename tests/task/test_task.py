@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from planner import Limits, Scene, Task, WorldState, load_garment
+from planner import Limits, Scene, Task, WorldState, load_garment, make_plan
 from planner.errors import FieldError, RequestError
 from planner.geometry.pose import Pose2
 from planner.task.grip import BaseStop
@@ -174,6 +174,13 @@ def test_an_option_out_of_range_is_refused_by_its_name(options: dict[str, Any], 
     with pytest.raises(RequestError) as caught:
         Task.of(load_garment("hand-towel"), **options)
     assert caught.value.field == field
+
+
+@pytest.mark.parametrize("what", ["t-shirt", None, {"name": "t-shirt"}])
+def test_what_is_neither_a_task_nor_a_garment_is_refused(what: object):
+    with pytest.raises(RequestError) as caught:
+        make_plan(what)  # type: ignore[arg-type]
+    assert caught.value.field == "garment" and "load_garment" in caught.value.message
 
 
 def test_folds_done_that_are_none_or_named_twice_are_refused():

@@ -103,13 +103,25 @@ def test_no_more_bytes_are_kept_than_are_allowed(copies: Iterator[Plan], databas
     assert row_count(database) == 4
 
 
-def test_of_many_plans_only_a_few_stay_in_memory(copies: Iterator[Plan], tmp_path: Path) -> None:
+@pytest.mark.parametrize("is_passing", [True, False])
+def test_plans_that_were_added_and_not_read_are_no_objects_in_memory(
+    copies: Iterator[Plan], tmp_path: Path, *, is_passing: bool
+) -> None:
     store, alive = PlanStore(Database(tmp_path / "pleat.db")), []
-    for _ in range(30):
+    for _ in range(LIVE_MAX):
         plan = next(copies)
         alive.append(weakref.ref(plan))
-        store.add(plan)
+        plan_id = store.add(plan, is_passing=is_passing)
+        store.keep(plan_id)
     del plan
+    gc.collect()
+    assert not any(one() for one in alive)
+    assert number_of(store, plan_id) == LIVE_MAX - 1
+
+
+def test_of_many_plans_that_were_read_only_a_few_stay_in_memory(copies: Iterator[Plan], tmp_path: Path) -> None:
+    store = PlanStore(Database(tmp_path / "pleat.db"))
+    alive = [weakref.ref(store.plan(plan_id)) for plan_id in [store.add(next(copies)) for _ in range(30)]]
     gc.collect()
     assert sum(one() is not None for one in alive) == LIVE_MAX
 
