@@ -1,7 +1,8 @@
 """The MuJoCo model of a cloth on a table: a mass at each vertex of the mesh, a flex between them, sockets for grips.
 
 Small spheres on the vertices touch the table, and the triangles of other layers: triangles against triangles would be
-four times as many contacts, and take four times as long. The table's edges are those of a box, over which cloth hangs.
+four times as many contacts, and take four times as long. The table's edges are round, and triangles touch them too: at
+a sharp edge a row that came near was pulled down upon the top, and stayed there however much cloth hung beyond it.
 A socket is a body without dynamics, tied to a vertex while a grip holds it.
 
 Cloth bends at the rows of its mesh, with an energy that grows as 1 - cos of the angle: a crease folded flat at one row
@@ -90,7 +91,7 @@ def model_xml(
 <option timestep="{resolution.step_s}" integrator="discrete" solver="CG" iterations="{resolution.iterations}"
  tolerance="{resolution.tolerance}" cone="elliptic" impratio="10"/>
 <size memory="400M"/>
-<worldbody>{"" if table is None else _board(table, fabric)}{vertices}{sockets}</worldbody>
+<worldbody>{"" if table is None else _board(table, fabric, resolution)}{vertices}{sockets}</worldbody>
 <deformable><flex name="cloth" dim="2" radius="{ball}" body="{" ".join(f"v{i}" for i in range(len(rest)))}"
  element="{" ".join(map(str, triangles.ravel().tolist()))}">
 <contact contype="0" conaffinity="{_CLOTH}" condim="3" friction="{fabric.self_friction} 0 0" {_STIFF} priority="1"
@@ -176,9 +177,28 @@ def _joints(damping: float) -> str:
     )
 
 
-def _board(table: Table, fabric: Fabric) -> str:
-    size = f"{table.depth_m / 2} {table.width_m / 2} {_TABLE_M / 2}"
-    return (
-        f'<geom type="box" size="{size}" pos="0 0 {-_TABLE_M / 2}" contype="{_BOARD}" conaffinity="0" condim="3" '
-        f'friction="{fabric.friction} 0 0" {_STIFF}/>'
-    )
+def _board(table: Table, fabric: Fabric, resolution: Resolution) -> str:
+    """Return the table: its top, its sides, and edges rounded by half a row of the mesh.
+
+    Vertices go round capsules. Triangles touch neither these nor boxes, so rows of balls keep them from cutting edges.
+    """
+    radius = min(0.5 * resolution.edge_m, 0.5 * _TABLE_M)
+    x, y = table.depth_m / 2.0, table.width_m / 2.0
+    low = (_TABLE_M - radius) / 2.0
+    shapes = [(_BOARD, _box(x - radius, y - radius, radius, -radius)), (_BOARD, _box(x, y, low, -radius - low))]
+    round_about = np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0)])
+    corners = np.column_stack([round_about * (x - radius, y - radius), np.full(5, -radius)])
+    for start, end in itertools.pairwise(corners):
+        shapes.append((_BOARD, f'type="capsule" size="{radius}" fromto="{_numbers(start)} {_numbers(end)}"'))
+        places = np.linspace(start, end, math.ceil(float(np.linalg.norm(end - start)) / radius), endpoint=False)
+        shapes += [(_CLOTH, f'type="sphere" size="{radius}" pos="{_numbers(place)}"') for place in places]
+    touch = f'conaffinity="0" condim="3" friction="{fabric.friction} 0 0" {_STIFF} priority="2"'
+    return "".join(f'<geom {shape} contype="{contype}" {touch}/>' for contype, shape in shapes)
+
+
+def _box(x: float, y: float, z: float, at_z: float) -> str:
+    return f'type="box" size="{x} {y} {z}" pos="0 0 {at_z}"'
+
+
+def _numbers(point: FloatArray) -> str:
+    return " ".join(f"{value:.9g}" for value in point.tolist())

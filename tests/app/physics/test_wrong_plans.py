@@ -1,5 +1,7 @@
 """Plans that are wrong for reasons the planner knows: physics must not let them pass."""
 
+import math
+
 import numpy as np
 import pytest
 
@@ -39,18 +41,37 @@ def folding(line: Segment, *grips: Point2) -> StepMotion:
     return StepMotion(0, "fold", DURATION_S, tuple(hands))
 
 
+def hung(beyond: float, friction: float, edge_m: float) -> tuple[PhysicsWorld, Task]:
+    """Return a strip that hangs over the table's edge by a share of its length, and its task."""
+    length = 0.4
+    edge_x = -Table().depth_m / 2.0
+    towel = garment(rectangle_points(length, 0.2), placement=Pose2(edge_x - beyond * length, 0.0, 0.0))
+    task = Task.of(towel)
+    return PhysicsWorld(task, Fabric(friction=friction), Resolution(edge_m)), task
+
+
 @pytest.mark.parametrize(("beyond", "friction", "holds"), [(0.2, 0.5, True), (0.5, 0.3, False)])
 def test_cloth_hung_beyond_friction_slides_off_the_table_and_less_of_it_stays(
     beyond: float, friction: float, *, holds: bool
 ):
     # By the model friction / (1 + friction) of it may hang: a third and .23. The edge itself holds a little more.
-    length = 0.4
-    edge_x = -Table().depth_m / 2.0
-    towel = garment(rectangle_points(length, 0.2), placement=Pose2(edge_x - beyond * length, 0.0, 0.0))
-    task = Task.of(towel)
-    world = PhysicsWorld(task, Fabric(friction=friction), Resolution(0.04))
+    world, task = hung(beyond, friction, 0.04)
     world.simulation.run(1.0)
     assert verdict_on(world, task, ()).held == holds
+
+
+@pytest.mark.parametrize(("friction", "slides"), [(0.4, True), (0.55, False)])
+def test_half_of_a_strip_holds_the_other_half_where_friction_holds_a_rope_round_a_corner(
+    friction: float, *, slides: bool
+) -> None:
+    # Round the edge the pull grows by e^(mu pi / 2): half of a strip holds the other if mu e^(mu pi / 2) > 1, so from
+    # a friction of .474 on.
+    assert (friction * math.exp(friction * math.pi / 2.0) < 1.0) == slides
+    world, _ = hung(0.5, friction, 0.02)
+    before = world.simulation.positions
+    world.simulation.run(0.4)
+    slid_m = float((before - world.simulation.positions)[before[:, 2] > 0.0, 0].mean())
+    assert slid_m > 0.02 if slides else slid_m < 0.002, f"{1e3 * slid_m:.1f} mm"
 
 
 @pytest.mark.long
