@@ -9,6 +9,7 @@ lengths of a triangle's edges have grown, and so is that of threads, with other 
 from dataclasses import dataclass
 
 import numpy as np
+from numba import njit
 from numpy.typing import NDArray
 
 from app.physics.fabric import Fabric
@@ -49,13 +50,43 @@ class Weave:
             Shape (m, 6), N/m^3: with the growths d of the squared lengths the energy is d S d / 4, of which a row has
             the upper half.
         """
-        edges = _edges(positions, self.triangles)
-        grown = (edges * edges).sum(axis=-1) - self.squares
-        along = (self.strains[:, :2] * grown[:, None]).sum(axis=-1)
-        threads = np.where(along < 0.0, self.fabric.push_n_m, self.fabric.stretch_n_m)
-        moduli = np.column_stack([threads, np.full(len(threads), self.fabric.shear_n_m)]) * self.areas[:, None]
-        rows, columns = np.triu_indices(3)
-        return np.asarray(2.0 * (moduli[:, :, None] * self.strains[..., rows] * self.strains[..., columns]).sum(axis=1))
+        threads = np.array([self.fabric.stretch_n_m, self.fabric.push_n_m, self.fabric.shear_n_m])
+        found: FloatArray = _stiffness(positions, self.triangles, self.squares, self.strains, self.areas, threads)
+        return found
+
+
+@njit(cache=True, nogil=True)
+def _stiffness(
+    positions: FloatArray,
+    triangles: NDArray[np.int64],
+    squares: FloatArray,
+    strains: FloatArray,
+    areas: FloatArray,
+    threads: FloatArray,
+) -> FloatArray:
+    """Return the coefficients of `Weave.stiffness`; `threads` are the stiffness pulled, pushed, and in shear (N/m)."""
+    found, grown, moduli = np.empty((len(triangles), 6)), np.empty(3), np.empty(3)
+    pulled, pushed, moduli[2] = threads
+    for number in range(len(triangles)):
+        for edge in range(3):
+            one, other = triangles[number, edge - 2], triangles[number, edge - 1]
+            squared = 0.0
+            for axis in range(3):
+                squared += (positions[one, axis] - positions[other, axis]) ** 2
+            grown[edge] = squared - squares[number, edge]
+        strain = strains[number]
+        for way in range(2):
+            along = strain[way, 0] * grown[0] + strain[way, 1] * grown[1] + strain[way, 2] * grown[2]
+            moduli[way] = pushed if along < 0.0 else pulled
+        at = 0
+        for row in range(3):
+            for column in range(row, 3):
+                total = 0.0
+                for way in range(3):
+                    total += moduli[way] * strain[way, row] * strain[way, column]
+                found[number, at] = 2.0 * areas[number] * total
+                at += 1
+    return found
 
 
 def _edges(points: FloatArray, triangles: NDArray[np.int64]) -> FloatArray:
