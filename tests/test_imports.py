@@ -44,7 +44,7 @@ LIBRARY_HOMES: Mapping[str, tuple[str, ...]] = {
     "networkx": ("planner.folds", "planner.primitives"),
     "pinocchio": ("planner.robots",),
     "coal": ("planner.robots",),
-    "numba": ("planner.robots", "planner.primitives", "planner.motion"),
+    "numba": ("planner.robots", "planner.primitives", "planner.motion", "app.physics"),
     "yourdfpy": ("app.ui",),
     "trimesh": ("planner.robots", "app.ui"),
     "viser": ("app.ui",),
