@@ -76,9 +76,10 @@ def clamped(
     tip: FloatArray,
     way: FloatArray,
 ) -> dict[int, FloatArray]:
-    """Return what is pinched with a second vertex beside each that has none beside it, across the way of the hand.
+    """Return what is pinched with a second vertex beside each, across the way of the hand, in each of its sheets.
 
-    A pad is as wide as a row of the mesh, and cloth does not turn between fingers. Held by one vertex it would.
+    A pad is as wide as a row of the mesh, and cloth does not turn between fingers. Held by one vertex it would. At a
+    crease a vertex belongs to two sheets that lie on one another, and each is between the fingers.
 
     Args:
         found: the point between the fingers for each vertex, shape (3,), m.
@@ -90,13 +91,40 @@ def clamped(
     across = np.array([-way[1], way[0], 0.0])
     taken = dict(found)
     for vertex, point in found.items():
-        near = np.unique(triangles[(triangles == vertex).any(axis=1)])
-        offsets = positions[near] - positions[vertex]
-        is_beside = np.abs(offsets @ across) > _BESIDE * np.linalg.norm(offsets, axis=1)
-        beside = near[is_beside]
-        if len(beside) and not taken.keys() & set(beside.tolist()):
-            taken[int(beside[np.linalg.norm(positions[beside] - tip, axis=1).argmin()])] = point
+        around = triangles[(triangles == vertex).any(axis=1)]
+        near = np.setdiff1d(around, [vertex])
+        is_new = np.array([one not in taken for one in near.tolist()])
+        order = np.lexsort([np.linalg.norm(positions[near] - tip, axis=1), is_new])  # those held already come first
+        for beside in _of_each_sheet(vertex, near[order], positions, around, across):
+            taken.setdefault(beside, point)
     return taken
+
+
+def _of_each_sheet(
+    vertex: int, near: NDArray[np.int64], positions: FloatArray, around: NDArray[np.int64], across: FloatArray
+) -> list[int]:
+    """Return of a vertex's neighbours along a line the first of each sheet of cloth that meets there.
+
+    That is one in flat cloth, be it on this side of the vertex or on that, and two that no triangle joins, both on one
+    side, where cloth is folded.
+
+    Args:
+        vertex: its number.
+        near: its neighbours, in the order in which they are preferred, shape (n,).
+        positions: the vertices, table frame, shape (n, 3), m.
+        around: the vertex's triangles, shape (m, 3).
+        across: the direction of the line, of length 1, shape (3,).
+    """
+    offsets = positions[near] - positions[vertex]
+    along = offsets @ across
+    is_beside = np.abs(along) > _BESIDE * np.linalg.norm(offsets, axis=1)
+    sides = np.sign(along[is_beside]).tolist()
+    chosen: list[int] = []
+    for one, side in zip(near[is_beside].tolist(), sides, strict=True):
+        joined = around[(around == one).any(axis=1)]
+        if not chosen or (side == sides[0] and not np.isin(chosen, joined).any()):
+            chosen.append(one)
+    return chosen
 
 
 def fingertip(tool: FloatArray) -> FloatArray:

@@ -116,6 +116,21 @@ def test_fingers_hold_two_vertices_across_their_way_so_that_cloth_does_not_turn_
     assert clamped(taken, positions, triangles, tip, np.array(way)).keys() == taken.keys()
 
 
+def test_at_a_crease_fingers_hold_a_vertex_beside_it_in_each_of_the_two_sheets():
+    # A crease at x = 0 and a row of each sheet behind it, the upper one 2 mm further back: with its lower sheet alone
+    # held, the upper one slid out of the hand by as much as it liked.
+    rows = ((0.0, 0.003), (-0.02, 0.001), (-0.022, 0.005))
+    positions = np.array([[x, y, z] for x, z in rows for y in (0.0, 0.02)])
+    triangles = np.array([[0, 1, 2], [1, 3, 2], [0, 4, 1], [1, 4, 5]])
+    point, tip, way = np.array([-0.001, 0.0, 0.003]), np.array([0.004, 0.0, 0.0]), np.array([0.0, 1.0])
+    taken = clamped({0: point}, positions, triangles, tip, way)
+    assert sorted(taken) == [0, 2, 4]
+    assert clamped({0: point, 4: point}, positions, triangles, tip, way).keys() == taken.keys()
+    flat = positions * np.array([1.0, 1.0, 0.0])
+    flat[4:, 0] *= -1.0
+    assert len(clamped({0: point}, flat, triangles, tip, way)) == 2
+
+
 @pytest.mark.parametrize(
     ("point", "wanted"),
     [

@@ -58,6 +58,23 @@ def test_hung_cloth_stretches_by_its_weight_along_its_threads_and_more_across(bi
     assert sunk == pytest.approx(fabric.density_kg_m2 * G * length**2 / (2.0 * stiffness), rel=0.1)
 
 
+def test_a_panel_that_stands_gives_way_to_its_weight_where_a_hung_one_hardly_stretches():
+    # Upright, held by its lower or its upper edge, and too stiff to topple: the free edge sinks by w L^2 / (2 K), with
+    # the stiffness of threads that are pushed together, or of threads that are pulled.
+    fabric, length = Fabric(bending_length_m=0.1), 0.1
+    points, triangles = woven_mesh(rectangle(0.04, length), 0.02)
+    rest = np.column_stack([points[:, 0], np.zeros(len(points)), points[:, 1]])
+    lower, upper = points[:, 1] < 1e-6, points[:, 1] > length - 1e-6
+    sunk = []
+    for held, free in ((lower, upper), (upper, lower)):
+        panel = ClothSimulation(rest, points, triangles, fabric, Resolution())
+        panel.hold({int(i): rest[i] for i in np.flatnonzero(held)})
+        panel.run(1.0)
+        sunk.append(float((rest - panel.positions)[free, 2].mean()))
+    assert sunk[0] == pytest.approx(fabric.density_kg_m2 * G * length**2 / (2.0 * fabric.push_n_m), rel=0.05)
+    assert 0.0 < sunk[1] < 0.02 * sunk[0]
+
+
 def test_cloth_over_an_edge_droops_as_a_cantilever_of_its_bending_length():
     # Peirce (1930): where a strip of length l hangs over an edge and the line to its end is theta below the horizontal,
     # its bending length is l (cos(theta / 2) / (8 tan(theta)))^(1/3): half of l at 41.5 degrees.
