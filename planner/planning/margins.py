@@ -65,7 +65,7 @@ def margins_of(plan: Plan) -> Margins | None:
 
 @dataclass(frozen=True, slots=True)
 class _Hold:
-    """One arm's tool while it holds cloth in a step.
+    """The path of an arm's tool while it holds cloth in a step.
 
     Attributes:
         step: the step's index.

@@ -1,4 +1,4 @@
-"""What is known of a garment on its table, whatever a robot reaches: where it rests, its grips, the paths of its folds.
+"""A cache of what garment and table alone decide: where the cloth rests, its grips, and the paths of its folds.
 
 The same cloth is asked about again and again: a drawing is planned soon and then well, a search also looks at tightened
 tasks, and trials of causes change one number at a time. So this is kept by value and shared by all contexts alike.
@@ -45,7 +45,7 @@ class Hands(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ClothMemory:
-    """What has been asked so far of one garment, placed on one table. May be shared between threads.
+    """A cache of the answers about one garment, placed on one table. May be shared between threads.
 
     Attributes:
         unrest: by folds done and place on the grid, why the cloth would not stay; None if it stays.

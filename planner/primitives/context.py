@@ -112,7 +112,7 @@ class Context:
 
     @cached_property
     def cloth(self) -> ClothMemory:
-        """What is known of the cloth, shared with other contexts in which it is the same."""
+        """The cache of answers about the cloth, shared with other contexts in which it is the same."""
         scene = self.scene
         return cloth_memory(self.sequence.garment, self.placement, scene.table, scene.friction, scene.support_angle_rad)
 

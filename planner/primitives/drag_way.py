@@ -24,7 +24,7 @@ _WAYPOINT_M = 0.05
 
 @dataclass(frozen=True, eq=False)
 class DragWay:
-    """One assignment of arms to the grips of a drag.
+    """An assignment of arms to the grips of a drag.
 
     Attributes:
         arms: the arm that holds each grip.

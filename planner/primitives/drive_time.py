@@ -10,7 +10,7 @@ ACCELERATION_M_S2, TURN_ACCELERATION_RAD_S2 = 0.5, 1.0
 
 @dataclass(frozen=True, slots=True)
 class DriveTime:
-    """What a base's times follow from.
+    """The speeds and accelerations of a base.
 
     Attributes:
         speed_m_s, turn_rad_s: its top speeds.

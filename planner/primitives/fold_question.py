@@ -37,7 +37,7 @@ class End:
 
 
 class FoldQuestion:
-    """One fold, from one station, with the article in one place and with given grips held."""
+    """The query about a fold from a station, with the article in a place and with given grips held."""
 
     def __init__(self, context: Context, state: State, fold: int) -> None:
         """Collect the trials for a state, whatever its standoff, and note what rules the fold out."""

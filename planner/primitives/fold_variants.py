@@ -31,7 +31,7 @@ Approaches: TypeAlias = tuple[NDArray[np.int64], ...]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Variant:
-    """One way to perform a fold.
+    """A way to perform a fold.
 
     Attributes:
         way: grips, arms and path, in one orientation of each hand.
