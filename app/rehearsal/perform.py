@@ -22,7 +22,7 @@ from app.rehearsal.corrections import (
     still_beside,
 )
 from app.rehearsal.eyes import Eyes, Picture, kept
-from app.rehearsal.grasp_points import laid_short, on_the_flap
+from app.rehearsal.grasp_points import into_the_cloth, laid_short, on_the_flap
 from app.rehearsal.judge import Gate, StepVerdict, judged
 from app.rehearsal.result import Decision
 from app.rehearsal.step_motions import posture_at, step_motions
@@ -34,7 +34,7 @@ from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Point2, Pose2
 from planner.task.plan import Plan
 from planner.task.plan_step import PlanStep
-from planner.task.task import Task
+from planner.task.task import TIME_LIMIT_S, Task
 from planner.task.world_state import WorldState
 
 FAILURES_MAX = 3
@@ -189,7 +189,8 @@ class Performer:
         answer = self.world.perform(made)
         missing = frozenset(arm for arm, has in answer.has_cloth.items() if not has)
         radius_m = self.plan.task.limits.comfort_radius_m
-        for made in regrasps(short, missing, radius_m, offsets, fold) if missing else ():
+        inwards = into_the_cloth(step, self.plan.sequence, carried)
+        for made in regrasps(short, missing, radius_m, inwards, offsets, fold) if missing else ():
             self._decide("regrasped", ("radius_m", radius_m))
             answer = self.world.perform(made)
             if not answer.is_missing_cloth:
@@ -219,9 +220,12 @@ class Performer:
         self._decide("replanned", ("shift_m", shift_m))
         if sum(one.code == "replanned" for one in self._decisions) > FAILURES_MAX:
             return f"step {self._made} failed after the rest was planned again {FAILURES_MAX} times"
-        start = WorldState(step.before.folds_done, lies, step.before.base)
+        start, limits = WorldState(step.before.folds_done, lies, step.before.base), self.plan.task.limits
+        # The work ends this search, on any machine and under any load, so that a run twice is the same.
+        work_s = limits.work_limit_s or limits.time_limit_s
+        limits = replace(limits, work_limit_s=work_s, time_limit_s=TIME_LIMIT_S[1])
         assert self.replan is not None
-        again = self.replan(replace(self.plan.task, start=start))
+        again = self.replan(replace(self.plan.task, start=start, limits=limits))
         if not again.is_solved:
             return f"from where the cloth lies before step {self._made} the plan is {again.status}"
         self.plan = again

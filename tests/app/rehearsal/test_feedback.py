@@ -28,8 +28,10 @@ from app.vision.stack_figure import Figure
 from planner import Plan, Task, load_garment, make_plan
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray, Pose2
+from planner.geometry.region import Region
 from planner.geometry.ring import evenly_along
 from planner.task.grip import Holding
+from planner.task.task import TIME_LIMIT_S
 from tests.app.rehearsal.towel import towel_plan
 
 
@@ -136,6 +138,24 @@ def test_a_hand_that_misses_tries_again_within_the_comfort_radius():
     assert apart == [pytest.approx([miss_m, 0.0], abs=1e-3) for miss_m in (0.0, 0.01, 0.03)]
 
 
+@pytest.mark.parametrize("name", ["tie", "scarf", "skirt"])
+def test_a_hand_that_misses_the_edge_of_cloth_that_it_pulls_behind_it_tries_again_inside_it(name: str):
+    # Ahead of that hand there is no cloth.
+    plan = make_plan(Task.of(load_garment(name)))
+    lies = plan.task.start.placement
+    turned = replace(lies, yaw_rad=lies.yaw_rad + 0.01)
+    world = NotedWorld(evenly_along(turned.to_outer(plan.garment.pattern.ring), 0.01), misses=1)
+    Performer(plan, world, Gate(), lambda _: plan).performed()
+    missed, again = world.asked[:2]
+    assert missed.is_drag and again.is_drag
+    begin, end = (np.array(missed.grips[0].points[number][:2]) for number in (0, -1))
+    tried = np.array(again.grips[0].points[0][:2])
+    cloth = Region.polygon(turned.to_outer(plan.garment.pattern.ring))
+    assert not cloth.contains(tuple(begin + 0.01 * (end - begin) / np.linalg.norm(end - begin)))
+    assert np.linalg.norm(tried - begin) == pytest.approx(0.01, abs=1e-6)
+    assert cloth.contains(tuple(tried), margin_m=0.006)
+
+
 def test_cloth_beyond_the_comfort_radius_is_planned_from_where_it_lies_and_given_up_in_the_end():
     asked: list[Task] = []
 
@@ -151,13 +171,27 @@ def test_cloth_beyond_the_comfort_radius_is_planned_from_where_it_lies_and_given
     assert done.steps == ()
 
 
+def test_the_rest_is_planned_again_with_as_much_work_as_the_plan_had_time_however_slow_the_machine():
+    asked: list[Task] = []
+
+    def same(task: Task) -> Plan:
+        asked.append(task)
+        return towel_plan()
+
+    Performer(towel_plan(), NotedWorld(outline_at(0.05, 0.0)), Gate(), same).performed()
+    had = towel_plan().task.limits
+    assert had.work_limit_s is None
+    assert {task.limits.work_limit_s for task in asked} == {had.time_limit_s}
+    assert {task.limits.time_limit_s for task in asked} == {TIME_LIMIT_S[1]}
+
+
 def test_a_fold_taken_at_another_point_lands_where_the_fold_brings_that_point():
     (motion,) = step_motions(towel_plan())
     (fold,) = towel_plan().sequence.folds
     lies = towel_plan().task.start.placement
     to_table = Isometry.rotation(lies.yaw_rad, lies.x_m, lies.y_m)
     over = to_table.after(Isometry.reflection(fold.line)).after(to_table.inverse)
-    trials = list(regrasps(motion, frozenset({motion.grips[0].arm}), 0.03, {}, over))
+    trials = list(regrasps(motion, frozenset({motion.grips[0].arm}), 0.03, {}, {}, over))
     assert len(trials) == REGRASPS
     for trial in trials:
         grip = trial.grips[0]
