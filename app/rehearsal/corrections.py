@@ -7,8 +7,10 @@ from dataclasses import replace
 import numpy as np
 
 from app.rehearsal.world import GripMotion, StepMotion, way_done
+from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray, Point2, Point3, Pose2
+from planner.task.plan_step import PlanStep
 
 REGRASPS = 8
 """Points round a grip at which a grasp that missed is tried again (paper, section 9)."""
@@ -47,6 +49,16 @@ def corrected(motion: StepMotion, carried: Isometry) -> StepMotion:
         return np.asarray(points + left * (moved[0] - points[0]))
 
     return replace(motion, grips=tuple(_along(grip, carried_along(np.array(grip.points))) for grip in motion.grips))
+
+
+def reflection_in(step: PlanStep, sequence: FoldSequence, carried: Isometry) -> Isometry | None:
+    """Return what a step's fold does to the cloth as it lies, table frame; None if it makes none."""
+    if step.fold is None:
+        return None
+    lies = step.before.placement
+    to_table = carried.after(Isometry.rotation(lies.yaw_rad, lies.x_m, lies.y_m))
+    over = Isometry.reflection(sequence.folds[step.fold].line)
+    return to_table.after(over).after(to_table.inverse)
 
 
 def regrasps(

@@ -13,8 +13,11 @@ from planner.task.plan import Plan
 from planner.task.plan_step import PlanStep
 
 
-def on_the_flap(step: PlanStep, carried: Isometry, seen: SeenStack | None, radius_m: float) -> dict[str, Point2]:
-    """Return how far beside their grips hands take a part that moved last, because it lies there, table frame (m).
+def where_seen(step: PlanStep, carried: Isometry, seen: SeenStack | None, radius_m: float) -> dict[str, Point2]:
+    """Return how far beside their grips hands take the cloth, because it is seen there, table frame (m).
+
+    That is the part that moved last, and an edge: with the finger's tip beyond a crease that lies inside of its line a
+    hand held only what stuck out of it, and laid what it held down as far beyond its place.
 
     Args:
         step: the step in which hands close.
@@ -24,7 +27,8 @@ def on_the_flap(step: PlanStep, carried: Isometry, seen: SeenStack | None, radiu
     """
     if seen is None or not step.holdings:
         return {}
-    offsets = seen.beside(np.array([one.point for one in step.holdings]))
+    points = np.array([one.point for one in step.holdings])
+    offsets = seen.beside(points) + seen.edge_beside(points)
     offsets *= np.minimum(1.0, radius_m / np.maximum(np.hypot(*offsets.T), LENGTH_M))[:, None]
     return {
         one.arm: _turned(step, carried, (x, y)) for one, (x, y) in zip(step.holdings, offsets.tolist(), strict=True)

@@ -17,12 +17,13 @@ from app.rehearsal.corrections import (
     carry,
     corrected,
     landing_short,
+    reflection_in,
     regrasps,
     shift_of,
     still_beside,
 )
 from app.rehearsal.eyes import Eyes, Picture, kept
-from app.rehearsal.grasp_points import into_the_cloth, laid_short, on_the_flap
+from app.rehearsal.grasp_points import into_the_cloth, laid_short, where_seen
 from app.rehearsal.judge import Gate, StepVerdict, judged
 from app.rehearsal.result import Decision
 from app.rehearsal.step_motions import posture_at, step_motions
@@ -181,9 +182,10 @@ class Performer:
     def _tried(self, motion: StepMotion, step: PlanStep, carried: Isometry, spare_m: float) -> Performed | None:
         """Perform a step, and where hands find no cloth again round their grips; None if they never find any.
 
-        A part that moved last is taken where it lies, `spare_m` from the grips at most.
+        A part that moved last, and an edge, is taken where it is seen, `spare_m` from the grips at most.
         """
-        fold, offsets = self._reflection(step, carried), on_the_flap(step, carried, self._stack, spare_m)
+        fold = reflection_in(step, self.plan.sequence, carried)
+        offsets = where_seen(step, carried, self._stack, spare_m)
         short = landing_short(motion, laid_short(self.plan, step), SHORT_M)
         made = beside(short, offsets, fold)
         answer = self.world.perform(made)
@@ -202,18 +204,9 @@ class Performer:
         """Perform a step with the hands where they hold the cloth, be that beside their grips."""
         held = {grip.arm: self._beside[grip.arm] for grip in motion.grips if grip.arm in self._beside}
         short = landing_short(motion, laid_short(self.plan, step), 0.0 if self.replan is None else SHORT_M)
-        made = beside(short, held, self._reflection(step, carried))
+        made = beside(short, held, reflection_in(step, self.plan.sequence, carried))
         self._beside = still_beside(motion, made)
         return self.world.perform(made)
-
-    def _reflection(self, step: PlanStep, carried: Isometry) -> Isometry | None:
-        """Return what a fold does to the cloth as it lies, table frame."""
-        if step.fold is None:
-            return None
-        lies = step.before.placement
-        to_table = carried.after(Isometry.rotation(lies.yaw_rad, lies.x_m, lies.y_m))
-        over = Isometry.reflection(self.plan.sequence.folds[step.fold].line)
-        return to_table.after(over).after(to_table.inverse)
 
     def _planned_again(self, step: PlanStep, lies: Pose2, shift_m: float) -> str:
         """Plan the rest from what is there; return why that cannot be, "" if it can."""

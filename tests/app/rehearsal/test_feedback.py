@@ -15,7 +15,7 @@ from app.rehearsal.corrections import (
     regrasps,
     shift_of,
 )
-from app.rehearsal.grasp_points import laid_short, on_the_flap
+from app.rehearsal.grasp_points import laid_short, where_seen
 from app.rehearsal.judge import Gate
 from app.rehearsal.noise import Noise
 from app.rehearsal.noisy_world import NoisyWorld
@@ -82,11 +82,40 @@ def test_a_part_that_moved_last_is_taken_where_it_was_seen():
     folded = FoldedOutline(plan.sequence, 0, 0)
     seen = SeenStack(Figure.of(plan.sequence.cloth(1)), folded, np.array([0, 0, 0, 0.004, 0, 0.0]), np.eye(6))
     step = replace(plan.steps[0], holdings=(Holding("left", (0.4, 0.5), ()), Holding("right", (0.1, 0.1), ())))
-    offsets = on_the_flap(step, Isometry(), seen, 0.03)
+    offsets = where_seen(step, Isometry(), seen, 0.03)
     assert offsets["left"] == pytest.approx((-0.008, 0.0), abs=1e-6)
     assert offsets["right"] == (0.0, 0.0)  # not on the part that moved
-    assert on_the_flap(step, Isometry(), seen, 0.0)["left"] == pytest.approx((0.0, 0.0))
-    assert on_the_flap(step, Isometry(), None, 0.03) == {}
+    assert where_seen(step, Isometry(), seen, 0.0)["left"] == pytest.approx((0.0, 0.0))
+    assert where_seen(step, Isometry(), None, 0.03) == {}
+
+
+def test_a_hand_takes_an_edge_where_it_is_seen():
+    # The crease, at y = .25 m, is seen 9 mm inside of its line, 4 mm at the other end; the rest is where it should be.
+    plan = make_plan(Task.of(load_garment("letter-towel")))
+    ring = plan.sequence.cloth(1).silhouette.ring
+    (left, crease_y), (right, far_y) = ring.min(axis=0).tolist(), ring.max(axis=0).tolist()
+    outline = evenly_along(ring, 0.003)
+    at_crease = outline[:, 1] < crease_y + 1e-6
+    outline[at_crease, 1] += np.interp(outline[at_crease, 0], [left, right], [0.004, 0.009])
+    figure, folded = Figure.of(plan.sequence.cloth(1)), FoldedOutline(plan.sequence, 0, 0)
+    lies = plan.task.start.placement
+    row = np.array([*figure.fit_at(lies).row, 0.0, 0.0, 0.0])
+    seen = SeenStack(figure, folded, row, np.eye(6), lies.to_outer(outline))
+    step = replace(
+        plan.steps[0],
+        holdings=(
+            Holding("middle", ((left + right) / 2.0, crease_y), ()),
+            Holding("corner", (right, crease_y), ()),
+            Holding("edge", (right, far_y - 0.05), ()),
+            Holding("inside", (left + 0.1, crease_y + 0.1), ()),
+        ),
+    )
+    offsets = where_seen(step, Isometry(), seen, 0.03)
+    assert step.before.placement.yaw_rad == pytest.approx(-math.pi / 2.0)  # the article's y is the table's x
+    assert offsets["middle"] == pytest.approx((0.0065, 0.0), abs=1e-3)
+    assert offsets["corner"] == pytest.approx((0.009, 0.0), abs=1.5e-3)
+    assert offsets["edge"] == pytest.approx((0.0, 0.0), abs=1e-4)
+    assert offsets["inside"] == pytest.approx((0.0, 0.0), abs=1e-9)
 
 
 def test_an_edge_that_the_same_hands_lift_again_lands_short_and_others_where_they_should():
