@@ -115,6 +115,12 @@ def test_a_stretch_within_a_hair_of_the_boundary_does_not_run_inside():
     assert not towel.runs_inside(Segment((0.5, 0.0), (0.5, 0.1)))
 
 
+def test_a_line_across_a_flap_runs_inside_although_its_grown_border_comes_out_filled():
+    flap = Region.polygon([(-0.720797, 0.062664), (-1.040986, 0.376568), (-0.954682, 0.4646), (-0.634493, 0.150696)])
+    assert flap.runs_inside(Segment((-0.976258, 0.442592), (-0.656069, 0.128688)))
+    assert not flap.runs_inside(Segment((-0.720797, 0.062664), (-1.040986, 0.376568)))
+
+
 def test_all_points_of_a_ring_are_kept_where_they_are_asked_for():
     straight = Region.polygon([(0.0, 0.0), (0.2, 0.0), (0.4, 0.0), (0.4, 0.3), (0.0, 0.3)])
     assert len(straight.ring) == 4
