@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.geometry.pose import Approach, BoolArray, FloatArray, Point3
-from planner.geometry.tolerance import LENGTH_M
+from planner.geometry.tolerance import LENGTH_M, grid_keys
 from planner.robots.asked_arms import AskedArms
 from planner.robots.comfort import QUERIES, ROW_CELLS, ROW_STEP, ROWS, Memory, empty_memory
 from planner.robots.comfort_memories import Memories
@@ -182,8 +182,8 @@ class ComfortReach:
         places = np.empty(paths.shape, dtype=np.int64)
         for hand, (arm, allowed) in enumerate(zip(arms, approaches, strict=True)):
             labels[hand, : len(allowed)] = self._asked.labels[arm][allowed]
-            steps = np.round(self._asked.arms[arm].mirrored_places(paths[hand]) / LENGTH_M)
-            places[hand] = steps - np.round(self._shoulders[arm] / LENGTH_M)
+            steps = grid_keys(self._asked.arms[arm].mirrored_places(paths[hand]))
+            places[hand] = steps - grid_keys(self._shoulders[arm])
         slots = np.full((*labels.shape, paths.shape[1]), UNSEEN, dtype=np.int64)
         step = round(step_m / LENGTH_M)
         cells = places[:, :, 0] // ROW_STEP + ROW_CELLS // 2
