@@ -143,7 +143,8 @@ class Performer:
     def _seen(self, step: PlanStep) -> tuple[Pose2, str]:
         """Return where the stack lies as seen, and why the run must end, "" if it need not.
 
-        Where it is not known where it lies, that is where it should lie.
+        Where that stays uncertain, the estimate is nearer than where it should lie, and is taken; where nothing tells
+        it, it is where it should lie.
         """
         sight, self._stack = self._sight(step, is_clear=False), None
         if sight is None:
@@ -153,7 +154,7 @@ class Performer:
             self.world.perform(StepMotion(self._made, WITHDRAW, _WITHDRAW_S, ends=away))
             self._posture = away
             sight = self._sight(step, is_clear=True) or sight
-        if sight.fit is not None and sight.unknown is None:
+        if sight.fit is not None and sight.is_estimate:
             self._blind, self._stack = 0, sight.stack
             return sight.fit.placement, ""
         self._blind += 1
