@@ -7,8 +7,10 @@ from dataclasses import replace
 import numpy as np
 
 from app.rehearsal.world import GripMotion, StepMotion, way_done
+from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray, Point2, Point3, Pose2
+from planner.task.plan_step import PlanStep
 
 REGRASPS = 8
 """Points round a grip at which a grasp that missed is tried again (paper, section 9)."""
@@ -49,8 +51,23 @@ def corrected(motion: StepMotion, carried: Isometry) -> StepMotion:
     return replace(motion, grips=tuple(_along(grip, carried_along(np.array(grip.points))) for grip in motion.grips))
 
 
+def reflection_in(step: PlanStep, sequence: FoldSequence, carried: Isometry) -> Isometry | None:
+    """Return what a step's fold does to the cloth as it lies, table frame; None if it makes none."""
+    if step.fold is None:
+        return None
+    lies = step.before.placement
+    to_table = carried.after(Isometry.rotation(lies.yaw_rad, lies.x_m, lies.y_m))
+    over = Isometry.reflection(sequence.folds[step.fold].line)
+    return to_table.after(over).after(to_table.inverse)
+
+
 def regrasps(
-    motion: StepMotion, arms: frozenset[str], radius_m: float, offsets: Mapping[str, Point2], fold: Isometry | None
+    motion: StepMotion,
+    arms: frozenset[str],
+    radius_m: float,
+    inwards: Mapping[str, Point2],
+    offsets: Mapping[str, Point2],
+    fold: Isometry | None,
 ) -> Iterator[StepMotion]:
     """Yield the step with some hands at other points round their grips, first at those further into the cloth.
 
@@ -58,12 +75,17 @@ def regrasps(
         motion: the step.
         arms: the arms that found no cloth.
         radius_m: how far from their grips at most (m): within the comfort radius everything is in reach.
+        inwards: for some arms the direction into the cloth, table frame; the others' is that of their way.
         offsets: how far beside its grip each hand took the cloth at first (m).
         fold: the reflection of the cloth by the step's fold, table frame; None if it makes none.
     """
     turns = [math.pi / 4.0 * ((number + 1) // 2) * (-1.0 if number % 2 else 1.0) for number in range(REGRASPS - 1)]
     for away_m, turn in ((_NEAR * radius_m, 0.0), *((radius_m, turn) for turn in turns)):
-        tried = {grip.arm: _round(grip, away_m, turn) for grip in motion.grips if grip.arm in arms}
+        tried = {
+            grip.arm: _round(inwards.get(grip.arm) or _way(grip), away_m, turn)
+            for grip in motion.grips
+            if grip.arm in arms
+        }
         yield beside(motion, {**offsets, **tried}, fold)
 
 
@@ -110,11 +132,14 @@ def _from(start: Point3, end: Point3) -> Point2:
     return end[0] - start[0], end[1] - start[1]
 
 
-def _round(grip: GripMotion, radius_m: float, turn_rad: float) -> Point2:
-    """Return a point round a grip, from it (m); at a turn of 0 it is the one ahead."""
-    points = np.array(grip.points)
-    ahead = points[len(points) // 2, :2] - points[0, :2]
-    angle = math.atan2(ahead[1], ahead[0]) + turn_rad
+def _way(grip: GripMotion) -> Point2:
+    """Return the direction in which a hand goes at first."""
+    return _from(grip.points[0], grip.points[len(grip.points) // 2])
+
+
+def _round(inwards: Point2, radius_m: float, turn_rad: float) -> Point2:
+    """Return a point round a grip, from it (m); at a turn of 0 it is the one inwards."""
+    angle = math.atan2(inwards[1], inwards[0]) + turn_rad
     return radius_m * math.cos(angle), radius_m * math.sin(angle)
 
 

@@ -1,19 +1,23 @@
-"""Where exactly hands take the cloth, and which edges they lay down short of their place."""
+"""Where exactly hands take the cloth and seek it, and which edges they lay down short of their place."""
 
 import math
 
 import numpy as np
 
 from app.vision.seen_stack import SeenStack
+from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.isometry import Isometry
-from planner.geometry.pose import Point2, Pose2
+from planner.geometry.pose import Point2
 from planner.geometry.tolerance import LENGTH_M
 from planner.task.plan import Plan
 from planner.task.plan_step import PlanStep
 
 
-def on_the_flap(step: PlanStep, carried: Isometry, seen: SeenStack | None, radius_m: float) -> dict[str, Point2]:
-    """Return how far beside their grips hands take a part that moved last, because it lies there, table frame (m).
+def where_seen(step: PlanStep, carried: Isometry, seen: SeenStack | None, radius_m: float) -> dict[str, Point2]:
+    """Return how far beside their grips hands take the cloth, because it is seen there, table frame (m).
+
+    That is the part that moved last, and an edge: with the finger's tip beyond a crease that lies inside of its line a
+    hand held only what stuck out of it, and laid what it held down as far beyond its place.
 
     Args:
         step: the step in which hands close.
@@ -23,10 +27,30 @@ def on_the_flap(step: PlanStep, carried: Isometry, seen: SeenStack | None, radiu
     """
     if seen is None or not step.holdings:
         return {}
-    offsets = seen.beside(np.array([one.point for one in step.holdings]))
+    points = np.array([one.point for one in step.holdings])
+    offsets = seen.beside(points) + seen.edge_beside(points)
     offsets *= np.minimum(1.0, radius_m / np.maximum(np.hypot(*offsets.T), LENGTH_M))[:, None]
-    turned = Pose2(0.0, 0.0, step.before.placement.yaw_rad + math.atan2(carried.c, carried.a)).to_outer(offsets)
-    return {one.arm: (x, y) for one, (x, y) in zip(step.holdings, turned.tolist(), strict=True)}
+    return {
+        one.arm: _turned(step, carried, (x, y)) for one, (x, y) in zip(step.holdings, offsets.tolist(), strict=True)
+    }
+
+
+def into_the_cloth(step: PlanStep, sequence: FoldSequence, carried: Isometry) -> dict[str, Point2]:
+    """Return the direction from each grip of a drag into the cloth, table frame.
+
+    A drag may pull the cloth behind it, so its way says nothing of where cloth is; a fold's leads over what it turns.
+    There are none for grips that are not on the outline, and for folds.
+
+    Args:
+        step: the step in which hands close.
+        sequence: the garment's folds.
+        carried: from where the stack should lie to where it lies, table frame.
+    """
+    if step.fold is not None:
+        return {}
+    outline = sequence.cloth(step.before.done).silhouette
+    found = {one.arm: outline.inward_bisector(one.point) for one in step.holdings}
+    return {arm: _turned(step, carried, inwards) for arm, inwards in found.items() if inwards is not None}
 
 
 def laid_short(plan: Plan, step: PlanStep) -> frozenset[str]:
@@ -38,3 +62,10 @@ def laid_short(plan: Plan, step: PlanStep) -> frozenset[str]:
     if step.fold is None or plan.sequence.folds[step.fold].is_red or not step.details.get("holds"):
         return frozenset()
     return frozenset(one.arm for one in step.holdings)
+
+
+def _turned(step: PlanStep, carried: Isometry, vector: Point2) -> Point2:
+    """Return a vector of the article frame in the table frame, as the cloth lies."""
+    yaw_rad = step.before.placement.yaw_rad + math.atan2(carried.c, carried.a)
+    x, y = Isometry.rotation(yaw_rad).apply_point(vector)
+    return x, y

@@ -17,24 +17,26 @@ from app.rehearsal.corrections import (
     carry,
     corrected,
     landing_short,
+    reflection_in,
     regrasps,
     shift_of,
     still_beside,
 )
 from app.rehearsal.eyes import Eyes, Picture, kept
-from app.rehearsal.grasp_points import laid_short, on_the_flap
+from app.rehearsal.grasp_points import into_the_cloth, laid_short, where_seen
 from app.rehearsal.judge import Gate, StepVerdict, judged
 from app.rehearsal.result import Decision
 from app.rehearsal.step_motions import posture_at, step_motions
+from app.rehearsal.swing import swung
 from app.rehearsal.trace import ClothAfter, counterpart
-from app.rehearsal.world import WITHDRAW, Performed, StepMotion, World
+from app.rehearsal.world import WITHDRAW, GripMotion, Performed, StepMotion, World
 from app.vision.look_at_stack import Sight
 from app.vision.seen_stack import SeenStack
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Point2, Pose2
 from planner.task.plan import Plan
 from planner.task.plan_step import PlanStep
-from planner.task.task import Task
+from planner.task.task import TIME_LIMIT_S, Task
 from planner.task.world_state import WorldState
 
 FAILURES_MAX = 3
@@ -84,6 +86,7 @@ class Performer:
     _beside: dict[str, Point2] = field(default_factory=dict)
     _stack: SeenStack | None = None
     _blind: int = 0
+    _hands: tuple[GripMotion, ...] = ()
     _posture: Posture | None = None
     _cloths: list[ClothAfter] = field(default_factory=list)
 
@@ -119,8 +122,8 @@ class Performer:
                     continue
             else:
                 answer = self._held_on(corrected(motion, carried), step, carried)
-            if motion.is_drag:  # it ends where it should, so the hands that hold on fold where they should
-                carried = Isometry()
+            if motion.is_drag and self.replan is not None:
+                carried = swung(self._hands, step, self.plan.sequence, self.plan.scene.table, carried)
             self._judge(motion, step, answer, carried)
             self._posture = motion.ends
             number += 1
@@ -182,17 +185,19 @@ class Performer:
     def _tried(self, motion: StepMotion, step: PlanStep, carried: Isometry, spare_m: float) -> Performed | None:
         """Perform a step, and where hands find no cloth again round their grips; None if they never find any.
 
-        A part that moved last is taken where it lies, `spare_m` from the grips at most.
+        A part that moved last, and an edge, is taken where it is seen, `spare_m` from the grips at most.
         """
-        fold, offsets = self._reflection(step, carried), on_the_flap(step, carried, self._stack, spare_m)
+        fold = reflection_in(step, self.plan.sequence, carried)
+        offsets = where_seen(step, carried, self._stack, spare_m)
         short = landing_short(motion, laid_short(self.plan, step), SHORT_M)
         made = beside(short, offsets, fold)
-        answer = self.world.perform(made)
+        answer = self._perform(made)
         missing = frozenset(arm for arm, has in answer.has_cloth.items() if not has)
         radius_m = self.plan.task.limits.comfort_radius_m
-        for made in regrasps(short, missing, radius_m, offsets, fold) if missing else ():
+        inwards = into_the_cloth(step, self.plan.sequence, carried)
+        for made in regrasps(short, missing, radius_m, inwards, offsets, fold) if missing else ():
             self._decide("regrasped", ("radius_m", radius_m))
-            answer = self.world.perform(made)
+            answer = self._perform(made)
             if not answer.is_missing_cloth:
                 break
         self._beside = still_beside(motion, made)
@@ -202,27 +207,25 @@ class Performer:
         """Perform a step with the hands where they hold the cloth, be that beside their grips."""
         held = {grip.arm: self._beside[grip.arm] for grip in motion.grips if grip.arm in self._beside}
         short = landing_short(motion, laid_short(self.plan, step), 0.0 if self.replan is None else SHORT_M)
-        made = beside(short, held, self._reflection(step, carried))
+        made = beside(short, held, reflection_in(step, self.plan.sequence, carried))
         self._beside = still_beside(motion, made)
-        return self.world.perform(made)
+        return self._perform(made)
 
-    def _reflection(self, step: PlanStep, carried: Isometry) -> Isometry | None:
-        """Return what a fold does to the cloth as it lies, table frame."""
-        if step.fold is None:
-            return None
-        lies = step.before.placement
-        to_table = carried.after(Isometry.rotation(lies.yaw_rad, lies.x_m, lies.y_m))
-        over = Isometry.reflection(self.plan.sequence.folds[step.fold].line)
-        return to_table.after(over).after(to_table.inverse)
+    def _perform(self, made: StepMotion) -> Performed:
+        self._hands = made.grips
+        return self.world.perform(made)
 
     def _planned_again(self, step: PlanStep, lies: Pose2, shift_m: float) -> str:
         """Plan the rest from what is there; return why that cannot be, "" if it can."""
         self._decide("replanned", ("shift_m", shift_m))
         if sum(one.code == "replanned" for one in self._decisions) > FAILURES_MAX:
             return f"step {self._made} failed after the rest was planned again {FAILURES_MAX} times"
-        start = WorldState(step.before.folds_done, lies, step.before.base)
+        start, limits = WorldState(step.before.folds_done, lies, step.before.base), self.plan.task.limits
+        # The work ends this search, on any machine and under any load, so that a run twice is the same.
+        work_s = limits.work_limit_s or limits.time_limit_s
+        limits = replace(limits, work_limit_s=work_s, time_limit_s=TIME_LIMIT_S[1])
         assert self.replan is not None
-        again = self.replan(replace(self.plan.task, start=start))
+        again = self.replan(replace(self.plan.task, start=start, limits=limits))
         if not again.is_solved:
             return f"from where the cloth lies before step {self._made} the plan is {again.status}"
         self.plan = again

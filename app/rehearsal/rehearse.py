@@ -147,7 +147,10 @@ def one_run(
 
     def planned_again(task: Task) -> Plan:
         world.end()
-        return make_plan(task)
+        again = make_plan(task, should_stop=is_cancelled)
+        if is_cancelled():
+            raise CancelledError
+        return again
 
     most = 0.0
 

@@ -121,7 +121,7 @@ class Looker:
         on_table = self.camera.on_plane(contour, height_m)
         whole = fit_near(on_table, stack, near)
         creased = Creased.of(on_table, sequence, folds, near)
-        found = creased.fitted(whole.placement)
+        found = replace(creased.fitted(whole.placement), outline=on_table)
         fit = creased.told(found, whole)
         doubt = why_in_doubt(replace(seen, at_border=0.0), None)
         rings = [self._pixels(fit.placement.to_outer(ring), height_m) for ring in stack.silhouette.rings]

@@ -1,11 +1,12 @@
 """A stack as it was seen: where its points lie, those of its last fold too, and how far off they may be."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
 from app.vision.fit_fold import FoldedOutline
+from app.vision.outline_edges import OutlineEdges
 from app.vision.stack_figure import Figure
 from planner.geometry.pose import FloatArray, Pose2
 
@@ -13,6 +14,15 @@ _MOVED_M = 1e-4
 """A point of the stack nearer to the part that moved than that is of it (m)."""
 
 _NUDGES = np.array([1e-4, 1e-4, 1e-3, 1e-4, 1e-3, 1e-4])
+
+_AT_EDGE_M = 0.005
+"""A point of the stack nearer to its outline than that is of its edge (m)."""
+
+_ROUND_EDGE_M = 0.03
+"""The outline seen that near to a point of the edge tells where the edge lies there (m)."""
+
+_EDGE_M, _CONTOUR_M = 0.008, 0.002
+"""How far an edge is beside the fitted outline, and how far what is seen of it is off, standard deviations (m)."""
 
 _LEAST_ERROR_M = 0.002
 """The systematic error that no fit shows: the camera's own, or an outline that is wider or narrower all round (m)."""
@@ -28,12 +38,14 @@ class SeenStack:
         row: x and y of the figure's middle (m), its yaw (rad), how far the last crease is to the left of its line (m)
             and turned (rad), and how far inside of their lines creases lie (m); of spread-out cloth the first three.
         covariance: of these numbers.
+        outline: the points seen of its outline, table frame, shape (n, 2), m.
     """
 
     figure: Figure
     folded: FoldedOutline | None
     row: FloatArray
     covariance: FloatArray
+    outline: FloatArray = field(default_factory=lambda: np.empty((0, 2)))
 
     @property
     def placement(self) -> Pose2:
@@ -47,6 +59,27 @@ class SeenStack:
         the edge that hands take.
         """
         return self._beside(self.row, points)
+
+    def edge_beside(self, points: FloatArray) -> FloatArray:
+        """Return how far the edge is seen beside the fitted outline at points of the stack, shape (n, 2), m.
+
+        Cloth turns over in loops, so an edge that is a crease lies inside of its line, further in one place than in
+        another; at a corner both edges tell. Of points that are not of the fitted outline, or where little of it was
+        seen, it is 0. Points and vectors are of the article frame.
+        """
+        edges, found, there = self._edges, np.zeros_like(points), points + self.beside(points)
+        if not len(self.outline):
+            return found
+        inner = self.placement.to_inner(self.outline)
+        distances, outwards = edges.distances(inner)
+        feet = inner - distances[:, None] * outwards
+        for number in np.flatnonzero(edges.gaps(there) <= _AT_EDGE_M).tolist():
+            apart = np.hypot(*(feet - there[number]).T)
+            near = (apart <= _ROUND_EDGE_M) & (np.abs(distances) <= _ROUND_EDGE_M)
+            normals, away = outwards[near], distances[near]
+            shrunk = (_CONTOUR_M / _EDGE_M) ** 2 * max(1, len(away)) * np.eye(2)
+            found[number] = np.linalg.solve(normals.T @ normals + shrunk, normals.T @ away)
+        return found
 
     def places(self, points: FloatArray) -> FloatArray:
         """Return where points of the stack, article frame, lie, shape (n, 2), table frame, m."""
@@ -77,6 +110,13 @@ class SeenStack:
 
     def _places(self, row: FloatArray, points: FloatArray) -> FloatArray:
         return self.figure.pose(row).to_outer(points + self._beside(row, points))
+
+    @property
+    def _edges(self) -> OutlineEdges:
+        """The fitted outline, article frame."""
+        if self.folded is None:
+            return self.figure.edges
+        return OutlineEdges.of(self.folded.region(float(self.row[3]), float(self.row[4])))
 
     def _beside(self, row: FloatArray, points: FloatArray) -> FloatArray:
         if self.folded is None:

@@ -15,7 +15,7 @@ from app.rehearsal.corrections import (
     regrasps,
     shift_of,
 )
-from app.rehearsal.grasp_points import laid_short, on_the_flap
+from app.rehearsal.grasp_points import laid_short, where_seen
 from app.rehearsal.judge import Gate
 from app.rehearsal.noise import Noise
 from app.rehearsal.noisy_world import NoisyWorld
@@ -28,8 +28,10 @@ from app.vision.stack_figure import Figure
 from planner import Plan, Task, load_garment, make_plan
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray, Pose2
+from planner.geometry.region import Region
 from planner.geometry.ring import evenly_along
 from planner.task.grip import Holding
+from planner.task.task import TIME_LIMIT_S
 from tests.app.rehearsal.towel import towel_plan
 
 
@@ -80,11 +82,40 @@ def test_a_part_that_moved_last_is_taken_where_it_was_seen():
     folded = FoldedOutline(plan.sequence, 0, 0)
     seen = SeenStack(Figure.of(plan.sequence.cloth(1)), folded, np.array([0, 0, 0, 0.004, 0, 0.0]), np.eye(6))
     step = replace(plan.steps[0], holdings=(Holding("left", (0.4, 0.5), ()), Holding("right", (0.1, 0.1), ())))
-    offsets = on_the_flap(step, Isometry(), seen, 0.03)
+    offsets = where_seen(step, Isometry(), seen, 0.03)
     assert offsets["left"] == pytest.approx((-0.008, 0.0), abs=1e-6)
     assert offsets["right"] == (0.0, 0.0)  # not on the part that moved
-    assert on_the_flap(step, Isometry(), seen, 0.0)["left"] == pytest.approx((0.0, 0.0))
-    assert on_the_flap(step, Isometry(), None, 0.03) == {}
+    assert where_seen(step, Isometry(), seen, 0.0)["left"] == pytest.approx((0.0, 0.0))
+    assert where_seen(step, Isometry(), None, 0.03) == {}
+
+
+def test_a_hand_takes_an_edge_where_it_is_seen():
+    # The crease, at y = .25 m, is seen 9 mm inside of its line, 4 mm at the other end; the rest is where it should be.
+    plan = make_plan(Task.of(load_garment("letter-towel")))
+    ring = plan.sequence.cloth(1).silhouette.ring
+    (left, crease_y), (right, far_y) = ring.min(axis=0).tolist(), ring.max(axis=0).tolist()
+    outline = evenly_along(ring, 0.003)
+    at_crease = outline[:, 1] < crease_y + 1e-6
+    outline[at_crease, 1] += np.interp(outline[at_crease, 0], [left, right], [0.004, 0.009])
+    figure, folded = Figure.of(plan.sequence.cloth(1)), FoldedOutline(plan.sequence, 0, 0)
+    lies = plan.task.start.placement
+    row = np.array([*figure.fit_at(lies).row, 0.0, 0.0, 0.0])
+    seen = SeenStack(figure, folded, row, np.eye(6), lies.to_outer(outline))
+    step = replace(
+        plan.steps[0],
+        holdings=(
+            Holding("middle", ((left + right) / 2.0, crease_y), ()),
+            Holding("corner", (right, crease_y), ()),
+            Holding("edge", (right, far_y - 0.05), ()),
+            Holding("inside", (left + 0.1, crease_y + 0.1), ()),
+        ),
+    )
+    offsets = where_seen(step, Isometry(), seen, 0.03)
+    assert step.before.placement.yaw_rad == pytest.approx(-math.pi / 2.0)  # the article's y is the table's x
+    assert offsets["middle"] == pytest.approx((0.0065, 0.0), abs=1e-3)
+    assert offsets["corner"] == pytest.approx((0.009, 0.0), abs=1.5e-3)
+    assert offsets["edge"] == pytest.approx((0.0, 0.0), abs=1e-4)
+    assert offsets["inside"] == pytest.approx((0.0, 0.0), abs=1e-9)
 
 
 def test_an_edge_that_the_same_hands_lift_again_lands_short_and_others_where_they_should():
@@ -136,6 +167,24 @@ def test_a_hand_that_misses_tries_again_within_the_comfort_radius():
     assert apart == [pytest.approx([miss_m, 0.0], abs=1e-3) for miss_m in (0.0, 0.01, 0.03)]
 
 
+@pytest.mark.parametrize("name", ["tie", "scarf", "skirt"])
+def test_a_hand_that_misses_the_edge_of_cloth_that_it_pulls_behind_it_tries_again_inside_it(name: str):
+    # Ahead of that hand there is no cloth.
+    plan = make_plan(Task.of(load_garment(name)))
+    lies = plan.task.start.placement
+    turned = replace(lies, yaw_rad=lies.yaw_rad + 0.01)
+    world = NotedWorld(evenly_along(turned.to_outer(plan.garment.pattern.ring), 0.01), misses=1)
+    Performer(plan, world, Gate(), lambda _: plan).performed()
+    missed, again = world.asked[:2]
+    assert missed.is_drag and again.is_drag
+    begin, end = (np.array(missed.grips[0].points[number][:2]) for number in (0, -1))
+    tried = np.array(again.grips[0].points[0][:2])
+    cloth = Region.polygon(turned.to_outer(plan.garment.pattern.ring))
+    assert not cloth.contains(tuple(begin + 0.01 * (end - begin) / np.linalg.norm(end - begin)))
+    assert np.linalg.norm(tried - begin) == pytest.approx(0.01, abs=1e-6)
+    assert cloth.contains(tuple(tried), margin_m=0.006)
+
+
 def test_cloth_beyond_the_comfort_radius_is_planned_from_where_it_lies_and_given_up_in_the_end():
     asked: list[Task] = []
 
@@ -151,13 +200,27 @@ def test_cloth_beyond_the_comfort_radius_is_planned_from_where_it_lies_and_given
     assert done.steps == ()
 
 
+def test_the_rest_is_planned_again_with_as_much_work_as_the_plan_had_time_however_slow_the_machine():
+    asked: list[Task] = []
+
+    def same(task: Task) -> Plan:
+        asked.append(task)
+        return towel_plan()
+
+    Performer(towel_plan(), NotedWorld(outline_at(0.05, 0.0)), Gate(), same).performed()
+    had = towel_plan().task.limits
+    assert had.work_limit_s is None
+    assert {task.limits.work_limit_s for task in asked} == {had.time_limit_s}
+    assert {task.limits.time_limit_s for task in asked} == {TIME_LIMIT_S[1]}
+
+
 def test_a_fold_taken_at_another_point_lands_where_the_fold_brings_that_point():
     (motion,) = step_motions(towel_plan())
     (fold,) = towel_plan().sequence.folds
     lies = towel_plan().task.start.placement
     to_table = Isometry.rotation(lies.yaw_rad, lies.x_m, lies.y_m)
     over = to_table.after(Isometry.reflection(fold.line)).after(to_table.inverse)
-    trials = list(regrasps(motion, frozenset({motion.grips[0].arm}), 0.03, {}, over))
+    trials = list(regrasps(motion, frozenset({motion.grips[0].arm}), 0.03, {}, {}, over))
     assert len(trials) == REGRASPS
     for trial in trials:
         grip = trial.grips[0]
