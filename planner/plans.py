@@ -51,7 +51,7 @@ def make_plan(
 
     Raises:
         FoldError: a fold is not legal on the cloth as the folds before it leave it.
-        RequestError: an option is out of range, or neither a task nor a garment was given.
+        RequestError: an option is unknown or out of range, or neither a task nor a garment was given.
     """
     if not isinstance(what, Task | Garment):
         raise RequestError("garment", f"{what!r:.80} is no garment; `load_garment` returns one by its name or file")
@@ -117,8 +117,7 @@ def quick_plan(
         task: the task to plan.
         like: solved plans for similar garments. The first plan whose primitives can all be done again is used. Where
             there is none, the plan of which most can be done again is used as far as possible, and a greedy search
-            finds the
-                rest.
+            finds the rest.
         should_stop: polled repeatedly; planning ends without a plan when it returns true.
 
     Returns:

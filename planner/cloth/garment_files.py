@@ -24,9 +24,11 @@ def load_garment(source: str | Path) -> Garment:
 
     Raises:
         UnknownGarmentError: a name (no dot, no slash) that is not shipped.
-        GarmentFileError: a file that is missing or no JSON.
+        GarmentFileError: a file that is missing or no JSON, or a source that is neither name nor path.
         GarmentError: a garment that is not valid; names the field.
     """
+    if not isinstance(source, str | Path):
+        raise GarmentFileError(f"{source!r:.80} is neither a garment's name nor a path")
     if isinstance(source, str) and NAME_PATTERN.fullmatch(source):
         if source in shipped_garment_names():
             return _read(shipped_folder() / f"{source}.json")

@@ -11,7 +11,7 @@ from planner.geometry.pose import FloatArray
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 from planner.geometry.smallest_circle import pair_centres, triple_centres
-from planner.geometry.tolerance import LENGTH_M
+from planner.geometry.tolerance import LENGTH_M, grid_keys
 
 _CIRCLED_MAX = 64
 """The most vertices round which circles are put; of more, this many are picked evenly: 400 have ten million triples."""
@@ -39,7 +39,7 @@ def grip_candidates(piece: Region, vertices: FloatArray, baseline: tuple[Segment
 
 def distinct_rows(points: FloatArray) -> FloatArray:
     """Return points, shape (n, 2), without repetitions, in their order."""
-    x, y = np.round(points / LENGTH_M).astype(np.int64).T
+    x, y = grid_keys(points).T
     _, first = np.unique((x << 32) + y, return_index=True)
     return np.asarray(points[np.sort(first)])
 

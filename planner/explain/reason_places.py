@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.geometry.pose import Point2
-from planner.geometry.tolerance import LENGTH_M, grid_key
+from planner.geometry.tolerance import LENGTH_M, grid_key, grid_keys
 from planner.primitives.context import Context
 from planner.primitives.drag_grips import drag_covers, dragged, longest_drag, towards_robot
 from planner.primitives.g_drag import GDrag
@@ -39,7 +39,7 @@ class Places:
         self._drags = GDrag(context)
         counts = np.arange(1, longest_drag(context) + 1)[:, None]
         self._shifts = tuple(
-            np.round(counts * np.array(dragged(context, _START, station, 1)) / LENGTH_M).astype(np.int64)
+            grid_keys(counts * np.array(dragged(context, _START, station, 1)))
             for station in range(len(context.scene.stations))
         )
         self._origins_at: dict[int, dict[_Place, Point2]] = {}
@@ -59,7 +59,7 @@ class Places:
             able.append(self._led_to_by_any(state.done, None))
         elif self._is_taken(state):
             able.append(self._led_to_by_any(state.done, state.station))
-        keys = np.round(attempt.places / LENGTH_M).astype(np.int64)
+        keys = grid_keys(attempt.places)
         return np.flatnonzero(np.isin(_as_one(keys), np.concatenate(able)))
 
     def stands(self, state: State) -> int:
@@ -94,7 +94,7 @@ class Places:
         """
         key = (done, station)
         if key not in self._able:
-            shifts = np.vstack(self._shifts if station is None else self._shifts[station])
+            shifts = np.vstack(self._shifts if station is None else self._shifts[station : station + 1])
             origins = np.array(list(self._origins(done)), dtype=np.int64)
             led_to = (origins[:, None] + shifts[None]).reshape(-1, 2)
             self._able[key] = np.unique(_as_one(np.vstack([led_to, origins[:1]]) if station is None else led_to))

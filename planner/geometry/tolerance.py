@@ -7,6 +7,9 @@ precision at the size of a room. Every comparison of places in Pleat uses these 
 import math
 from typing import Final
 
+import numpy as np
+from numpy.typing import NDArray
+
 GRID_M: Final = 1e-6
 """Precision grid on which polygons live after every cut and reflection (m)."""
 
@@ -53,5 +56,14 @@ def nearest_whole(value: float) -> int:
 
 
 def grid_key(value: float) -> int:
-    """Return the number of `LENGTH_M` steps in a value, for use in hashable keys (m or rad)."""
-    return round(value / LENGTH_M)
+    """Return the number of `LENGTH_M` steps in a value, for use in hashable keys (m or rad).
+
+    Half-way between two, to the tolerance, the larger one: lengths that people draw, halved a few times, lie
+    there, and a rounding error must not decide.
+    """
+    return math.floor(value / LENGTH_M + 0.5 + HALF_WAY)
+
+
+def grid_keys(values: NDArray[np.float64]) -> NDArray[np.int64]:
+    """Return what `grid_key` does for each of some values."""
+    return np.floor(values / LENGTH_M + 0.5 + HALF_WAY).astype(np.int64)

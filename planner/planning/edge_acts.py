@@ -53,10 +53,15 @@ class EdgeActs:
     def acts(self, steps: Sequence[Step]) -> tuple[Act, ...] | None:
         """Return the acts of a path, with hands at edges where they are not late for it; None without any, or a path.
 
-        Where such an act takes longer than is known of its steps, others are tried in its place.
+        Where such an act takes longer than is known of its steps, others are tried in its place. A part that has no
+        transfer ends the look at once: the path will be rejected, and what its other parts could hold is of no use.
         """
         parts = list(transfers_of(steps))
-        held = [self.transfer(part) if is_transfer(part) else None for _, part in parts]
+        held: list[Transfer | None] = []
+        for _, part in parts:
+            held.append(self.transfer(part) if is_transfer(part) else None)
+            if held[-1] is None and is_transfer(part) and self._real(part) is None:
+                return None
         acts = self._acts_of(parts, held) if any(held) else None
         if acts is None:
             return None

@@ -15,7 +15,7 @@ from planner.robots.card_file import CardFile
 from planner.robots.load_robot import robot_card_file
 from planner.robots.varied_card import split_changes
 from planner.task.scene import Scene
-from planner.task.task import DEFAULT_ROBOT, Task, TaskOptions
+from planner.task.task import DEFAULT_ROBOT, Task, TaskOptions, require_options
 
 INSIDE_M = 0.05
 """The distance of the cloth from the table's near edge, for a robot that has no placement of its own (m)."""
@@ -111,8 +111,10 @@ def task_for(garment: Garment, scene: Scene | None = None, **options: Unpack[Tas
         options: those of `Task.of`. A robot whose scene has no station of the default name starts at the first one.
 
     Raises:
-        RequestError: there is no such station or robot, or a limit is out of range.
+        UnknownRobotError: there is no such robot.
+        RequestError: there is no such station or option, an option is of the wrong kind or a limit is out of range.
     """
+    require_options(scene, options)
     robot = options.get("robot", DEFAULT_ROBOT)
     where = scene or default_scene(robot)
     if options.get("placement") is None and options.get("start") is None:

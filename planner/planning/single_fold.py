@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from planner.folds.fold_path import REST_HEIGHT_M
 from planner.geometry.pose import BoolArray, FloatArray, Pose2
-from planner.geometry.tolerance import LENGTH_M, grid_key
+from planner.geometry.tolerance import LENGTH_M, grid_key, grid_keys
 from planner.planning.single_fold_cases import Case, Cases
 from planner.primitives.context import STANDOFF_STEP_M, Context
 from planner.primitives.drag_grips import dragged, longest_drag
@@ -206,7 +206,7 @@ class SingleFold:
         points = context.in_base(station, tools)
         steps = np.floor(points[:, 0] / STANDOFF_STEP_M + LENGTH_M)
         phases = np.column_stack([points[:, 0] - steps * STANDOFF_STEP_M, points[:, 1:]])
-        _, first, group = np.unique(np.round(phases / LENGTH_M), axis=0, return_index=True, return_inverse=True)
+        _, first, group = np.unique(grid_keys(phases), axis=0, return_index=True, return_inverse=True)
         lowest, highest = int(steps.min()), int(steps.max()) + context.standoffs
         found = np.zeros((len(approaches), len(first)), dtype=bool)
         for start in range(lowest, highest, _BITS):

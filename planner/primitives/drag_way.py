@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from planner.folds.fold_path import REST_HEIGHT_M
 from planner.geometry.pose import BoolArray, FloatArray, Point2
-from planner.geometry.tolerance import LENGTH_M, grid_key
+from planner.geometry.tolerance import LENGTH_M, grid_key, grid_keys
 from planner.primitives.context import STANDOFF_STEP_M, Context
 from planner.primitives.drag_grips import along, drag_covers, hangs_ahead, towards_robot
 from planner.primitives.grasping import approaches_from_outside, assignments, hand_keys, nearest_pair_m
@@ -48,7 +48,7 @@ class DragWay:
     @cached_property
     def tracks(self) -> tuple[object, ...]:
         """The key of arms and picks, whatever the approaches."""
-        return (self.arms, np.round(self.picks / LENGTH_M).tobytes())
+        return (self.arms, grid_keys(self.picks).tobytes())
 
     @cached_property
     def taken(self) -> dict[int, Point2]:

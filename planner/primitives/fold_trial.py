@@ -14,7 +14,7 @@ from planner.folds.fold_path import FoldPath
 from planner.geometry.pose import FloatArray, Point2
 from planner.geometry.segment import Segment
 from planner.geometry.table_top import TableTop
-from planner.geometry.tolerance import LENGTH_M
+from planner.geometry.tolerance import LENGTH_M, grid_keys
 from planner.primitives.cloth_memory import Hands
 from planner.primitives.context import STANDOFF_STEP_M, Context
 from planner.primitives.fold_obstacles import Depths
@@ -68,7 +68,7 @@ class FoldTrial:
     @cached_property
     def tracks(self) -> tuple[object, ...]:
         """The key of arms and tool paths, whatever approaches are allowed."""
-        return (self.arms, np.round(self.tools / LENGTH_M).tobytes())
+        return (self.arms, grid_keys(self.tools).tobytes())
 
     @cached_property
     def taken(self) -> dict[int, Point2]:

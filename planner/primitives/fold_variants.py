@@ -125,7 +125,7 @@ def trial_variants(
         count: how many standoffs, from the first, the base may stand at; None: all.
     """
     count = context.standoffs if count is None else count
-    masks, chosen, ranks = _all_strips(context, state, trial, approaches or trial.approaches, count)
+    masks, chosen, ranks = _all_strips(context, state, trial, approaches or trial.approaches, count, end)
     every = max(1, len(ranks) // _COMBINATIONS_MAX)
     masks, chosen, ranks = np.ascontiguousarray(masks[::every]), chosen[::every], ranks[::every]
     steps = np.where(_allowed(count, state, end), travel(masks, count), IMPOSSIBLE)
@@ -149,9 +149,11 @@ def _allowed(count: int, state: State, end: int | None) -> BoolArray:
 
 
 def _all_strips(
-    context: Context, state: State, trial: FoldTrial, approaches: Approaches, count: int
+    context: Context, state: State, trial: FoldTrial, approaches: Approaches, count: int, end: int | None
 ) -> tuple[NDArray[np.uint32], NDArray[np.int64], NDArray[np.int64]]:
     """Return every combination of approaches for which the base has one of some standoffs at every waypoint.
+
+    A hand is asked only about the standoffs at which those before it can be.
 
     Returns:
         Bit masks of standoffs, shape (combinations, waypoints); each hand's approach, shape (combinations, hands); and
@@ -159,10 +161,12 @@ def _all_strips(
     """
     start = state.standoff if state.held else None
     masks, numbers = [], []
+    among = None
     for arm, tools, allowed in zip(trial.arms, trial.tools, approaches, strict=True):
         points = context.in_base(state.station, tools)
-        found = context.reach.standoffs(arm, points, allowed, count, STANDOFF_STEP_M, start=start)
+        found = context.reach.standoffs(arm, points, allowed, count, STANDOFF_STEP_M, start=start, end=end, among=among)
         able = np.flatnonzero(found.all(axis=1))
+        among = np.bitwise_or.reduce(found[able], axis=0)
         masks.append(found[able])
         numbers.append(able)
     choices = np.array([*product(*(range(len(n)) for n in numbers))], dtype=np.int64).reshape(-1, len(numbers))

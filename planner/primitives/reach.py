@@ -155,6 +155,8 @@ class Reach(Counted, Shortfalls, Protocol):
         step_m: float,
         enough: int | None = None,
         start: int | None = None,
+        end: int | None = None,
+        among: NDArray[np.uint32] | None = None,
     ) -> NDArray[np.uint32]:
         """Return, for each approach, the standoffs at which the base may stand while the arm's tool follows a path.
 
@@ -172,6 +174,9 @@ class Reach(Counted, Shortfalls, Protocol):
                 others may be left 0. None: all are wanted.
             start: the standoff at which the base stands when the tool is at the first point already; None: the tool is
                 brought there once the base stands wherever is best.
+            end: the standoff at which the base is to be in the end; None: any.
+            among: bit masks of the standoffs that matter at each point, shape (n,): the base does not stand at others.
+                None: all.
 
         Returns:
             Bit masks, shape (k, n): bit j is set where the base may have backed off by j * step_m. Where the path

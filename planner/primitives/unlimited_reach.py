@@ -41,9 +41,12 @@ class UnlimitedReach:
         step_m: float,
         enough: int | None = None,
         start: int | None = None,
+        end: int | None = None,
+        among: NDArray[np.uint32] | None = None,
     ) -> NDArray[np.uint32]:
-        """Return every standoff, for each approach and point."""
-        return np.full((len(approaches), len(points)), (1 << count) - 1, dtype=np.uint32)
+        """Return every standoff that matters, for each approach and point."""
+        masks = np.full((len(approaches), len(points)), (1 << count) - 1, dtype=np.uint32)
+        return masks if among is None else masks & among
 
     def following(
         self, arms: tuple[int, ...], paths: FloatArray, approaches: tuple[NDArray[np.int64], ...], step_m: float

@@ -127,6 +127,12 @@ def from_cell(bits: int, cell: int) -> int:
 
 
 @njit(cache=True, nogil=True)
+def to_cell(bits: int, cell: int) -> int:
+    """Return the bits of a row's cells for bits of standoffs by its step, the first of which is at a cell."""
+    return (bits << min(cell, ROW_CELLS) if cell >= 0 else bits >> min(-cell, 63)) & ((1 << ROW_CELLS) - 1)
+
+
+@njit(cache=True, nogil=True)
 def recall(bits: NDArray[np.int64], counts: NDArray[np.int64], slot: int, cells: int, comfort: float) -> None:
     """Let this plan know what others have found out about cells of a row, and charge it for that.
 

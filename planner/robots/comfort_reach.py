@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.geometry.pose import Approach, BoolArray, FloatArray, Point3
-from planner.geometry.tolerance import LENGTH_M
+from planner.geometry.tolerance import LENGTH_M, grid_keys
 from planner.robots.asked_arms import AskedArms
 from planner.robots.comfort import QUERIES, ROW_CELLS, ROW_STEP, ROWS, Memory, empty_memory
 from planner.robots.comfort_memories import Memories
@@ -125,6 +125,8 @@ class ComfortReach:
         step_m: float,
         enough: int | None = None,
         start: int | None = None,
+        end: int | None = None,
+        among: NDArray[np.uint32] | None = None,
     ) -> NDArray[np.uint32]:
         """Return bit masks, shape (k, n), of the standoffs from which each point is within the comfort radius.
 
@@ -136,6 +138,8 @@ class ComfortReach:
             step_m: the distance between standoffs (m).
             enough: the number of approaches wanted that can follow the points; None: all.
             start: the standoff at which the hand is at the first point already; None: any.
+            end: the standoff at which the base is to be in the end; None: any.
+            among: bit masks of the standoffs that matter at each point, shape (n,); None: all.
 
         Returns:
             Bit j is set where the base may stand at standoff j * step_m when the hand has followed the points up to
@@ -143,7 +147,7 @@ class ComfortReach:
         """
         if count > _MOST_STANDOFFS:
             raise ValueError(f"{count} standoffs do not fit into a mask of {_MOST_STANDOFFS} bits")
-        started = thread_time()
+        started, full = thread_time(), (1 << count) - 1
         masks = standoff_masks(
             self._asked.numbers,
             self._shoulders[arm],
@@ -155,7 +159,9 @@ class ComfortReach:
             round(step_m / LENGTH_M),
             self._comfort_m,
             len(approaches) if enough is None else enough,
-            (1 << count) - 1 if start is None else 1 << start,
+            full if start is None else 1 << start,
+            np.full(len(points), full) if among is None else among.astype(np.int64),
+            full if end is None else 1 << end,
             self._room,
         )
         self._query_time_s += thread_time() - started
@@ -176,8 +182,8 @@ class ComfortReach:
         places = np.empty(paths.shape, dtype=np.int64)
         for hand, (arm, allowed) in enumerate(zip(arms, approaches, strict=True)):
             labels[hand, : len(allowed)] = self._asked.labels[arm][allowed]
-            steps = np.round(self._asked.arms[arm].mirrored_places(paths[hand]) / LENGTH_M)
-            places[hand] = steps - np.round(self._shoulders[arm] / LENGTH_M)
+            steps = grid_keys(self._asked.arms[arm].mirrored_places(paths[hand]))
+            places[hand] = steps - grid_keys(self._shoulders[arm])
         slots = np.full((*labels.shape, paths.shape[1]), UNSEEN, dtype=np.int64)
         step = round(step_m / LENGTH_M)
         cells = places[:, :, 0] // ROW_STEP + ROW_CELLS // 2

@@ -13,7 +13,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from planner.geometry.pose import BoolArray, FloatArray
-from planner.geometry.tolerance import LENGTH_M
+from planner.geometry.tolerance import LENGTH_M, grid_keys
 from planner.robots.chain import Chain, Scratch, length_of, scratch_for
 from planner.robots.newton import solve
 from planner.robots.place import Place
@@ -127,7 +127,7 @@ def mapped_arms(chains: Sequence[Chain], maps: Sequence[PostureMap]) -> MappedAr
 def rooted(arms: MappedArms, roots: Sequence[FloatArray]) -> MappedArms:
     """Return arms with their roots elsewhere, base frame (m), each of shape (3,)."""
     numbers, places = arms.numbers.copy(), np.array(roots)
-    numbers[:, _REST:_LENGTH] = places - LENGTH_M * np.round(places / LENGTH_M)
+    numbers[:, _REST:_LENGTH] = places - LENGTH_M * grid_keys(places)
     return arms._replace(numbers=numbers)
 
 

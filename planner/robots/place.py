@@ -1,11 +1,12 @@
 """A tool point on the grid, as an arm's shoulder sees it. Compiled."""
 
+import math
 from typing import NamedTuple
 
 from numba import njit
 
 from planner.geometry.pose import FloatArray
-from planner.geometry.tolerance import LENGTH_M
+from planner.geometry.tolerance import HALF_WAY, LENGTH_M
 
 
 class Place(NamedTuple):
@@ -18,8 +19,8 @@ class Place(NamedTuple):
 
 @njit(cache=True, nogil=True)
 def in_steps(value: float) -> int:
-    """Return a coordinate in steps of `LENGTH_M`."""
-    return round(value / LENGTH_M)
+    """Return a coordinate in steps of `LENGTH_M`, as `planner.geometry.tolerance.grid_key` does."""
+    return math.floor(value / LENGTH_M + 0.5 + HALF_WAY)
 
 
 @njit(cache=True, nogil=True)

@@ -10,8 +10,6 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from planner.geometry.tolerance import LENGTH_M
-
 CELL_BITS = 18
 """Bits of a coordinate in grid steps: with steps of `LENGTH_M`, 1.3 m either way."""
 
@@ -29,12 +27,6 @@ class Memory(NamedTuple):
 def empty_memory(bits: int = 18) -> Memory:
     """Return a memory with room for 2 ** bits entries, of which it uses three quarters."""
     return Memory(np.zeros(1 << bits, dtype=np.int64), np.zeros(1, dtype=np.int64))
-
-
-@njit(cache=True, nogil=True)
-def steps(value: float) -> int:
-    """Return a coordinate in steps of `LENGTH_M`."""
-    return round(value / LENGTH_M)
 
 
 @njit(cache=True, nogil=True)

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from planner.geometry.pose import FloatArray
 from planner.geometry.shortfall import Shortfall, never
-from planner.geometry.tolerance import LENGTH_M
+from planner.geometry.tolerance import LENGTH_M, grid_keys
 from planner.robots.approaches import APPROACHES, mirror_images
 from planner.robots.arm import numbers_of
 from planner.robots.arm_gap import least_gaps
@@ -120,7 +120,7 @@ class Pr2Reach(ShortfallReach):
 
     def _from_shoulder(self, sided: SidedArm, points: FloatArray) -> FloatArray:
         """Return points on the grid, as seen from the left arm's shoulder (m)."""
-        on_grid = LENGTH_M * np.round(sided.mirrored_places(points) / LENGTH_M)
+        on_grid = LENGTH_M * grid_keys(sided.mirrored_places(points))
         return np.asarray(on_grid - sided.shoulder(self._torso_m))
 
     def _as_left_arm_sees(self, arm: int, approaches: NDArray[np.int64]) -> NDArray[np.int64]:

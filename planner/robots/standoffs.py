@@ -5,6 +5,8 @@ again. Besides the memory (see `planner.robots.comfort`) two things make it chea
 
 - *Early rejection.* A path is followed in one orientation, so an approach is dropped at the first point that no
   standoff reaches. A path's end and middle are tested first: they are the likeliest to fail.
+- *Only what matters.* Of two hands the second is asked where the first can be. Where the end is told, an approach is
+  dropped if the last point is out of reach from there.
 - *Centre first.* The points on the comfort circle are tested only where the centre is reachable.
 
 Arguments dominate the cost of a call, so an arm comes in few arrays (see `planner.robots.arm_question`).
@@ -22,44 +24,58 @@ from planner.robots.comfort import (
     KNOWN,
     ROW_STEP,
     Memory,
+    cell_of,
     cells_of,
     is_comfortable_at,
     row_slot,
+    to_cell,
 )
 from planner.robots.place import Place, place_of
 from planner.robots.posture_room import Room
 
+ALL = -1
+"""Every standoff, of however many."""
+
 
 @njit(cache=True, nogil=True)
-def _is_out_of_reach(ask: Question, memory: Memory, room: Room, space: Space, place: Place, count: int) -> bool:
-    """Return whether no standoff reaches a place."""
+def _is_out_of_reach(
+    ask: Question, memory: Memory, room: Room, space: Space, place: Place, count: int, among: int
+) -> bool:
+    """Return whether none of some standoffs reaches a place: of all of them where `among` is `ALL`."""
     if not is_in_height(ask, place):
         return True
     slot, standoff = row_slot(ask.label, ask.step, memory.keys, memory.counts, place), 0
     if slot != FORGETFUL and ask.step == ROW_STEP:
         wanted = cells_of(place.x, count)
+        if among != ALL:
+            wanted &= to_cell(among, cell_of(place.x))
         if memory.bits[slot, GOOD] & wanted != 0:
             return False
         if memory.bits[slot, KNOWN] & wanted == wanted:
             return True
-    while standoff < count and not is_comfortable_at(ask, memory, room, space, slot, place, standoff):
+    while standoff < count:
+        is_one = among == ALL or (among >> standoff) & 1 == 1
+        if is_one and is_comfortable_at(ask, memory, room, space, slot, place, standoff):
+            return False
         standoff += 1
-    return standoff == count
+    return True
 
 
 @njit(cache=True, nogil=True)
-def _arrivals(ask: Question, memory: Memory, room: Room, space: Space, place: Place, before: int, count: int) -> int:
-    """Return the standoffs at which the base may be at a place, having come from some at the place before.
+def _arrivals(
+    ask: Question, memory: Memory, room: Room, space: Space, place: Place, before: int, count: int, among: int
+) -> int:
+    """Return those of some standoffs at which the base may be at a place, having come from some at the place before.
 
     These are the standoffs it came from that reach the place too, and those to which it can drive on from there.
     """
     mask, slot = 0, row_slot(ask.label, ask.step, memory.keys, memory.counts, place)
     for standoff in range(count):
         is_next = standoff > 0 and (mask >> (standoff - 1)) & 1 == 1
-        if (before >> standoff) & 1 == 1 or is_next:
+        if (among >> standoff) & 1 == 1 and ((before >> standoff) & 1 == 1 or is_next):
             mask |= (1 if is_comfortable_at(ask, memory, room, space, slot, place, standoff) else 0) << standoff
     for standoff in range(count - 2, -1, -1):
-        is_new = (before >> standoff) & 1 == 0 and (mask >> standoff) & 1 == 0
+        is_new = (among >> standoff) & 1 == 1 and (before >> standoff) & 1 == 0 and (mask >> standoff) & 1 == 0
         if is_new and (mask >> (standoff + 1)) & 1 == 1:
             mask |= (1 if is_comfortable_at(ask, memory, room, space, slot, place, standoff) else 0) << standoff
     return mask
@@ -78,6 +94,8 @@ def standoff_masks(
     comfort: float,
     enough: int,
     before: int,
+    among: NDArray[np.int64],
+    ends: int,
     room: Room,
 ) -> NDArray[np.uint32]:
     """Return for each approach and point a bit mask of the standoffs within the comfort radius.
@@ -94,24 +112,29 @@ def standoff_masks(
         comfort: the comfort radius (m).
         enough: the number of approaches that can follow the path after which the others are left at 0.
         before: bit mask of the standoffs from which the base may come to the first point.
+        among: bit masks of the standoffs that matter at each point, shape (n,).
+        ends: bit mask of the standoffs at one of which the base is to be in the end.
         room: the obstacles to the arm's postures.
     """
     space = space_for(numbers)
     masks = np.zeros((len(labels), len(points)), dtype=np.uint32)
     places = [place_of(point, shoulder) for point in points]
-    alive = 0
+    alive, full = 0, (1 << count) - 1
     for approach in range(len(labels)):
         if alive == enough:
             break
         ask = question(numbers, shoulder, axes, labels[approach], comfort, step)
-        is_dead = False
-        for i in (len(points) - 1, len(points) // 2):
-            is_dead = is_dead or (i > 0 and _is_out_of_reach(ask, memory, room, space, places[i], count))
+        is_dead, last = False, len(points) - 1
+        for i in (last, len(points) // 2):
+            matter = int(among[i]) & (ends if i == last else full)
+            is_dead = is_dead or (i > 0 and _is_out_of_reach(ask, memory, room, space, places[i], count, matter))
         if is_dead:
             continue
         mask = before
         for i in range(len(points)):
-            mask = _arrivals(ask, memory, room, space, places[i], mask, count)
+            mask = _arrivals(ask, memory, room, space, places[i], mask, count, int(among[i]))
+            if i == last and mask & ends == 0:
+                mask = 0
             masks[approach, i] = mask
             if mask == 0:
                 masks[approach, :] = 0
@@ -136,8 +159,8 @@ def anywhere(
 ) -> BoolArray:
     """Return for each approach and point, each on its own, whether some standoff is within the comfort radius.
 
-    The arguments are those of `standoff_masks`, but there may be any number of standoffs. After `enough` approaches
-    that reach every point the others are left false.
+    The arguments are those of `standoff_masks`, but there may be any number of standoffs, which all matter. After
+    `enough` approaches that reach every point the others are left false.
     """
     space = space_for(numbers)
     answers = np.zeros((len(labels), len(points)), dtype=np.bool_)
@@ -149,7 +172,7 @@ def anywhere(
         ask = question(numbers, shoulder, axes, labels[approach], comfort, step)
         is_dead = False
         for i in range(len(points)):
-            answers[approach, i] = not _is_out_of_reach(ask, memory, room, space, places[i], count)
+            answers[approach, i] = not _is_out_of_reach(ask, memory, room, space, places[i], count, ALL)
             is_dead = is_dead or not answers[approach, i]
         alive += 0 if is_dead else 1
     return answers

@@ -67,6 +67,22 @@ class TaskOptions(TypedDict, total=False):
 
 
 _LIMITS = frozenset(Limits.__slots__)
+_KINDS = {"placement": Pose2, "start": WorldState, "robot": str}
+
+
+def require_options(scene: object, options: Mapping[str, object]) -> None:
+    """Check what a task is made from; raise `RequestError` for an unknown option or a value of a wrong kind.
+
+    The values of limits and the station's name are checked where they are used.
+    """
+    if not isinstance(scene, Scene | None):
+        raise RequestError("scene", f"{scene!r:.80} is no Scene")
+    for name, value in options.items():
+        if name not in TaskOptions.__annotations__:
+            raise RequestError(name, f"is no option; there are {', '.join(TaskOptions.__annotations__)}")
+        kind = _KINDS.get(name)
+        if kind is not None and not isinstance(value, kind) and (value is not None or name == "robot"):
+            raise RequestError(name, f"{value!r:.80} is no {'name' if kind is str else kind.__name__}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,8 +124,9 @@ class Task:
                 by default `DEFAULT_ROBOT`; and the fields of `Limits`.
 
         Raises:
-            RequestError: there is no such station, or a limit is out of range.
+            RequestError: there is no such station or option, an option is of the wrong kind or a limit is out of range.
         """
+        require_options(scene, options)
         where, given = scene or Scene(), dict(options)
         limits = Limits(**{name: given.pop(name) for name in list(given) if name in _LIMITS})  # type: ignore[arg-type]
         start = options.get("start") or at_station(

@@ -125,7 +125,8 @@ def _whereto(towards: Sequence[float]) -> str:
 def _arms_cannot_get_there(values: Values) -> str:
     return (
         f"{_dragging(values)}from {_stand(values)} the hands could be where they must, but the arms cannot get them "
-        f"there and along their way without touching the table, the robot or each other{carried(values)}"
+        f"there and along their way within the limits of their joints, without touching the table, the robot or each "
+        f"other{carried(values)}"
     )
 
 

@@ -43,6 +43,11 @@ def test_a_folder_is_no_file(tmp_path: Path):
         load_garment(tmp_path)
 
 
+def test_a_source_that_is_neither_name_nor_path_is_said():
+    with pytest.raises(GarmentFileError, match="3 is neither a garment's name nor a path"):
+        load_garment(3)  # type: ignore[arg-type]
+
+
 @pytest.mark.parametrize("text", ["", "{", '{"name": NaN}', "[1, 2", "\u00e9", '{"a": Infinity}', "[" * 100_000])
 def test_what_is_no_json_is_said(tmp_path: Path, text: str):
     with pytest.raises(GarmentFileError, match="is no JSON"):

@@ -92,6 +92,21 @@ def test_standoffs_are_what_the_naive_loop_finds(arm, comfort_m):
         np.testing.assert_array_equal(masks, again)
 
 
+@pytest.mark.parametrize("arm", [0, 1])
+def test_standoffs_that_matter_are_what_the_naive_loop_finds_among_them(arm):
+    rng, able = np.random.default_rng(21), 0
+    for points in _paths(rng):
+        among = rng.integers(1, 1 << COUNT, len(points), dtype=np.uint32) | (1 << COUNT // 2)
+        for end in range(COUNT):
+            asked = bodiless(0.03)
+            masks = asked.standoffs(arm, points, EVERY_APPROACH, COUNT, STEP_M, end=end, among=among)
+            expected = _naive_masks(arm, points, 0.03, among)
+            expected[(expected[:, -1:] >> end & 1 == 0)[:, 0]] = 0
+            np.testing.assert_array_equal(masks, expected)
+            able += np.count_nonzero(masks[:, 0])
+    assert able > 0
+
+
 @pytest.mark.parametrize("comfort_m", [0.0, 0.03])
 @pytest.mark.parametrize("arm", [0, 1])
 def test_from_anywhere_is_what_the_naive_loop_finds(arm, comfort_m):
@@ -227,11 +242,11 @@ def _paths(rng: np.random.Generator):
         yield np.round(np.stack((x + 0.0 * turn, y + radius * np.cos(turn), heights), axis=1), 5)
 
 
-def _naive_masks(arm: int, points: np.ndarray, comfort_m: float) -> np.ndarray:
-    """Return the masks by one query for each approach, point, standoff and comfort point."""
+def _naive_masks(arm: int, points: np.ndarray, comfort_m: float, among: np.ndarray | int = -1) -> np.ndarray:
+    """Return the masks, of the standoffs that matter, by a query for each approach, point, standoff, comfort point."""
     masks = np.zeros((len(APPROACHES), len(points)), dtype=np.uint32)
     for index, comfortable in enumerate(_naive_comfort(arm, points, comfort_m)):
-        row = [int(r) for r in (comfortable * (1 << np.arange(COUNT))).sum(axis=1)]
+        row = [int(r) for r in (comfortable * (1 << np.arange(COUNT))).sum(axis=1) & among]
         arrived = [row[0]] if row else []
         for mask in row[1:]:
             arrived.append(_connected(arrived[-1], mask))

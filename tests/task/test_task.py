@@ -11,6 +11,7 @@ import pytest
 from planner import Limits, Scene, Task, WorldState, load_garment, make_plan
 from planner.errors import FieldError, RequestError
 from planner.geometry.pose import Pose2
+from planner.planning.robot_task import task_for
 from planner.task.grip import BaseStop
 from planner.task.scene import DEFAULT_STATIONS
 from planner.task.task import VERSION, at_station
@@ -190,3 +191,21 @@ def test_folds_done_that_are_none_or_named_twice_are_refused():
         with pytest.raises(RequestError) as caught:
             Task.of(towel, start=WorldState(done, towel.placement, FRONT))
         assert caught.value.field == f"start.folds_done[{number}]"
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "said"),
+    [
+        ("comfort_radius", 0.1, "there are placement, .*, comfort_radius_m"),
+        ("scene", 3, "3 is no Scene"),
+        ("placement", (0.0, 0.0, 0.0), r"\(0.0, 0.0, 0.0\) is no Pose2"),
+        ("start", 3, "3 is no WorldState"),
+        ("robot", None, "None is no name"),
+    ],
+)
+def test_an_option_that_is_unknown_or_of_the_wrong_kind_is_named(name: str, value: Any, said: str):
+    with pytest.raises(RequestError, match=said) as caught:
+        task_for(load_garment("hand-towel"), **{name: value})
+    assert caught.value.field == name
+    with pytest.raises(RequestError, match=said):
+        Task.of(load_garment("hand-towel"), **{name: value})
