@@ -63,7 +63,7 @@ class FoldedOutline:
 
     def crease(self, offset_m: float, turn_rad: float) -> Segment:
         """Return the crease's line, moved and turned."""
-        line = self._line
+        line = self.line
         middle = np.array(line.at(line.length / 2.0)) + offset_m * np.array(line.left)
         heading = math.atan2(line.direction[1], line.direction[0]) + turn_rad
         half = line.length / 2.0 * np.array([math.cos(heading), math.sin(heading)])
@@ -72,12 +72,12 @@ class FoldedOutline:
 
     def off(self, offset_m: float, turn_rad: float) -> float:
         """Return how far the corners of the part that moved are from where they should be, at most (m)."""
-        planned = Isometry.reflection(self._line).apply(self._moving.hull)
+        planned = Isometry.reflection(self.line).apply(self._moving.hull)
         return float(np.hypot(*(self.astray(offset_m, turn_rad).apply(planned) - planned).T).max())
 
     def astray(self, offset_m: float, turn_rad: float) -> Isometry:
         """Return the isometry from where the part that moved should lie to where it lies, article frame."""
-        return Isometry.reflection(self.crease(offset_m, turn_rad)).after(Isometry.reflection(self._line))
+        return Isometry.reflection(self.crease(offset_m, turn_rad)).after(Isometry.reflection(self.line))
 
     def on_other_sides(self, figure: Figure, row: FloatArray) -> list[FloatArray]:
         """Return placements and creases that may fit as well: of halved cloth either half may be the one that moved.
@@ -98,10 +98,11 @@ class FoldedOutline:
     @cached_property
     def landed(self) -> Region:
         """The region that the part moved by the last fold covers where it should lie."""
-        return self._moving.moved(Isometry.reflection(self._line))
+        return self._moving.moved(Isometry.reflection(self.line))
 
     @property
-    def _line(self) -> Segment:
+    def line(self) -> Segment:
+        """The fold's line, article frame, the part that moved to its left."""
         return self.sequence.folds[self.index].line
 
     @property
@@ -125,7 +126,7 @@ class FoldedOutline:
     @cached_property
     def _movable(self) -> Region:
         """The part that moves, and a strip beyond the line, in which the crease may lie."""
-        line = self._line
+        line = self.line
         (ax, ay), (bx, by) = line.start, line.end
         nx, ny = np.array(line.left) * CREASE_OFF_M
         strip = Region.polygon([(ax + nx, ay + ny), (ax - nx, ay - ny), (bx - nx, by - ny), (bx + nx, by + ny)])

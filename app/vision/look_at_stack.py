@@ -19,7 +19,7 @@ from app.vision.on_table import why_in_doubt
 from app.vision.picture import Image
 from app.vision.seen_stack import SeenStack
 from app.vision.segment import Mask, segment
-from app.vision.stack_fit import StackFit, unknown_json
+from app.vision.stack_fit import TOO_UNCERTAIN, StackFit, unknown_json
 from app.vision.vision_errors import NothingToldError
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.pose import BoolArray, FloatArray, Pose2
@@ -60,6 +60,11 @@ class Sight:
     unknown: Message | None
     expected: FloatArray = field(default_factory=lambda: np.empty((0, 2)))
     stack: SeenStack | None = None
+
+    @property
+    def is_estimate(self) -> bool:
+        """Whether the fit is the best guess: of one that is only uncertain, what was expected is a part."""
+        return self.fit is not None and (self.unknown is None or self.unknown.code == TOO_UNCERTAIN)
 
     def to_dict(self) -> dict[str, Any]:
         """Return it as JSON, outlines to a tenth of a pixel."""

@@ -55,7 +55,8 @@ class SeenStack:
     def beside(self, points: FloatArray) -> FloatArray:
         """Return how far points of the part that moved last are beside where they should lie, shape (n, 2), m.
 
-        Of points, article frame, that are not of that part it is 0.
+        Of points, article frame, that are not of that part it is 0. Points of its line are where the crease is: it is
+        the edge that hands take.
         """
         return self._beside(self.row, points)
 
@@ -122,4 +123,5 @@ class SeenStack:
             return np.zeros_like(points)
         is_moved = self.folded.landed.distances_to(points) <= _MOVED_M
         gone = self.folded.astray(float(row[3]), float(row[4])).apply(points) - points
+        gone[np.abs(self.folded.line.left_distances(points)) <= _MOVED_M] /= 2.0
         return np.where(is_moved[:, None], gone, 0.0)

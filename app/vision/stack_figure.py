@@ -7,7 +7,7 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from app.vision.outline_edges import OutlineEdges
-from app.vision.stack_fit import StackFit
+from app.vision.stack_fit import TOO_UNCERTAIN, StackFit
 from planner.cloth.cloth_state import ClothState
 from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.region import Region
@@ -251,7 +251,7 @@ def why_unknown(
         return Message("looks_alike", text, {"placements": others + 1})
     if error_m > _WORST_ERROR_M:
         text = f"the corners may be {error_m:.3f} m off"
-        return Message("too_uncertain", text, {"error_m": error_m})
+        return Message(TOO_UNCERTAIN, text, {"error_m": error_m})
     return None
 
 

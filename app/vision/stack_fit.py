@@ -9,6 +9,9 @@ from planner.message import Message
 LOOKS_ALIKE = "looks_alike"
 """The code of what is said where several placements fit equally well."""
 
+TOO_UNCERTAIN = "too_uncertain"
+"""The code of what is said where the outline fits, but leaves the placement too uncertain."""
+
 
 @dataclass(frozen=True, slots=True)
 class StackFit:

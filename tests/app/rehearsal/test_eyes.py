@@ -13,10 +13,13 @@ from app.rehearsal.judge import Gate
 from app.rehearsal.perform import Performer
 from app.rehearsal.planned_cloth import planned_positions
 from app.rehearsal.replay_world import Recorded, ReplayWorld
-from app.rehearsal.step_motions import posture_at
+from app.rehearsal.step_motions import posture_at, step_motions
 from app.rehearsal.world import WITHDRAW, Observation, Performed, StepMotion, Truth
-from planner import Plan, Task
+from app.vision.fit_fold import FoldedOutline
+from planner import Plan, Task, make_plan
+from planner.cloth.garment import Garment
 from planner.geometry.isometry import Isometry
+from planner.geometry.segment import Segment
 from planner.geometry.woven_mesh import woven_mesh
 from tests.app.rehearsal.towel import towel_plan
 
@@ -45,9 +48,39 @@ class FlatCloth:
         return self._truth
 
 
+class HalvedCloth(FlatCloth):
+    """A towel folded in half along another crease, moved along x."""
+
+    def __init__(self, crease: Segment, dx_m: float) -> None:
+        super().__init__(0.0, 0.0)
+        plan = halved_plan()
+        pattern, triangles = woven_mesh(plan.garment.pattern, 0.02, 1)
+        flat = pattern.copy()
+        is_over = crease.left_distances(flat) > 0.0
+        flat[is_over] = Isometry.reflection(crease).apply(flat[is_over])
+        lies = plan.task.start.placement.moved(dx_m, 0.0)
+        positions = np.column_stack([lies.to_outer(flat), np.where(is_over, 0.003, 0.001)])
+        self._truth = Truth(pattern, positions, triangles)
+
+
 @cache
-def home() -> Posture:
-    path = towel_plan().trajectory
+def halved_plan() -> Plan:
+    """A plan for a towel that is folded in half already, along y = .22 m, and is to be folded in half again."""
+    folds = [("half", 0.22), ("half again", 0.33)]
+    towel = Garment.from_dict(
+        {
+            "name": "halved",
+            "outline": [[0.0, 0.0], [0.6, 0.0], [0.6, 0.44], [0.0, 0.44]],
+            "folds": [{"name": name, "kind": "blue", "start": [0.6, y], "end": [0.0, y]} for name, y in folds],
+            "placement": {"x_m": -0.75, "y_m": 0.3, "yaw_rad": -math.pi / 2.0},
+        }
+    )
+    start = Task.of(towel).start
+    return make_plan(Task.of(towel, start=replace(start, folds_done=(0,))))
+
+
+def home(plan: Plan | None = None) -> Posture:
+    path = (plan or towel_plan()).trajectory
     assert path is not None
     return posture_at(path, 0.0)
 
@@ -85,6 +118,22 @@ def test_grips_follow_cloth_that_a_camera_sees_two_centimetres_away():
     (picture,) = done.pictures
     assert picture.sight.unknown is None and len(picture.jpeg) < 60_000
     assert not picture.is_clear
+
+
+def test_a_stack_whose_flap_or_base_may_stick_out_is_taken_at_the_edge_that_was_seen():
+    # Its crease lies 14 mm too far up, and all of it 5 mm further up: the outline is 14 mm wider than planned, and the
+    # base may as well lie 33 mm further up with the flap short on it. So the placement is told to be uncertain. The
+    # crease, where hands take the next fold, is at 19 mm either way.
+    folded, short_m = FoldedOutline(halved_plan().sequence, 0, 0), -0.014
+    cloth = HalvedCloth(folded.crease(short_m, 0.0), 0.005)
+    done = Performer(
+        halved_plan(), CameraWorld(cloth, halved_plan().task, home(halved_plan()), 3), Gate(), no_plan
+    ).performed()
+    assert [one.code for one in done.decisions][-2:] == ["not_known", "corrected"]
+    assert done.pictures[-1].sight.unknown is not None
+    (planned,), (asked, *_) = step_motions(halved_plan()), (one for one in cloth.asked if one.kind == "fold")
+    for grip, former in zip(asked.grips, planned.grips, strict=True):
+        assert np.subtract(grip.points[0], former.points[0]) == pytest.approx([0.019, 0.0, 0.0], abs=0.008)
 
 
 def test_arms_in_front_of_the_cloth_are_withdrawn_for_another_look():
