@@ -27,9 +27,8 @@ from app.rehearsal.grasp_points import into_the_cloth, laid_short, where_seen
 from app.rehearsal.judge import Gate, StepVerdict, judged
 from app.rehearsal.result import Decision
 from app.rehearsal.step_motions import posture_at, step_motions
-from app.rehearsal.swing import swung
 from app.rehearsal.trace import ClothAfter, counterpart
-from app.rehearsal.world import WITHDRAW, GripMotion, Performed, StepMotion, World
+from app.rehearsal.world import WITHDRAW, Performed, StepMotion, World
 from app.vision.look_at_stack import Sight
 from app.vision.seen_stack import SeenStack
 from planner.geometry.isometry import Isometry
@@ -86,7 +85,6 @@ class Performer:
     _beside: dict[str, Point2] = field(default_factory=dict)
     _stack: SeenStack | None = None
     _blind: int = 0
-    _hands: tuple[GripMotion, ...] = ()
     _posture: Posture | None = None
     _cloths: list[ClothAfter] = field(default_factory=list)
 
@@ -122,8 +120,8 @@ class Performer:
                     continue
             else:
                 answer = self._held_on(corrected(motion, carried), step, carried)
-            if motion.is_drag and self.replan is not None:
-                carried = swung(self._hands, step, self.plan.sequence, self.plan.scene.table, carried)
+            if motion.is_drag:  # it ends where it should, so the hands that hold on fold where they should
+                carried = Isometry()
             self._judge(motion, step, answer, carried)
             self._posture = motion.ends
             number += 1
@@ -191,13 +189,13 @@ class Performer:
         offsets = where_seen(step, carried, self._stack, spare_m)
         short = landing_short(motion, laid_short(self.plan, step), SHORT_M)
         made = beside(short, offsets, fold)
-        answer = self._perform(made)
+        answer = self.world.perform(made)
         missing = frozenset(arm for arm, has in answer.has_cloth.items() if not has)
         radius_m = self.plan.task.limits.comfort_radius_m
         inwards = into_the_cloth(step, self.plan.sequence, carried)
         for made in regrasps(short, missing, radius_m, inwards, offsets, fold) if missing else ():
             self._decide("regrasped", ("radius_m", radius_m))
-            answer = self._perform(made)
+            answer = self.world.perform(made)
             if not answer.is_missing_cloth:
                 break
         self._beside = still_beside(motion, made)
@@ -209,10 +207,6 @@ class Performer:
         short = landing_short(motion, laid_short(self.plan, step), 0.0 if self.replan is None else SHORT_M)
         made = beside(short, held, reflection_in(step, self.plan.sequence, carried))
         self._beside = still_beside(motion, made)
-        return self._perform(made)
-
-    def _perform(self, made: StepMotion) -> Performed:
-        self._hands = made.grips
         return self.world.perform(made)
 
     def _planned_again(self, step: PlanStep, lies: Pose2, shift_m: float) -> str:
