@@ -35,3 +35,12 @@ def test_corners_of_the_outline_are_points_of_its_mesh():
 def test_rows_lie_elsewhere_with_another_seed_and_the_same_with_the_same():
     assert np.array_equal(corners_of("skirt", 0.03, 1)[0], corners_of("skirt", 0.03, 1)[0])
     assert not np.array_equal(corners_of("skirt", 0.03, 1)[0], corners_of("skirt", 0.03, 2)[0])
+
+
+def test_diagonals_run_both_ways_so_that_cloth_folds_alike_along_either_bias():
+    _, _, corners = corners_of("hand-towel", 0.02)
+    edges = np.roll(corners, -1, axis=1) - corners
+    slants = edges[(np.abs(edges) > 0.009).all(axis=2)].prod(axis=1)
+    rising, falling = int((slants > 0.0).sum()), int((slants < 0.0).sum())
+    assert rising + falling > 1000
+    assert rising == pytest.approx(falling, rel=0.1)
