@@ -102,4 +102,4 @@ def _regular(points: FloatArray, weights: FloatArray) -> NDArray[np.int64]:
     """Return the triangles of weighted points, shapes (n, 2), m, and (n,), m^2; with equal weights Delaunay's."""
     lifted = np.column_stack([points, (points * points).sum(axis=1) - weights])
     hull = ConvexHull(lifted)
-    return hull.simplices[hull.equations[:, 2] < 0.0].astype(np.int64)
+    return np.asarray(hull.simplices[hull.equations[:, 2] < 0.0], dtype=np.int64)
