@@ -27,7 +27,7 @@ STEPS_PER_DRAG = STANDOFFS_PER_M // DRAGS_PER_M
 
 
 class _Drag(NamedTuple):
-    """One drag by given hands, whatever the standoff of the base when it begins.
+    """A drag by given hands, whatever the standoff of the base when it begins.
 
     Attributes:
         before: the state it starts in.

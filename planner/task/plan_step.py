@@ -10,7 +10,7 @@ from planner.task.world_state import WorldState
 
 @dataclass(frozen=True, slots=True)
 class PlanStep:
-    """One primitive of a plan.
+    """A step of a plan: a primitive with its states.
 
     Attributes:
         kind: the primitive's name: "fold", "drag", "arm_drag" or "move".

@@ -1,4 +1,4 @@
-"""What fingers hold, and how it turns over with the cloth."""
+"""How fingers hold cloth, and how it turns over with them."""
 
 import math
 from dataclasses import replace
