@@ -17,6 +17,7 @@ from app.rehearsal.judge import Gate
 from app.rehearsal.noise import NOISE, Noise
 from app.rehearsal.result import RehearsalResult, Run
 from planner.errors import FoldingError, RequestError, UnsolvedPlanError
+from planner.geometry.pose import Pose2
 from planner.task.plan import Plan
 from planner.task.task import Task
 
@@ -129,13 +130,8 @@ def one_run(
     from app.rehearsal.trace import looked_before, traced
     from planner.plans import make_plan
 
-    began, noise, start = process_time(), NOISE[options.noise], plan.task.start
-    rng = np.random.default_rng(seed)
-    x, y, turn, slip = rng.normal(size=4).tolist()
-    placement = start.placement.moved(noise.placement_m * x, noise.placement_m * y)
-    placement = replace(placement, yaw_rad=placement.yaw_rad + noise.placement_rad * turn)
-    friction = plan.scene.friction * max(0.0, 1.0 + noise.friction * slip)
-    fabric = Fabric(density_kg_m2=plan.garment.areal_density_kg_m2, friction=friction)
+    began, noise = process_time(), NOISE[options.noise]
+    placement, fabric = _laid_out(plan, noise, seed)
 
     def begun(film: Tick) -> PhysicsWorld:
         def tick() -> None:
@@ -163,7 +159,7 @@ def one_run(
     world = FilmedWorld(plan, begun, told)
     assert plan.trajectory is not None
     camera = CameraWorld(world, plan.task, posture_at(plan.trajectory, 0.0), seed)
-    seen = camera if noise == Noise() else NoisyWorld(camera, noise, seed, start.base.pose)
+    seen = camera if noise == Noise() else NoisyWorld(camera, noise, seed, plan.task.start.base.pose)
     performer = Performer(plan, seen, options.gate, planned_again if options.feedback else None, told)
     try:
         found = performer.performed()
@@ -175,6 +171,16 @@ def one_run(
         trace = traced(plan, world.truth(), world.frames, found.cloths, looks)
     took_s = process_time() - began
     return Run(seed, found.steps, found.decisions, found.reason, world.elapsed_s, took_s, found.pictures, trace)
+
+
+def _laid_out(plan: Plan, noise: Noise, seed: int) -> tuple[Pose2, Fabric]:
+    """Return where a run finds the cloth, table frame, and its fabric, both with errors drawn by the seed."""
+    lies = plan.task.start.placement
+    x, y, turn, slip = np.random.default_rng(seed).normal(size=4).tolist()
+    placement = lies.moved(noise.placement_m * x, noise.placement_m * y)
+    placement = replace(placement, yaw_rad=lies.yaw_rad + noise.placement_rad * turn)
+    friction = plan.scene.friction * max(0.0, 1.0 + noise.friction * slip)
+    return placement, Fabric(density_kg_m2=plan.garment.areal_density_kg_m2, friction=friction)
 
 
 def _share(progress: Callable[[float], None], before: int, runs: int) -> Callable[[float], None]:
