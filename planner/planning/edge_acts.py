@@ -28,6 +28,7 @@ class EdgeActs:
         real: Callable[[tuple[Step, ...]], Transfer | None],
         known_s: Callable[[Step], float],
         require_time: Callable[[], None],
+        show: Callable[[tuple[Act, ...]], None],
     ) -> None:
         """Keep what finds transfers.
 
@@ -37,9 +38,10 @@ class EdgeActs:
             real: finds a transfer whose hands may hold in any way.
             known_s: returns the least time that a step is known to take (s).
             require_time: called before each transfer is looked for; raises an error where there is no time.
+            show: called with acts that can be performed before quicker ones are looked for.
         """
         self._hands, self._maker = hands, maker
-        self._real, self._known_s, self._require_time = real, known_s, require_time
+        self._real, self._known_s, self._require_time, self._show = real, known_s, require_time, show
         self._made: dict[tuple[object, ...], Transfer | None] = {}
 
     def transfer(self, steps: Sequence[Step]) -> Transfer | None:
@@ -65,6 +67,8 @@ class EdgeActs:
         acts = self._acts_of(parts, held) if any(held) else None
         if acts is None:
             return None
+        if any(map(self._is_late, acts)):
+            self._show(acts)
         for number, (_, part) in enumerate(parts):
             if held[number] is None or not self._is_late(acts[number]):
                 continue

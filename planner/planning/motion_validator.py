@@ -53,6 +53,7 @@ class MotionValidator:
         tries: Tries = QUICK,
         transfers_max: float = math.inf,
         hands: EdgeHands | None = None,
+        show: Callable[[tuple[Act, ...]], None] = lambda _: None,
     ) -> None:
         """Start with nothing known.
 
@@ -62,6 +63,7 @@ class MotionValidator:
             tries: how much is tried.
             transfers_max: the most transfers that the arms are led through.
             hands: finds transfers in which hands hold edges; None where it does not matter how they hold.
+            show: called with acts that can be performed, before it is known whether others are quicker.
         """
         self._maker = maker
         self._is_over = is_over
@@ -69,7 +71,7 @@ class MotionValidator:
         self._last_try = maker.tries + transfers_max
         self._made: dict[tuple[object, ...], Transfer | None] = {}
         self._edges = hands and EdgeActs(
-            hands, maker, weakly(self._real), weakly(self._known_s), weakly(self._require_time)
+            hands, maker, weakly(self._real), weakly(self._known_s), weakly(self._require_time), show
         )
         self._least_s: dict[object, float] = {}
         self._others: dict[object, tuple[Step, ...]] = {}

@@ -93,7 +93,10 @@ class PathSearch:
     def _validator_with(self, tries: Tries, transfers_max: float = math.inf) -> MotionValidator:
         """Return a validator with nothing rejected, and limits on what it tries."""
         is_over = weakly(self._is_out_of_budget)
-        return MotionValidator(self._problem.maker, is_over, tries, transfers_max, self._hands)
+        return MotionValidator(self._problem.maker, is_over, tries, transfers_max, self._hands, weakly(self._show))
+
+    def _show(self, acts: tuple[Act, ...]) -> None:
+        """Show acts that can be performed while quicker ones are looked for; a search by itself shows none."""
 
     def _validated_path(self, start: State) -> tuple[SearchResult[Any, Step], tuple[Act, ...]]:
         """Return the search's result for the quickest validated path, and the acts of that path."""

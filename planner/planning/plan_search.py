@@ -186,16 +186,16 @@ class PlanSearch(PathSearch):
 
     def _begin_next_round(self) -> None:
         super()._begin_next_round()
-        self._show_found()
+        self._show(self._found)
         if self._found and self._budget.spent_s > LESS_ROOM_AFTER_S:
             self._try_with_less_room()
 
-    def _show_found(self) -> None:
-        """Show the plan found so far while the search for a quicker one continues, unless one as quick was shown."""
-        if self._on_found is None or not self._found or duration_s(self._found) > self._shown_s - WORTH_SHOWING_S:
+    def _show(self, acts: tuple[Act, ...]) -> None:
+        """Show acts, if any, while the search for quicker ones continues, unless a plan as quick was shown."""
+        if self._on_found is None or not acts or duration_s(acts) > self._shown_s - WORTH_SHOWING_S:
             return
-        self._shown_s = duration_s(self._found)
-        self._on_found(self._answer(Outcome.SOLVED, self._found, (), is_cut_short=True))
+        self._shown_s = duration_s(acts)
+        self._on_found(self._answer(Outcome.SOLVED, acts, (), is_cut_short=True))
 
     def _look(self) -> None:
         super()._look()

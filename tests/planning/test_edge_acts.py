@@ -2,7 +2,7 @@
 
 import pytest
 
-from planner import load_garment
+from planner import Scene, Task, find_plan, load_garment
 from planner.motion.act import duration_s
 from planner.motion.edge_hands import EdgeHands
 from planner.motion.transfer_planner import TransferPlanner
@@ -50,3 +50,17 @@ def test_hands_that_come_late_to_an_edge_hold_otherwise(monkeypatch: pytest.Monk
     assert found.plan.is_proven
     assert rounds == [pytest.approx(found.plan.cost_s)], "the first path is taken, as quick as it seemed"
     assert not any(act.late_s > 0.0 for act in found.acts)
+
+
+def test_hands_that_come_late_to_edges_are_shown_before_others_are_looked_for(monkeypatch: pytest.MonkeyPatch):
+    events: list[str] = []
+    wide = TransferPlanner.first_valid
+
+    def noted(self, choices, tries):
+        events.append("wide")
+        return wide(self, choices, tries)
+
+    monkeypatch.setattr(TransferPlanner, "first_valid", noted)
+    task = Task.of(load_garment("hand-towel"), Scene(arm_motion_s=1.5))
+    find_plan(task, on_found=lambda found: events.append(f"{found.plan.status}, proven {found.plan.is_proven}"))
+    assert events[0] == "solved, proven False" and "wide" in events
