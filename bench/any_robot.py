@@ -1,7 +1,8 @@
 """The reach of every shipped robot: its map, what an answer takes, and what it misses of what random starts find.
 
-The truth is found by another way, Newton's method from many random postures; it shares the method's kernel, not its
-starts. `tests/robots/test_mapped_arm.py` holds the map against the PR2's closed form, which shares nothing.
+The truth is found by two other ways: Newton's method from many random postures, which shares the method's kernel, not
+its starts; and random joints, whose tool poses are in reach by themselves and of any approach, not the map's alone.
+`tests/robots/test_mapped_arm.py` holds the map against the PR2's closed form, which shares nothing.
 """
 
 from collections.abc import Sequence
@@ -13,14 +14,31 @@ import numpy as np
 
 from bench.report import Report, Row, count
 from planner.geometry.pose import BoolArray, FloatArray
-from planner.robots.chain import Chain
-from planner.robots.described_robot import read_robot, shipped_robots
+from planner.robots.chain import Chain, tool_poses
+from planner.robots.described_robot import DescribedArm, read_robot, shipped_robots
 from planner.robots.mapped_arm import ALL_ROUND, MappedArm, heights
 from planner.robots.newton import solve_from
 from planner.robots.posture_maps import build_map, grid_of
 
-COLUMNS = ("robot", "joints", "build [s]", "map [MB]", "yes [us]", "no [us]", "reachable", "missed", "recall")
+COLUMNS = (
+    "robot",
+    "joints",
+    "build [s]",
+    "map [MB]",
+    "yes [us]",
+    "no [us]",
+    "reachable",
+    "missed",
+    "recall",
+    "of random joints",
+)
 POSES, RESTARTS = 3000, 200
+POSTURES = 100_000
+"""Random joints whose tool poses are asked where they point down over the table."""
+
+STEEP = 0.25
+"""The sine of the least pitch that is asked: 14 degrees."""
+
 SEED = 5
 
 
@@ -37,6 +55,7 @@ class Measured:
     reachable: int
     missed: int
     recall: float
+    random_recall: float
 
 
 def any_robot(articles: Sequence[str], repetitions: int) -> Report:
@@ -65,7 +84,23 @@ def _measured(name: str, repetitions: int) -> Measured:
     yes_us, no_us = (_time_us(arm, points[asked], rotations[asked], repetitions) for asked in (found, ~found))
     missed = int(true.sum() - found.sum())
     recall = float(found.sum() / true.sum())
-    return Measured(name, len(chain.low), build_s, arm.size_mb, yes_us, no_us, int(true.sum()), missed, recall)
+    of_random = _random_recall(arm, described, heights(robot, described), rng)
+    counts = (int(true.sum()), missed, recall, of_random)
+    return Measured(name, len(chain.low), build_s, arm.size_mb, yes_us, no_us, *counts)
+
+
+def _random_recall(
+    arm: MappedArm, described: DescribedArm, heights_m: tuple[float, float], rng: np.random.Generator
+) -> float:
+    """Return the share found of the tool poses that random joints have within some heights, seen from the root (m)."""
+    chain = described.chain
+    low, high = np.maximum(chain.low, -np.pi), np.minimum(chain.high, np.pi)
+    points, rotations = tool_poses(chain, rng.uniform(low, high, (POSTURES, len(low))))
+    ahead = rotations[:, :, 0]
+    is_asked = (points[:, 2] > heights_m[0]) & (points[:, 2] < heights_m[1]) & (ahead[:, 2] < -STEEP)
+    if arm.asks_pitch_only:  # a pitch past straight down is none that is asked
+        is_asked &= (ahead[:, :2] * points[:, :2]).sum(axis=1) > 0.0
+    return float(arm.can_reach(points[is_asked] + described.root, rotations[is_asked]).mean())
 
 
 def _by_restarts(
@@ -102,5 +137,6 @@ def _row(one: Measured) -> Row:
         count(one.reachable),
         count(one.missed),
         f"{one.recall:.4f}",
+        f"{one.random_recall:.4f}",
     )
     return Row((line,), asdict(one))

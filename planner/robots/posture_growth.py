@@ -1,6 +1,8 @@
 """Grow a map of postures: a posture found in one cell is the start in the cells beside it. Compiled.
 
-Cells whose middle is out of reach, but that lie beside one whose is not, take over postures of their neighbours.
+Cells whose middle is out of reach, but that lie beside one whose is not, take over postures of their neighbours, and so
+do cells with few of their own. Where reach is a thin shell there are cells beside none whose middle is in reach: these
+take over from such fringe cells what leads to some corner, edge or face of theirs.
 """
 
 import math
@@ -12,6 +14,7 @@ from numpy.typing import NDArray
 
 from planner.geometry.pose import FloatArray
 from planner.robots.chain import PITCH, Chain, Scratch, forward, scratch_for
+from planner.robots.hand_roll import gives_roll
 from planner.robots.newton import solve
 from planner.robots.posture_map import CODES, Grid, approach_of, cell_of, decode
 
@@ -19,7 +22,16 @@ APART = 0.5
 """Postures of one cell differ by at least this in some joint (rad, m)."""
 
 FRINGE = 8
-"""Postures that a cell out of reach takes over from its neighbours."""
+"""Postures that a cell has at most once it has taken over those of its neighbours."""
+
+FEW = 4
+"""Own postures from which on a cell takes over none."""
+
+OUTER = 2
+"""Postures that a cell beside fringe cells alone takes over: each makes all answers of no slower."""
+
+_PROBES = 27
+"""Corners, edges, faces and middle of a cell."""
 
 
 class Growth(NamedTuple):
@@ -48,13 +60,14 @@ def _encode(grid: Grid, turns: NDArray[np.bool_], joints: FloatArray, codes: NDA
 
 
 @njit(cache=True, nogil=True)
-def _is_known(grid: Grid, growth: Growth, turns: NDArray[np.bool_], entry: int, codes: NDArray[np.int8]) -> bool:
-    """Return whether an entry has a posture near to a given one."""
+def _is_known(chain: Chain, grid: Grid, growth: Growth, entry: int, codes: NDArray[np.int8]) -> bool:
+    """Return whether an entry has a posture near to a given one; a last joint that gives the roll does not count."""
+    count = len(codes) - 1 if gives_roll(chain) else len(codes)
     for family in range(growth.known[entry]):
         is_near = True
-        for i in range(len(codes)):
+        for i in range(count):
             off = abs(float(growth.postures[entry, family, i]) - float(codes[i])) / CODES * grid.half[i]
-            if turns[i]:
+            if chain.turns[i]:
                 off = min(off, math.tau - off)
             if off > APART:
                 is_near = False
@@ -77,7 +90,7 @@ def _try(
 ) -> None:
     """Add the posture that a cell's middle has near to a given one, if it is new there."""
     entry, families = cell * len(grid.rotations) + approach, growth.postures.shape[1]
-    if growth.known[entry] >= families or _is_known(grid, growth, chain.turns, entry, codes):
+    if growth.known[entry] >= families or _is_known(chain, grid, growth, entry, codes):
         return
     ny, nz = grid.counts[1], grid.counts[2]
     middle = np.empty(3)
@@ -90,7 +103,7 @@ def _try(
     family = growth.known[entry]
     found = growth.postures[entry, family]
     _encode(grid, chain.turns, joints, found)
-    if not _is_known(grid, growth, chain.turns, entry, found):
+    if not _is_known(chain, grid, growth, entry, found):
         growth.known[entry] += 1
         growth.queue[growth.ends[1]] = entry * families + family
         growth.ends[1] += 1
@@ -147,26 +160,12 @@ def grow(chain: Chain, grid: Grid, growth: Growth, most: int) -> bool:
 @njit(cache=True, nogil=True)
 def finished(chain: Chain, grid: Grid, growth: Growth) -> tuple[NDArray[np.int32], NDArray[np.int8]]:
     """Return the starts and postures of a grown map, those of the fringe included; see `PostureMap`."""
-    approaches, nx, ny, nz = len(grid.rotations), grid.counts[0], grid.counts[1], grid.counts[2]
     entries = len(growth.known)
-    within = growth.known.copy()
-    for entry in range(entries):
-        if within[entry] > 0:
-            continue
-        cell, approach = divmod(entry, approaches)
-        x, y, z = cell // (ny * nz), cell // nz % ny, cell % nz
-        for reach in range(1, 4):
-            for dx in range(-1, 2):
-                for dy in range(-1, 2):
-                    for dz in range(-1, 2):
-                        if abs(dx) + abs(dy) + abs(dz) != reach or growth.known[entry] >= FRINGE:
-                            continue
-                        if 0 <= x + dx < nx and 0 <= y + dy < ny and 0 <= z + dz < nz:
-                            other = (((x + dx) * ny + y + dy) * nz + z + dz) * approaches + approach
-                            _take_over(chain, grid, growth, within, entry, other)
-        for beside in grid.beside[approach]:
-            if growth.known[entry] == 0:
-                _take_over(chain, grid, growth, within, entry, cell * approaches + beside)
+    _give_neighbours(chain, grid, growth, FEW, FRINGE)
+    of_fringe = growth.known == 0
+    _give_neighbours(chain, grid, growth, 1, OUTER)
+    for entry in np.flatnonzero(of_fringe & (growth.known > 0)):
+        _drop_useless(chain, grid, growth, entry)
     starts = np.zeros(entries + 1, dtype=np.int32)
     for entry in range(entries):
         starts[entry + 1] = starts[entry] + growth.known[entry]
@@ -178,11 +177,56 @@ def finished(chain: Chain, grid: Grid, growth: Growth) -> tuple[NDArray[np.int32
 
 
 @njit(cache=True, nogil=True)
-def _take_over(chain: Chain, grid: Grid, growth: Growth, within: NDArray[np.int8], entry: int, other: int) -> None:
-    """Give an entry the postures of another that are new to it."""
+def _give_neighbours(chain: Chain, grid: Grid, growth: Growth, few: int, most: int) -> None:
+    """Let entries of fewer than `few` postures take over those of their neighbours, until they have `most`."""
+    approaches, nx, ny, nz = len(grid.rotations), grid.counts[0], grid.counts[1], grid.counts[2]
+    within = growth.known.copy()
+    for entry in range(len(within)):
+        if within[entry] >= few:
+            continue
+        cell, approach = divmod(entry, approaches)
+        x, y, z = cell // (ny * nz), cell // nz % ny, cell % nz
+        for reach in range(1, 4):
+            for dx in range(-1, 2):
+                for dy in range(-1, 2):
+                    for dz in range(-1, 2):
+                        if abs(dx) + abs(dy) + abs(dz) != reach or growth.known[entry] >= most:
+                            continue
+                        if 0 <= x + dx < nx and 0 <= y + dy < ny and 0 <= z + dz < nz:
+                            other = (((x + dx) * ny + y + dy) * nz + z + dz) * approaches + approach
+                            _take_over(chain, grid, growth, within, entry, other, most)
+        for beside in grid.beside[approach]:
+            if growth.known[entry] == 0:
+                _take_over(chain, grid, growth, within, entry, cell * approaches + beside, most)
+
+
+@njit(cache=True, nogil=True)
+def _drop_useless(chain: Chain, grid: Grid, growth: Growth, entry: int) -> None:
+    """Drop the postures of an entry that lead to none of the probes in its cell."""
+    joints, scratch, kept = np.empty(len(chain.low)), scratch_for(len(chain.low)), 0
+    (cell, approach), (ny, nz), point = divmod(entry, len(grid.rotations)), grid.counts[1:], np.empty(3)
+    x, y, z = cell // (ny * nz), cell // nz % ny, cell % nz
+    for number in range(growth.known[entry]):
+        for probe in range(_PROBES):
+            point[0] = grid.low[0] + (x + 0.5 * (probe // 9)) * grid.cell
+            point[1] = grid.low[1] + (y + 0.5 * (probe // 3 % 3)) * grid.cell
+            point[2] = grid.low[2] + (z + 0.5 * (probe % 3)) * grid.cell
+            decode(grid, growth.postures[entry, number], joints)
+            if solve(chain, point, grid.rotations[approach], chain.rows, joints, scratch):
+                growth.postures[entry, kept] = growth.postures[entry, number]
+                kept += 1
+                break
+    growth.known[entry] = kept
+
+
+@njit(cache=True, nogil=True)
+def _take_over(
+    chain: Chain, grid: Grid, growth: Growth, within: NDArray[np.int8], entry: int, other: int, most: int
+) -> None:
+    """Give an entry the postures of another that are new to it, until it has `most`."""
     for family in range(within[other]):
         codes = growth.postures[other, family]
         known = growth.known[entry]
-        if known < FRINGE and not _is_known(grid, growth, chain.turns, entry, codes):
+        if known < most and not _is_known(chain, grid, growth, entry, codes):
             growth.postures[entry, known] = codes
             growth.known[entry] += 1

@@ -13,7 +13,7 @@ from platformdirs import user_cache_path
 
 from planner.geometry.pose import Approach
 from planner.robots.chain import Chain
-from planner.robots.posture_growth import APART, FRINGE, Growth, finished, grow, sow
+from planner.robots.posture_growth import APART, FEW, FRINGE, OUTER, Growth, finished, grow, sow
 from planner.robots.posture_map import Grid, PostureMap
 
 CELL_M = 0.075
@@ -37,7 +37,7 @@ At least `FRINGE`: the cells out of reach take over that many.
 _SLICE = 50_000
 """Postures between two reports of progress."""
 
-_FORMAT = 1
+_FORMAT = 3
 """Version of the cache; raise it whenever maps are made or stored differently."""
 
 Progress = Callable[[float], None]
@@ -115,7 +115,7 @@ def grid_of(chain: Chain, approaches: Sequence[Approach], heights_m: tuple[float
 
 def _digest(chain: Chain, grid: Grid) -> str:
     """Return a digest of all that a map depends on: the arm as its card and URDF make it, the cells, the approaches."""
-    digest = blake2b(f"{_FORMAT} {SEEDS} {_FAMILIES} {FRINGE} {APART}".encode(), digest_size=12)
+    digest = blake2b(f"{_FORMAT} {SEEDS} {_FAMILIES} {FRINGE} {FEW} {OUTER} {APART}".encode(), digest_size=12)
     for part in (*chain, *grid):
         digest.update(np.ascontiguousarray(part).tobytes())
     return digest.hexdigest()

@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 
+from planner.robots.chain import tool_poses
 from planner.robots.described_robot import read_robot
 from planner.robots.load_robot import load_robot
-from planner.robots.mapped_arm import ALL_ROUND, MappedArm
+from planner.robots.mapped_arm import ALL_ROUND, MappedArm, heights, mapped_arm
 from planner.robots.posture_maps import posture_map
 from tests.robots.model import pin_pose
 
@@ -74,6 +75,21 @@ def test_a_map_is_built_once_and_then_read(tmp_path, poses):
     read = mapped(tmp_path, told.append)
     assert not told
     np.testing.assert_array_equal(built.can_reach(*poses, TORSO_M), read.can_reach(*poses, TORSO_M))
+
+
+def test_a_short_arm_reaches_what_random_joints_reach():
+    # Its reach at a steep pitch is a thin shell, narrower than a cell of the map.
+    robot = read_robot("so101-pair")
+    arm, chain = mapped_arm(robot, 0), robot.arms[0].chain
+    joints = np.random.default_rng(3).uniform(chain.low, chain.high, (100_000, len(chain.low)))
+    points, rotations = tool_poses(chain, joints)
+    low_m, high_m = heights(robot, robot.arms[0])
+    ahead = rotations[:, :, 0]
+    is_asked = (points[:, 2] > low_m) & (points[:, 2] < high_m) & (ahead[:, 2] < -0.25)
+    is_asked &= (ahead[:, :2] * points[:, :2]).sum(axis=1) > 0.0
+    found = arm.can_reach(points[is_asked] + robot.arms[0].root, rotations[is_asked])
+    assert len(found) > 20_000
+    assert found.mean() >= 0.998
 
 
 @pytest.mark.long
