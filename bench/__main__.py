@@ -25,6 +25,7 @@ from bench.reach import reach
 from bench.rehearsal import LETTER, rehearsal
 from bench.report import Report
 from bench.robot_plans import robot_plans
+from bench.round_a_box import round_a_box
 from bench.sights import sights
 from bench.studies import studies
 from bench.two_at_once import two_at_once
@@ -44,6 +45,7 @@ BENCHMARKS: Final[Mapping[str, Benchmark]] = {
     "re-plan": re_plan,
     "reach": reach,
     "any-robot": any_robot,
+    "round-a-box": round_a_box,
     "robot-plans": robot_plans,
     "growth": growth,
     "frames": frames,
@@ -57,7 +59,19 @@ BENCHMARKS: Final[Mapping[str, Benchmark]] = {
     "rehearsal": rehearsal,
 }
 APART: Final = frozenset(
-    {"reach", "any-robot", "growth", "hand", "crowd", "load", "two-at-once", "studies", "vision", "sights"}
+    {
+        "reach",
+        "any-robot",
+        "round-a-box",
+        "growth",
+        "hand",
+        "crowd",
+        "load",
+        "two-at-once",
+        "studies",
+        "vision",
+        "sights",
+    }
 )
 """Tables left out if garments are named and these are not: they have no garment, or need a browser or a server."""
 

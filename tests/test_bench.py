@@ -39,6 +39,7 @@ from bench.rehearsal import ARTICLES as REHEARSED
 from bench.rehearsal import Rehearsed, row_of
 from bench.report import Report, Row
 from bench.robot_plans import LONGEST_M, robot_plans, shrunk
+from bench.round_a_box import BOX_M, motions_of, round_a_box
 from bench.served import served
 from bench.studies import Run as StudyRun
 from bench.studies import study_row
@@ -46,10 +47,13 @@ from bench.two_at_once import two_at_once
 from bench.whole_plans import whole_plans
 from bench.yes_and_no import yes_and_no
 from planner import fold_dag, load_garment, make_plan
+from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Pose2
+from planner.planning.robot_task import default_scene
 from planner.robots.approaches import APPROACHES
 from planner.robots.arm import read_arm
 from planner.robots.description import read_model
+from planner.robots.load_robot import load_robot
 
 MEASURED = {
     "garment",
@@ -324,7 +328,7 @@ def test_naming_a_garment_leaves_out_what_is_of_no_garment(monkeypatch: pytest.M
     main(["--quick", "--only", "vest"], tmp_path, tmp_path)
     assert {path.stem for path in tmp_path.iterdir()} == set(asked)
     assert {"table-1", "re-plan", "first-plan"} <= set(asked)
-    assert not set(asked) & {"reach", "any-robot", "growth", "rehearsal"}
+    assert not set(asked) & {"reach", "any-robot", "round-a-box", "growth", "rehearsal"}
     assert all(articles == ["vest"] for articles in asked.values())
 
 
@@ -354,6 +358,31 @@ def test_a_rehearsal_tells_its_steps_the_first_lost_and_how_often_it_held():
     assert line == ("vest", "real", "on", "2 of 3", "1", "0.890", "12.0", "0 of 2", "0% to 84%", "0.50", "20.00")
 
 
+def test_motions_round_a_box_begin_on_its_left_and_end_on_its_right_and_touch_nothing():
+    motions = motions_of("pr2", 1)
+    robot, torso_m = load_robot("pr2"), default_scene("pr2").torso_m
+    for side, ends in ((1.0, motions.pairs[:, 0]), (-1.0, motions.pairs[:, 1])):
+        assert motions.are_free(ends).all()
+        for x, y, _ in robot.tool_places(0, ends[:, motions.span], torso_m).tolist():
+            _, across_m = Isometry.rotation(motions.base.yaw_rad, motions.base.x_m, motions.base.y_m).apply_point(
+                (x, y)
+            )
+            assert side * across_m > 0.5 * BOX_M[1]
+
+
+def test_paths_round_a_box_are_counted_where_they_are_free(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):
+    monkeypatch.setattr("bench.round_a_box.ROBOTS", ("pr2",))
+    monkeypatch.setattr("bench.round_a_box.FEW_MOTIONS", 3)
+    monkeypatch.setattr("bench.round_a_box.find_spec", lambda _: None)
+    (row,) = written(round_a_box([], 1), tmp_path)["rows"]
+    (ours,) = row["planners"]
+    assert ours["planner"] == "Pleat" and len(ours["times_ms"]) == 3
+    assert len(ours["ways_rad"]) == ours["found"] >= 1
+    monkeypatch.setattr("bench.round_a_box._is_free", lambda *_: False)
+    (row,) = written(round_a_box([], 1), tmp_path)["rows"]
+    assert row["planners"][0]["found"] == 0 and row["time_ratios"] == {}
+
+
 @pytest.mark.long
 def test_every_shipped_robot_has_a_row_of_reach(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):
     thin = {"POSES": 300, "RESTARTS": 3, "shipped_robots": lambda: ("so101-pair",), "heights": lambda *_: (0.0, 0.03)}
@@ -363,6 +392,7 @@ def test_every_shipped_robot_has_a_row_of_reach(monkeypatch: pytest.MonkeyPatch,
     assert row["robot"] == "so101-pair"
     assert row["reachable"] > row["missed"] >= 0
     assert row["map_mb"] > 0.0
+    assert 0.9 < row["random_recall"] <= 1.0
 
 
 def test_every_other_robot_has_a_row_for_each_article(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):
