@@ -91,10 +91,10 @@ class Motions:
         """The first arm's part of a configuration."""
         return self.transits.layout.spans[0]
 
-    def are_free(self, joints: FloatArray) -> BoolArray:
-        """Return which configurations of all arms, shape (n, joints), touch nothing."""
+    def are_all_free(self, joints: FloatArray) -> bool:
+        """Return whether nothing touches in any configuration of all arms, shape (n, joints)."""
         are_clear = self.box.arm_clear(0, self.base, joints[:, self.span])
-        return self.collisions.wide.free(self.base, joints) & are_clear
+        return bool(are_clear.all()) and self.collisions.wide.are_all_free(self.base, joints)
 
 
 @dataclass(frozen=True, slots=True)
@@ -177,7 +177,7 @@ def _alone(motions: Motions, joints: FloatArray) -> BoolArray:
     """Return at which joints of the first arm, shape (n, joints), nothing touches while the others are at home."""
     every = np.tile(motions.transits.home, (len(joints), 1))
     every[:, motions.span] = joints
-    return motions.are_free(every)
+    return np.array([motions.are_all_free(row[None]) for row in every], dtype=np.bool_)
 
 
 def _in_base(base: Pose2, place: tuple[float, float, float]) -> FloatArray:
@@ -190,7 +190,7 @@ def _is_free(motions: Motions, way: FloatArray) -> bool:
     """Return whether nothing touches all along a path, tested as finely as Pleat tests its own."""
     counts = [max(1, int(np.ceil(np.abs(end - start).max() / STEP_RAD))) for start, end in pairwise(way)]
     lines = [np.linspace(start, end, count + 1) for (start, end), count in zip(pairwise(way), counts, strict=True)]
-    return bool(motions.are_free(np.vstack(lines)).all())
+    return motions.are_all_free(np.vstack(lines))
 
 
 def _pleat(motions: Motions) -> Planner:
@@ -213,7 +213,7 @@ def _ompl(motions: Motions) -> Planner:
 
     def is_free(state: Any) -> bool:  # noqa: ANN401
         every[motions.span] = [state[joint] for joint in range(count)]
-        return bool(motions.are_free(every[None])[0])
+        return motions.are_all_free(every[None])
 
     def planned(start: FloatArray, goal: FloatArray) -> FloatArray | None:
         setup = geometric.SimpleSetup(space)

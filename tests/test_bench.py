@@ -362,7 +362,7 @@ def test_motions_round_a_box_begin_on_its_left_and_end_on_its_right_and_touch_no
     motions = motions_of("pr2", 1)
     robot, torso_m = load_robot("pr2"), default_scene("pr2").torso_m
     for side, ends in ((1.0, motions.pairs[:, 0]), (-1.0, motions.pairs[:, 1])):
-        assert motions.are_free(ends).all()
+        assert motions.are_all_free(ends)
         for x, y, _ in robot.tool_places(0, ends[:, motions.span], torso_m).tolist():
             _, across_m = Isometry.rotation(motions.base.yaw_rad, motions.base.x_m, motions.base.y_m).apply_point(
                 (x, y)

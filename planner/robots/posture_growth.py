@@ -164,8 +164,9 @@ def finished(chain: Chain, grid: Grid, growth: Growth) -> tuple[NDArray[np.int32
     _give_neighbours(chain, grid, growth, FEW, FRINGE)
     of_fringe = growth.known == 0
     _give_neighbours(chain, grid, growth, 1, OUTER)
-    for entry in np.flatnonzero(of_fringe & (growth.known > 0)):
-        _drop_useless(chain, grid, growth, entry)
+    for entry in range(entries):
+        if of_fringe[entry] and growth.known[entry] > 0:
+            _drop_useless(chain, grid, growth, entry)
     starts = np.zeros(entries + 1, dtype=np.int32)
     for entry in range(entries):
         starts[entry + 1] = starts[entry] + growth.known[entry]
@@ -194,7 +195,8 @@ def _give_neighbours(chain: Chain, grid: Grid, growth: Growth, few: int, most: i
                             continue
                         if 0 <= x + dx < nx and 0 <= y + dy < ny and 0 <= z + dz < nz:
                             other = (((x + dx) * ny + y + dy) * nz + z + dz) * approaches + approach
-                            _take_over(chain, grid, growth, within, entry, other, most)
+                            if within[other] > 0:  # a call that does nothing takes as long as all before it
+                                _take_over(chain, grid, growth, within, entry, other, most)
         for beside in grid.beside[approach]:
             if growth.known[entry] == 0:
                 _take_over(chain, grid, growth, within, entry, cell * approaches + beside, most)
