@@ -54,6 +54,7 @@ class HandWay:
             return self.held
         done = float(np.interp(t_s, self.grip.times_s, self._done))
         turned = self.held.turned(self._ahead, self.grip.turned_at(t_s), done * self._turn_rad)
+        turned = replace(turned, hangs=self._ends_hanging)
         return turned.raised(self.rise_m * max(0.0, 2.0 * done - 1.0))  # from the apex on
 
     def at(self, t_s: float) -> dict[int, FloatArray]:
@@ -71,10 +72,16 @@ class HandWay:
 
     @cached_property
     def _turn_rad(self) -> float:
-        """The angle by which the cloth beside the fingers turns over: half a turn, more where it hangs."""
-        ends = np.array([self.grip.points[0], self.grip.points[-1]])
-        hanging = sum(not self.top.covers(end[None]) for end in ends)
+        """The angle by which the cloth beside the fingers turns over: half a turn, more where it hangs.
+
+        At the start it hangs where it hung when the fingers closed, wherever they have dragged it since.
+        """
+        hanging = int(self.held.hangs) + int(self._ends_hanging)
         return math.pi * (1.0 + 0.5 * hanging)
+
+    @cached_property
+    def _ends_hanging(self) -> bool:
+        return not self.top.covers(np.array(self.grip.points[-1])[None])
 
 
 def ahead(grip: GripMotion) -> FloatArray | None:

@@ -8,7 +8,7 @@ is between its fingers too.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -23,24 +23,29 @@ class HeldCloth:
         vertices: their numbers.
         between: from the fingers' tip to the points of the cloth that are between them, shape (n, 3), m.
         beside: from these points to the vertices, shape (n, 3), m.
+        hangs: whether it hung beside the table when the fingers closed, or where it was turned over last.
     """
 
     vertices: tuple[int, ...]
     between: FloatArray
     beside: FloatArray
+    hangs: bool = False
 
     @staticmethod
-    def of(pinched: Mapping[int, FloatArray], positions: FloatArray, tip: FloatArray) -> "HeldCloth":
+    def of(
+        pinched: Mapping[int, FloatArray], positions: FloatArray, tip: FloatArray, *, hangs: bool = False
+    ) -> "HeldCloth":
         """Return the cloth between fingers that have just closed.
 
         Args:
             pinched: the point of the cloth between the fingers for each vertex, shape (3,), m.
             positions: all vertices, table frame, shape (n, 3), m.
             tip: where the fingers have closed, shape (3,), m.
+            hangs: whether the cloth hangs there.
         """
         vertices = tuple(sorted(pinched))
         points = np.array([pinched[vertex] for vertex in vertices])
-        return HeldCloth(vertices, points - tip, positions[list(vertices)] - points)
+        return HeldCloth(vertices, points - tip, positions[list(vertices)] - points, hangs)
 
     def pressed(self, thickness_m: float, share: float = 1.0) -> "HeldCloth":
         """Return the cloth when the fingers have pressed its layers on one another, or done a share of that.
@@ -56,7 +61,7 @@ class HeldCloth:
         open_m = max(float(np.ptp(heights)), thickness_m)
         scale = np.array([1.0, 1.0, 1.0 - share * (1.0 - min(1.0, (layers - 1) * thickness_m / open_m))])
         lift = np.array([0.0, 0.0, float(heights.min()) * (1.0 - scale[2])])
-        return HeldCloth(self.vertices, self.between * scale + lift, self.beside * scale)
+        return replace(self, between=self.between * scale + lift, beside=self.beside * scale)
 
     def turned(self, way: FloatArray, hand_rad: float, cloth_rad: float) -> "HeldCloth":
         """Return the cloth when the hand, and the cloth that hangs from it, have turned over on their way.
@@ -66,11 +71,12 @@ class HeldCloth:
             hand_rad: how far the hand has rolled that way (rad).
             cloth_rad: how far the cloth has turned over (rad): half a turn in a fold.
         """
-        return HeldCloth(self.vertices, _turned(self.between, way, hand_rad), _turned(self.beside, way, cloth_rad))
+        between, beside = _turned(self.between, way, hand_rad), _turned(self.beside, way, cloth_rad)
+        return replace(self, between=between, beside=beside)
 
     def raised(self, height_m: float) -> "HeldCloth":
         """Return the cloth held higher by a height (m)."""
-        return HeldCloth(self.vertices, self.between + np.array([0.0, 0.0, height_m]), self.beside)
+        return replace(self, between=self.between + np.array([0.0, 0.0, height_m]))
 
     def at(self, tip: FloatArray) -> dict[int, FloatArray]:
         """Return each vertex's place for a place of the fingers' tip, shape (3,), m."""

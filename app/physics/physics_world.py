@@ -110,7 +110,8 @@ class PhysicsWorld:
         found = found if way is None else clamped(found, now, triangles, tip, way)
         taken = {vertex: point for vertex, point in found.items() if vertex not in self.simulation.held}
         if taken:
-            self._grips[grip.arm] = held = HeldCloth.of(taken, now, tip)
+            hangs = not self._top.covers(tool[None])
+            self._grips[grip.arm] = held = HeldCloth.of(taken, now, tip, hangs=hangs)
             self.simulation.hold(held.at(tip))
         return bool(taken)
 

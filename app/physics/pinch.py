@@ -4,6 +4,8 @@ from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 
 from planner.folds.fold_path import REST_HEIGHT_M
 from planner.geometry.pose import FloatArray
@@ -32,7 +34,7 @@ def pinched(
 
     The nearest vertex of every triangle that the pad touches is held; where it touches none, the triangles nearest to
     it within a finger's length. Beside the table, where tools keep clear of the edge, the fingers reach that far more.
-    The fingers are where the triangle comes nearest to them; its vertex may be most of a triangle's edge away.
+    The fingers are where its sheet of cloth comes nearest to them; its vertex may be most of a triangle's edge away.
 
     Args:
         positions: the vertices, table frame, shape (n, 3), m.
@@ -63,10 +65,27 @@ def pinched(
     taken = np.flatnonzero(gaps <= reach)
     apart = np.linalg.norm(corners[taken][..., :flat] - tip[:flat], axis=-1)
     vertices = triangles[near[taken], np.argmin(apart, axis=1)].tolist()
-    order = np.argsort(
-        -gaps[taken], kind="stable"
-    ).tolist()  # of a vertex's triangles the nearest comes last, and stays
-    return {vertices[i]: points[taken[i]] for i in order}
+    nearest = _nearest_of_each_sheet(triangles[near[taken]], gaps[taken])
+    return {vertex: points[taken[one]] for vertex, one in zip(vertices, nearest.tolist(), strict=True)}
+
+
+def _nearest_of_each_sheet(triangles: NDArray[np.int64], gaps: FloatArray) -> NDArray[np.int64]:
+    """Return for each triangle the number of the nearest of all that are joined with it, shape (n,).
+
+    Fingers hold a sheet at one line, about which all of it turns.
+
+    Args:
+        triangles: shape (n, 3).
+        gaps: how far each is from the fingers, shape (n,), m.
+    """
+    count = len(triangles)
+    corners = coo_array((np.ones(triangles.size), (np.repeat(np.arange(count), 3), triangles.ravel()))).tocsr()
+    _, sheets = connected_components(corners @ corners.T)
+    order = np.argsort(gaps, kind="stable")
+    found = np.empty(count, dtype=np.int64)
+    for sheet in np.unique(sheets).tolist():
+        found[sheets == sheet] = order[sheets[order] == sheet][0]
+    return found
 
 
 def clamped(

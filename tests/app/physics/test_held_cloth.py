@@ -52,10 +52,20 @@ def test_cloth_that_hung_beside_the_table_turns_over_by_a_quarter_more():
     # It hangs up to the edge from the fingers; laid down it leads back towards the edge.
     x = -Table().depth_m / 2.0
     points = ((x - 0.03, 0.0, -0.1), (x, 0.0, 0.1), (x + 0.1, 0.0, 0.02))
-    way = HandWay(
-        GripMotion("left", (0.0, 1.0, 2.0), points), held((0.0, 0.0, 0.0), (0.0, 0.0, 0.01)), is_fold=True, top=TOP
-    )
+    hung = replace(held((0.0, 0.0, 0.0), (0.0, 0.0, 0.01)), hangs=True)
+    way = HandWay(GripMotion("left", (0.0, 1.0, 2.0), points), hung, is_fold=True, top=TOP)
     assert way.at(2.0)[7] - fingertip(np.array(points[-1])) == pytest.approx([-0.01, 0.0, 0.0])
+    assert not way.held_at(2.0).hangs
+
+
+def test_cloth_taken_on_the_table_turns_over_by_half_a_turn_wherever_it_was_dragged_before():
+    # The tie's folds begin beyond the table's edge, where drags end: its creases were turned by a quarter too far.
+    x = -Table().depth_m / 2.0
+    points = ((x - 0.1, 0.0, 0.02), (x + 0.1, 0.0, 0.2), (x + 0.3, 0.0, 0.02))
+    way = HandWay(
+        GripMotion("left", (0.0, 1.0, 2.0), points), held((0.0, 0.0, 0.0), (0.015, 0.0, 0.0)), is_fold=True, top=TOP
+    )
+    assert way.at(2.0)[7] - fingertip(np.array(points[-1])) == pytest.approx([-0.015, 0.0, 0.0])
 
 
 def test_the_lowest_cloth_in_a_hand_is_laid_on_the_stack_and_stays_as_high_if_the_hand_holds_on():
@@ -101,6 +111,18 @@ def test_of_several_triangles_at_a_vertex_the_one_nearest_to_the_fingers_tells_w
     triangles = np.array([[0, 3, 4], [0, 1, 2]])
     found = pinched(positions, triangles, np.array([0.008, 0.004, REST_HEIGHT_M]), TOP, 0.03)
     assert found[0] == pytest.approx([0.008, 0.004, 0.0])
+
+
+def test_fingers_hold_a_sheet_at_one_line_and_each_sheet_at_its_own():
+    # Two strips of two triangles on one another, of which the tip touches the first triangle, and only the lower
+    # strip reaches the tip: all that is held of a strip turns about where that comes nearest to the fingers.
+    strip = np.array([[0.0, -0.01, 0.001], [0.0, 0.01, 0.001], [0.02, -0.01, 0.001], [0.02, 0.01, 0.001]])
+    positions = np.concatenate([strip, strip + np.array([0.006, 0.0, 0.002])])
+    triangles = np.array([[0, 2, 1], [1, 2, 3], [4, 6, 5], [5, 6, 7]])
+    found = pinched(positions, triangles, np.array([0.001, -0.002, REST_HEIGHT_M]), TOP, 0.03)
+    assert {vertex // 4 for vertex in found} == {0, 1}
+    for vertex, point in found.items():
+        assert point == pytest.approx([0.001, -0.002, 0.001] if vertex < 4 else [0.006, -0.002, 0.003])
 
 
 @pytest.mark.parametrize(("way", "second"), [((1.0, 0.0), 2), ((0.0, -1.0), 1)])
