@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from app.rehearsal.world import GripMotion, StepMotion, way_done
+from app.vision.look_at_stack import Sight
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray, Point2, Point3, Pose2
@@ -126,6 +127,41 @@ def still_beside(planned: StepMotion, made: StepMotion) -> dict[str, Point2]:
     """Return how far beside their planned ends the hands hold cloth after a step, for those that hold on (m)."""
     pairs = zip(planned.grips, made.grips, strict=True)
     return {one.arm: _from(one.points[-1], other.points[-1]) for one, other in pairs if not one.opens}
+
+
+def seen_after_drag(motion: StepMotion, ought: Pose2, sight: Sight | None, radius_m: float) -> Isometry:
+    """Return how far from where it should be a stack was seen after a drag by hands that hold on, table frame.
+
+    What was seen is not believed where a grip would be further than a radius from the hand that holds it.
+
+    Args:
+        motion: the step as planned.
+        ought: where the stack should lie after it.
+        sight: what was seen; None for nothing.
+        radius_m: that radius (m).
+    """
+    if sight is None or sight.fit is None or not sight.is_estimate:
+        return Isometry()
+    carried = carry(ought, sight.fit.placement)
+    apart_m = [math.hypot(*offset) for offset in held_beside(motion, {}, carried).values()]
+    return carried if max(apart_m, default=0.0) <= radius_m else Isometry()
+
+
+def held_beside(motion: StepMotion, offsets: Mapping[str, Point2], carried: Isometry) -> dict[str, Point2]:
+    """Return how far beside the grips of the cloth as it lies hands are that hold on after a step (m).
+
+    Args:
+        motion: the step as planned.
+        offsets: for some arms, how far beside the planned end of its motion each has ended (m).
+        carried: from where the cloth should lie then to where it lies, table frame.
+    """
+
+    def offset(grip: GripMotion) -> Point2:
+        (x, y), (dx, dy) = grip.points[-1][:2], offsets.get(grip.arm, (0.0, 0.0))
+        lies_x, lies_y = carried.apply_point((x, y))
+        return x + dx - lies_x, y + dy - lies_y
+
+    return {grip.arm: offset(grip) for grip in motion.grips if not grip.opens}
 
 
 def _from(start: Point3, end: Point3) -> Point2:

@@ -35,6 +35,12 @@ def where_seen(step: PlanStep, carried: Isometry, seen: SeenStack | None, radius
     }
 
 
+def are_edges_hidden(step: PlanStep, seen: SeenStack | None) -> bool:
+    """Return whether nothing was seen of an edge that hands are to take."""
+    points = [one.point for one in step.holdings]
+    return bool(seen is not None and points and seen.is_edge_hidden(np.array(points)))
+
+
 def into_the_cloth(step: PlanStep, sequence: FoldSequence, carried: Isometry) -> dict[str, Point2]:
     """Return the direction from each grip of a drag into the cloth, table frame.
 

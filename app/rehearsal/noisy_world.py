@@ -33,7 +33,7 @@ class NoisyWorld:
 
     def observe(self) -> Observation:
         """Return what is seen, with camera and outline as seen from where the robot believes to be."""
-        seen, believed = self._world.observe(), self._calibrated.after(self._error.inverse)
+        seen, believed = self._world.observe(), self._calibrated.after(self._short.after(self._error).inverse)
         camera = None if seen.camera is None else seen.camera.carried(believed)
         outline = None if seen.outline is None else believed.apply(seen.outline)
         return replace(seen, camera=camera, outline=outline)
@@ -42,7 +42,6 @@ class NoisyWorld:
         """Perform a step from where the base really is; a hand may close beside its grip, and a drag stop short."""
         if motion.base is not None:
             self._error = self._driven(motion.base)
-        motion = replace(motion, ends=self._really(motion.ends))
         missed = {grip.arm for grip in motion.grips if grip.closes and self._rng.random() < self._noise.miss}
         if missed and motion.needs_all:
             return Performed({grip.arm: grip.arm not in missed for grip in motion.grips})
@@ -51,11 +50,13 @@ class NoisyWorld:
             self._short = Isometry()
         short = self._rng.uniform(0.0, self._noise.undershoot) if motion.kind == "drag" else 0.0
         found = tuple(self._off(grip, short) for grip in made)
-        answer = self._world.perform(replace(motion, grips=found))
         if made and motion.is_drag:
             planned = np.array([grip.points[-1][:2] for grip in made])
             stopped = [np.subtract(grip.points[-1][:2], self._arm_errors[grip.arm]) for grip in found]
             self._short = slide_of(self._error.apply(planned), np.array(stopped)).isometry
+        if all(grip.opens for grip in made):
+            self._short = Isometry()
+        answer = self._world.perform(replace(motion, grips=found, ends=self._really(motion.ends)))
         return Performed({**answer.has_cloth, **dict.fromkeys(missed, False)})
 
     def truth(self) -> Truth | None:
@@ -73,8 +74,9 @@ class NoisyWorld:
         """Return how the robot stands where it believes to stand so."""
         if ends is None:
             return None
-        x, y = self._error.apply_point((ends.base.x_m, ends.base.y_m))
-        return replace(ends, base=Pose2(x, y, ends.base.yaw_rad + math.atan2(self._error.c, self._error.a)))
+        error = self._short.after(self._error)
+        x, y = error.apply_point((ends.base.x_m, ends.base.y_m))
+        return replace(ends, base=Pose2(x, y, ends.base.yaw_rad + math.atan2(error.c, error.a)))
 
     def _off(self, grip: GripMotion, short: float) -> GripMotion:
         """Return the motion that a hand really makes; one that holds on goes on from where it is."""

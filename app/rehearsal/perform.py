@@ -16,14 +16,16 @@ from app.rehearsal.corrections import (
     beside,
     carry,
     corrected,
+    held_beside,
     landing_short,
     reflection_in,
     regrasps,
+    seen_after_drag,
     shift_of,
     still_beside,
 )
 from app.rehearsal.eyes import Eyes, Picture, kept
-from app.rehearsal.grasp_points import into_the_cloth, laid_short, where_seen
+from app.rehearsal.grasp_points import are_edges_hidden, into_the_cloth, laid_short, where_seen
 from app.rehearsal.judge import Gate, StepVerdict, judged
 from app.rehearsal.result import Decision
 from app.rehearsal.step_motions import posture_at, step_motions
@@ -120,10 +122,10 @@ class Performer:
                     continue
             else:
                 answer = self._held_on(corrected(motion, carried), step, carried)
-            if motion.is_drag:  # it ends where it should, so the hands that hold on fold where they should
-                carried = Isometry()
-            self._judge(motion, step, answer, carried)
             self._posture = motion.ends
+            if motion.is_drag:
+                carried = self._after_drag(motion, step)
+            self._judge(motion, step, answer, carried)
             number += 1
             self._made += 1
             self.progress(number / len(motions))
@@ -141,20 +143,33 @@ class Performer:
     def _eyes(self) -> Eyes:
         return Eyes(self.plan.task)
 
+    def _after_drag(self, motion: StepMotion, step: PlanStep) -> Isometry:
+        """Return how far from where it should be a stack lies after a drag; hands that hold on are beside it then.
+
+        A drag ends where it should, but the stack swings behind a single hand, and is pulled straight by it.
+        """
+        if self.replan is None or all(grip.opens for grip in motion.grips):
+            return Isometry()
+        sight, radius_m = self._sight(step.after, is_clear=False), self.plan.task.limits.comfort_radius_m
+        carried = seen_after_drag(motion, step.after.placement, sight, radius_m)
+        self._beside = held_beside(motion, self._beside, carried)
+        return carried
+
     def _seen(self, step: PlanStep) -> tuple[Pose2, str]:
         """Return where the stack lies as seen, and why the run must end, "" if it need not.
 
         Where that stays uncertain, the estimate is nearer than where it should lie, and is taken; where nothing tells
         it, it is where it should lie.
         """
-        sight, self._stack = self._sight(step, is_clear=False), None
+        sight, self._stack = self._sight(step.before, is_clear=False), None
         if sight is None:
             return step.before.placement, ""
-        if sight.unknown is not None and self._posture is not None:
+        if self._posture is not None and (sight.unknown is not None or are_edges_hidden(step, sight.stack)):
             away = self._eyes.withdrawn(self._posture)
             self.world.perform(StepMotion(self._made, WITHDRAW, _WITHDRAW_S, ends=away))
             self._posture = away
-            sight = self._sight(step, is_clear=True) or sight
+            clear = self._sight(step.before, is_clear=True)
+            sight = sight if clear is None or (clear.unknown is not None and sight.unknown is None) else clear
         if sight.fit is not None and sight.is_estimate:
             self._blind, self._stack = 0, sight.stack
             return sight.fit.placement, ""
@@ -164,19 +179,18 @@ class Performer:
             return step.before.placement, ""
         return step.before.placement, f"before step {self._made} the cloth is not to be made out: {sight.unknown.text}"
 
-    def _sight(self, step: PlanStep, *, is_clear: bool) -> Sight | None:
-        """Look once, and note what was seen."""
+    def _sight(self, ought: WorldState, *, is_clear: bool) -> Sight | None:
+        """Look once for a stack as it ought to lie, and note what was seen."""
         seen, posture = self.world.observe(), self._posture
         if posture is None:
             return None
-        folds, near = step.before.folds_done, step.before.placement
-        sight = self._eyes.sight(seen, self.plan.sequence, folds, near, posture)
+        sight = self._eyes.sight(seen, self.plan.sequence, ought.folds_done, ought.placement, posture)
         if sight is None:
             return None
         fit = sight.fit
         numbers = () if fit is None else (("error_m", fit.error_m), ("share_on_outline", fit.share_on_outline))
         self._decide("seen" if sight.unknown is None else "not_known", *numbers)
-        picture = kept(self._made, step.before, seen, sight, is_clear=is_clear)
+        picture = kept(self._made, ought, seen, sight, is_clear=is_clear)
         self._pictures += [] if picture is None else [picture]
         return sight
 

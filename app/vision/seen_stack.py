@@ -1,5 +1,6 @@
 """A stack as it was seen: where its points lie, those of its last fold too, and how far off they may be."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -67,19 +68,15 @@ class SeenStack:
         another; at a corner both edges tell. Of points that are not of the fitted outline, or where little of it was
         seen, it is 0. Points and vectors are of the article frame.
         """
-        edges, found, there = self._edges, np.zeros_like(points), points + self.beside(points)
-        if not len(self.outline):
-            return found
-        inner = self.placement.to_inner(self.outline)
-        distances, outwards = edges.distances(inner)
-        feet = inner - distances[:, None] * outwards
-        for number in np.flatnonzero(edges.gaps(there) <= _AT_EDGE_M).tolist():
-            apart = np.hypot(*(feet - there[number]).T)
-            near = (apart <= _ROUND_EDGE_M) & (np.abs(distances) <= _ROUND_EDGE_M)
-            normals, away = outwards[near], distances[near]
+        found = np.zeros_like(points)
+        for number, normals, away in self._seen_round(points):
             shrunk = (_CONTOUR_M / _EDGE_M) ** 2 * max(1, len(away)) * np.eye(2)
             found[number] = np.linalg.solve(normals.T @ normals + shrunk, normals.T @ away)
         return found
+
+    def is_edge_hidden(self, points: FloatArray) -> bool:
+        """Return whether nothing was seen of the edge at one of some points of it, article frame."""
+        return any(not len(away) for _, _, away in self._seen_round(points))
 
     def places(self, points: FloatArray) -> FloatArray:
         """Return where points of the stack, article frame, lie, shape (n, 2), table frame, m."""
@@ -110,6 +107,17 @@ class SeenStack:
 
     def _places(self, row: FloatArray, points: FloatArray) -> FloatArray:
         return self.figure.pose(row).to_outer(points + self._beside(row, points))
+
+    def _seen_round(self, points: FloatArray) -> Iterator[tuple[int, FloatArray, FloatArray]]:
+        """Yield what was seen round each point that is of the edge: its number, normals, distances (m)."""
+        edges, there = self._edges, points + self.beside(points)
+        inner = self.placement.to_inner(self.outline)
+        distances, outwards = edges.distances(inner)
+        feet = inner - distances[:, None] * outwards
+        for number in np.flatnonzero(edges.gaps(there) <= _AT_EDGE_M).tolist():
+            apart = np.hypot(*(feet - there[number]).T)
+            near = (apart <= _ROUND_EDGE_M) & (np.abs(distances) <= _ROUND_EDGE_M)
+            yield number, outwards[near], distances[near]
 
     @property
     def _edges(self) -> OutlineEdges:

@@ -12,10 +12,11 @@ from app.rehearsal.corrections import (
     carry,
     corrected,
     landing_short,
+    reflection_in,
     regrasps,
     shift_of,
 )
-from app.rehearsal.grasp_points import laid_short, where_seen
+from app.rehearsal.grasp_points import are_edges_hidden, laid_short, where_seen
 from app.rehearsal.judge import Gate
 from app.rehearsal.noise import Noise
 from app.rehearsal.noisy_world import NoisyWorld
@@ -27,10 +28,11 @@ from app.vision.seen_stack import SeenStack
 from app.vision.stack_figure import Figure
 from planner import Plan, Task, load_garment, make_plan
 from planner.geometry.isometry import Isometry
-from planner.geometry.pose import FloatArray, Pose2
+from planner.geometry.pose import FloatArray, Point2, Pose2
 from planner.geometry.region import Region
 from planner.geometry.ring import evenly_along
 from planner.task.grip import Holding
+from planner.task.plan_step import PlanStep
 from planner.task.task import TIME_LIMIT_S
 from tests.app.rehearsal.towel import towel_plan
 
@@ -118,6 +120,29 @@ def test_a_hand_takes_an_edge_where_it_is_seen():
     assert offsets["inside"] == pytest.approx((0.0, 0.0), abs=1e-9)
 
 
+def test_an_edge_of_which_nothing_was_seen_is_hidden():
+    # An arm hides what is within 8 cm of the middle of the crease.
+    plan = make_plan(Task.of(load_garment("letter-towel")))
+    ring = plan.sequence.cloth(1).silhouette.ring
+    (left, crease_y), (right, _) = ring.min(axis=0).tolist(), ring.max(axis=0).tolist()
+    middle, inside = ((left + right) / 2.0, crease_y), ((left + right) / 2.0, crease_y + 0.1)
+    figure, folded = Figure.of(plan.sequence.cloth(1)), FoldedOutline(plan.sequence, 0, 0)
+    lies = plan.task.start.placement
+    outline = evenly_along(ring, 0.003)
+    outline = outline[np.hypot(*(outline - np.array(middle)).T) > 0.08]
+    row = np.array([*figure.fit_at(lies).row, 0.0, 0.0, 0.0])
+    seen = SeenStack(figure, folded, row, np.eye(6), lies.to_outer(outline))
+
+    def taken_at(*points: Point2) -> PlanStep:
+        return replace(plan.steps[0], holdings=tuple(Holding("left", point, ()) for point in points))
+
+    assert are_edges_hidden(taken_at((right, crease_y), middle), seen)
+    assert not are_edges_hidden(taken_at((right, crease_y)), seen)
+    assert not are_edges_hidden(taken_at(inside), seen)  # not an edge
+    assert not are_edges_hidden(taken_at(), seen)
+    assert not are_edges_hidden(taken_at(middle), None)
+
+
 def test_an_edge_that_the_same_hands_lift_again_lands_short_and_others_where_they_should():
     plan = make_plan(Task.of(load_garment("letter-towel")))
     blue, red = plan.steps
@@ -149,6 +174,39 @@ def test_a_fold_by_hands_that_hold_on_from_a_drag_is_not_carried_along_again():
         assert grip.points[-1] == pytest.approx(former.points[-1], abs=1e-9)
     for grip, former in zip(asked[1].grips, planned[1].grips, strict=True):
         assert np.array(grip.points) == pytest.approx(np.array(former.points), abs=1e-9)
+
+
+class SwingingWorld(NotedWorld):
+    """Cloth that has turned about the hand that drags it."""
+
+    def __init__(self, plan: Plan, turn_rad: float) -> None:
+        super().__init__(evenly_along(plan.task.start.placement.to_outer(plan.garment.pattern.ring), 0.01))
+        self._plan, self._turn_rad = plan, turn_rad
+        self.carried = Isometry()
+
+    def perform(self, motion: StepMotion) -> Performed:
+        if motion.is_drag and not self.asked:
+            after, (x, y, _) = self._plan.steps[0].after, motion.grips[0].points[-1]
+            about = Isometry.rotation(0.0, x, y)
+            self.carried = about.after(Isometry.rotation(self._turn_rad)).after(about.inverse)
+            lies = after.placement.to_outer(evenly_along(self._plan.garment.pattern.ring, 0.01))
+            self._outline = self.carried.apply(lies)
+        return super().perform(motion)
+
+
+def test_the_fold_after_a_drag_goes_over_the_line_as_the_cloth_lies_then():
+    # A tie swings behind the one hand that drags it. The hand stays where it is, and lands where the fold brings that.
+    plan = make_plan(Task.of(load_garment("tie")))
+    world = SwingingWorld(plan, 0.02)
+    Performer(plan, world, Gate(), lambda _: plan).performed()
+    drag, fold = world.asked[:2]
+    assert drag.is_drag and fold.is_fold and not fold.grips[0].closes
+    begin, end = (fold.grips[0].points[number][:2] for number in (0, -1))
+    over = reflection_in(plan.steps[1], plan.sequence, world.carried)
+    assert over is not None
+    assert begin == pytest.approx(drag.grips[0].points[-1][:2], abs=1e-9)
+    assert end == pytest.approx(over.apply_point(begin), abs=2e-3)
+    assert math.dist(end, step_motions(plan)[1].grips[0].points[-1][:2]) > 0.01
 
 
 def test_a_hand_that_misses_tries_again_within_the_comfort_radius():
@@ -276,3 +334,17 @@ def test_hands_that_hold_on_go_on_from_where_a_drag_has_stopped_short():
     closing = next(motion for motion in planned[1:] if motion.grips[0].closes)
     (grip, former) = (world.asked[closing.step].grips[0].points[0], closing.grips[0].points[0])
     assert math.dist(grip, former) < 0.02  # hands free, the base was driven to where it should be
+
+
+def test_what_is_seen_while_a_drag_has_stopped_short_is_seen_from_where_the_base_really_stands():
+    plan = make_plan(Task.of(load_garment("tie")))
+    lies = np.array([[0.0, 0.0], [0.3, 0.1]])
+    world = NotedWorld(lies)
+    noisy = NoisyWorld(world, Noise(undershoot=0.2), 3, plan.task.start.base.pose)
+    drag, fold = step_motions(plan)[:2]
+    noisy.perform(drag)
+    short = np.subtract(world.asked[0].grips[0].points[-1], drag.grips[0].points[-1])[:2]
+    assert np.linalg.norm(short) > 0.003
+    assert noisy.observe().outline == pytest.approx(lies - short)
+    noisy.perform(fold)  # hands free, the base is driven to where it should be
+    assert noisy.observe().outline == pytest.approx(lies)
