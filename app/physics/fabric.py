@@ -5,6 +5,9 @@ from dataclasses import dataclass
 
 GRAVITY_M_S2 = 9.81
 
+BUCKLED = 0.2
+"""The share of its length by which a row is pushed together where it bears what buckles it."""
+
 
 @dataclass(frozen=True, slots=True)
 class Fabric:
@@ -14,8 +17,7 @@ class Fabric:
         density_kg_m2: the areal density.
         stretch_n_m: the stiffness along the threads, Young's modulus times thickness (N/m). Across them cloth does not
             contract.
-        push_n_m: the same where cloth is pushed together, and buckles on lengths that a mesh does not resolve (N/m). A
-            row of 20 mm buckles under pi^2 of its bending stiffness over its square, .28 N/m, and bears no more.
+        push_n_m: the same where cloth is pushed together (N/m); None where it gives way as a mesh needs (`pushed_n_m`).
         shear_n_m: the stiffness in shear, in which threads turn against each other: force per width and angle (N/m).
         bending_length_m: the cube root of the bending stiffness per width over the weight per area (m), which textile
             laboratories measure on a strip that hangs over an edge: half of its length when it droops by 41.5 degrees.
@@ -28,7 +30,7 @@ class Fabric:
 
     density_kg_m2: float = 0.2
     stretch_n_m: float = 1000.0
-    push_n_m: float = 10.0
+    push_n_m: float | None = None
     shear_n_m: float = 80.0
     bending_length_m: float = 0.018
     thickness_m: float = 0.002
@@ -41,6 +43,18 @@ class Fabric:
     def bend_nm(self) -> float:
         """The bending stiffness per width (N m)."""
         return self.density_kg_m2 * GRAVITY_M_S2 * self.bending_length_m**3
+
+    def pushed_n_m(self, edge_m: float) -> float:
+        """Return the stiffness along threads that are pushed together, on a mesh of rows some way apart (N/m).
+
+        Cloth that is pushed buckles on lengths that the mesh does not resolve: a row as long as that under pi^2 of the
+        bending stiffness over its square, and it bears no more. So the mesh bears as much when it has given way by
+        `BUCKLED`. Threads that bear more carry layers over creases as folded plates, twice as high; those that bear
+        less are squeezed where a crease should roll.
+        """
+        if self.push_n_m is not None:
+            return self.push_n_m
+        return math.pi**2 * self.bend_nm / edge_m**2 / BUCKLED
 
     @property
     def shell_thickness_m(self) -> float:

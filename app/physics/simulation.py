@@ -39,7 +39,7 @@ class ClothSimulation:
         self.step_s = resolution.step_s
         self._rest = rest
         self._model = compiled(model_xml(rest, pattern, triangles, fabric, resolution, table))
-        self._weave = Weave.of(pattern, triangles, fabric)
+        self._weave = Weave.of(pattern, triangles, fabric, resolution.edge_m)
         self._data = mujoco.MjData(self._model)
         self._vertex_bodies = np.array([self._model.body(f"v{i}").id for i in range(len(rest))])
         self._held: dict[int, int] = {}

@@ -21,27 +21,35 @@ class Weave:
     """The stiffness of each triangle; its edge i is the one opposite to corner i.
 
     Attributes:
-        fabric: the cloth.
+        threads: the stiffness of threads that are pulled, that are pushed together, and in shear, shape (3,), N/m.
         triangles: shape (m, 3).
         squares: the squared lengths of the edges without tension, shape (m, 3), m^2.
         strains: for warp, weft and shear the strain by each edge's growth in squared length, shape (m, 3, 3), 1/m^2.
         areas: shape (m,), m^2.
     """
 
-    fabric: Fabric
+    threads: FloatArray
     triangles: NDArray[np.int64]
     squares: FloatArray
     strains: FloatArray
     areas: FloatArray
 
     @staticmethod
-    def of(pattern: FloatArray, triangles: NDArray[np.int64], fabric: Fabric) -> "Weave":
-        """Return the weave of a mesh whose vertices are given in the frame of warp and weft, shape (n, 2), m."""
+    def of(pattern: FloatArray, triangles: NDArray[np.int64], fabric: Fabric, edge_m: float) -> "Weave":
+        """Return the weave of a mesh.
+
+        Args:
+            pattern: the vertices in the frame of warp and weft, shape (n, 2), m.
+            triangles: shape (m, 3).
+            fabric: the cloth.
+            edge_m: the distance between rows (m).
+        """
         edges = _edges(pattern, triangles)
         x, y = edges[..., 0], edges[..., 1]
         strains: FloatArray = np.linalg.inv(2.0 * np.stack([x * x, y * y, x * y], axis=-1)).astype(np.float64)
         areas = np.abs(x[:, 0] * y[:, 1] - y[:, 0] * x[:, 1]) / 2.0
-        return Weave(fabric, triangles, (edges * edges).sum(axis=-1), strains, areas)
+        threads = np.array([fabric.stretch_n_m, fabric.pushed_n_m(edge_m), fabric.shear_n_m])
+        return Weave(threads, triangles, (edges * edges).sum(axis=-1), strains, areas)
 
     def stiffness(self, positions: FloatArray) -> FloatArray:
         """Return each triangle's coefficients in MuJoCo's order where the vertices are somewhere, shape (n, 3), m.
@@ -50,8 +58,7 @@ class Weave:
             Shape (m, 6), N/m^3: with the growths d of the squared lengths the energy is d S d / 4, of which a row has
             the upper half.
         """
-        threads = np.array([self.fabric.stretch_n_m, self.fabric.push_n_m, self.fabric.shear_n_m])
-        found: FloatArray = _stiffness(positions, self.triangles, self.squares, self.strains, self.areas, threads)
+        found: FloatArray = _stiffness(positions, self.triangles, self.squares, self.strains, self.areas, self.threads)
         return found
 
 

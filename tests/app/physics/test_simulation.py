@@ -61,7 +61,7 @@ def test_hung_cloth_stretches_by_its_weight_along_its_threads_and_more_across(bi
 def test_a_panel_that_stands_gives_way_to_its_weight_where_a_hung_one_hardly_stretches():
     # Upright, held by its lower or its upper edge, and too stiff to topple: the free edge sinks by w L^2 / (2 K), with
     # the stiffness of threads that are pushed together, or of threads that are pulled.
-    fabric, length = Fabric(bending_length_m=0.1), 0.1
+    fabric, length = Fabric(push_n_m=10.0, bending_length_m=0.1), 0.1
     points, triangles = woven_mesh(rectangle(0.04, length), 0.02)
     rest = np.column_stack([points[:, 0], np.zeros(len(points)), points[:, 1]])
     lower, upper = points[:, 1] < 1e-6, points[:, 1] > length - 1e-6
@@ -71,8 +71,17 @@ def test_a_panel_that_stands_gives_way_to_its_weight_where_a_hung_one_hardly_str
         panel.hold({int(i): rest[i] for i in np.flatnonzero(held)})
         panel.run(1.0)
         sunk.append(float((rest - panel.positions)[free, 2].mean()))
-    assert sunk[0] == pytest.approx(fabric.density_kg_m2 * G * length**2 / (2.0 * fabric.push_n_m), rel=0.05)
+    assert sunk[0] == pytest.approx(fabric.density_kg_m2 * G * length**2 / (2.0 * 10.0), rel=0.05)
     assert 0.0 < sunk[1] < 0.02 * sunk[0]
+
+
+def test_threads_pushed_together_give_way_before_they_bear_what_buckles_a_row():
+    # Euler: a row of width 1 m and the bending stiffness B buckles under pi^2 B over its length squared, and bears no
+    # more however far it is pushed. Layers that bore ten times as much stood over creases as folded plates.
+    fabric, row_m = Fabric(), Resolution().edge_m
+    buckles_n_m = math.pi**2 * fabric.bend_nm / row_m**2
+    assert 0.1 * fabric.pushed_n_m(row_m) < buckles_n_m < 0.25 * fabric.pushed_n_m(row_m)
+    assert fabric.pushed_n_m(row_m / 2.0) == pytest.approx(4.0 * fabric.pushed_n_m(row_m))
 
 
 def test_cloth_over_an_edge_droops_as_a_cantilever_of_its_bending_length():
