@@ -29,6 +29,7 @@ from app.rehearsal.grasp_points import are_edges_hidden, into_the_cloth, laid_sh
 from app.rehearsal.judge import Gate, StepVerdict, judged
 from app.rehearsal.result import Decision
 from app.rehearsal.step_motions import posture_at, step_motions
+from app.rehearsal.taut_way import taut
 from app.rehearsal.trace import ClothAfter, counterpart
 from app.rehearsal.world import WITHDRAW, Performed, StepMotion, World
 from app.vision.look_at_stack import Sight
@@ -201,7 +202,7 @@ class Performer:
         """
         fold = reflection_in(step, self.plan.sequence, carried)
         offsets = where_seen(step, carried, self._stack, spare_m)
-        short = landing_short(motion, laid_short(self.plan, step), SHORT_M)
+        short = landing_short(taut(motion, spare_m), laid_short(self.plan, step), SHORT_M)
         made = beside(short, offsets, fold)
         answer = self.world.perform(made)
         missing = frozenset(arm for arm, has in answer.has_cloth.items() if not has)
