@@ -8,7 +8,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from planner.folds.fold_path import REST_HEIGHT_M
-from planner.geometry.pose import FloatArray
+from planner.geometry.pose import BoolArray, FloatArray
 from planner.geometry.table_top import TableTop
 
 PAD_M = 0.011
@@ -65,21 +65,26 @@ def pinched(
     taken = np.flatnonzero(gaps <= reach)
     apart = np.linalg.norm(corners[taken][..., :flat] - tip[:flat], axis=-1)
     vertices = triangles[near[taken], np.argmin(apart, axis=1)].tolist()
-    nearest = _nearest_of_each_sheet(triangles[near[taken]], gaps[taken])
+    first, second = (corners[taken, one] - corners[taken, 0] for one in (1, 2))
+    faces_up = first[:, 0] * second[:, 1] > first[:, 1] * second[:, 0]
+    nearest = _nearest_of_each_sheet(triangles[near[taken]], faces_up, gaps[taken])
     return {vertex: points[taken[one]] for vertex, one in zip(vertices, nearest.tolist(), strict=True)}
 
 
-def _nearest_of_each_sheet(triangles: NDArray[np.int64], gaps: FloatArray) -> NDArray[np.int64]:
+def _nearest_of_each_sheet(triangles: NDArray[np.int64], faces_up: BoolArray, gaps: FloatArray) -> NDArray[np.int64]:
     """Return for each triangle the number of the nearest of all that are joined with it, shape (n,).
 
-    Fingers hold a sheet at one line, about which all of it turns.
+    Fingers hold a sheet at one line, about which all of it turns. At a crease two sheets meet, one of them turned over,
+    each at its own height between the fingers.
 
     Args:
         triangles: shape (n, 3).
+        faces_up: whether each has its pattern's face above, shape (n,).
         gaps: how far each is from the fingers, shape (n,), m.
     """
     count = len(triangles)
-    corners = coo_array((np.ones(triangles.size), (np.repeat(np.arange(count), 3), triangles.ravel()))).tocsr()
+    sides = 2 * triangles + faces_up[:, None]  # a vertex at a crease counts as two, one of each sheet
+    corners = coo_array((np.ones(sides.size), (np.repeat(np.arange(count), 3), sides.ravel()))).tocsr()
     _, sheets = connected_components(corners @ corners.T)
     order = np.argsort(gaps, kind="stable")
     found = np.empty(count, dtype=np.int64)
