@@ -183,8 +183,8 @@ class Replanner:
     def _publish(self, asked: DocumentState, plan: Plan, *, is_final: bool) -> None:
         """Show a plan; then write it if it is final and no preview's, and drop the plans that nobody needs by id.
 
-        These are plans that were never shown, and those of previews that are shown no more. Others that a better one
-        replaces can be read for a while.
+        These are plans that were never shown, and those of previews that another preview's replaces. Others can be read
+        for a while once they are replaced: a page may have been told of them a moment ago.
         """
         assert asked.task is not None, "what has no task is not planned"
         now = self._document.state
@@ -199,11 +199,11 @@ class Replanner:
             self._plans.keep(plan_id)
         left = {plan_id} if before is None else {plan_id, before.plan_id}
         for made in left - kept:
-            if made == plan_id or made in self._of_previews:
+            if made == plan_id or (is_preview and made in self._of_previews):
                 self._plans.drop(made)
-                self._of_previews.discard(made)
             else:
                 self._plans.let_go(made)
+            self._of_previews.discard(made)
 
 
 def _is_settled(state: DocumentState) -> bool:

@@ -228,7 +228,8 @@ class DocumentMachine(RuleBasedStateMachine):
         plan, playback = page.last["plan"], page.last.get("playback", {})
         has_checks = plan["checks"] is not None and plan["checks"]["version"] == plan["version"]
         has_film = playback.get("version") == (plan["version"] if plan["status"] == "solved" else None)
-        return plan["status"] != "planning" and has_checks and has_film
+        is_settled = plan["status"] != "planning" and (plan["plan"] is None or plan["plan"]["is_final"])
+        return is_settled and has_checks and has_film
 
     def run(self, work: Any) -> Any:
         return self.loop.run_until_complete(work)

@@ -131,6 +131,19 @@ def test_plans_of_previews_are_not_kept_and_those_of_commits_are(desk: Desk) -> 
     assert desk.plans.plan(ids[2]).is_solved
 
 
+def test_the_last_previews_plan_can_still_be_read_when_that_of_the_commit_takes_its_place(desk: Desk) -> None:
+    # A page that was told of it a moment ago may ask for it.
+    desk.rest()
+    desk.document.edit(Edit("Drag", moved(1), Phase.PREVIEW))
+    desk.rest()
+    assert desk.document.state.answer is not None
+    told = desk.document.state.answer.plan_id
+    desk.document.edit(Edit("Drag", moved(3), Phase.COMMIT))
+    desk.rest()
+    assert desk.document.state.answer.plan_id != told
+    assert desk.plans.plan(told).is_solved
+
+
 def test_a_plan_is_shown_before_it_is_written_and_written_only_if_it_is_final(
     desk: Desk, monkeypatch: pytest.MonkeyPatch
 ) -> None:
