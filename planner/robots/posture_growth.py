@@ -2,7 +2,7 @@
 
 Cells whose middle is out of reach, but that lie beside one whose is not, take over postures of their neighbours, and so
 do cells with few of their own. Where reach is a thin shell there are cells beside none whose middle is in reach: these
-take over from such fringe cells what leads to some corner, edge or face of theirs.
+take over from such fringe cells what leads to some corner of theirs.
 """
 
 import math
@@ -30,8 +30,8 @@ FEW = 4
 OUTER = 2
 """Postures that a cell beside fringe cells alone takes over: each makes all answers of no slower."""
 
-_PROBES = 27
-"""Corners, edges, faces and middle of a cell."""
+_CORNERS = 8
+"""Corners of a cell."""
 
 
 class Growth(NamedTuple):
@@ -204,15 +204,15 @@ def _give_neighbours(chain: Chain, grid: Grid, growth: Growth, few: int, most: i
 
 @njit(cache=True, nogil=True)
 def _drop_useless(chain: Chain, grid: Grid, growth: Growth, entry: int) -> None:
-    """Drop the postures of an entry that lead to none of the probes in its cell."""
+    """Drop the postures of an entry that lead to no corner of its cell."""
     joints, scratch, kept = np.empty(len(chain.low)), scratch_for(len(chain.low)), 0
     (cell, approach), (ny, nz), point = divmod(entry, len(grid.rotations)), grid.counts[1:], np.empty(3)
     x, y, z = cell // (ny * nz), cell // nz % ny, cell % nz
     for number in range(growth.known[entry]):
-        for probe in range(_PROBES):
-            point[0] = grid.low[0] + (x + 0.5 * (probe // 9)) * grid.cell
-            point[1] = grid.low[1] + (y + 0.5 * (probe // 3 % 3)) * grid.cell
-            point[2] = grid.low[2] + (z + 0.5 * (probe % 3)) * grid.cell
+        for corner in range(_CORNERS):
+            point[0] = grid.low[0] + (x + corner // 4) * grid.cell
+            point[1] = grid.low[1] + (y + corner // 2 % 2) * grid.cell
+            point[2] = grid.low[2] + (z + corner % 2) * grid.cell
             decode(grid, growth.postures[entry, number], joints)
             if solve(chain, point, grid.rotations[approach], chain.rows, joints, scratch):
                 growth.postures[entry, kept] = growth.postures[entry, number]
