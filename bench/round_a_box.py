@@ -31,7 +31,6 @@ from planner.planning.problem import Problem
 from planner.planning.robot_task import task_for
 from planner.planning.warm_up import compile_kernels, napkin
 from planner.robots.described_robot import read_robot
-from planner.robots.openings import OPENING_M
 
 COLUMNS = ("robot", "planner", "found", "median [ms]", "95 % [ms]", "way, median [rad]", "times as long")
 ROBOTS = ("panda-pair", "ur5e-single")
@@ -49,23 +48,6 @@ LIMIT_S = 5.0
 """The time after which OMPL gives up (s)."""
 
 
-class Box(LyingCloth):
-    """A box on the table, in place of cloth."""
-
-    def arm_clear(
-        self,
-        arm: int,
-        bases: Pose2 | FloatArray,
-        joints: FloatArray,
-        *,
-        opening_m: float = OPENING_M,
-        is_certain: bool = False,
-    ) -> BoolArray:
-        """Return at which joints of an arm all of it is clear of the box, shape (n,)."""
-        above = self._collisions.up_to(opening_m).over_cloth(self._pieces, BOX_M[2])
-        return above.arm_clear(arm, bases, joints, is_certain=is_certain)
-
-
 @dataclass(frozen=True, slots=True)
 class Motions:
     """The motions of a robot's first arm.
@@ -75,7 +57,7 @@ class Motions:
         transits: Pleat's paths of empty hands.
         collisions: the robot's collisions at its table.
         base: the base's pose, table frame.
-        box: the box.
+        box: the box, as cloth above which arms keep its height.
         pairs: starts and goals of all arms (rad), shape (n, 2, joints); only the first arm's differ.
     """
 
@@ -83,7 +65,7 @@ class Motions:
     transits: TransitPaths
     collisions: OpenedCollisions
     base: Pose2
-    box: Box
+    box: LyingCloth
     pairs: FloatArray
 
     @property
@@ -153,7 +135,9 @@ def motions_of(name: str, count: int) -> Motions:
     transits = TransitPaths(robot, collisions, scene.torso_m)
     base = problem.context.base_pose(problem.start.station, problem.start.standoff)
     corners = 0.5 * np.array(BOX_M[:2]) * [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
-    motions = Motions(name, transits, collisions, base, Box(b"box", (corners,), collisions), np.empty(0))
+    motions = Motions(
+        name, transits, collisions, base, LyingCloth(b"box", (corners,), collisions, BOX_M[2]), np.empty(0)
+    )
     rng = np.random.default_rng(SEED)
 
     def end(side: float) -> FloatArray:

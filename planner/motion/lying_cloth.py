@@ -37,11 +37,13 @@ class LyingCloth:
 
     Attributes:
         key: identifies the cloth and its place.
+        over_m: the height that empty arms keep above it (m).
     """
 
     key: bytes
     _pieces: tuple[FloatArray, ...] = field(compare=False, repr=False)
     _collisions: OpenedCollisions = field(compare=False, repr=False)
+    over_m: float = OVER_CLOTH_M
 
     def arm_clear(
         self,
@@ -61,7 +63,7 @@ class LyingCloth:
             opening_m: how far its fingers are open at most (m).
             is_certain: whether only those count that certainly are, which is quicker to tell.
         """
-        clearance = _clearance(_Above(self.key, self._collisions.up_to(opening_m), self._pieces))
+        clearance = _clearance(_Above(self.key, self.over_m, self._collisions.up_to(opening_m), self._pieces))
         return clearance.arm_clear(arm, bases, joints, is_certain=is_certain)
 
 
@@ -70,13 +72,14 @@ class _Above:
     """The space above cloth; the same cloth on another table or beside another robot is another one."""
 
     key: bytes
+    over_m: float
     collisions: Collisions
     pieces: tuple[FloatArray, ...] = field(compare=False)
 
 
 @lru_cache(_CLEARANCES_KEPT)
 def _clearance(above: _Above) -> Clearance:
-    return above.collisions.over_cloth(above.pieces, OVER_CLOTH_M)
+    return above.collisions.over_cloth(above.pieces, above.over_m)
 
 
 class LyingCloths:
