@@ -18,7 +18,7 @@ AHEAD_M = 0.7
 
 @dataclass(frozen=True, eq=False, slots=True)
 class FoldWay:
-    """One choice of grips, arms and approaches with which the robot can follow a fold from one station.
+    """A choice of grips, arms and approaches with which the robot can follow a fold from one station.
 
     Attributes:
         trial: the grips, the arms, the path.

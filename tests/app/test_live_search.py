@@ -1,4 +1,4 @@
-"""What a document's search keeps from plan to plan."""
+"""A document's search remembers its answers, not what they were found with, and keeps cloth for the next drawing."""
 
 import gc
 

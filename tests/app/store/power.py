@@ -30,7 +30,7 @@ class Write:
 
 @dataclass(frozen=True, slots=True)
 class Sync:
-    """All that was written to a file is on the disk."""
+    """A sync of a file: all that was written to it before is on the disk."""
 
     file: str
 

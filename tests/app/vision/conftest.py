@@ -1,4 +1,4 @@
-"""One picture that many tests look at."""
+"""A rendered picture that the tests of this folder share."""
 
 import numpy as np
 import pytest
