@@ -18,7 +18,7 @@ from planner.robots.hand_roll import gives_roll
 from planner.robots.newton import solve
 from planner.robots.posture_map import CODES, Grid, approach_of, cell_of, decode
 
-APART = 0.5
+APART = 0.25
 """Postures of one cell differ by at least this in some joint (rad, m)."""
 
 FRINGE = 8

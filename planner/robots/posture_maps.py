@@ -37,7 +37,7 @@ At least `FRINGE`: the cells out of reach take over that many.
 _SLICE = 50_000
 """Postures between two reports of progress."""
 
-_FORMAT = 4
+_FORMAT = 5
 """Version of the cache; raise it whenever maps are made or stored differently."""
 
 Progress = Callable[[float], None]
