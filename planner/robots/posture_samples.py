@@ -28,6 +28,9 @@ _TRIED = 0.3
 _NEAR = 0.6
 """The same for the samples found so far: from a cell away Newton's method mostly leads to their curve again."""
 
+_SAME = 0.1
+"""A start has led to no other samples where another one has led to joints so near (rad, m)."""
+
 _ROLLS, _ROLL_STEP = 3, math.pi / 6.0
 """Samples to either side of the roll that is wanted, where it is not asked, and what they differ by (rad)."""
 
@@ -150,6 +153,8 @@ def _collect(
             if is_alike(periods, samples, start, alike, _NEAR):
                 continue
             if chain.rows != WHOLE and not solve(chain, point, rotation, chain.rows, start, scratch):
+                continue
+            if is_alike(periods, tried, start, alike, _SAME):
                 continue
             tried.joints[tried.taken[0]] = start
             tried.taken[0] += 1
