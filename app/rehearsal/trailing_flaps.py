@@ -28,6 +28,9 @@ INWARDS_M = 0.02
 _HELD_M = 0.011
 """A layer nearer to a hand than that is in it (m)."""
 
+_HANDS = 2
+"""The fewest hands of a fold in which one goes inwards: another one keeps the rest of the part in place."""
+
 _ALONG = math.sqrt(0.5)
 """The cosine of the angle to a hand's way up to which a crease runs along it."""
 
@@ -38,14 +41,15 @@ _SHARES = ((0.0, 0.1, 0.5, 0.8, 1.0), (0.0, 0.0, 1.0, 1.0, 0.0))
 def flaps_beside(step: PlanStep, sequence: FoldSequence, carried: Isometry) -> dict[str, Point2]:
     """Return for each hand beside a crease from which a flap will hang the way inwards, table frame, of length 1.
 
-    That is a crease on the outline of what a fold moves, along the hands' way; its flap is held by no other hand.
+    That is a crease on the outline of what a fold moves, along the hands' way; its flap is held by no other hand. There
+    is none for a hand alone: all it carries would go with it, and hardly come back.
 
     Args:
         step: the step in which hands close.
         sequence: the garment's folds.
         carried: from where the stack should lie to where it lies, table frame.
     """
-    if step.fold is None or not step.holdings:
+    if step.fold is None or len(step.holdings) < _HANDS:
         return {}
     line, folded = sequence.folds[step.fold].line, sequence.folded(step.before.done, step.fold)
     held = np.array([one.point for one in step.holdings])

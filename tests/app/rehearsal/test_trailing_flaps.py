@@ -74,6 +74,10 @@ def test_no_flap_hangs_open_that_another_hand_holds_too():
     assert not flaps_beside(half_by(CREASED, (SIDE - FLAP, LONG)), SEQUENCE, Isometry())
 
 
+def test_a_hand_alone_which_would_carry_all_the_cloth_along_stays_on_its_path():
+    assert not flaps_beside(half_by(CREASED), SEQUENCE, Isometry())
+
+
 def test_no_flap_hangs_from_cloth_that_is_spread_out_or_that_is_dragged():
     step = half_by(CREASED, OPEN)
     spread_out = replace(step, before=SPREAD_OUT.start, details={"fold": 0})
