@@ -31,6 +31,7 @@ from app.rehearsal.result import Decision
 from app.rehearsal.step_motions import posture_at, step_motions
 from app.rehearsal.taut_way import taut
 from app.rehearsal.trace import ClothAfter, counterpart
+from app.rehearsal.trailing_flaps import flaps_beside, trailing
 from app.rehearsal.world import WITHDRAW, Performed, StepMotion, World
 from app.vision.look_at_stack import Sight
 from app.vision.seen_stack import SeenStack
@@ -200,16 +201,17 @@ class Performer:
 
         A part that moved last, and an edge, is taken where it is seen, `spare_m` from the grips at most.
         """
-        fold = reflection_in(step, self.plan.sequence, carried)
+        radius_m, sequence = self.plan.task.limits.comfort_radius_m, self.plan.sequence
+        fold, flaps = reflection_in(step, sequence, carried), flaps_beside(step, sequence, carried)
         offsets = where_seen(step, carried, self._stack, spare_m)
         short = landing_short(taut(motion, spare_m), laid_short(self.plan, step), SHORT_M)
-        made = beside(short, offsets, fold)
+        made = trailing(beside(short, offsets, fold), motion, flaps, carried, radius_m)
         answer = self.world.perform(made)
         missing = frozenset(arm for arm, has in answer.has_cloth.items() if not has)
-        radius_m = self.plan.task.limits.comfort_radius_m
-        inwards = into_the_cloth(step, self.plan.sequence, carried)
-        for made in regrasps(short, missing, radius_m, inwards, offsets, fold) if missing else ():
+        inwards = into_the_cloth(step, sequence, carried)
+        for again in regrasps(short, missing, radius_m, inwards, offsets, fold) if missing else ():
             self._decide("regrasped", ("radius_m", radius_m))
+            made = trailing(again, motion, flaps, carried, radius_m)
             answer = self.world.perform(made)
             if not answer.is_missing_cloth:
                 break

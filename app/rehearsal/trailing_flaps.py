@@ -1,0 +1,127 @@
+"""Keep flaps that hang beneath what is turned over from landing open.
+
+A layer folded in at the side hangs from its crease once the part it lies on has turned over, opens about the crease
+beyond the hand, and comes down on its free edge. What then stands upright between that edge and the crease pushes the
+crease out of the stack. So a hand beside such a crease goes a little inwards while the flap hangs and outwards again as
+it lays the crease down: the free edge stays behind, and the flap lies down inwards of its crease.
+"""
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from app.rehearsal.world import GripMotion, StepMotion, way_done
+from planner.cloth.layer import Layer
+from planner.folds.fold_sequence import FoldSequence
+from planner.geometry.isometry import Isometry
+from planner.geometry.pose import FloatArray, Point2
+from planner.geometry.region import Region
+from planner.geometry.segment import Segment
+from planner.geometry.tolerance import LENGTH_M
+from planner.task.plan_step import PlanStep
+
+INWARDS_M = 0.02
+"""How far inwards a hand goes at most (m): a row of the simulated mesh."""
+
+_HELD_M = 0.011
+"""A layer nearer to a hand than that is in it (m)."""
+
+_HANDS = 2
+"""The fewest hands of a fold in which one goes inwards: another one keeps the rest of the part in place."""
+
+_ALONG = math.sqrt(0.5)
+"""The cosine of the angle to a hand's way up to which a crease runs along it."""
+
+_SHARES = ((0.0, 0.1, 0.5, 0.8, 1.0), (0.0, 0.0, 1.0, 1.0, 0.0))
+"""The share of its way that a hand has done, and how much of the way inwards it is then."""
+
+
+def flaps_beside(step: PlanStep, sequence: FoldSequence, carried: Isometry) -> dict[str, Point2]:
+    """Return for each hand beside a crease from which a flap will hang the way inwards, table frame, of length 1.
+
+    That is a crease on the outline of what a fold moves, along the hands' way; its flap is held by no other hand. There
+    is none for a hand alone: all it carries would go with it, and hardly come back.
+
+    Args:
+        step: the step in which hands close.
+        sequence: the garment's folds.
+        carried: from where the stack should lie to where it lies, table frame.
+    """
+    if step.fold is None or len(step.holdings) < _HANDS:
+        return {}
+    line, folded = sequence.folds[step.fold].line, sequence.folded(step.before.done, step.fold)
+    held = np.array([one.point for one in step.holdings])
+    inwards = np.zeros_like(held)
+    for layer in folded.layers:
+        is_in_hand = layer.region.distances_to(held) <= _HELD_M
+        for crease in _creases(layer, sequence.garment.pattern):
+            beside = int(crease.distances(held).argmin())
+            if _is_at_side(crease, line, folded.moving) and not np.delete(is_in_hand, beside).any():
+                inwards[beside] += _inwards(crease, line, folded.moving)
+    turn = Isometry.rotation(step.before.placement.yaw_rad + math.atan2(carried.c, carried.a))
+    lengths = np.hypot(*inwards.T)  # of a hand between two such creases 0: it cannot go both ways
+    return {
+        step.holdings[number].arm: turn.apply_point(_point(inwards[number] / lengths[number]))
+        for number in np.flatnonzero(lengths > LENGTH_M).tolist()
+    }
+
+
+def trailing(
+    made: StepMotion, planned: StepMotion, inwards: Mapping[str, Point2], carried: Isometry, radius_m: float
+) -> StepMotion:
+    """Return a fold in which some hands go inwards on their way and outwards again as they land.
+
+    Args:
+        made: the step as it will be made.
+        planned: the step as planned, carried along with the stack.
+        inwards: the directions for these arms, table frame, of length 1.
+        carried: how far the stack lies from where the plan has it, table frame.
+        radius_m: how far from the plan's path hands may be at most (m).
+    """
+    plans = {grip.arm: grip for grip in planned.grips}
+
+    def moved(grip: GripMotion) -> GripMotion:
+        points, way = np.array(grip.points), np.array(inwards[grip.arm])
+        path = np.array([plans[grip.arm].at(t_s) for t_s in grip.times_s])
+        beside = points[:, :2] - carried.inverse.apply(path[:, :2])
+        share = np.interp(way_done(points), *_SHARES)
+        points[:, :2] += _reach_m(beside, way, radius_m) * share[:, None] * way
+        return replace(grip, points=tuple((x, y, z) for x, y, z in points.tolist()))
+
+    return replace(made, grips=tuple(moved(grip) if grip.arm in inwards else grip for grip in made.grips))
+
+
+def _reach_m(beside: FloatArray, way: FloatArray, radius_m: float) -> float:
+    """Return how far a hand can go one way, that is that far beside its path already, shape (n, 2), m."""
+    along = beside @ way
+    across = (beside * beside).sum(axis=1) - along * along
+    most = np.sqrt(np.maximum(0.0, radius_m * radius_m - across)) - along
+    return min(INWARDS_M, max(0.0, float(most.min())))
+
+
+def _creases(layer: Layer, pattern: Region) -> Iterator[Segment]:
+    """Yield the edges of a layer at which its cloth goes on in another one, article frame."""
+    ring = layer.pattern_piece.whole_ring
+    for start, end in zip(ring, np.roll(ring, -1, axis=0), strict=True):
+        if pattern.boundary_distance(_point((start + end) / 2.0)) > LENGTH_M:
+            yield Segment(layer.isometry.apply_point(_point(start)), layer.isometry.apply_point(_point(end)))
+
+
+def _is_at_side(crease: Segment, line: Segment, moving: Region) -> bool:
+    """Return whether a crease runs away from a fold line at the side of the part that moves."""
+    is_along = abs(float(np.dot(crease.direction, line.left))) > _ALONG
+    return is_along and moving.boundary_distance(crease.at(crease.length / 2.0)) <= LENGTH_M
+
+
+def _inwards(crease: Segment, line: Segment, moving: Region) -> FloatArray:
+    """Return the direction along a fold line from a crease at the side of the part that moves into it."""
+    across, normal = np.array(line.direction), np.array(crease.left)
+    beside = np.array(crease.at(crease.length / 2.0)) + 2.0 * LENGTH_M * normal
+    inwards = normal if moving.contains(_point(beside)) else -normal
+    return np.asarray(across * np.sign(inwards @ across))
+
+
+def _point(row: FloatArray) -> Point2:
+    return float(row[0]), float(row[1])

@@ -1,0 +1,120 @@
+"""Hands that keep a flap from landing open beneath what they turn over."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from app.physics.fabric import Fabric, Resolution
+from app.physics.physics_world import PhysicsWorld
+from app.rehearsal.judge import Gate, judged
+from app.rehearsal.trailing_flaps import INWARDS_M, flaps_beside, trailing
+from app.rehearsal.world import GripMotion, StepMotion
+from planner import Task
+from planner.folds.fold_path import FoldPath
+from planner.folds.fold_sequence import replayed
+from planner.geometry.isometry import Isometry
+from planner.geometry.pose import Point2
+from planner.geometry.segment import Segment
+from planner.geometry.table import Table
+from planner.geometry.table_top import TableTop
+from planner.task.grip import Holding
+from planner.task.plan_step import PlanStep
+from planner.task.world_state import WorldState
+from tests.builders import fold, garment, rectangle_points
+
+WIDE, LONG, FLAP = 0.3, 0.5, 0.1
+SIDE = WIDE - FLAP
+CLOTH = garment(
+    rectangle_points(WIDE, LONG),
+    fold((SIDE, LONG), (SIDE, 0.0), name="side"),
+    fold((0.0, LONG / 2.0), (SIDE, LONG / 2.0), name="half"),
+)
+SEQUENCE = replayed(CLOTH)
+SPREAD_OUT = Task.of(CLOTH)
+TASK = replace(SPREAD_OUT, start=replace(SPREAD_OUT.start, folds_done=(0,)))
+CREASED, OPEN = (SIDE, LONG), (0.0, LONG)
+DURATION_S, RADIUS_M = 2.5, 0.03
+
+
+def half_by(*points: Point2) -> PlanStep:
+    """Return the step in which the cloth, its side folded in, is folded in half by hands at some points."""
+    before = TASK.start
+    after = WorldState((0, 1), before.placement, before.base)
+    holdings = tuple(Holding(f"arm {i}", point, (point,)) for i, point in enumerate(points))
+    return PlanStep("fold", 0.0, DURATION_S, {"fold": 1}, before.base, (), before, after, holdings)
+
+
+def motion_of(step: PlanStep) -> StepMotion:
+    """Return the motion of a step, as a plan would make it."""
+    lies, line = TASK.start.placement, SEQUENCE.folds[1].line
+    ends = lies.to_outer(np.array([line.start, line.end])).tolist()
+    grips = lies.to_outer(np.array([one.point for one in step.holdings]))
+    on_table, top = Segment(tuple(ends[0]), tuple(ends[1])), TableTop.of(Table())
+    path = FoldPath(on_table, float(on_table.left_distances(grips).max()), top, top)
+    points = path.tool_paths(grips, np.linspace(0.0, 2.0, 11))
+    times_s = tuple(np.linspace(0.0, DURATION_S, 11).tolist())
+    hands = (GripMotion(f"arm {i}", times_s, tuple(map(tuple, one.tolist()))) for i, one in enumerate(points))
+    return StepMotion(0, "fold", DURATION_S, tuple(hands))
+
+
+def inwards_m(made: StepMotion, planned: StepMotion, way: Point2) -> list[float]:
+    """Return how far inwards of its path the first hand of a step is at its points (m)."""
+    one, other = (np.array(motion.grips[0].points) for motion in (made, planned))
+    return ((one - other)[:, :2] @ np.array(way)).tolist()
+
+
+def test_a_flap_hangs_beside_the_hand_at_its_crease_and_not_beside_the_other():
+    found = flaps_beside(half_by(CREASED, OPEN), SEQUENCE, Isometry())
+    ways = TASK.start.placement.to_outer(np.array([(0.0, 0.0), (-1.0, 0.0)]))
+    assert found == {"arm 0": pytest.approx(tuple(ways[1] - ways[0]))}
+
+
+def test_no_flap_hangs_open_that_another_hand_holds_too():
+    assert not flaps_beside(half_by(CREASED, (SIDE - FLAP, LONG)), SEQUENCE, Isometry())
+
+
+def test_a_hand_alone_which_would_carry_all_the_cloth_along_stays_on_its_path():
+    assert not flaps_beside(half_by(CREASED), SEQUENCE, Isometry())
+
+
+def test_no_flap_hangs_from_cloth_that_is_spread_out_or_that_is_dragged():
+    step = half_by(CREASED, OPEN)
+    spread_out = replace(step, before=SPREAD_OUT.start, details={"fold": 0})
+    assert not flaps_beside(spread_out, SEQUENCE, Isometry())
+    assert not flaps_beside(replace(step, kind="drag", details={}), SEQUENCE, Isometry())
+
+
+def test_a_hand_beside_a_flap_begins_and_ends_as_planned_and_is_inwards_while_it_hangs():
+    step = half_by(CREASED, OPEN)
+    planned, flaps = motion_of(step), flaps_beside(step, SEQUENCE, Isometry())
+    made = trailing(planned, planned, flaps, Isometry(), RADIUS_M)
+    apart = inwards_m(made, planned, flaps["arm 0"])
+    assert apart[0] == apart[-1] == pytest.approx(0.0, abs=1e-9)
+    assert max(apart) == pytest.approx(INWARDS_M)
+    assert made.grips[1] == planned.grips[1]
+
+
+@pytest.mark.parametrize("shift_m", [0.02, 0.04])
+def test_hands_go_inwards_no_further_than_is_in_reach(shift_m: float):
+    step = half_by(CREASED, OPEN)
+    flaps = flaps_beside(step, SEQUENCE, Isometry())
+    (x, y), planned = flaps["arm 0"], motion_of(step)
+    carried = Isometry.rotation(0.0, shift_m * x, shift_m * y)  # it lies that far inwards of where it should
+    apart = inwards_m(trailing(planned, planned, flaps, carried, RADIUS_M), planned, (x, y))
+    assert max(apart) == pytest.approx(max(0.0, RADIUS_M - shift_m), abs=1e-6)
+
+
+def test_a_flap_that_trails_behind_its_crease_does_not_land_open():
+    # On the planned path its crease stands up on the flap's free edge, and falls out of the stack by 3 cm.
+    step = half_by(CREASED, OPEN)
+    planned = motion_of(step)
+    made = trailing(planned, planned, flaps_beside(step, SEQUENCE, Isometry()), Isometry(), RADIUS_M)
+
+    def outline_mm(motion: StepMotion) -> float:
+        world = PhysicsWorld(TASK, Fabric(), Resolution(), seed=1)
+        world.perform(motion)
+        return judged(world.truth(), 0, SEQUENCE, step.after, Isometry(), TASK.scene.table, Gate(), ()).outline_mm
+
+    assert outline_mm(planned) > 4.0
+    assert outline_mm(made) < 2.5
