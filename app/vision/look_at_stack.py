@@ -13,6 +13,7 @@ import cv2
 import numpy as np
 
 from app.camera.camera import Camera
+from app.vision.edge_heights import EdgeHeights
 from app.vision.fit_creased import Creased
 from app.vision.fit_stack import fit_near
 from app.vision.on_table import why_in_doubt
@@ -28,9 +29,6 @@ from planner.message import Message
 
 _AWAY_M = 0.1
 """How far from where the stack ought to be its surroundings count as table (m)."""
-
-_LAYER_M = 0.002
-"""The thickness of a layer, for the height of what is seen at a slant (m)."""
 
 _LEAST_TABLE = 0.03
 """With less of the picture known to be table, its border counts as such."""
@@ -101,7 +99,8 @@ class Looker:
             near: where the stack ought to lie.
         """
         stack = sequence.cloth(sum(1 << fold for fold in folds))
-        height_m = _LAYER_M * len(stack.layers) / 2.0
+        heights = EdgeHeights.of(stack, sequence.garment.pattern)
+        height_m = heights.middle_m
         expected = [self._pixels(near.to_outer(ring), height_m) for ring in stack.silhouette.rings]
         ought = max(expected, key=len)
         away = ~self._painted([self._pixels(np.array(self.table.corners), 0.0)]) | self.hidden
@@ -118,8 +117,8 @@ class Looker:
         contour = contour[~self._is_beside(contour, away)]
         if len(contour) < _LEAST_POINTS:
             return _blind(Message("outline_hidden", "almost all of the outline is hidden"), ought)
-        on_table = self.camera.on_plane(contour, height_m)
-        whole = fit_near(on_table, stack, near)
+        whole = fit_near(self.camera.on_plane(contour, height_m), stack, near)
+        on_table = heights.seen_at(self.camera, contour, whole.placement)
         creased = Creased.of(on_table, sequence, folds, near)
         found = replace(creased.fitted(whole.placement), outline=on_table)
         fit = creased.told(found, whole)
