@@ -82,6 +82,6 @@ class EdgeHeights:
         """
         inside = points - _INSIDE_M * outwards
         counts = sum((layer.distances_to(inside) <= LENGTH_M).astype(np.float64) for layer in self.layers)
-        heights = LAYER_M * np.maximum(counts, 1.0)
         is_crease = self.borders.are_creases(points, _SLACK_M)
-        return np.asarray(np.where(is_crease, np.maximum(LOOP_M, heights), heights) / 2.0)
+        lowest_m = np.where(is_crease, LOOP_M - 2.0 * LAYER_M, 0.0)  # a loop is as high with two layers
+        return np.asarray((lowest_m + LAYER_M * np.maximum(counts, 1.0)) / 2.0)
