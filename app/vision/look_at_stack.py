@@ -33,8 +33,8 @@ _AWAY_M = 0.1
 _LEAST_TABLE = 0.03
 """With less of the picture known to be table, its border counts as such."""
 
-_BESIDE_PX = 5
-"""Points of the outline that near to an arm or the table's edge may be of these (pixels)."""
+_BESIDE_ARM_PX, _BESIDE_TABLE_PX = 5, 3
+"""Points of the outline that near to an arm, or to the table's edge, may be of these (pixels)."""
 
 _LEAST_POINTS = 40
 
@@ -103,7 +103,8 @@ class Looker:
         height_m = heights.middle_m
         expected = [self._pixels(near.to_outer(ring), height_m) for ring in stack.silhouette.rings]
         ought = max(expected, key=len)
-        away = ~self._painted([self._pixels(np.array(self.table.corners), 0.0)]) | self.hidden
+        off_table = ~self._painted([self._pixels(np.array(self.table.corners), 0.0)])
+        away = off_table | self.hidden
         reach = math.ceil(_AWAY_M * self.camera.focal_px / self.camera.position[2])
         disc = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * reach + 1, 2 * reach + 1))
         near_by = cv2.dilate(self._painted(expected).astype(np.uint8), disc) > 0
@@ -114,7 +115,8 @@ class Looker:
         except NothingToldError as error:
             return _blind(error.says, ought)
         contour = seen.contour + np.array([part[1].start, part[0].start])
-        contour = contour[~self._is_beside(contour, away)]
+        is_beside = self._is_beside(contour, self.hidden, _BESIDE_ARM_PX)
+        contour = contour[~(is_beside | self._is_beside(contour, off_table, _BESIDE_TABLE_PX))]
         if len(contour) < _LEAST_POINTS:
             return _blind(Message("outline_hidden", "almost all of the outline is hidden"), ought)
         whole = fit_near(self.camera.on_plane(contour, height_m), stack, near)
@@ -135,9 +137,9 @@ class Looker:
         cv2.fillPoly(mask, [np.round(ring).astype(np.int32) for ring in rings], 1)
         return mask > 0
 
-    def _is_beside(self, pixels: FloatArray, away: BoolArray) -> BoolArray:
-        """Return which pixels are at the edge of what is not looked at, shape (n,)."""
-        size = 2 * _BESIDE_PX + 1
+    def _is_beside(self, pixels: FloatArray, away: BoolArray, most_px: int) -> BoolArray:
+        """Return which pixels are that near to what is not looked at, shape (n,)."""
+        size = 2 * most_px + 1
         wide = cv2.dilate(away.astype(np.uint8), np.ones((size, size), np.uint8)) > 0
         width, height = self.camera.size_px
         columns, rows = np.clip(np.round(pixels).astype(np.int64), 0, [width - 1, height - 1]).T

@@ -16,6 +16,7 @@ from app.rehearsal.replay_world import Recorded, ReplayWorld
 from app.rehearsal.step_motions import posture_at, step_motions
 from app.rehearsal.world import WITHDRAW, Observation, Performed, StepMotion, Truth
 from app.vision.fit_fold import FoldedOutline
+from app.vision.look_at_stack import Looker
 from planner import Plan, Task, make_plan
 from planner.cloth.garment import Garment
 from planner.geometry.isometry import Isometry
@@ -185,3 +186,20 @@ def test_a_camera_carried_along_sees_the_same_point_where_the_frame_went():
     assert there == pytest.approx(camera.pixels(np.column_stack([points, [0.1, 0.0]])))
     assert camera.on_plane(camera.pixels(np.column_stack([points, [0.1, 0.1]])), 0.1) == pytest.approx(points)
     assert math.isclose(camera.depths(np.array([[0.0, 0.0, 0.5]]))[0], 1.5)
+
+
+def test_a_crease_a_centimetre_from_the_tables_edge_is_seen():
+    # The towel's crease lies along the table's edge, which is 1.2 cm away: 4 pixels of the camera.
+    plan = halved_plan()
+    line, edge_m = plan.sequence.folds[0].line, -plan.scene.table.depth_m / 2.0
+    near = plan.task.start.placement
+    crease_x = float(near.to_outer(np.array([line.start]))[0, 0])
+    cloth = HalvedCloth(line, edge_m + 0.012 - crease_x)
+    seen = CameraWorld(cloth, plan.task, home(plan), 3).observe()
+    assert seen.camera is not None and seen.image is not None
+    looker = Looker(seen.camera, plan.scene.table, np.zeros(seen.image.shape[:2], bool))
+    lies = near.moved(edge_m + 0.012 - crease_x, 0.0)
+    sight = looker.look(np.ascontiguousarray(seen.image[..., ::-1]), plan.sequence, (0,), lies)
+    assert sight.stack is not None
+    middle = (np.array(line.start) + np.array(line.end)) / 2.0
+    assert not sight.stack.is_edge_hidden(middle[None])
