@@ -51,8 +51,11 @@ class Camera:
         """Return how far ahead of the lens points, shape (n, 3), are, shape (n,), m."""
         return np.asarray((points - self.position) @ np.array(self.rotation)[:, 2])
 
-    def on_plane(self, pixels: FloatArray, height_m: float = 0.0) -> FloatArray:
-        """Return where pixels, shape (n, 2), meet a plane over the table, shape (n, 2), m; NaN above the horizon."""
+    def on_plane(self, pixels: FloatArray, height_m: float | FloatArray = 0.0) -> FloatArray:
+        """Return where pixels, shape (n, 2), meet a plane over the table, shape (n, 2), m; NaN above the horizon.
+
+        The height may be another one for each pixel, shape (n,).
+        """
         rays = np.column_stack([(pixels - self._middle) / self.focal_px, np.ones(len(pixels))])
         ways = rays @ np.array(self.rotation).T
         with np.errstate(divide="ignore", invalid="ignore"):

@@ -27,6 +27,7 @@ from app.rehearsal.corrections import (
 from app.rehearsal.eyes import Eyes, Picture, kept
 from app.rehearsal.grasp_points import are_edges_hidden, into_the_cloth, laid_short, where_seen
 from app.rehearsal.judge import Gate, StepVerdict, judged
+from app.rehearsal.rest import rest_tasks
 from app.rehearsal.result import Decision
 from app.rehearsal.step_motions import posture_at, step_motions
 from app.rehearsal.taut_way import taut
@@ -39,7 +40,7 @@ from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Point2, Pose2
 from planner.task.plan import Plan
 from planner.task.plan_step import PlanStep
-from planner.task.task import TIME_LIMIT_S, Task
+from planner.task.task import Task
 from planner.task.world_state import WorldState
 
 FAILURES_MAX = 3
@@ -231,16 +232,14 @@ class Performer:
         self._decide("replanned", ("shift_m", shift_m))
         if sum(one.code == "replanned" for one in self._decisions) > FAILURES_MAX:
             return f"step {self._made} failed after the rest was planned again {FAILURES_MAX} times"
-        start, limits = WorldState(step.before.folds_done, lies, step.before.base), self.plan.task.limits
-        # The work ends this search, on any machine and under any load, so that a run twice is the same.
-        work_s = limits.work_limit_s or limits.time_limit_s
-        limits = replace(limits, work_limit_s=work_s, time_limit_s=TIME_LIMIT_S[1])
+        start = WorldState(step.before.folds_done, lies, step.before.base)
         assert self.replan is not None
-        again = self.replan(replace(self.plan.task, start=start, limits=limits))
-        if not again.is_solved:
-            return f"from where the cloth lies before step {self._made} the plan is {again.status}"
-        self.plan = again
-        return ""
+        for task in rest_tasks(self._first.task, start):
+            again = self.replan(task)
+            if again.is_solved:
+                self.plan = again
+                return ""
+        return f"from where the cloth lies before step {self._made} the plan is {again.status}"
 
     def _judge(self, motion: StepMotion, step: PlanStep, answer: Performed, carried: Isometry) -> None:
         truth = self.world.truth()

@@ -13,6 +13,7 @@ import cv2
 import numpy as np
 
 from app.camera.camera import Camera
+from app.vision.edge_heights import EdgeHeights
 from app.vision.fit_creased import Creased
 from app.vision.fit_stack import fit_near
 from app.vision.on_table import why_in_doubt
@@ -29,14 +30,11 @@ from planner.message import Message
 _AWAY_M = 0.1
 """How far from where the stack ought to be its surroundings count as table (m)."""
 
-_LAYER_M = 0.002
-"""The thickness of a layer, for the height of what is seen at a slant (m)."""
-
 _LEAST_TABLE = 0.03
 """With less of the picture known to be table, its border counts as such."""
 
-_BESIDE_PX = 5
-"""Points of the outline that near to an arm or the table's edge may be of these (pixels)."""
+_BESIDE_ARM_PX, _BESIDE_TABLE_PX = 5, 3
+"""Points of the outline that near to an arm, or to the table's edge, may be of these (pixels)."""
 
 _LEAST_POINTS = 40
 
@@ -101,10 +99,12 @@ class Looker:
             near: where the stack ought to lie.
         """
         stack = sequence.cloth(sum(1 << fold for fold in folds))
-        height_m = _LAYER_M * len(stack.layers) / 2.0
+        heights = EdgeHeights.of(stack, sequence.garment.pattern)
+        height_m = heights.middle_m
         expected = [self._pixels(near.to_outer(ring), height_m) for ring in stack.silhouette.rings]
         ought = max(expected, key=len)
-        away = ~self._painted([self._pixels(np.array(self.table.corners), 0.0)]) | self.hidden
+        off_table = ~self._painted([self._pixels(np.array(self.table.corners), 0.0)])
+        away = off_table | self.hidden
         reach = math.ceil(_AWAY_M * self.camera.focal_px / self.camera.position[2])
         disc = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * reach + 1, 2 * reach + 1))
         near_by = cv2.dilate(self._painted(expected).astype(np.uint8), disc) > 0
@@ -115,11 +115,12 @@ class Looker:
         except NothingToldError as error:
             return _blind(error.says, ought)
         contour = seen.contour + np.array([part[1].start, part[0].start])
-        contour = contour[~self._is_beside(contour, away)]
+        is_beside = self._is_beside(contour, self.hidden, _BESIDE_ARM_PX)
+        contour = contour[~(is_beside | self._is_beside(contour, off_table, _BESIDE_TABLE_PX))]
         if len(contour) < _LEAST_POINTS:
             return _blind(Message("outline_hidden", "almost all of the outline is hidden"), ought)
-        on_table = self.camera.on_plane(contour, height_m)
-        whole = fit_near(on_table, stack, near)
+        whole = fit_near(self.camera.on_plane(contour, height_m), stack, near)
+        on_table = heights.seen_at(self.camera, contour, whole.placement)
         creased = Creased.of(on_table, sequence, folds, near)
         found = replace(creased.fitted(whole.placement), outline=on_table)
         fit = creased.told(found, whole)
@@ -136,9 +137,9 @@ class Looker:
         cv2.fillPoly(mask, [np.round(ring).astype(np.int32) for ring in rings], 1)
         return mask > 0
 
-    def _is_beside(self, pixels: FloatArray, away: BoolArray) -> BoolArray:
-        """Return which pixels are at the edge of what is not looked at, shape (n,)."""
-        size = 2 * _BESIDE_PX + 1
+    def _is_beside(self, pixels: FloatArray, away: BoolArray, most_px: int) -> BoolArray:
+        """Return which pixels are that near to what is not looked at, shape (n,)."""
+        size = 2 * most_px + 1
         wide = cv2.dilate(away.astype(np.uint8), np.ones((size, size), np.uint8)) > 0
         width, height = self.camera.size_px
         columns, rows = np.clip(np.round(pixels).astype(np.int64), 0, [width - 1, height - 1]).T

@@ -1,0 +1,31 @@
+"""The rest of a plan as tasks to plan anew."""
+
+from dataclasses import replace
+
+from planner.cloth.garment import Garment
+from planner.cloth.grips import FIRM
+from planner.task.task import TIME_LIMIT_S, Task
+from planner.task.world_state import WorldState
+
+
+def rest_tasks(task: Task, start: WorldState) -> tuple[Task, Task]:
+    """Return the tasks of the rest from a state: the one to plan first, and the one for where that has no plan.
+
+    In the first, grips hold firmly what they must: a plan that saves half a second with one hand in the middle of a
+    wide edge loses the edge's corners. The work ends both searches, on any machine and under any load, so that a run
+    twice is the same.
+
+    Args:
+        task: the task as it was at first.
+        start: the state as it is.
+    """
+    limits = task.limits
+    work_s = limits.work_limit_s or limits.time_limit_s
+    rest = replace(task, start=start, limits=replace(limits, work_limit_s=work_s, time_limit_s=TIME_LIMIT_S[1]))
+    return replace(rest, garment=_gripped_firmly(task.garment)), rest
+
+
+def _gripped_firmly(garment: Garment) -> Garment:
+    """Return a garment of which each grip holds what it holds firmly alone."""
+    folds = tuple(replace(fold, grip_radius_m=FIRM * fold.grip_radius_m) for fold in garment.folds)
+    return replace(garment, grip_radius_m=FIRM * garment.grip_radius_m, folds=folds)
