@@ -8,7 +8,7 @@ import numpy as np
 from planner.geometry.pose import Pose2
 
 _STEP_M, _FURTHEST_M = 0.01, 1.0
-"""What places further back differ by, and how far back they are looked for (m)."""
+"""Room further back is looked for in such steps, and so far back at most (m)."""
 
 
 class Standing(Protocol):

@@ -1,4 +1,4 @@
-"""What the description at /docs allows and forbids in a request, the server allows and forbids too."""
+"""The server accepts and refuses the requests that the description at /docs says it does."""
 
 from typing import Any
 

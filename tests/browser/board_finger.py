@@ -6,7 +6,7 @@ from tests.browser.board_hand import Hand, Point
 
 
 class Finger:
-    """One or two fingers on the screen, by the browser's own protocol."""
+    """A hand that touches the screen with one or two fingers, through the browser's debugging protocol."""
 
     def __init__(self, page: Page) -> None:
         self.hand = Hand(page)

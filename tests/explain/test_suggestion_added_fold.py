@@ -1,17 +1,13 @@
 """A fold that is too large for two hands is offered in two parts, or after the cloth has been halved across it."""
 
-from collections.abc import Iterator
-from typing import Any
-
 import numpy as np
 import pytest
 
-from planner import FoldSequence, Garment, Task, make_plan
-from planner.explain.suggestion import Suggestion
+from planner import FoldSequence, Garment, Task
 from planner.explain.suggestion_added_fold import halvings, splits, with_fold_before
-from planner.explain.suggestion_trial import Search
 from planner.geometry.segment import Segment
 from tests.builders import fold, garment, rectangle_points
+from tests.explain.proven_search import proven
 from tests.planning.provoked import planned_with
 
 APRON = ((0, 0), (0.7, 0), (0.7, 0.5), (0.56, 0.58), (0.5, 0.9), (0.35, 0.88), (0.2, 0.9), (0.14, 0.58), (0, 0.5))
@@ -23,20 +19,6 @@ def apron() -> Garment:
     cloth = garment(APRON, fold((0.35, 0.0), (0.35, 0.88)))
     assert not FoldSequence.of(cloth).covers(0, 0.0873, 2).is_holdable
     return cloth
-
-
-def proven(search: Search) -> Iterator[Suggestion]:
-    """What a search comes to that has all the time it wants."""
-    wish: Any = next(search)
-    while True:
-        try:
-            if isinstance(wish, Suggestion):
-                yield wish
-                wish = next(search)
-            else:
-                wish = search.send(make_plan(wish.task))
-        except StopIteration:
-            return
 
 
 @pytest.mark.parametrize(("search", "code"), [(splits, "split_fold"), (halvings, "halve_first")])

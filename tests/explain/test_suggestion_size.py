@@ -1,7 +1,6 @@
 """Cloth that is too large, or has too much rim, is offered in the largest size that can be folded."""
 
 import math
-from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
@@ -9,10 +8,9 @@ import numpy as np
 import pytest
 
 from planner import Task, make_plan
-from planner.explain.suggestion import Suggestion
 from planner.explain.suggestion_size import STEP, sizes
-from planner.explain.suggestion_trial import Search
 from tests.builders import fold, garment
+from tests.explain.proven_search import proven
 from tests.planning.provoked import planned_with
 
 ROUND = garment(
@@ -20,20 +18,6 @@ ROUND = garment(
     fold((0.3, 0.6), (0.3, 0.0)),
 )
 """A round cloth of 60 cm: half of its rim, 94 cm, must be held by two hands that hold 25 cm of it each."""
-
-
-def proven(search: Search) -> Iterator[Suggestion]:
-    """What a search comes to that has all the time it wants."""
-    wish: Any = next(search, None)
-    while wish is not None:
-        if isinstance(wish, Suggestion):
-            yield wish
-            wish = next(search, None)
-        else:
-            try:
-                wish = search.send(make_plan(wish.task))
-            except StopIteration:
-                return
 
 
 def test_a_round_cloth_is_offered_in_the_largest_size_that_two_hands_can_fold() -> None:

@@ -43,7 +43,7 @@ def test_what_was_solved_is_legal_for_the_planner_too(name: str):
 
 
 def test_as_points_they_would_be_illegal():
-    """What ties are for: with its folds' ends left where they were, nearly every other pulled T-shirt is illegal."""
+    """Without ties the ends of its folds stay where they were, and nearly every other pulled T-shirt is illegal."""
     garment = load_garment("t-shirt")
     illegal = 0
     for corner, (x, y) in enumerate(garment.outline):

@@ -1,4 +1,4 @@
-"""One server at a time uses a data folder; a second server is told which one does."""
+"""A data folder is locked by the server that uses it; a second server is told which one that is."""
 
 import json
 import os
