@@ -51,12 +51,16 @@ def robot_shape(card: RobotCard, floor_z_m: float) -> RobotShape:
     return RobotShape(load_robot_model(card.urdf_path, card.package_dir), floor_z_m)
 
 
+def rising(parts: list[FloatArray], camera: Camera) -> list[FloatArray]:
+    """Return what rises over the table of each part that the camera is before, shape (n, 3), m, the highest last."""
+    above = [part[part[:, 2] > 0.0] for part in parts]
+    seen = [part for part in above if len(part) > 2 and float(camera.depths(part).min()) > 0.0]
+    return sorted(seen, key=lambda part: float(part[:, 2].mean()))
+
+
 def outlines(parts: list[FloatArray], camera: Camera) -> list[NDArray[np.int32]]:
     """Return the convex outline of each part that rises over the table, shape (k, 2), pixels, the highest last."""
-    above = [part[part[:, 2] > 0.0] for part in parts]
-    rising = sorted((part for part in above if len(part) > 2), key=lambda part: float(part[:, 2].mean()))
-    ahead = [part for part in rising if float(camera.depths(part).min()) > 0.0]
-    return [_hull(camera.pixels(part)) for part in ahead]
+    return [_hull(camera.pixels(part)) for part in rising(parts, camera)]
 
 
 def hidden(parts: list[FloatArray], camera: Camera, beyond_px: int = 0) -> BoolArray:

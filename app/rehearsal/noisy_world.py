@@ -1,17 +1,21 @@
 """A world with errors of robot and camera: motions end a little elsewhere, or fail."""
 
 import math
+from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
 
 from app.camera.posture import Posture
 from app.rehearsal.corrections import carry
+from app.rehearsal.deflection import deflected
 from app.rehearsal.judge import slide_of
 from app.rehearsal.noise import Noise
 from app.rehearsal.world import GripMotion, Observation, Performed, StepMotion, Truth, World, way_done
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray, Pose2
+from planner.robots.load_robot import load_robot
+from planner.task.task import Task
 
 
 class NoisyWorld:
@@ -22,12 +26,12 @@ class NoisyWorld:
     short, hands that hold on go on from there; once they are free, the base is driven to where it should be.
     """
 
-    def __init__(self, world: World, noise: Noise, seed: int, base: Pose2) -> None:
-        """Take a world, the noise, its seed, and where the base stands at first."""
-        self._world, self._noise = world, noise
-        self._rng = np.random.default_rng(seed)
+    def __init__(self, world: World, noise: Noise, seed: int, task: Task) -> None:
+        """Take a world, the noise, its seed, and the task: the robot, and where its base stands at first."""
+        self._world, self._noise, self._robot = world, noise, load_robot(task.robot)
+        self._rng, self._idle_rng = np.random.default_rng(seed), np.random.default_rng([seed, 1])
         self._calibrated = Isometry.rotation(0.0, *self._rng.normal(0.0, noise.camera_m, 2).tolist())
-        self._error = self._driven(base)
+        self._error = self._driven(task.start.base.pose)
         self._short = Isometry()
         self._arm_errors: dict[str, FloatArray] = {}
 
@@ -56,7 +60,9 @@ class NoisyWorld:
             self._short = slide_of(self._error.apply(planned), np.array(stopped)).isometry
         if all(grip.opens for grip in made):
             self._short = Isometry()
-        answer = self._world.perform(replace(motion, grips=found, ends=self._really(motion.ends)))
+        answer = self._world.perform(
+            replace(motion, grips=found, ends=self._really(motion.ends, [grip.arm for grip in made]))
+        )
         return Performed({**answer.has_cloth, **dict.fromkeys(missed, False)})
 
     def truth(self) -> Truth | None:
@@ -70,13 +76,16 @@ class NoisyWorld:
             base, Pose2(base.x_m + x, base.y_m + y, base.yaw_rad + self._rng.normal(0.0, self._noise.base_rad))
         )
 
-    def _really(self, ends: Posture | None) -> Posture | None:
-        """Return how the robot stands where it believes to stand so."""
+    def _really(self, ends: Posture | None, hands: Iterable[str]) -> Posture | None:
+        """Return how the robot stands where it believes to stand so, after these hands have moved cloth."""
         if ends is None:
             return None
+        idle = {arm.name: self._idle_rng.normal(0.0, self._noise.arm_m, 2) for arm in self._robot.card.arms}
+        beside = idle | {arm: self._arm_errors[arm] for arm in hands}
         error = self._short.after(self._error)
         x, y = error.apply_point((ends.base.x_m, ends.base.y_m))
-        return replace(ends, base=Pose2(x, y, ends.base.yaw_rad + math.atan2(error.c, error.a)))
+        stands = replace(ends, base=Pose2(x, y, ends.base.yaw_rad + math.atan2(error.c, error.a)))
+        return deflected(self._robot, stands, beside)
 
     def _off(self, grip: GripMotion, short: float) -> GripMotion:
         """Return the motion that a hand really makes; one that holds on goes on from where it is."""

@@ -126,6 +126,8 @@ class Performer:
             else:
                 answer = self._held_on(corrected(motion, carried), step, carried)
             self._posture = motion.ends
+            if self.replan is not None:
+                self._eyes.after(motion)
             if motion.is_drag:
                 carried = self._after_drag(motion, step)
             self._judge(motion, step, answer, carried)

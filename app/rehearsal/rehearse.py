@@ -128,6 +128,7 @@ def one_run(
     from app.rehearsal.perform import Performance, Performer
     from app.rehearsal.step_motions import posture_at
     from app.rehearsal.trace import looked_before, traced
+    from app.rehearsal.world import WITHDRAW, StepMotion
     from planner.plans import make_plan
 
     began, noise = process_time(), NOISE[options.noise]
@@ -158,8 +159,10 @@ def one_run(
 
     world = FilmedWorld(plan, begun, told)
     assert plan.trajectory is not None
-    camera = CameraWorld(world, plan.task, posture_at(plan.trajectory, 0.0), seed)
-    seen = camera if noise == Noise() else NoisyWorld(camera, noise, seed, plan.task.start.base.pose)
+    begins = posture_at(plan.trajectory, 0.0)
+    camera = CameraWorld(world, plan.task, begins, seed)
+    seen = camera if noise == Noise() else NoisyWorld(camera, noise, seed, plan.task)
+    seen.perform(StepMotion(0, WITHDRAW, 0.0, ends=begins))  # it stands beside where it believes to
     performer = Performer(plan, seen, options.gate, planned_again if options.feedback else None, told)
     try:
         found = performer.performed()

@@ -15,6 +15,7 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from app.vision.crease_edges import CreaseEdges
+from app.vision.expected import Expected
 from app.vision.fit_fold import FoldedOutline
 from app.vision.fit_stack import thinned
 from app.vision.outline_edges import OutlineEdges
@@ -24,11 +25,9 @@ from app.vision.stack_fit import LOOKS_ALIKE, StackFit
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.pose import FloatArray, Pose2
 
-_LIES = ((0.0, 0.03), (0.0, 0.03), (0.0, 0.08))
-"""How far a stack is expected from where it ought to lie, mean and standard deviation: x, y (m), yaw (rad)."""
-
 _FOLDED = ((0.0, 0.006), (0.0, 0.01), (0.004, 0.003))
-"""The same of its last crease, beside its line (m) and turned (rad), and of all creases, inside of their lines (m)."""
+"""How far the last crease is beside its line (m) and turned (rad), and all creases inside of theirs (m): what is
+expected, mean and standard deviation."""
 
 _POINTS = 120
 _SCALE_M = 0.005
@@ -66,17 +65,17 @@ class Creased:
     Attributes:
         sequence: the garment's folds.
         folds: those done, in the order in which they were made.
-        near: where the stack ought to lie.
+        near: where the stack is expected.
         seen: points of its outline, table frame, shape (n, 2), m.
     """
 
     sequence: FoldSequence
     folds: tuple[int, ...]
-    near: Pose2
+    near: Expected
     seen: FloatArray
 
     @staticmethod
-    def of(contour: FloatArray, sequence: FoldSequence, folds: tuple[int, ...], near: Pose2) -> "Creased":
+    def of(contour: FloatArray, sequence: FoldSequence, folds: tuple[int, ...], near: Expected) -> "Creased":
         """Return the problem for an outline seen, shape (n, 2), m; raises `ValueError` for points of no use."""
         return Creased(sequence, folds, near, thinned(contour, _POINTS))
 
@@ -133,15 +132,16 @@ class Creased:
 
     @cached_property
     def _means(self) -> FloatArray:
-        return np.array([*self.figure.fit_at(self.near).row, *(mean for mean, _ in self._expected[3:])])
+        return np.array([*self.figure.fit_at(self.near.placement).row, *(mean for mean, _ in self._of_folds)])
 
     @cached_property
     def _sds(self) -> FloatArray:
-        return np.array([sd for _, sd in self._expected])
+        place, angle = self.near.within_m, self.near.within_rad
+        return np.array([place, place, angle, *(sd for _, sd in self._of_folds)])
 
     @property
-    def _expected(self) -> tuple[tuple[float, float], ...]:
-        return _LIES if self.folded is None else (*_LIES, *_FOLDED)
+    def _of_folds(self) -> tuple[tuple[float, float], ...]:
+        return () if self.folded is None else _FOLDED
 
     def _with_crease(self, row: FloatArray, offset_m: float) -> FloatArray:
         return np.array([*row[:3], offset_m, 0.0, self._means[5]])

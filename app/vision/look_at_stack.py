@@ -14,6 +14,7 @@ import numpy as np
 
 from app.camera.camera import Camera
 from app.vision.edge_heights import EdgeHeights
+from app.vision.expected import Expected
 from app.vision.fit_creased import Creased
 from app.vision.fit_stack import fit_near
 from app.vision.on_table import why_in_doubt
@@ -89,44 +90,48 @@ class Looker:
     table: Table
     hidden: BoolArray
 
-    def look(self, image: Image, sequence: FoldSequence, folds: tuple[int, ...], near: Pose2) -> Sight:
+    def look(
+        self, image: Image, sequence: FoldSequence, folds: tuple[int, ...], ought: Pose2, near: Expected | None = None
+    ) -> Sight:
         """Return where a stack lies.
 
         Args:
             image: blue, green, red.
             sequence: the garment's folds.
             folds: those done, in the order in which they were made.
-            near: where the stack ought to lie.
+            ought: where the stack ought to lie.
+            near: where it is expected, if more is known than that it should be about there.
         """
+        near = near or Expected(ought)
         stack = sequence.cloth(sum(1 << fold for fold in folds))
         heights = EdgeHeights.of(stack, sequence.garment.pattern)
         height_m = heights.middle_m
-        expected = [self._pixels(near.to_outer(ring), height_m) for ring in stack.silhouette.rings]
-        ought = max(expected, key=len)
+        rings = [self._pixels(ought.to_outer(ring), height_m) for ring in stack.silhouette.rings]
+        expected = max(rings, key=len)
         off_table = ~self._painted([self._pixels(np.array(self.table.corners), 0.0)])
         away = off_table | self.hidden
         reach = math.ceil(_AWAY_M * self.camera.focal_px / self.camera.position[2])
         disc = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * reach + 1, 2 * reach + 1))
-        near_by = cv2.dilate(self._painted(expected).astype(np.uint8), disc) > 0
+        near_by = cv2.dilate(self._painted(rings).astype(np.uint8), disc) > 0
         part = _round(near_by, reach)
         table = (~near_by & ~away)[part]
         try:
             seen = segment(image[part], away[part], table if table.mean() > _LEAST_TABLE else None)
         except NothingToldError as error:
-            return _blind(error.says, ought)
+            return _blind(error.says, expected)
         contour = seen.contour + np.array([part[1].start, part[0].start])
         is_beside = self._is_beside(contour, self.hidden, _BESIDE_ARM_PX)
         contour = contour[~(is_beside | self._is_beside(contour, off_table, _BESIDE_TABLE_PX))]
         if len(contour) < _LEAST_POINTS:
-            return _blind(Message("outline_hidden", "almost all of the outline is hidden"), ought)
-        whole = fit_near(self.camera.on_plane(contour, height_m), stack, near)
+            return _blind(Message("outline_hidden", "almost all of the outline is hidden"), expected)
+        whole = fit_near(self.camera.on_plane(contour, height_m), stack, near.placement)
         on_table = heights.seen_at(self.camera, contour, whole.placement)
         creased = Creased.of(on_table, sequence, folds, near)
         found = replace(creased.fitted(whole.placement), outline=on_table)
         fit = creased.told(found, whole)
         doubt = why_in_doubt(replace(seen, at_border=0.0), None)
-        rings = [self._pixels(fit.placement.to_outer(ring), height_m) for ring in stack.silhouette.rings]
-        return Sight(fit, contour, max(rings, key=len), fit.unknown or doubt, expected=ought, stack=found)
+        fitted = [self._pixels(fit.placement.to_outer(ring), height_m) for ring in stack.silhouette.rings]
+        return Sight(fit, contour, max(fitted, key=len), fit.unknown or doubt, expected=expected, stack=found)
 
     def _pixels(self, points: FloatArray, height_m: float) -> FloatArray:
         return self.camera.pixels(np.column_stack([points, np.full(len(points), height_m)]))
@@ -156,5 +161,5 @@ def _round(mask: BoolArray, margin: int) -> tuple[slice, slice]:
     return spans[0], spans[1]
 
 
-def _blind(why: Message, ought: FloatArray) -> Sight:
-    return Sight(None, np.empty((0, 2)), np.empty((0, 2)), why, expected=ought)
+def _blind(why: Message, expected: FloatArray) -> Sight:
+    return Sight(None, np.empty((0, 2)), np.empty((0, 2)), why, expected=expected)

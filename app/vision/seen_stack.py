@@ -1,11 +1,13 @@
 """A stack as it was seen: where its points lie, those of its last fold too, and how far off they may be."""
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
+from app.vision.expected import Expected
 from app.vision.fit_fold import FoldedOutline
 from app.vision.outline_edges import OutlineEdges
 from app.vision.stack_figure import Figure
@@ -85,6 +87,12 @@ class SeenStack:
     def errors(self, points: FloatArray) -> FloatArray:
         """Return how far off each of these places may be, at 95 of 100, shape (n,), m."""
         return self._errors(points, len(self.row))
+
+    @property
+    def expected(self) -> Expected:
+        """Where the stack is expected in the next look, if nothing moves it."""
+        within_m = math.sqrt(np.linalg.eigvalsh(self.covariance[:2, :2])[-1])
+        return Expected(self.placement, within_m, math.sqrt(self.covariance[2, 2]))
 
     @property
     def placement_error_m(self) -> float:

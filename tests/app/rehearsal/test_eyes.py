@@ -9,6 +9,7 @@ import pytest
 
 from app.camera.posture import Posture
 from app.rehearsal.camera_world import CameraWorld
+from app.rehearsal.eyes import Eyes
 from app.rehearsal.judge import Gate
 from app.rehearsal.perform import Performer
 from app.rehearsal.planned_cloth import planned_positions
@@ -203,3 +204,30 @@ def test_a_crease_a_centimetre_from_the_tables_edge_is_seen():
     assert sight.stack is not None
     middle = (np.array(line.start) + np.array(line.end)) / 2.0
     assert not sight.stack.is_edge_hidden(middle[None])
+
+
+def test_where_a_stack_was_seen_it_is_expected_after_a_fold_and_not_after_a_drag():
+    plan = towel_plan()
+    lies = plan.task.start.placement.moved(0.012, -0.016)
+    camera = CameraWorld(FlatCloth(0.012, -0.016), plan.task, home(), 3)
+    (fold,) = step_motions(plan)
+    drag = replace(fold, kind="drag")
+    there = (lies.x_m, lies.y_m)
+    for made, is_known in ((fold, True), (replace(fold, base=plan.task.start.base.pose), True), (drag, False)):
+        eyes = Eyes(plan.task)
+        assert eyes.expected is None
+        eyes.sight(camera.observe(), plan.sequence, (), plan.task.start.placement, home())
+        assert eyes.expected is None  # nothing was made since
+        eyes.after(made)
+        assert (eyes.expected is not None) == is_known
+        if eyes.expected is not None:
+            found = eyes.expected.placement
+            assert (found.x_m, found.y_m) == pytest.approx(there, abs=3e-3)
+            assert eyes.expected.within_m < (0.012 if made.base else 0.005)
+            eyes.after(drag)
+            assert eyes.expected is None
+    held = replace(fold, grips=tuple(replace(grip, closes=False) for grip in fold.grips))
+    eyes = Eyes(plan.task)
+    eyes.sight(camera.observe(), plan.sequence, (), plan.task.start.placement, home())
+    eyes.after(held)
+    assert eyes.expected is None  # the base drives to where it should be, once the hands are free

@@ -32,6 +32,7 @@ from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray, Point2, Pose2
 from planner.geometry.region import Region
 from planner.geometry.ring import evenly_along
+from planner.robots.load_robot import load_robot
 from planner.task.grip import Holding
 from planner.task.plan_step import PlanStep
 from planner.task.task import TIME_LIMIT_S
@@ -336,18 +337,38 @@ def test_a_correction_carries_a_step_along_and_its_shift_is_that_of_the_furthest
 
 def test_a_robot_that_sees_from_where_it_stands_corrects_its_base_error_too():
     world = NotedWorld(outline_at(0.0, 0.0))
-    noisy = NoisyWorld(world, Noise(base_m=0.005, base_rad=0.005), 3, towel_plan().task.start.base.pose)
+    noisy = NoisyWorld(world, Noise(base_m=0.005, base_rad=0.005), 3, towel_plan().task)
     Performer(towel_plan(), noisy, Gate(), no_plan).performed()
     (asked,), (planned,) = world.asked, step_motions(towel_plan())
     for grip, former in zip(asked.grips, planned.grips, strict=True):
         assert math.dist(grip.points[0], former.points[0]) < 2e-3
 
 
+def test_a_robot_stands_where_its_base_and_its_tools_really_are():
+    plan = towel_plan()
+    world, (fold,) = NotedWorld(np.empty((0, 2))), step_motions(plan)
+    noisy = NoisyWorld(world, Noise(base_m=0.01, arm_m=0.003), 3, plan.task)
+    noisy.perform(fold)
+    ends, believed = world.asked[0].ends, fold.ends
+    assert ends is not None and believed is not None
+    error = carry(believed.base, ends.base)
+    assert 0.003 < math.hypot(error.x, error.y) < 0.04
+    robot = load_robot(plan.task.robot)
+    for number, (arm, grip, asked) in enumerate(zip(robot.card.arms, fold.grips, world.asked[0].grips, strict=True)):
+        stands, thought = (
+            robot.tool_pose(number, np.array([posture.joints[name] for name in arm.joint_names]), 0.2)[0][:2]
+            for posture in (ends, believed)
+        )
+        beside = asked.points[-1][:2] - error.apply(np.array([grip.points[-1][:2]]))[0]
+        assert stands - thought == pytest.approx(beside, abs=3e-4)
+        assert np.linalg.norm(beside) > 1e-4
+
+
 def test_hands_that_hold_on_go_on_from_where_a_drag_has_stopped_short():
     # Else the cloth in them would jump by as much within one time step.
     plan = make_plan(Task.of(load_garment("skirt")))
     world = NotedWorld(np.empty((0, 2)))
-    noisy = NoisyWorld(world, Noise(undershoot=0.2, arm_m=0.003, base_rad=0.01), 3, plan.task.start.base.pose)
+    noisy = NoisyWorld(world, Noise(undershoot=0.2, arm_m=0.003, base_rad=0.01), 3, plan.task)
     planned = step_motions(plan)
     for motion in planned:
         noisy.perform(motion)
@@ -366,7 +387,7 @@ def test_what_is_seen_while_a_drag_has_stopped_short_is_seen_from_where_the_base
     plan = make_plan(Task.of(load_garment("tie")))
     lies = np.array([[0.0, 0.0], [0.3, 0.1]])
     world = NotedWorld(lies)
-    noisy = NoisyWorld(world, Noise(undershoot=0.2), 3, plan.task.start.base.pose)
+    noisy = NoisyWorld(world, Noise(undershoot=0.2), 3, plan.task)
     drag, fold = step_motions(plan)[:2]
     noisy.perform(drag)
     short = np.subtract(world.asked[0].grips[0].points[-1], drag.grips[0].points[-1])[:2]

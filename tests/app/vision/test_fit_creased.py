@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from app.vision.crease_edges import CreaseEdges
+from app.vision.expected import Expected
 from app.vision.fit_creased import Creased
 from app.vision.fit_fold import FoldedOutline
 from app.vision.fit_stack import fit_near
@@ -19,7 +20,7 @@ NEAR = Pose2(0.062, -0.092, -1.17)
 
 def fitted(contour: FloatArray, sequence: FoldSequence, folds: tuple[int, ...]) -> SeenStack:
     whole = fit_near(contour, sequence.cloth(sum(1 << fold for fold in folds)), NEAR)
-    return Creased.of(contour, sequence, folds, NEAR).fitted(whole.placement)
+    return Creased.of(contour, sequence, folds, Expected(NEAR)).fitted(whole.placement)
 
 
 def test_creases_and_edges_of_a_towel_folded_in_half_are_told_apart():
@@ -64,6 +65,32 @@ def test_the_edge_of_a_flap_that_lies_upon_an_equal_one_is_told_to_be_unsure():
     halved = fitted(seen(sequence.cloth(1).silhouette, LIES), sequence, (0,))
     flat = fitted(seen(sequence.cloth(0).silhouette, LIES), sequence, ())
     assert halved.errors(corner)[0] > 2.0 * flat.errors(corner)[0]
+
+
+def test_a_flap_that_landed_turned_does_not_turn_a_stack_that_was_seen_before():
+    # The flap of a halved towel sticks out at both ends of one side, and its edge is the only one seen there.
+    sequence = replayed(load_garment("hand-towel"))
+    folded = FoldedOutline(sequence, 0, 0)
+    points, silhouette = seen(folded.region(-0.004, 0.012), LIES), sequence.cloth(1).silhouette
+    whole = fit_near(points, sequence.cloth(1), NEAR)
+    before = Expected(LIES.moved(0.001, -0.001), 0.003, 0.003)
+    known, guessed = (
+        Creased.of(points, sequence, (0,), near).fitted(whole.placement) for near in (before, Expected(NEAR))
+    )
+    assert most_off(silhouette, known.placement, LIES) < 0.004
+    assert known.row[4] == pytest.approx(0.012, abs=0.004)
+    assert most_off(silhouette, guessed.placement, LIES) > most_off(silhouette, known.placement, LIES) + 0.002
+
+
+def test_what_was_seen_is_expected_and_gets_less_sure_as_things_move():
+    sequence = replayed(load_garment("jeans"))
+    stack = fitted(seen(sequence.cloth(0).silhouette, LIES), sequence, ())
+    expected = stack.expected
+    assert expected.placement == stack.placement
+    assert 0.0 < expected.within_m < 0.003 and 0.0 < expected.within_rad < 0.01
+    loosened = expected.loosened(0.01, 0.02)
+    assert loosened.within_m == pytest.approx(np.hypot(expected.within_m, 0.01))
+    assert loosened.within_rad == pytest.approx(np.hypot(expected.within_rad, 0.02))
 
 
 def test_errors_told_cover_outlines_of_much_noise():
