@@ -156,13 +156,14 @@ class PhysicsWorld:
 
     def _settle(self) -> None:
         """Let what was let go come to rest; what rests already is not simulated."""
-        rested_s = 0.0
-        for _ in range(round(self.resolution.settle_s / self.simulation.step_s)):
+        rested_s, left = 0.0, round(self.resolution.settle_s / self.simulation.step_s)
+        self.simulation.solve_to(self.resolution.rest_tolerance)
+        while left and rested_s < _RESTED_S:
             self._step()
             is_at_rest = float(self.simulation.speeds.max()) < _REST_M_S
             rested_s = rested_s + self.simulation.step_s if is_at_rest else 0.0
-            if rested_s >= _RESTED_S:
-                return
+            left -= 1
+        self.simulation.solve_to(self.resolution.tolerance)
 
     def _step(self) -> None:
         self.simulation.step()

@@ -86,6 +86,10 @@ class ClothSimulation:
         for vertex in vertices:
             self._data.eq_active[self._held.pop(vertex)] = 0
 
+    def solve_to(self, tolerance: float) -> None:
+        """Set the improvement at which the solvers stop from now on (see `Resolution`)."""
+        self._model.opt.tolerance = tolerance
+
     def step(self) -> None:
         """Let one time step pass.
 

@@ -1,7 +1,9 @@
 from app.physics.fabric import Fabric, Resolution
 from app.physics.physics_world import PhysicsWorld
+from app.rehearsal.step_motions import step_motions
 from app.rehearsal.world import Performed, StepMotion
 from planner import Task
+from tests.app.rehearsal.towel import COARSE, FABRIC, towel_plan
 from tests.builders import garment, rectangle_points
 
 
@@ -9,3 +11,13 @@ def test_while_the_base_drives_with_free_hands_no_time_passes_for_the_cloth():
     world = PhysicsWorld(Task.of(garment(rectangle_points(0.2, 0.2))), Fabric(), Resolution(0.05))
     assert world.perform(StepMotion(0, "move", 20.0)) == Performed()
     assert world.elapsed_s == 0.0
+
+
+def test_cloth_that_was_let_go_comes_to_lie_still_before_the_time_for_it_is_over():
+    # With the tolerance of moving cloth points of the folded towel still move at .7 mm/s when it counts as at rest.
+    (motion,) = step_motions(towel_plan())
+    world = PhysicsWorld(towel_plan().task, FABRIC, COARSE, seed=1)
+    world.perform(motion)
+    folded_s = motion.grips[0].times_s[-1] - motion.grips[0].times_s[0]
+    assert world.elapsed_s < folded_s + COARSE.settle_s
+    assert world.simulation.speeds.max() < 2e-4
