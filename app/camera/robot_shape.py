@@ -1,5 +1,6 @@
 """The shape of a robot for its camera: the hull of each part of its links."""
 
+from collections.abc import Iterator, Mapping
 from functools import lru_cache
 
 import cv2
@@ -16,13 +17,26 @@ from planner.robots.card import RobotCard
 _POINTS = 400
 """Vertices of a part that its hull is made of at most."""
 
+_WRIST_JOINTS = 2
+"""The last joints of an arm, which carry its hand."""
+
 
 class RobotShape:
     """The parts of a robot's links, each as some of its points."""
 
-    def __init__(self, links: tuple[Link, ...], floor_z_m: float) -> None:
-        """Take the links, parents first, and the floor's height in the table frame (m), negative."""
+    def __init__(self, links: tuple[Link, ...], floor_z_m: float, wrists: Mapping[str, str]) -> None:
+        """Take the links, parents first, the floor's height, and which joints carry hands.
+
+        Args:
+            links: the links.
+            floor_z_m: the floor's height in the table frame (m), negative.
+            wrists: the names of hands by the joints beyond which all links belong to them.
+        """
         self._links, self._floor_z_m = links, floor_z_m
+        self._owners: dict[str, str] = {"": ""}
+        for link in links:
+            parent = self._owners[link.node.rpartition("/")[0]]
+            self._owners[link.node] = parent or wrists.get(link.joint or "", "")
         self._parts = [[_matrix(one.pose) @ _homogeneous(one.vertices).T for one in link.visuals] for link in links]
 
     def frames(self, posture: Posture) -> dict[str, FloatArray]:
@@ -37,18 +51,28 @@ class RobotShape:
 
     def parts(self, posture: Posture) -> list[FloatArray]:
         """Return the points of each part, table frame, shape (n, 3), m."""
+        return [part for _, part in self._placed(posture)]
+
+    def hands(self, posture: Posture) -> dict[str, list[FloatArray]]:
+        """Return the points of the parts of each hand, and of all others as "", table frame, shape (n, 3), m."""
+        found: dict[str, list[FloatArray]] = {name: [] for name in self._owners.values()}
+        for owner, part in self._placed(posture):
+            found[owner].append(part)
+        return found
+
+    def _placed(self, posture: Posture) -> Iterator[tuple[str, FloatArray]]:
+        """Yield each part's hand, "" if it is of none, and its points."""
         frames = self.frames(posture)
-        return [
-            np.asarray((frames[link.name] @ part)[:3].T)
-            for link, parts in zip(self._links, self._parts, strict=True)
-            for part in parts
-        ]
+        for link, parts in zip(self._links, self._parts, strict=True):
+            for part in parts:
+                yield self._owners[link.node], np.asarray((frames[link.name] @ part)[:3].T)
 
 
 @lru_cache(maxsize=4)
 def robot_shape(card: RobotCard, floor_z_m: float) -> RobotShape:
     """Return the shape of a robot on a floor (m, negative); the same one until its URDF changes."""
-    return RobotShape(load_robot_model(card.urdf_path, card.package_dir), floor_z_m)
+    wrists = {arm.joint_names[-_WRIST_JOINTS]: arm.name for arm in card.arms}
+    return RobotShape(load_robot_model(card.urdf_path, card.package_dir), floor_z_m, wrists)
 
 
 def rising(parts: list[FloatArray], camera: Camera) -> list[FloatArray]:

@@ -123,6 +123,25 @@ def landing_short(motion: StepMotion, arms: frozenset[str], short_m: float) -> S
     return replace(motion, grips=tuple(moved(grip) if grip.arm in arms else grip for grip in motion.grips))
 
 
+def aimed(motion: StepMotion, hands: Mapping[str, Point2]) -> StepMotion:
+    """Return the step for hands that are beside where the robot believes them to be, so that they go where they should.
+
+    A hand that closes is as far off all the way; of one that holds on it is only known how far off it begins.
+
+    Args:
+        motion: the step.
+        hands: how far beside, for some arms, table frame (m).
+    """
+
+    def moved(grip: GripMotion) -> GripMotion:
+        points = np.array(grip.points)
+        share = np.ones(len(points)) if grip.closes else 1.0 - way_done(points)
+        points[:, :2] -= share[:, None] * np.array(hands[grip.arm])
+        return _along(grip, points)
+
+    return replace(motion, grips=tuple(moved(grip) if grip.arm in hands else grip for grip in motion.grips))
+
+
 def still_beside(planned: StepMotion, made: StepMotion) -> dict[str, Point2]:
     """Return how far beside their planned ends the hands hold cloth after a step, for those that hold on (m)."""
     pairs = zip(planned.grips, made.grips, strict=True)

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from app.camera.camera import Camera
 from app.camera.develop import coded
 from app.camera.posture import Posture
 from app.camera.robot_shape import hidden, robot_shape
@@ -14,8 +15,9 @@ from app.rehearsal.world import Observation, StepMotion
 from app.vision.expected import Expected
 from app.vision.fit_stack import fit_stack
 from app.vision.look_at_stack import Looker, Sight
+from app.vision.picture import Image
 from planner.folds.fold_sequence import FoldSequence
-from planner.geometry.pose import Pose2
+from planner.geometry.pose import Point2, Pose2
 from planner.robots.card import RobotCard
 from planner.robots.load_robot import load_robot
 from planner.task.task import Task
@@ -77,11 +79,13 @@ class Eyes:
 
     Attributes:
         expected: where the stack is expected, from what was seen before the last step; None where that does not tell.
+        has_camera: whether the world has shown a picture.
     """
 
     def __init__(self, task: Task) -> None:
         """Take the robot, which knows where its own arms are, and the table."""
         self._table = task.scene.table
+        self.has_camera = False
         self._hand_eye = HandEye()
         self._last: Expected | None = None
         self.expected: Expected | None = None
@@ -105,13 +109,20 @@ class Eyes:
             return Sight(fit, np.empty((0, 2)), np.empty((0, 2)), None if fit.others else fit.unknown)
         if seen.image is None or seen.camera is None:
             return None
-        image = np.ascontiguousarray(seen.image[..., ::-1])
+        image, self.has_camera = np.ascontiguousarray(seen.image[..., ::-1]), True
+        camera = self._corrected(image, seen.camera, posture)
         parts = robot_shape(self._card, -self._table.height_m).parts(posture)
-        camera = self._hand_eye.corrected(image, seen.camera, parts)
         looker = Looker(camera, self._table, hidden(parts, camera, _BESIDE_ARM_PX))
         found = looker.look(image, sequence, folds, near, self.expected)
         self._last = found.stack.expected if found.stack is not None and found.is_estimate else self.expected
         return found
+
+    def hands(self, seen: Observation, posture: Posture) -> dict[str, Point2]:
+        """Return how far beside its place each hand is that is seen, by its arm's name, table frame (m)."""
+        if seen.image is None or seen.camera is None:
+            return {}
+        self._corrected(np.ascontiguousarray(seen.image[..., ::-1]), seen.camera, posture)
+        return {arm: (float(x), float(y)) for arm, (x, y) in self._hand_eye.hands_m.items()}
 
     def after(self, motion: StepMotion) -> None:
         """Note a step that was made: where the stack was seen before it tells where it lies now, or nothing does.
@@ -123,6 +134,11 @@ class Eyes:
             known = known.loosened(*_FOLDED) if motion.is_fold else known
             self._last = known.loosened(*_DRIVEN) if motion.base is not None else known
         self.expected = self._last
+
+    def _corrected(self, image: Image, camera: Camera, posture: Posture) -> Camera:
+        """Return where the camera is, as far as the robot's own arms have told until now."""
+        hands = robot_shape(self._card, -self._table.height_m).hands(posture)
+        return self._hand_eye.corrected(image, camera, hands)
 
     def withdrawn(self, posture: Posture) -> Posture:
         """Return how the robot stands with its arms at home."""

@@ -1,9 +1,12 @@
-"""How far the robot's camera is beside where it is believed to be, learned from each picture that shows its arms."""
+"""How far the robot's camera and hands are beside where it believes them to be, learned from pictures of its arms."""
+
+from collections.abc import Mapping
 
 import numpy as np
+from scipy.linalg import block_diag
 
 from app.camera.camera import Camera
-from app.vision.own_arms import seen_beside
+from app.vision.own_arms import SeenBeside, seen_beside
 from app.vision.picture import Image
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray
@@ -14,31 +17,60 @@ _MOUNTED_M = 0.01
 Standard deviations, this one and the next.
 """
 
-_ARM_M = 0.003
-"""How far arms may be beside where the robot believes them to be, each way (m); an assumption."""
+_ARM_M = 0.005
+"""How far a hand, or the rest of the arms, may be beside where the robot believes it to be, each way (m); an
+assumption."""
+
+_UNLIKELY = 13.8
+"""The square of a distance in standard deviations that one in a thousand exceeds in the plane."""
 
 
 class HandEye:
-    """A Kalman filter of a shift that does not change."""
+    """A Kalman filter of the camera's shift, which does not change, and of the hands', which do with each posture.
+
+    Attributes:
+        shift_m: from where the camera is to where it is believed to be, in the table's plane, shape (2,), m.
+        hands_m: how far each hand seen in the last picture was beside where the robot believed it to be, shape (2,), m.
+    """
 
     def __init__(self) -> None:
         """Begin without any picture."""
         self.shift_m: FloatArray = np.zeros(2)
+        self.hands_m: dict[str, FloatArray] = {}
         self._covariance_m2: FloatArray = _MOUNTED_M**2 * np.eye(2)
 
-    def corrected(self, image: Image, camera: Camera, parts: list[FloatArray]) -> Camera:
+    def corrected(self, image: Image, camera: Camera, hands: Mapping[str, list[FloatArray]]) -> Camera:
         """Return where a camera is, as far as its pictures until now tell.
 
         Args:
             image: the picture that it takes now: blue, green, red.
             camera: where it is believed to be.
-            parts: the points of the robot's parts, table frame, each of shape (n, 3), m.
+            hands: the points of the parts of each hand, those of the rest of the robot as "", table frame, shape
+                (n, 3), m, each.
         """
-        told = seen_beside(image, camera, parts)
-        if told is not None:
-            error = told.covariance_m2 + _ARM_M**2 * np.eye(2)
-            gain = self._covariance_m2 @ np.linalg.inv(self._covariance_m2 + error)
-            self.shift_m = self.shift_m + gain @ (told.shift_m - self.shift_m)
-            self._covariance_m2 = self._covariance_m2 - gain @ self._covariance_m2
+        told: dict[str, SeenBeside] = {}
+        for name, parts in hands.items():
+            others = [part for other, those in hands.items() if other != name for part in those]
+            found = seen_beside(image, camera, parts, others)
+            if found is not None and self._is_likely(found):
+                told[name] = found
+        count = len(told)
+        seen = np.concatenate([np.empty(0), *(one.shift_m for one in told.values())])
+        # The state: the camera's shift, then those of the parts seen; each of these is seen shifted by both.
+        state = np.concatenate([self.shift_m, np.zeros(2 * count)])
+        covariance = block_diag(self._covariance_m2, *[_ARM_M**2 * np.eye(2)] * count)
+        sees = np.hstack([np.tile(np.eye(2), (count, 1)), np.eye(2 * count)])
+        errors = block_diag(np.empty((0, 0)), *(one.covariance_m2 for one in told.values()))
+        gain = covariance @ sees.T @ np.linalg.inv(sees @ covariance @ sees.T + errors)
+        state, covariance = state + gain @ (seen - sees @ state), covariance - gain @ sees @ covariance
+        self.shift_m, self._covariance_m2 = state[:2], covariance[:2, :2]
+        shifts = zip(told, state[2:].reshape(-1, 2), strict=True)
+        self.hands_m = {name: shift_m for name, shift_m in shifts if name}
         x, y = self.shift_m.tolist()
         return camera.carried(Isometry.rotation(0.0, -x, -y))
+
+    def _is_likely(self, one: SeenBeside) -> bool:
+        """Return whether a part may be seen there; if not, the edges seen are of something else."""
+        beside = one.shift_m - self.shift_m
+        covariance = self._covariance_m2 + _ARM_M**2 * np.eye(2) + one.covariance_m2
+        return float(beside @ np.linalg.solve(covariance, beside)) < _UNLIKELY

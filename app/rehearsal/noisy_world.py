@@ -1,7 +1,7 @@
 """A world with errors of robot and camera: motions end a little elsewhere, or fail."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -11,7 +11,7 @@ from app.rehearsal.corrections import carry
 from app.rehearsal.deflection import deflected
 from app.rehearsal.judge import slide_of
 from app.rehearsal.noise import Noise
-from app.rehearsal.world import GripMotion, Observation, Performed, StepMotion, Truth, World, way_done
+from app.rehearsal.world import REACH, GripMotion, Observation, Performed, StepMotion, Truth, World, way_done
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray, Pose2
 from planner.robots.load_robot import load_robot
@@ -34,6 +34,7 @@ class NoisyWorld:
         self._error = self._driven(task.start.base.pose)
         self._short = Isometry()
         self._arm_errors: dict[str, FloatArray] = {}
+        self._reached: dict[str, FloatArray] = {}
 
     def observe(self) -> Observation:
         """Return what is seen, with camera and outline as seen from where the robot believes to be."""
@@ -60,9 +61,9 @@ class NoisyWorld:
             self._short = slide_of(self._error.apply(planned), np.array(stopped)).isometry
         if all(grip.opens for grip in made):
             self._short = Isometry()
-        answer = self._world.perform(
-            replace(motion, grips=found, ends=self._really(motion.ends, [grip.arm for grip in made]))
-        )
+        beside = self._drawn_errors() | {grip.arm: self._arm_errors[grip.arm] for grip in made}
+        self._reached = beside if motion.kind == REACH else {} if made else self._reached
+        answer = self._world.perform(replace(motion, grips=found, ends=self._really(motion.ends, beside)))
         return Performed({**answer.has_cloth, **dict.fromkeys(missed, False)})
 
     def truth(self) -> Truth | None:
@@ -76,12 +77,14 @@ class NoisyWorld:
             base, Pose2(base.x_m + x, base.y_m + y, base.yaw_rad + self._rng.normal(0.0, self._noise.base_rad))
         )
 
-    def _really(self, ends: Posture | None, hands: Iterable[str]) -> Posture | None:
-        """Return how the robot stands where it believes to stand so, after these hands have moved cloth."""
+    def _drawn_errors(self) -> dict[str, FloatArray]:
+        """Return how far beside their places the tools of all arms are where they have gone without cloth."""
+        return {arm.name: self._idle_rng.normal(0.0, self._noise.arm_m, 2) for arm in self._robot.card.arms}
+
+    def _really(self, ends: Posture | None, beside: Mapping[str, FloatArray]) -> Posture | None:
+        """Return how the robot stands where it believes to stand so, its tools that far beside their places."""
         if ends is None:
             return None
-        idle = {arm.name: self._idle_rng.normal(0.0, self._noise.arm_m, 2) for arm in self._robot.card.arms}
-        beside = idle | {arm: self._arm_errors[arm] for arm in hands}
         error = self._short.after(self._error)
         x, y = error.apply_point((ends.base.x_m, ends.base.y_m))
         stands = replace(ends, base=Pose2(x, y, ends.base.yaw_rad + math.atan2(error.c, error.a)))
@@ -93,6 +96,7 @@ class NoisyWorld:
         done = way_done(points)[:, None]
         points[:, :2] = points[0, :2] + (1.0 - short) * (points[:, :2] - points[0, :2])
         after = self._rng.normal(0.0, self._noise.arm_m, 2)
+        after = self._reached.get(grip.arm, after) if grip.closes else after
         before = after if grip.closes else self._arm_errors.get(grip.arm, after)
         self._arm_errors[grip.arm] = after
         points[:, :2] = self._short.apply(self._error.apply(points[:, :2])) + (1.0 - done) * before + done * after

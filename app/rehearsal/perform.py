@@ -6,6 +6,7 @@ and holds the cloth beside it for as long as it holds on. Where it is not known 
 for another look; where that does not help, one step is made as planned, and a run that stays blind ends.
 """
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -13,6 +14,7 @@ from functools import cached_property
 from app.camera.posture import Posture
 from app.rehearsal.corrections import (
     SHORT_M,
+    aimed,
     beside,
     carry,
     corrected,
@@ -33,7 +35,7 @@ from app.rehearsal.step_motions import posture_at, step_motions
 from app.rehearsal.taut_way import taut
 from app.rehearsal.trace import ClothAfter, counterpart
 from app.rehearsal.trailing_flaps import flaps_beside, trailing
-from app.rehearsal.world import WITHDRAW, Performed, StepMotion, World
+from app.rehearsal.world import REACH, WITHDRAW, Performed, StepMotion, World
 from app.vision.look_at_stack import Sight
 from app.vision.seen_stack import SeenStack
 from planner.geometry.isometry import Isometry
@@ -88,6 +90,7 @@ class Performer:
     _pictures: list[Picture] = field(default_factory=list)
     _made: int = 0
     _beside: dict[str, Point2] = field(default_factory=dict)
+    _hands: dict[str, Point2] = field(default_factory=dict)
     _stack: SeenStack | None = None
     _blind: int = 0
     _posture: Posture | None = None
@@ -209,13 +212,14 @@ class Performer:
         offsets = where_seen(step, carried, self._stack, spare_m)
         short = landing_short(taut(motion, spare_m), laid_short(self.plan, step), SHORT_M)
         made = trailing(beside(short, offsets, fold), motion, flaps, carried, radius_m)
-        answer = self.world.perform(made)
+        self._hands = self._reached(step, motion)
+        answer = self.world.perform(aimed(made, self._hands))
         missing = frozenset(arm for arm, has in answer.has_cloth.items() if not has)
         inwards = into_the_cloth(step, sequence, carried)
         for again in regrasps(short, missing, radius_m, inwards, offsets, fold) if missing else ():
             self._decide("regrasped", ("radius_m", radius_m))
             made = trailing(again, motion, flaps, carried, radius_m)
-            answer = self.world.perform(made)
+            answer = self.world.perform(aimed(made, self._hands))
             if not answer.is_missing_cloth:
                 break
         self._beside = still_beside(motion, made)
@@ -227,7 +231,21 @@ class Performer:
         short = landing_short(motion, laid_short(self.plan, step), 0.0 if self.replan is None else SHORT_M)
         made = beside(short, held, reflection_in(step, self.plan.sequence, carried))
         self._beside = still_beside(motion, made)
-        return self.world.perform(made)
+        hands, self._hands = self._hands, {}
+        return self.world.perform(aimed(made, hands))
+
+    def _reached(self, step: PlanStep, motion: StepMotion) -> dict[str, Point2]:
+        """Return how far beside its place each hand is seen where it is to close, table frame (m)."""
+        path = self.plan.trajectory
+        if path is None or not self._eyes.has_camera:
+            return {}
+        closing_s = step.start_s + max(grip.times_s[0] for grip in motion.grips)
+        self._posture = posture_at(path, closing_s)
+        self.world.perform(StepMotion(self._made, REACH, 0.0, ends=self._posture))
+        hands = self._eyes.hands(self.world.observe(), self._posture)
+        if hands:
+            self._decide("aimed", ("beside_m", max(math.hypot(*beside) for beside in hands.values())))
+        return hands
 
     def _planned_again(self, step: PlanStep, lies: Pose2, shift_m: float) -> str:
         """Plan the rest from what is there; return why that cannot be, "" if it can."""

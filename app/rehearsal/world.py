@@ -54,8 +54,9 @@ def way_done(points: FloatArray) -> FloatArray:
     return np.asarray(lengths / max(float(lengths[-1]), 1e-9))
 
 
-WITHDRAW = "withdraw"
-"""The kind of a motion in which no hand holds cloth and the arms only get out of the camera's way."""
+WITHDRAW, REACH = "withdraw", "reach"
+"""The kinds of motions in which no hand holds cloth, for a look: arms get out of the camera's way, or hands are held
+where they are to close."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +65,7 @@ class StepMotion:
 
     Attributes:
         step: the index of the plan's step.
-        kind: the primitive's name: "fold", "drag", "arm_drag" or "move"; `WITHDRAW` where the arms go home for a look.
+        kind: the primitive's name: "fold", "drag", "arm_drag" or "move"; `WITHDRAW` and `REACH` for a look.
         duration_s: the step's duration (s).
         grips: the hands that hold cloth in it.
         needs_all: whether it ends at once, hands open and nothing moved, where one of them finds no cloth; if not, the

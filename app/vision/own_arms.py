@@ -1,8 +1,8 @@
-"""Tell from a robot's own arms in a picture how far its camera is beside where it is believed to be.
+"""Tell how far beside its place a part of a robot is seen in a picture.
 
-A robot knows where its arms are, and so where they ought to be seen. Where the outlines of all of them are seen a
-little beside that, it is the camera that is elsewhere. The shift is looked for that brings them upon the steepest edges
-of the picture: first on a grid, where all points of the outlines vote, then by robust least squares.
+A robot knows where its arms are, and so where they ought to be seen. The shift is looked for that brings the outline of
+a part upon the steepest edges of the picture: first on a grid, where all points of the outline vote, then by robust
+least squares.
 """
 
 from dataclasses import dataclass
@@ -28,7 +28,7 @@ _STEP_PX, _APART_PX = 0.5, 2.0
 _NEAR_PX = 4.0
 """How far beside the best of the grid edges are looked for (pixels)."""
 
-_EDGE_PX, _ALIKE_PX = 1.0, 40.0
+_EDGE_PX, _ALIKE_PX = 1.0, 20.0
 """The error of an edge seen (standard deviation), and the length along which such errors are alike (pixels)."""
 
 _ACROSS_PX = 3.0
@@ -44,10 +44,10 @@ _ROUNDS = 5
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SeenBeside:
-    """How far a camera is beside where it is believed to be.
+    """How far beside its place something is seen.
 
     Attributes:
-        shift_m: from where the camera is to where it is believed to be, in the table's plane, shape (2,), m.
+        shift_m: from where it should be seen to where it is seen, in the table's plane, shape (2,), m.
         covariance_m2: of the shift, shape (2, 2), m2; large across ways in which no outline tells of it.
     """
 
@@ -55,15 +55,16 @@ class SeenBeside:
     covariance_m2: FloatArray
 
 
-def seen_beside(image: Image, camera: Camera, parts: list[FloatArray]) -> SeenBeside | None:
-    """Return how far a camera is beside where it is believed to be; None where the robot is hardly seen.
+def seen_beside(image: Image, camera: Camera, parts: list[FloatArray], others: list[FloatArray]) -> SeenBeside | None:
+    """Return how far beside their place some parts of a robot are seen; None where they hardly are.
 
     Args:
         image: blue, green, red.
         camera: where the camera is believed to be.
-        parts: the points of the robot's parts, table frame, each of shape (n, 3), m.
+        parts: the points of these parts, table frame, each of shape (n, 3), m.
+        others: those of the robot's other parts, which may hide them.
     """
-    points, normals = _outline(parts, camera)
+    points, normals = _outline(parts, others, camera)
     if len(points) < _LEAST_POINTS:
         return None
     slopes = _slopes(points, normals, camera)
@@ -75,9 +76,9 @@ def seen_beside(image: Image, camera: Camera, parts: list[FloatArray]) -> SeenBe
     return _refined(_best_of_grid(slopes, offsets, steep), slopes, offsets, steep)
 
 
-def _outline(parts: list[FloatArray], camera: Camera) -> tuple[FloatArray, FloatArray]:
-    """Return points of the outline of all parts together, shape (n, 3), m, and its normals in the picture, (n, 2)."""
-    robot, found = hidden(parts, camera), [np.empty((0, 7))]
+def _outline(parts: list[FloatArray], others: list[FloatArray], camera: Camera) -> tuple[FloatArray, FloatArray]:
+    """Return points of some parts at the robot's outline, shape (n, 3), m, and the normals in the picture, (n, 2)."""
+    robot, found = hidden([*parts, *others], camera), [np.empty((0, 7))]
     for part in rising(parts, camera):
         hull = cv2.convexHull(camera.pixels(part).astype(np.float32), returnPoints=False)[:, 0]
         ring = spaced(np.column_stack([camera.pixels(part[hull]), part[hull]]), _APART_PX)

@@ -9,13 +9,16 @@ import pytest
 
 from app.camera.posture import Posture
 from app.rehearsal.camera_world import CameraWorld
+from app.rehearsal.corrections import aimed
 from app.rehearsal.eyes import Eyes
 from app.rehearsal.judge import Gate
+from app.rehearsal.noise import Noise
+from app.rehearsal.noisy_world import NoisyWorld
 from app.rehearsal.perform import Performer
 from app.rehearsal.planned_cloth import planned_positions
 from app.rehearsal.replay_world import Recorded, ReplayWorld
 from app.rehearsal.step_motions import posture_at, step_motions
-from app.rehearsal.world import WITHDRAW, Observation, Performed, StepMotion, Truth
+from app.rehearsal.world import REACH, WITHDRAW, Observation, Performed, StepMotion, Truth
 from app.vision.fit_fold import FoldedOutline
 from app.vision.look_at_stack import Looker
 from planner import Plan, Task, make_plan
@@ -131,7 +134,7 @@ def test_a_stack_whose_flap_or_base_may_stick_out_is_taken_at_the_edge_that_was_
     done = Performer(
         halved_plan(), CameraWorld(cloth, halved_plan().task, home(halved_plan()), 3), Gate(), no_plan
     ).performed()
-    assert [one.code for one in done.decisions][-2:] == ["not_known", "corrected"]
+    assert [one.code for one in done.decisions][-3:] == ["not_known", "corrected", "aimed"]
     assert done.pictures[-1].sight.unknown is not None
     (planned,), (asked, *_) = step_motions(halved_plan()), (one for one in cloth.asked if one.kind == "fold")
     for grip, former in zip(asked.grips, planned.grips, strict=True):
@@ -145,7 +148,7 @@ def test_arms_in_front_of_the_cloth_are_withdrawn_for_another_look():
     done = performer.performed()
     assert [picture.is_clear for picture in done.pictures] == [False, True]
     assert done.pictures[-1].sight.unknown is None
-    assert [motion.kind for motion in cloth.asked] == [WITHDRAW, "fold"]
+    assert [motion.kind for motion in cloth.asked] == [WITHDRAW, REACH, "fold"]
 
 
 class Hindered(Performer):
@@ -172,7 +175,7 @@ def test_a_run_that_stays_blind_ends_with_the_reason_and_the_picture():
 def test_one_step_is_made_blindly():
     camera = CameraWorld(FlatCloth(0.0, 0.0), towel_plan().task, home(), 3).observe().camera
     grey = Observation(np.full((480, 640, 3), 128, np.uint8), camera)
-    world = ReplayWorld(grey, [Recorded(Performed(), grey) for _ in range(2)])
+    world = ReplayWorld(grey, [Recorded(Performed(), grey) for _ in range(3)])
     done = Performer(towel_plan(), world, Gate(), no_plan).performed()
     assert not done.reason
     assert [decision.code for decision in done.decisions][-1] == "corrected"
@@ -231,3 +234,25 @@ def test_where_a_stack_was_seen_it_is_expected_after_a_fold_and_not_after_a_drag
     eyes.sight(camera.observe(), plan.sequence, (), plan.task.start.placement, home())
     eyes.after(held)
     assert eyes.expected is None  # the base drives to where it should be, once the hands are free
+
+
+def test_hands_that_are_seen_beside_their_places_close_where_they_should():
+    plan, cloth = towel_plan(), FlatCloth(0.0, 0.0)
+    noisy = NoisyWorld(CameraWorld(cloth, plan.task, home(), 3), Noise(arm_m=0.006), 2, plan.task)
+    done = Performer(plan, noisy, Gate(), no_plan).performed()
+    assert [one.code for one in done.decisions] == ["seen", "corrected", "aimed"]
+    (planned,), (asked,) = step_motions(plan), (one for one in cloth.asked if one.kind == "fold")
+    for grip, former in zip(asked.grips, planned.grips, strict=True):  # both hands are 12 mm beside their places
+        assert np.linalg.norm(np.subtract(grip.points[0], former.points[0])) < 0.004
+    assert dict(done.decisions[-1].numbers)["beside_m"] == pytest.approx(0.012, abs=0.003)
+
+
+def test_a_hand_that_holds_on_begins_where_it_was_seen_to_be_and_ends_as_asked():
+    (fold,) = step_motions(towel_plan())
+    held = replace(fold, grips=tuple(replace(grip, closes=False) for grip in fold.grips))
+    hands = {"left": (0.004, -0.002)}
+    for motion, last in ((fold, (0.004, -0.002)), (held, (0.0, 0.0))):
+        for grip, former in zip(aimed(motion, hands).grips, motion.grips, strict=True):
+            (begins, ends) = (np.subtract(former.points[k], grip.points[k])[:2] for k in (0, -1))
+            assert begins == pytest.approx(hands.get(grip.arm, (0.0, 0.0)))
+            assert ends == pytest.approx(last if grip.arm in hands else (0.0, 0.0), abs=1e-9)

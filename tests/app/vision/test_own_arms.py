@@ -1,4 +1,4 @@
-"""A camera beside where it is believed to be, told from pictures of a robot's own arms."""
+"""How far beside their places a camera and hands are, told from pictures of a robot's own arms."""
 
 from functools import cache
 
@@ -9,7 +9,9 @@ from app.camera.camera import Camera
 from app.camera.look import PLAIN
 from app.camera.mounted import hung, overhead
 from app.camera.picture import ClothSeen, picture
-from app.camera.robot_shape import robot_shape
+from app.camera.posture import Posture
+from app.camera.robot_shape import RobotShape, robot_shape
+from app.rehearsal.deflection import deflected
 from app.rehearsal.hand_eye import HandEye
 from app.rehearsal.planned_cloth import planned_positions
 from app.rehearsal.step_motions import posture_at
@@ -25,32 +27,50 @@ CAMERA = hung(overhead(towel_plan().scene.table))
 SHIFTS_M = [(0.0, 0.0), (0.009, -0.004), (-0.012, 0.015)]
 
 
-@cache
-def parts(t_s: float) -> list[FloatArray]:
+END_S = 99.0
+
+
+def stands(t_s: float) -> Posture:
     """The robot at a time of the plan; at its end both hands are over the table."""
     path = towel_plan().trajectory
     assert path is not None
-    table = towel_plan().scene.table
-    return robot_shape(load_robot("pr2").card, -table.height_m).parts(posture_at(path, min(t_s, path.duration_s)))
+    return posture_at(path, min(t_s, path.duration_s))
+
+
+def shape() -> RobotShape:
+    return robot_shape(load_robot("pr2").card, -towel_plan().scene.table.height_m)
+
+
+@cache
+def parts(t_s: float) -> list[FloatArray]:
+    return shape().parts(stands(t_s))
+
+
+def hands(t_s: float) -> dict[str, list[FloatArray]]:
+    return shape().hands(stands(t_s))
 
 
 @cache
 def taken(t_s: float, moment: int = 0) -> Image:
+    return image_of(parts(t_s), moment)
+
+
+def image_of(robot: list[FloatArray], moment: int = 0) -> Image:
     plan = towel_plan()
     pattern, triangles = woven_mesh(plan.garment.pattern, 0.03, 1)
     lies = plan.task.start.placement
     cloth = ClothSeen(pattern, planned_positions(plan.sequence, pattern, 0, lies, plan.scene.table, 0.002), triangles)
-    return picture(CAMERA, plan.scene.table, cloth, parts(t_s), PLAIN, 3, moment)
+    return picture(CAMERA, plan.scene.table, cloth, robot, PLAIN, 3, moment)
 
 
 def believed(shift_m: tuple[float, float]) -> Camera:
     return CAMERA.carried(Isometry.rotation(0.0, *shift_m))
 
 
-@pytest.mark.parametrize("t_s", [0.0, 3.0, 99.0])
+@pytest.mark.parametrize("t_s", [0.0, 3.0, END_S])
 @pytest.mark.parametrize("shift_m", SHIFTS_M)
 def test_the_shift_of_a_camera_is_seen_to_a_millimetre_and_a_half(shift_m: tuple[float, float], t_s: float):
-    told = seen_beside(taken(t_s), believed(shift_m), parts(t_s))
+    told = seen_beside(taken(t_s), believed(shift_m), parts(t_s), [])
     assert told is not None
     assert told.shift_m == pytest.approx(shift_m, abs=1.5e-3)
     off = told.shift_m - shift_m
@@ -59,11 +79,11 @@ def test_the_shift_of_a_camera_is_seen_to_a_millimetre_and_a_half(shift_m: tuple
 
 def test_of_a_robot_that_is_not_in_the_picture_nothing_is_told():
     grey = np.full_like(taken(0.0), 128)
-    assert seen_beside(grey, CAMERA, parts(99.0)) is None
+    assert seen_beside(grey, CAMERA, parts(END_S), []) is None
     noise = np.asarray(np.random.default_rng(0).normal(128.0, 3.0, grey.shape), np.uint8)
-    assert seen_beside(noise, CAMERA, parts(99.0)) is None
-    away = [part + np.array([5.0, 0.0, 0.0]) for part in parts(99.0)]
-    assert seen_beside(taken(99.0), CAMERA, away) is None
+    assert seen_beside(noise, CAMERA, parts(END_S), []) is None
+    away = [part + np.array([5.0, 0.0, 0.0]) for part in parts(END_S)]
+    assert seen_beside(taken(END_S), CAMERA, away, []) is None
 
 
 def test_along_a_straight_edge_little_is_told():
@@ -71,7 +91,7 @@ def test_along_a_straight_edge_little_is_told():
     plan = towel_plan()
     away = ClothSeen(np.empty((0, 2)), np.array([[0.0, 9.0, 0.0]] * 3), np.array([[0, 1, 2]]))
     image = picture(CAMERA, plan.scene.table, away, [bar], PLAIN, 3)
-    told = seen_beside(image, believed((0.0, 0.008)), [bar])
+    told = seen_beside(image, believed((0.0, 0.008)), [bar], [])
     assert told is not None
     along_m, across_m = np.sqrt(np.diag(told.covariance_m2))
     assert told.shift_m[1] == pytest.approx(0.008, abs=1e-3)
@@ -80,12 +100,47 @@ def test_along_a_straight_edge_little_is_told():
 
 def test_what_is_learned_of_a_camera_gets_surer_and_stays_where_no_arm_is_seen():
     shift_m, hand_eye = (0.012, -0.009), HandEye()
-    first = hand_eye.corrected(taken(99.0), believed(shift_m), parts(99.0))
-    assert np.subtract(first.position, CAMERA.position)[:2] == pytest.approx([0.0, 0.0], abs=2.5e-3)
+    first = hand_eye.corrected(taken(END_S), believed(shift_m), hands(END_S))
+    assert np.subtract(first.position, CAMERA.position)[:2] == pytest.approx([0.0, 0.0], abs=4e-3)
     for moment in range(1, 6):
-        corrected = hand_eye.corrected(taken(99.0, moment), believed(shift_m), parts(99.0))
+        corrected = hand_eye.corrected(taken(END_S, moment), believed(shift_m), hands(END_S))
     learned = hand_eye.shift_m
-    assert learned == pytest.approx(shift_m, abs=1e-3)
-    assert np.subtract(corrected.position, CAMERA.position)[:2] == pytest.approx([0.0, 0.0], abs=1e-3)
-    hand_eye.corrected(np.full_like(taken(0.0), 128), believed(shift_m), parts(99.0))
-    assert hand_eye.shift_m == pytest.approx(learned)
+    assert learned == pytest.approx(shift_m, abs=1.5e-3)
+    assert np.subtract(corrected.position, CAMERA.position)[:2] == pytest.approx([0.0, 0.0], abs=1.5e-3)
+    hand_eye.corrected(np.full_like(taken(0.0), 128), believed(shift_m), hands(END_S))
+    assert hand_eye.shift_m == pytest.approx(learned) and not hand_eye.hands_m
+
+
+def test_hands_beside_their_places_are_told_from_a_camera_beside_its_own():
+    shift_m, hand_eye = (0.004, -0.003), HandEye()
+    for moment in range(6):
+        hand_eye.corrected(taken(END_S, moment), believed(shift_m), hands(END_S))
+    off_m = {"left": np.array([0.006, -0.002]), "right": np.array([-0.001, 0.007])}
+    really = deflected(load_robot("pr2"), stands(END_S), off_m)
+    hand_eye.corrected(image_of(shape().parts(really), 7), believed(shift_m), hands(END_S))
+    assert hand_eye.hands_m.keys() == off_m.keys()
+    for name, seen_m in hand_eye.hands_m.items():
+        assert seen_m == pytest.approx(off_m[name], abs=2.5e-3)
+    assert hand_eye.shift_m == pytest.approx(shift_m, abs=2e-3)
+
+
+def test_what_cannot_be_a_hand_is_not_taken_for_one():
+    hand_eye, robot = HandEye(), hands(END_S)
+    for moment in range(4):
+        hand_eye.corrected(taken(END_S, moment), CAMERA, robot)
+    before = hand_eye.shift_m
+    gone = [part for name, parts in robot.items() for part in parts if name != "left"]
+    aside = [part + np.array([0.028, 0.0, 0.0]) for part in robot["left"]]
+    hand_eye.corrected(image_of([*gone, *aside], 5), CAMERA, robot)
+    assert "left" not in hand_eye.hands_m and "right" in hand_eye.hands_m
+    assert hand_eye.shift_m == pytest.approx(before, abs=1e-3)
+
+
+def test_the_parts_of_hands_and_of_the_rest_are_all_parts():
+    found = hands(END_S)
+    assert set(found) == {"", "left", "right"}
+    assert sum(len(those) for those in found.values()) == len(parts(END_S))
+    middle = {name: np.concatenate(those).mean(axis=0) for name, those in found.items()}
+    path = towel_plan().trajectory
+    assert path is not None
+    assert middle["left"][1] > middle["right"][1] + 0.1  # the robot stands at the table's left end and looks along x
