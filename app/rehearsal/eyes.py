@@ -114,7 +114,8 @@ class Eyes:
         parts = robot_shape(self._card, -self._table.height_m).parts(posture)
         looker = Looker(camera, self._table, hidden(parts, camera, _BESIDE_ARM_PX))
         found = looker.look(image, sequence, folds, near, self.expected)
-        self._last = found.stack.expected if found.stack is not None and found.is_estimate else self.expected
+        tells = found.is_estimate or self.expected is not None
+        self._last = found.stack.expected if tells and found.stack is not None else self.expected
         return found
 
     def hands(self, seen: Observation, posture: Posture) -> dict[str, Point2]:

@@ -166,26 +166,28 @@ class Performer:
     def _seen(self, step: PlanStep) -> tuple[Pose2, str]:
         """Return where the stack lies as seen, and why the run must end, "" if it need not.
 
-        Where that stays uncertain, the estimate is nearer than where it should lie, and is taken; where nothing tells
-        it, it is where it should lie.
+        Where that stays uncertain, the estimate is nearer than where it should lie, and is taken, and so it is of a
+        stack that was seen before the last fold; where nothing tells it, it is where it was seen then, or should lie.
         """
         sight, self._stack = self._sight(step.before, is_clear=False), None
         if sight is None:
             return step.before.placement, ""
+        expected = self._eyes.expected
         if self._posture is not None and (sight.unknown is not None or are_edges_hidden(step, sight.stack)):
             away = self._eyes.withdrawn(self._posture)
             self.world.perform(StepMotion(self._made, WITHDRAW, _WITHDRAW_S, ends=away))
             self._posture = away
             clear = self._sight(step.before, is_clear=True)
             sight = sight if clear is None or (clear.unknown is not None and sight.unknown is None) else clear
-        if sight.fit is not None and sight.is_estimate:
+        if sight.fit is not None and (sight.is_estimate or expected is not None):
             self._blind, self._stack = 0, sight.stack
             return sight.fit.placement, ""
         self._blind += 1
         self._decide("kept_blindly")
+        lies = step.before.placement if expected is None else expected.placement
         if self._blind <= BLIND_MAX or sight.unknown is None:
-            return step.before.placement, ""
-        return step.before.placement, f"before step {self._made} the cloth is not to be made out: {sight.unknown.text}"
+            return lies, ""
+        return lies, f"before step {self._made} the cloth is not to be made out: {sight.unknown.text}"
 
     def _sight(self, ought: WorldState, *, is_clear: bool) -> Sight | None:
         """Look once for a stack as it ought to lie, and note what was seen."""

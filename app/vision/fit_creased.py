@@ -46,6 +46,9 @@ _ALIKE = np.array([0.003, 0.003, 0.01, 0.002, 0.006, 0.004])
 
 _UNLIKELY = 60.0
 
+_IMPOSSIBLE = 16.3
+"""The square of the distance from the expected placement, in standard deviations, that one in a thousand exceeds."""
+
 _TURNED_M = 0.1
 """How far a crease that is turned is beside its line, for each radian (m)."""
 
@@ -111,10 +114,17 @@ class Creased:
             found: the fit.
             whole: what the outline as planned tells, other placements that look alike among it.
         """
-        row, is_ambiguous = found.row, whole.unknown is not None and whole.unknown.code == LOOKS_ALIKE
-        figure, others = self._figure(row[3:5]), list(whole.others)
+        row, figure = found.row, self._figure(found.row[3:5])
+        others = [pose for pose in whole.others if self._is_likely(pose)]
+        is_ambiguous = bool(others) and whole.unknown is not None and whole.unknown.code == LOOKS_ALIKE
         error_m = found.placement_error_m
         return figure.told(row[:3], self.seen, others, is_ambiguous=is_ambiguous, error_m=error_m)
+
+    def _is_likely(self, pose: Pose2) -> bool:
+        """Return whether a stack may lie there, from where it is expected."""
+        beside = self.figure.fit_at(pose).row - self._means[:3]
+        beside[2] = math.remainder(beside[2], math.tau)
+        return float(((beside / self._sds[:3]) ** 2).sum()) < _IMPOSSIBLE
 
     def _figure(self, crease: FloatArray) -> Figure:
         if self.folded is None or not crease.any():

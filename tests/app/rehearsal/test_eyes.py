@@ -19,6 +19,7 @@ from app.rehearsal.planned_cloth import planned_positions
 from app.rehearsal.replay_world import Recorded, ReplayWorld
 from app.rehearsal.step_motions import posture_at, step_motions
 from app.rehearsal.world import REACH, WITHDRAW, Observation, Performed, StepMotion, Truth
+from app.vision.expected import Expected
 from app.vision.fit_fold import FoldedOutline
 from app.vision.look_at_stack import Looker
 from planner import Plan, Task, make_plan
@@ -179,6 +180,18 @@ def test_one_step_is_made_blindly():
     done = Performer(towel_plan(), world, Gate(), no_plan).performed()
     assert not done.reason
     assert [decision.code for decision in done.decisions][-1] == "corrected"
+
+
+def test_where_nothing_is_seen_a_stack_is_taken_where_it_was_seen_before_the_last_fold():
+    camera = CameraWorld(FlatCloth(0.0, 0.0), towel_plan().task, home(), 3).observe().camera
+    grey = Observation(np.full((480, 640, 3), 128, np.uint8), camera)
+    performer = Performer(towel_plan(), ReplayWorld(grey, [Recorded(Performed(), grey)] * 2), Gate(), no_plan)
+    performer._posture = home()
+    (step,) = towel_plan().steps
+    assert performer._seen(step) == (step.before.placement, "")
+    there = step.before.placement.moved(0.02, -0.01)
+    performer._eyes.expected, performer._blind = Expected(there, 0.003, 0.003), 0
+    assert performer._seen(step) == (there, "")
 
 
 def test_a_camera_carried_along_sees_the_same_point_where_the_frame_went():

@@ -1,5 +1,7 @@
 """Stacks that lie about where they ought to, with a last fold beside its line, and creases inside of theirs."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -9,9 +11,11 @@ from app.vision.fit_creased import Creased
 from app.vision.fit_fold import FoldedOutline
 from app.vision.fit_stack import fit_near
 from app.vision.seen_stack import SeenStack
+from app.vision.stack_fit import LOOKS_ALIKE
 from planner import load_garment
 from planner.folds.fold_sequence import FoldSequence, replayed
 from planner.geometry.pose import FloatArray, Pose2
+from planner.message import Message
 from tests.app.vision.outlines_seen import most_off, seen
 
 LIES = Pose2(0.05, -0.1, -1.2)
@@ -80,6 +84,17 @@ def test_a_flap_that_landed_turned_does_not_turn_a_stack_that_was_seen_before():
     assert most_off(silhouette, known.placement, LIES) < 0.004
     assert known.row[4] == pytest.approx(0.012, abs=0.004)
     assert most_off(silhouette, guessed.placement, LIES) > most_off(silhouette, known.placement, LIES) + 0.002
+
+
+def test_a_placement_that_fits_as_well_is_none_where_the_stack_was_seen_elsewhere_before():
+    sequence = replayed(load_garment("hand-towel"))
+    points = seen(sequence.cloth(1).silhouette, LIES)
+    whole = fit_near(points, sequence.cloth(1), NEAR)
+    doubt = replace(whole, others=(LIES.moved(0.015, 0.0),), unknown=Message(LOOKS_ALIKE, "two fit"))
+    for near, is_known in ((Expected(NEAR), False), (Expected(LIES, 0.003, 0.003), True)):
+        creased = Creased.of(points, sequence, (0,), near)
+        told = creased.told(creased.fitted(whole.placement), doubt)
+        assert told.is_known == is_known and len(told.others) == (not is_known)
 
 
 def test_what_was_seen_is_expected_and_gets_less_sure_as_things_move():
