@@ -6,10 +6,8 @@ and holds the cloth beside it for as long as it holds on. Where it is not known 
 for another look; where that does not help, one step is made as planned, and a run that stays blind ends.
 """
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from functools import cached_property
 
 from app.camera.posture import Posture
 from app.rehearsal.corrections import (
@@ -26,8 +24,8 @@ from app.rehearsal.corrections import (
     shift_of,
     still_beside,
 )
-from app.rehearsal.eyes import Eyes, Picture, kept
-from app.rehearsal.grasp_points import are_edges_hidden, into_the_cloth, laid_short, where_seen
+from app.rehearsal.eyes import Picture
+from app.rehearsal.grasp_points import into_the_cloth, laid_short, where_seen
 from app.rehearsal.judge import Gate, StepVerdict, judged
 from app.rehearsal.rest import rest_tasks
 from app.rehearsal.result import Decision
@@ -35,9 +33,8 @@ from app.rehearsal.step_motions import posture_at, step_motions
 from app.rehearsal.taut_way import taut
 from app.rehearsal.trace import ClothAfter, counterpart
 from app.rehearsal.trailing_flaps import flaps_beside, trailing
-from app.rehearsal.world import REACH, WITHDRAW, Performed, StepMotion, World
-from app.vision.look_at_stack import Sight
-from app.vision.seen_stack import SeenStack
+from app.rehearsal.watch import Watch
+from app.rehearsal.world import Performed, StepMotion, World
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Point2, Pose2
 from planner.task.plan import Plan
@@ -47,11 +44,6 @@ from planner.task.world_state import WorldState
 
 FAILURES_MAX = 3
 """Times that the rest is planned again before a run is given up."""
-
-BLIND_MAX = 1
-"""Steps in a row that are made as planned though it is not known where the cloth lies."""
-
-_WITHDRAW_S = 3.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,29 +79,26 @@ class Performer:
     progress: Callable[[float], None] = lambda _: None
     _verdicts: list[StepVerdict] = field(default_factory=list)
     _decisions: list[Decision] = field(default_factory=list)
-    _pictures: list[Picture] = field(default_factory=list)
     _made: int = 0
     _beside: dict[str, Point2] = field(default_factory=dict)
     _hands: dict[str, Point2] = field(default_factory=dict)
-    _stack: SeenStack | None = None
-    _blind: int = 0
-    _posture: Posture | None = None
     _cloths: list[ClothAfter] = field(default_factory=list)
 
     def __post_init__(self) -> None:
         """Note the plan as it is at first."""
         self._first = self.plan
+        self._watch = Watch(self.world, self.plan.task, self._decide)
 
     def performed(self) -> Performance:
         """Perform the plan."""
         motions, number = step_motions(self.plan), 0
-        self._posture = self._begins()
+        self._watch.posture = self._begins()
         carried = Isometry()
         while number < len(motions):
             step, motion = self.plan.steps[number], motions[number]
             is_free = all(grip.closes for grip in motion.grips)
             if self.replan is not None and motion.grips and is_free:
-                lies, blind = self._seen(step)
+                lies, blind = self._watch.before(self.plan, step, self._made)
                 if blind:
                     return self._ended(blind)
                 carried = carry(step.before.placement, lies)
@@ -124,13 +113,11 @@ class Performer:
                     if reason:
                         return self._ended(reason)
                     motions, number, carried = step_motions(self.plan), 0, Isometry()
-                    self._posture = self._begins()
+                    self._watch.posture = self._begins()
                     continue
             else:
                 answer = self._held_on(corrected(motion, carried), step, carried)
-            self._posture = motion.ends
-            if self.replan is not None:
-                self._eyes.after(motion)
+            self._watch.after(motion)
             if motion.is_drag:
                 carried = self._after_drag(motion, step)
             self._judge(motion, step, answer, carried)
@@ -140,16 +127,12 @@ class Performer:
         return self._ended("")
 
     def _ended(self, reason: str) -> Performance:
-        pictures, cloths = tuple(self._pictures), tuple(self._cloths)
+        pictures, cloths = tuple(self._watch.pictures), tuple(self._cloths)
         return Performance(tuple(self._verdicts), tuple(self._decisions), reason, pictures, cloths)
 
     def _begins(self) -> Posture | None:
         path = self.plan.trajectory
         return None if path is None else posture_at(path, 0.0)
-
-    @cached_property
-    def _eyes(self) -> Eyes:
-        return Eyes(self.plan.task)
 
     def _after_drag(self, motion: StepMotion, step: PlanStep) -> Isometry:
         """Return how far from where it should be a stack lies after a drag; hands that hold on are beside it then.
@@ -158,51 +141,10 @@ class Performer:
         """
         if self.replan is None or all(grip.opens for grip in motion.grips):
             return Isometry()
-        sight, radius_m = self._sight(step.after, is_clear=False), self.plan.task.limits.comfort_radius_m
+        sight, radius_m = self._watch.look(self.plan, step.after, self._made), self.plan.task.limits.comfort_radius_m
         carried = seen_after_drag(motion, step.after.placement, sight, radius_m)
         self._beside = held_beside(motion, self._beside, carried)
         return carried
-
-    def _seen(self, step: PlanStep) -> tuple[Pose2, str]:
-        """Return where the stack lies as seen, and why the run must end, "" if it need not.
-
-        Where that stays uncertain, the estimate is nearer than where it should lie, and is taken, and so it is of a
-        stack that was seen before the last fold; where nothing tells it, it is where it was seen then, or should lie.
-        """
-        sight, self._stack = self._sight(step.before, is_clear=False), None
-        if sight is None:
-            return step.before.placement, ""
-        expected = self._eyes.expected
-        if self._posture is not None and (sight.unknown is not None or are_edges_hidden(step, sight.stack)):
-            away = self._eyes.withdrawn(self._posture)
-            self.world.perform(StepMotion(self._made, WITHDRAW, _WITHDRAW_S, ends=away))
-            self._posture = away
-            clear = self._sight(step.before, is_clear=True)
-            sight = sight if clear is None or (clear.unknown is not None and sight.unknown is None) else clear
-        if sight.fit is not None and (sight.is_estimate or expected is not None):
-            self._blind, self._stack = 0, sight.stack
-            return sight.fit.placement, ""
-        self._blind += 1
-        self._decide("kept_blindly")
-        lies = step.before.placement if expected is None else expected.placement
-        if self._blind <= BLIND_MAX or sight.unknown is None:
-            return lies, ""
-        return lies, f"before step {self._made} the cloth is not to be made out: {sight.unknown.text}"
-
-    def _sight(self, ought: WorldState, *, is_clear: bool) -> Sight | None:
-        """Look once for a stack as it ought to lie, and note what was seen."""
-        seen, posture = self.world.observe(), self._posture
-        if posture is None:
-            return None
-        sight = self._eyes.sight(seen, self.plan.sequence, ought.folds_done, ought.placement, posture)
-        if sight is None:
-            return None
-        fit = sight.fit
-        numbers = () if fit is None else (("error_m", fit.error_m), ("share_on_outline", fit.share_on_outline))
-        self._decide("seen" if sight.unknown is None else "not_known", *numbers)
-        picture = kept(self._made, ought, seen, sight, is_clear=is_clear)
-        self._pictures += [] if picture is None else [picture]
-        return sight
 
     def _tried(self, motion: StepMotion, step: PlanStep, carried: Isometry, spare_m: float) -> Performed | None:
         """Perform a step, and where hands find no cloth again round their grips; None if they never find any.
@@ -211,10 +153,10 @@ class Performer:
         """
         radius_m, sequence = self.plan.task.limits.comfort_radius_m, self.plan.sequence
         fold, flaps = reflection_in(step, sequence, carried), flaps_beside(step, sequence, carried)
-        offsets = where_seen(step, carried, self._stack, spare_m)
+        offsets = where_seen(step, carried, self._watch.stack, spare_m)
         short = landing_short(taut(motion, spare_m), laid_short(self.plan, step), SHORT_M)
         made = trailing(beside(short, offsets, fold), motion, flaps, carried, radius_m)
-        self._hands = self._reached(step, motion)
+        self._hands = self._watch.reached(self.plan, step, motion, self._made)
         answer = self.world.perform(aimed(made, self._hands))
         missing = frozenset(arm for arm, has in answer.has_cloth.items() if not has)
         inwards = into_the_cloth(step, sequence, carried)
@@ -235,19 +177,6 @@ class Performer:
         self._beside = still_beside(motion, made)
         hands, self._hands = self._hands, {}
         return self.world.perform(aimed(made, hands))
-
-    def _reached(self, step: PlanStep, motion: StepMotion) -> dict[str, Point2]:
-        """Return how far beside its place each hand is seen where it is to close, table frame (m)."""
-        path = self.plan.trajectory
-        if path is None or not self._eyes.has_camera:
-            return {}
-        closing_s = step.start_s + max(grip.times_s[0] for grip in motion.grips)
-        self._posture = posture_at(path, closing_s)
-        self.world.perform(StepMotion(self._made, REACH, 0.0, ends=self._posture))
-        hands = self._eyes.hands(self.world.observe(), self._posture)
-        if hands:
-            self._decide("aimed", ("beside_m", max(math.hypot(*beside) for beside in hands.values())))
-        return hands
 
     def _planned_again(self, step: PlanStep, lies: Pose2, shift_m: float) -> str:
         """Plan the rest from what is there; return why that cannot be, "" if it can."""

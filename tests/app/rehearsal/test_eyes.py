@@ -18,6 +18,7 @@ from app.rehearsal.perform import Performer
 from app.rehearsal.planned_cloth import planned_positions
 from app.rehearsal.replay_world import Recorded, ReplayWorld
 from app.rehearsal.step_motions import posture_at, step_motions
+from app.rehearsal.watch import Watch
 from app.rehearsal.world import REACH, WITHDRAW, Observation, Performed, StepMotion, Truth
 from app.vision.expected import Expected
 from app.vision.fit_fold import FoldedOutline
@@ -166,7 +167,7 @@ def test_a_run_that_stays_blind_ends_with_the_reason_and_the_picture():
     )
     world = ReplayWorld(grey, [Recorded(Performed(), grey) for _ in range(4)])
     performer = Performer(towel_plan(), world, Gate(), no_plan)
-    performer._blind = 1
+    performer._watch.blind = 1
     done = performer.performed()
     assert "not to be made out" in done.reason
     assert [decision.code for decision in done.decisions] == ["not_known", "not_known", "kept_blindly"]
@@ -185,13 +186,15 @@ def test_one_step_is_made_blindly():
 def test_where_nothing_is_seen_a_stack_is_taken_where_it_was_seen_before_the_last_fold():
     camera = CameraWorld(FlatCloth(0.0, 0.0), towel_plan().task, home(), 3).observe().camera
     grey = Observation(np.full((480, 640, 3), 128, np.uint8), camera)
-    performer = Performer(towel_plan(), ReplayWorld(grey, [Recorded(Performed(), grey)] * 2), Gate(), no_plan)
-    performer._posture = home()
+    decisions: list[str] = []
+    world = ReplayWorld(grey, [Recorded(Performed(), grey)] * 2)
+    watch = Watch(world, towel_plan().task, lambda code, *_: decisions.append(code), home())
     (step,) = towel_plan().steps
-    assert performer._seen(step) == (step.before.placement, "")
+    assert watch.before(towel_plan(), step, 0) == (step.before.placement, "")
     there = step.before.placement.moved(0.02, -0.01)
-    performer._eyes.expected, performer._blind = Expected(there, 0.003, 0.003), 0
-    assert performer._seen(step) == (there, "")
+    watch.eyes.expected, watch.blind = Expected(there, 0.003, 0.003), 0
+    assert watch.before(towel_plan(), step, 0) == (there, "")
+    assert decisions == ["not_known", "not_known", "kept_blindly"] * 2
 
 
 def test_a_camera_carried_along_sees_the_same_point_where_the_frame_went():
