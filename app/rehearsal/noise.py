@@ -16,7 +16,7 @@ class Noise:
         undershoot: the fraction of a drag by which the base stops short, uniform from 0 to this.
         base_m: the base's position after it has driven (m).
         base_rad: its heading (rad).
-        arm_m: a tool's position, each axis in the plane (m).
+        arm_m: a tool's position, each axis in the plane (m); in a step in which a hand closes the same all the way.
         miss: the probability that fingers close beside cloth that is there.
         placement_m: where the article lies at the start (m).
         placement_rad: how it is turned at the start (rad).
