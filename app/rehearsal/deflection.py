@@ -7,8 +7,7 @@ import numpy as np
 
 from app.camera.posture import Posture
 from planner.geometry.pose import FloatArray
-from planner.robots.card_robot import CardRobot
-from planner.robots.pr2 import Pr2
+from planner.robots.load_robot import load_robot
 
 _TURN_RAD = 1e-4
 """The turn of a joint by which its effect is told (rad)."""
@@ -17,14 +16,15 @@ _WEAK = 0.05
 """Ways in which joints move a tool so much less than in the best one count as ways in which they do not."""
 
 
-def deflected(robot: Pr2 | CardRobot, posture: Posture, beside: Mapping[str, FloatArray]) -> Posture:
+def deflected(robot_name: str, posture: Posture, beside: Mapping[str, FloatArray]) -> Posture:
     """Return how a robot really stands: with the smallest errors of its joints that bring tools beside their places.
 
     Args:
-        robot: the robot.
+        robot_name: the name of the robot.
         posture: how it believes to stand.
         beside: how far the tools of its arms are beside their places, table frame, shape (2,), m, by the arms' names.
     """
+    robot = load_robot(robot_name)
     cos, sin = np.cos(posture.base.yaw_rad), np.sin(posture.base.yaw_rad)
     joints = dict(posture.joints)
     torso_m = joints.get(robot.card.lift_joint or "", 0.0)

@@ -28,7 +28,7 @@ class NoisyWorld:
 
     def __init__(self, world: World, noise: Noise, seed: int, task: Task) -> None:
         """Take a world, the noise, its seed, and the task: the robot, and where its base stands at first."""
-        self._world, self._noise, self._robot = world, noise, load_robot(task.robot)
+        self._world, self._noise, self._robot = world, noise, task.robot
         self._rng, self._idle_rng = np.random.default_rng(seed), np.random.default_rng([seed, 1])
         self._calibrated = Isometry.rotation(0.0, *self._rng.normal(0.0, noise.camera_m, 2).tolist())
         self._error = self._driven(task.start.base.pose)
@@ -79,7 +79,7 @@ class NoisyWorld:
 
     def _drawn_errors(self) -> dict[str, FloatArray]:
         """Return how far beside their places the tools of all arms are where they have gone without cloth."""
-        return {arm.name: self._idle_rng.normal(0.0, self._noise.arm_m, 2) for arm in self._robot.card.arms}
+        return {arm.name: self._idle_rng.normal(0.0, self._noise.arm_m, 2) for arm in load_robot(self._robot).card.arms}
 
     def _really(self, ends: Posture | None, beside: Mapping[str, FloatArray]) -> Posture | None:
         """Return how the robot stands where it believes to stand so, its tools that far beside their places."""

@@ -33,7 +33,7 @@ def tools(robot: str, posture: Posture) -> list[FloatArray]:
 def test_tools_come_to_be_beside_their_places_by_small_turns_of_all_joints(robot: str):
     posture, arms = home(robot), load_robot(robot).card.arms
     beside = {arm.name: np.array([0.003, -0.002 * number]) for number, arm in enumerate(arms)}
-    stands = deflected(load_robot(robot), posture, beside)
+    stands = deflected(robot, posture, beside)
     for there, here, arm in zip(tools(robot, stands), tools(robot, posture), arms, strict=True):
         assert there - here == pytest.approx([*beside[arm.name], 0.0], abs=3e-4)
         turned = [abs(stands.joints[name] - posture.joints[name]) for name in arm.joint_names]
@@ -43,7 +43,7 @@ def test_tools_come_to_be_beside_their_places_by_small_turns_of_all_joints(robot
 
 def test_other_arms_and_joints_stay():
     posture = home("pr2")
-    stands = deflected(load_robot("pr2"), posture, {"left": np.array([0.002, 0.001])})
+    stands = deflected("pr2", posture, {"left": np.array([0.002, 0.001])})
     right = load_robot("pr2").card.arms[1]
     moved = {name for name, value in stands.joints.items() if value != posture.joints[name]}
     assert moved and not moved & set(right.joint_names)

@@ -116,7 +116,7 @@ def test_hands_beside_their_places_are_told_from_a_camera_beside_its_own():
     for moment in range(6):
         hand_eye.corrected(taken(END_S, moment), believed(shift_m), hands(END_S))
     off_m = {"left": np.array([0.006, -0.002]), "right": np.array([-0.001, 0.007])}
-    really = deflected(load_robot("pr2"), stands(END_S), off_m)
+    really = deflected("pr2", stands(END_S), off_m)
     hand_eye.corrected(image_of(shape().parts(really), 7), believed(shift_m), hands(END_S))
     assert hand_eye.hands_m.keys() == off_m.keys()
     for name, seen_m in hand_eye.hands_m.items():
