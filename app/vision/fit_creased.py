@@ -21,7 +21,7 @@ from app.vision.fit_stack import thinned
 from app.vision.outline_edges import OutlineEdges
 from app.vision.seen_stack import SeenStack
 from app.vision.stack_figure import POINTS, Figure
-from app.vision.stack_fit import LOOKS_ALIKE, StackFit
+from app.vision.stack_fit import StackFit
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.pose import FloatArray, Pose2
 
@@ -94,11 +94,12 @@ class Creased:
             return None
         return FoldedOutline(self.sequence, self._done & ~(1 << self.folds[-1]), self.folds[-1])
 
-    def fitted(self, start: Pose2) -> SeenStack:
-        """Return the fit, begun at a placement."""
-        first = self._minimum(np.array([*self.figure.fit_at(start).row, *self._means[3:]]), _FIRST_SPREAD_M)
+    def fitted(self, whole: StackFit) -> SeenStack:
+        """Return the fit, begun where the outline as planned fits, and where it does as well."""
+        first = self._minimum(self._flat(whole.placement), _FIRST_SPREAD_M)
         spread_m = max(1.4826 * float(np.median(np.abs(first.distances))), _LEAST_SPREAD_M)
         found = [self._minimum(first.row, spread_m)]
+        found += [self._minimum(self._flat(pose), spread_m) for pose in whole.others if self._is_likely(pose)]
         if self.folded is not None:
             found += [self._minimum(self._with_crease(first.row, offset_m), spread_m) for offset_m in _STARTS_M]
             best = min(found, key=lambda one: one.cost).row
@@ -107,18 +108,14 @@ class Creased:
         row, covariance = _mean(_distinct(found))
         return SeenStack(self.figure, self.folded, row, covariance)
 
-    def told(self, found: SeenStack, whole: StackFit) -> StackFit:
-        """Return what is known of the placement.
-
-        Args:
-            found: the fit.
-            whole: what the outline as planned tells, other placements that look alike among it.
-        """
-        row, figure = found.row, self._figure(found.row[3:5])
-        others = [pose for pose in whole.others if self._is_likely(pose)]
-        is_ambiguous = bool(others) and whole.unknown is not None and whole.unknown.code == LOOKS_ALIKE
+    def told(self, found: SeenStack) -> StackFit:
+        """Return what is known of the placement from a fit, whose error covers whatever fits as well."""
         error_m = found.placement_error_m
-        return figure.told(row[:3], self.seen, others, is_ambiguous=is_ambiguous, error_m=error_m)
+        return self._figure(found.row[3:5]).told(found.row[:3], self.seen, [], is_ambiguous=False, error_m=error_m)
+
+    def _flat(self, pose: Pose2) -> FloatArray:
+        """Return the row of a stack that lies there, its crease as expected."""
+        return np.array([*self.figure.fit_at(pose).row, *self._means[3:]])
 
     def _is_likely(self, pose: Pose2) -> bool:
         """Return whether a stack may lie there, from where it is expected."""

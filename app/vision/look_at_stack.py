@@ -127,8 +127,8 @@ class Looker:
         whole = fit_near(self.camera.on_plane(contour, height_m), stack, near.placement)
         on_table = heights.seen_at(self.camera, contour, whole.placement)
         creased = Creased.of(on_table, sequence, folds, near)
-        found = replace(creased.fitted(whole.placement), outline=on_table)
-        fit = creased.told(found, whole)
+        found = replace(creased.fitted(whole), outline=on_table)
+        fit = creased.told(found)
         doubt = why_in_doubt(replace(seen, at_border=0.0), None)
         fitted = [self._pixels(fit.placement.to_outer(ring), height_m) for ring in stack.silhouette.rings]
         return Sight(fit, contour, max(fitted, key=len), fit.unknown or doubt, expected=expected, stack=found)
