@@ -2,20 +2,19 @@
 
 import base64
 from dataclasses import dataclass, replace
+from itertools import chain
 from typing import Any
 
 import numpy as np
 
-from app.camera.camera import Camera
 from app.camera.develop import coded
 from app.camera.posture import Posture
-from app.camera.robot_shape import hidden, robot_shape
+from app.camera.robot_shape import RobotShape, hidden, robot_shape
 from app.rehearsal.hand_eye import HandEye
 from app.rehearsal.world import Observation, StepMotion
 from app.vision.expected import Expected
 from app.vision.fit_stack import fit_stack
 from app.vision.look_at_stack import Looker, Sight
-from app.vision.picture import Image
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.pose import Point2, Pose2
 from planner.robots.card import RobotCard
@@ -110,8 +109,8 @@ class Eyes:
         if seen.image is None or seen.camera is None:
             return None
         image, self.has_camera = np.ascontiguousarray(seen.image[..., ::-1]), True
-        camera = self._corrected(image, seen.camera, posture)
-        parts = robot_shape(self._card, -self._table.height_m).parts(posture)
+        hands = self._shape.hands(posture)
+        camera, parts = self._hand_eye.corrected(image, seen.camera, hands), list(chain.from_iterable(hands.values()))
         looker = Looker(camera, self._table, hidden(parts, camera, _BESIDE_ARM_PX))
         found = looker.look(image, sequence, folds, near, self.expected)
         tells = found.is_estimate or self.expected is not None
@@ -122,7 +121,8 @@ class Eyes:
         """Return how far beside its place each hand is that is seen, by its arm's name, table frame (m)."""
         if seen.image is None or seen.camera is None:
             return {}
-        self._corrected(np.ascontiguousarray(seen.image[..., ::-1]), seen.camera, posture)
+        image = np.ascontiguousarray(seen.image[..., ::-1])
+        self._hand_eye.corrected(image, seen.camera, self._shape.hands(posture))
         return {arm: (float(x), float(y)) for arm, (x, y) in self._hand_eye.hands_m.items()}
 
     def after(self, motion: StepMotion) -> None:
@@ -136,10 +136,9 @@ class Eyes:
             self._last = known.loosened(*_DRIVEN) if motion.base is not None else known
         self.expected = self._last
 
-    def _corrected(self, image: Image, camera: Camera, posture: Posture) -> Camera:
-        """Return where the camera is, as far as the robot's own arms have told until now."""
-        hands = robot_shape(self._card, -self._table.height_m).hands(posture)
-        return self._hand_eye.corrected(image, camera, hands)
+    @property
+    def _shape(self) -> RobotShape:
+        return robot_shape(self._card, -self._table.height_m)
 
     def withdrawn(self, posture: Posture) -> Posture:
         """Return how the robot stands with its arms at home."""

@@ -149,14 +149,7 @@ def one_run(
             raise CancelledError
         return again
 
-    most = 0.0
-
-    def told(share: float) -> None:
-        nonlocal most
-        if share > most:  # a step that is tried again goes back
-            most = share
-            progress(share)
-
+    told = _rising(progress)
     world = FilmedWorld(plan, begun, told)
     assert plan.trajectory is not None
     begins = posture_at(plan.trajectory, 0.0)
@@ -184,6 +177,19 @@ def _laid_out(plan: Plan, noise: Noise, seed: int) -> tuple[Pose2, Fabric]:
     placement = replace(placement, yaw_rad=lies.yaw_rad + noise.placement_rad * turn)
     friction = plan.scene.friction * max(0.0, 1.0 + noise.friction * slip)
     return placement, Fabric(density_kg_m2=plan.garment.areal_density_kg_m2, friction=friction)
+
+
+def _rising(progress: Callable[[float], None]) -> Callable[[float], None]:
+    """Return what passes on only what is more than before: a step that is tried again goes back."""
+    most = 0.0
+
+    def told(share: float) -> None:
+        nonlocal most
+        if share > most:
+            most = share
+            progress(share)
+
+    return told
 
 
 def _share(progress: Callable[[float], None], before: int, runs: int) -> Callable[[float], None]:

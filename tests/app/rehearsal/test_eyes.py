@@ -9,17 +9,13 @@ import pytest
 
 from app.camera.posture import Posture
 from app.rehearsal.camera_world import CameraWorld
-from app.rehearsal.corrections import aimed
 from app.rehearsal.eyes import Eyes
 from app.rehearsal.judge import Gate
-from app.rehearsal.noise import Noise
-from app.rehearsal.noisy_world import NoisyWorld
 from app.rehearsal.perform import Performer
-from app.rehearsal.planned_cloth import planned_positions
 from app.rehearsal.replay_world import Recorded, ReplayWorld
 from app.rehearsal.step_motions import posture_at, step_motions
 from app.rehearsal.watch import Watch
-from app.rehearsal.world import REACH, WITHDRAW, Observation, Performed, StepMotion, Truth
+from app.rehearsal.world import REACH, WITHDRAW, Observation, Performed, Truth
 from app.vision.expected import Expected
 from app.vision.fit_fold import FoldedOutline
 from app.vision.look_at_stack import Looker
@@ -28,31 +24,10 @@ from planner.cloth.garment import Garment
 from planner.geometry.isometry import Isometry
 from planner.geometry.segment import Segment
 from planner.geometry.woven_mesh import woven_mesh
+from tests.app.rehearsal.flat_cloth import FlatCloth, home, no_plan
 from tests.app.rehearsal.towel import towel_plan
 
 INWARDS_RAD = 0.15
-
-
-class FlatCloth:
-    """A towel that lies flat somewhere, and notes what it is asked for."""
-
-    def __init__(self, dx_m: float, dy_m: float) -> None:
-        plan = towel_plan()
-        lies = plan.task.start.placement.moved(dx_m, dy_m)
-        pattern, triangles = woven_mesh(plan.garment.pattern, 0.03, 1)
-        positions = planned_positions(plan.sequence, pattern, 0, lies, plan.scene.table, 0.002)
-        self.asked: list[StepMotion] = []
-        self._truth = Truth(pattern, positions, triangles)
-
-    def observe(self) -> Observation:
-        return Observation()
-
-    def perform(self, motion: StepMotion) -> Performed:
-        self.asked.append(motion)
-        return Performed({grip.arm: True for grip in motion.grips})
-
-    def truth(self) -> Truth:
-        return self._truth
 
 
 class HalvedCloth(FlatCloth):
@@ -86,12 +61,6 @@ def halved_plan() -> Plan:
     return make_plan(Task.of(towel, start=replace(start, folds_done=(0,))))
 
 
-def home(plan: Plan | None = None) -> Posture:
-    path = (plan or towel_plan()).trajectory
-    assert path is not None
-    return posture_at(path, 0.0)
-
-
 def over_the_cloth() -> Posture:
     """The posture of the end of the plan, but with the arms turned inwards: upper arms and forearms hide the cloth."""
     path = towel_plan().trajectory
@@ -100,10 +69,6 @@ def over_the_cloth() -> Posture:
     return replace(
         ends, joints={**ends.joints, "l_shoulder_pan_joint": INWARDS_RAD, "r_shoulder_pan_joint": -INWARDS_RAD}
     )
-
-
-def no_plan(task: Task) -> Plan:
-    raise AssertionError(f"nobody should plan again from {task.start}")
 
 
 def test_the_same_moment_is_the_same_picture_and_the_next_has_other_noise():
@@ -250,25 +215,3 @@ def test_where_a_stack_was_seen_it_is_expected_after_a_fold_and_not_after_a_drag
     eyes.sight(camera.observe(), plan.sequence, (), plan.task.start.placement, home())
     eyes.after(held)
     assert eyes.expected is None  # the base drives to where it should be, once the hands are free
-
-
-def test_hands_that_are_seen_beside_their_places_close_where_they_should():
-    plan, cloth = towel_plan(), FlatCloth(0.0, 0.0)
-    noisy = NoisyWorld(CameraWorld(cloth, plan.task, home(), 3), Noise(arm_m=0.006), 2, plan.task)
-    done = Performer(plan, noisy, Gate(), no_plan).performed()
-    assert [one.code for one in done.decisions] == ["seen", "corrected", "aimed"]
-    (planned,), (asked,) = step_motions(plan), (one for one in cloth.asked if one.kind == "fold")
-    for grip, former in zip(asked.grips, planned.grips, strict=True):  # both hands are 12 mm beside their places
-        assert np.linalg.norm(np.subtract(grip.points[0], former.points[0])) < 0.004
-    assert dict(done.decisions[-1].numbers)["beside_m"] == pytest.approx(0.012, abs=0.003)
-
-
-def test_a_hand_that_holds_on_begins_where_it_was_seen_to_be_and_ends_as_asked():
-    (fold,) = step_motions(towel_plan())
-    held = replace(fold, grips=tuple(replace(grip, closes=False) for grip in fold.grips))
-    hands = {"left": (0.004, -0.002)}
-    for motion, last in ((fold, (0.004, -0.002)), (held, (0.0, 0.0))):
-        for grip, former in zip(aimed(motion, hands).grips, motion.grips, strict=True):
-            (begins, ends) = (np.subtract(former.points[k], grip.points[k])[:2] for k in (0, -1))
-            assert begins == pytest.approx(hands.get(grip.arm, (0.0, 0.0)))
-            assert ends == pytest.approx(last if grip.arm in hands else (0.0, 0.0), abs=1e-9)
