@@ -49,13 +49,14 @@ class HandEye:
                 (n, 3), m, each.
         """
         told: dict[str, SeenBeside] = {}
+        here, likely_m2 = self._corrected(camera), self._covariance_m2 + _ARM_M**2 * np.eye(2)
         for name, parts in hands.items():
             others = [part for other, those in hands.items() if other != name for part in those]
-            found = seen_beside(image, camera, parts, others)
-            if found is not None and self._is_likely(found):
+            found = seen_beside(image, here, parts, others, likely_m2)
+            if found is not None and _is_likely(found, likely_m2):
                 told[name] = found
         count = len(told)
-        seen = np.concatenate([np.empty(0), *(one.shift_m for one in told.values())])
+        seen = np.concatenate([np.empty(0), *(self.shift_m + one.shift_m for one in told.values())])
         # The state: the camera's shift, then those of the parts seen; each of these is seen shifted by both.
         state = np.concatenate([self.shift_m, np.zeros(2 * count)])
         covariance = block_diag(self._covariance_m2, *[_ARM_M**2 * np.eye(2)] * count)
@@ -66,11 +67,16 @@ class HandEye:
         self.shift_m, self._covariance_m2 = state[:2], covariance[:2, :2]
         shifts = zip(told, state[2:].reshape(-1, 2), strict=True)
         self.hands_m = {name: shift_m for name, shift_m in shifts if name}
+        return self._corrected(camera)
+
+    def _corrected(self, camera: Camera) -> Camera:
         x, y = self.shift_m.tolist()
         return camera.carried(Isometry.rotation(0.0, -x, -y))
 
-    def _is_likely(self, one: SeenBeside) -> bool:
-        """Return whether a part may be seen there; if not, the edges seen are of something else."""
-        beside = one.shift_m - self.shift_m
-        covariance = self._covariance_m2 + _ARM_M**2 * np.eye(2) + one.covariance_m2
-        return float(beside @ np.linalg.solve(covariance, beside)) < _UNLIKELY
+
+def _is_likely(one: SeenBeside, likely_m2: FloatArray) -> bool:
+    """Return whether a part may be seen there; if not, the edges seen are of something else.
+
+    The error of what was seen counts for nothing: of shifts that fit as well it is the likeliest.
+    """
+    return float(one.shift_m @ np.linalg.solve(likely_m2, one.shift_m)) < _UNLIKELY

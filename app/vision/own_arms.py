@@ -2,7 +2,8 @@
 
 A robot knows where its arms are, and so where they ought to be seen. The shift is looked for that brings the outline of
 a part upon the steepest edges of the picture: first on a grid, where all points of the outline vote, then by robust
-least squares.
+least squares, together with how much wider than it should be the outline is seen: else a part of which only one side is
+seen would be told to be shifted to that side.
 """
 
 from dataclasses import dataclass
@@ -22,14 +23,23 @@ _MOST_M = 0.03
 _GRID_M = 0.0015
 """How far apart the shifts are that are tried first (m)."""
 
+_AS_STEEP = 0.9
+"""Shifts with edges so much as steep as the steepest fit as well; of these the likeliest is taken."""
+
 _STEP_PX, _APART_PX = 0.5, 2.0
 """How far apart edges are looked for across an outline, and along it (pixels)."""
 
 _NEAR_PX = 4.0
 """How far beside the best of the grid edges are looked for (pixels)."""
 
-_EDGE_PX, _ALIKE_PX = 1.0, 20.0
+_EDGE_PX, _ALIKE_PX = 1.0, 10.0
 """The error of an edge seen (standard deviation), and the length along which such errors are alike (pixels)."""
+
+_WIDER_PX = 1.0
+"""How much wider than it should be an outline may be seen, to each side (standard deviation, pixels).
+
+Pixels that a part only touches show it, light blooms, and hulls are of some points of a mesh.
+"""
 
 _ACROSS_PX = 3.0
 """How far to both sides a point of an outline must have nothing of the robot, and something of it (pixels)."""
@@ -55,7 +65,9 @@ class SeenBeside:
     covariance_m2: FloatArray
 
 
-def seen_beside(image: Image, camera: Camera, parts: list[FloatArray], others: list[FloatArray]) -> SeenBeside | None:
+def seen_beside(
+    image: Image, camera: Camera, parts: list[FloatArray], others: list[FloatArray], likely_m2: FloatArray
+) -> SeenBeside | None:
     """Return how far beside their place some parts of a robot are seen; None where they hardly are.
 
     Args:
@@ -63,6 +75,7 @@ def seen_beside(image: Image, camera: Camera, parts: list[FloatArray], others: l
         camera: where the camera is believed to be.
         parts: the points of these parts, table frame, each of shape (n, 3), m.
         others: those of the robot's other parts, which may hide them.
+        likely_m2: the covariance of how far beside they may be, as far as that is known before, shape (2, 2), m2.
     """
     points, normals = _outline(parts, others, camera)
     if len(points) < _LEAST_POINTS:
@@ -73,7 +86,7 @@ def seen_beside(image: Image, camera: Camera, parts: list[FloatArray], others: l
     steep = steepness(image, camera.pixels(points), normals, offsets)
     if float(np.median(steep.max(axis=1))) < _FAINT:
         return None
-    return _refined(_best_of_grid(slopes, offsets, steep), slopes, offsets, steep)
+    return _refined(_best_of_grid(likely_m2, slopes, offsets, steep), slopes, offsets, steep)
 
 
 def _outline(parts: list[FloatArray], others: list[FloatArray], camera: Camera) -> tuple[FloatArray, FloatArray]:
@@ -103,24 +116,31 @@ def _slopes(points: FloatArray, normals: FloatArray, camera: Camera) -> FloatArr
     return np.column_stack([(one * normals).sum(axis=1) / _GRID_M for one in moved])
 
 
-def _best_of_grid(slopes: FloatArray, offsets: FloatArray, steep: FloatArray) -> FloatArray:
-    """Return the shift with the steepest edges, shape (2,), m; the half of them that could be steepest count alike."""
+def _best_of_grid(likely_m2: FloatArray, slopes: FloatArray, offsets: FloatArray, steep: FloatArray) -> FloatArray:
+    """Return the likeliest shift of those with the steepest edges, shape (2,), m.
+
+    The half of the edges that could be steepest count alike.
+    """
     axis = np.arange(-_MOST_M, _MOST_M + _GRID_M / 2.0, _GRID_M)
     shifts = np.stack(np.meshgrid(axis, axis), axis=2).reshape(-1, 2)
     at = np.round((slopes @ shifts.T - offsets[0]) / _STEP_PX).astype(np.int64)
     capped = np.minimum(steep, np.median(steep.max(axis=1)))
-    return np.asarray(shifts[np.take_along_axis(capped, at, axis=1).sum(axis=0).argmax()])
+    votes = np.take_along_axis(capped, at, axis=1).sum(axis=0)
+    best = shifts[votes >= _AS_STEEP * votes.max()]
+    return np.asarray(best[(best @ np.linalg.inv(likely_m2) * best).sum(axis=1).argmin()])
 
 
 def _refined(shift_m: FloatArray, slopes: FloatArray, offsets: FloatArray, steep: FloatArray) -> SeenBeside:
     """Return the shift by least squares, to the steepest edge beside each point; edges far beside count less."""
-    held = np.eye(2) * (_EDGE_PX / _MOST_M) ** 2
+    told_by = np.column_stack([slopes, np.ones(len(slopes))])
+    held = np.diag([_EDGE_PX / _MOST_M, _EDGE_PX / _MOST_M, _EDGE_PX / _WIDER_PX]) ** 2
+    state = np.append(shift_m, 0.0)
     for _ in range(_ROUNDS):
-        ought = slopes @ shift_m
+        ought = told_by @ state
         near = np.where(np.abs(offsets - ought[:, None]) <= _NEAR_PX, steep, 0.0)
         at = near.argmax(axis=1)
         left = offsets[at] + _STEP_PX * peaks(near, at) - ought
         weights = near.max(axis=1) / near.max() / (1.0 + (left / _EDGE_PX) ** 2)
-        told = slopes.T @ (weights[:, None] * slopes) * _APART_PX / _ALIKE_PX + held
-        shift_m = shift_m + np.linalg.solve(told, slopes.T @ (weights * left) * _APART_PX / _ALIKE_PX)
-    return SeenBeside(shift_m, np.linalg.inv(told) * _EDGE_PX**2)
+        told = told_by.T @ (weights[:, None] * told_by) * _APART_PX / _ALIKE_PX + held
+        state = state + np.linalg.solve(told, told_by.T @ (weights * left) * _APART_PX / _ALIKE_PX)
+    return SeenBeside(state[:2], np.linalg.inv(told)[:2, :2] * _EDGE_PX**2)

@@ -1,5 +1,6 @@
 """How far beside their places a camera and hands are, told from pictures of a robot's own arms."""
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -24,6 +25,8 @@ from planner.robots.load_robot import load_robot
 from tests.app.rehearsal.towel import towel_plan
 
 CAMERA = hung(overhead(towel_plan().scene.table))
+EVEN = replace(PLAIN, wood=0.0, shadow=0.0)
+LIKELY_M2 = 0.01**2 * np.eye(2)
 SHIFTS_M = [(0.0, 0.0), (0.009, -0.004), (-0.012, 0.015)]
 
 
@@ -70,7 +73,7 @@ def believed(shift_m: tuple[float, float]) -> Camera:
 @pytest.mark.parametrize("t_s", [0.0, 3.0, END_S])
 @pytest.mark.parametrize("shift_m", SHIFTS_M)
 def test_the_shift_of_a_camera_is_seen_to_a_millimetre_and_a_half(shift_m: tuple[float, float], t_s: float):
-    told = seen_beside(taken(t_s), believed(shift_m), parts(t_s), [])
+    told = seen_beside(taken(t_s), believed(shift_m), parts(t_s), [], LIKELY_M2)
     assert told is not None
     assert told.shift_m == pytest.approx(shift_m, abs=1.5e-3)
     off = told.shift_m - shift_m
@@ -79,23 +82,45 @@ def test_the_shift_of_a_camera_is_seen_to_a_millimetre_and_a_half(shift_m: tuple
 
 def test_of_a_robot_that_is_not_in_the_picture_nothing_is_told():
     grey = np.full_like(taken(0.0), 128)
-    assert seen_beside(grey, CAMERA, parts(END_S), []) is None
+    assert seen_beside(grey, CAMERA, parts(END_S), [], LIKELY_M2) is None
     noise = np.asarray(np.random.default_rng(0).normal(128.0, 3.0, grey.shape), np.uint8)
-    assert seen_beside(noise, CAMERA, parts(END_S), []) is None
+    assert seen_beside(noise, CAMERA, parts(END_S), [], LIKELY_M2) is None
     away = [part + np.array([5.0, 0.0, 0.0]) for part in parts(END_S)]
-    assert seen_beside(taken(END_S), CAMERA, away, []) is None
+    assert seen_beside(taken(END_S), CAMERA, away, [], LIKELY_M2) is None
 
 
 def test_along_a_straight_edge_little_is_told():
-    bar = np.array([[x, y, z] for x in (-2.0, 2.0) for y in (-0.03, 0.03) for z in (0.1, 0.12)])
-    plan = towel_plan()
-    away = ClothSeen(np.empty((0, 2)), np.array([[0.0, 9.0, 0.0]] * 3), np.array([[0, 1, 2]]))
-    image = picture(CAMERA, plan.scene.table, away, [bar], PLAIN, 3)
-    told = seen_beside(image, believed((0.0, 0.008)), [bar], [])
+    told = seen_beside(bars(box(-2.0, 2.0)), believed((0.0, 0.008)), [box(-2.0, 2.0)], [], LIKELY_M2)
     assert told is not None
     along_m, across_m = np.sqrt(np.diag(told.covariance_m2))
     assert told.shift_m[1] == pytest.approx(0.008, abs=1e-3)
     assert across_m < 2e-3 < 0.02 < along_m
+
+
+def test_of_something_seen_wider_than_it_is_no_end_is_told_to_be_further_ahead():
+    ahead = box(0.2, 2.0)  # its other end is not in the picture
+    told = seen_beside(bars(box(0.196, 2.0, 0.034)), CAMERA, [ahead], [], LIKELY_M2)
+    assert told is not None
+    assert told.shift_m == pytest.approx([0.0, 0.0], abs=1.5e-3)
+
+
+@pytest.mark.parametrize("near_m", [0.01, -0.01])
+def test_of_two_things_that_fit_as_well_the_likelier_is_seen(near_m: float):
+    two = bars(*(box(-2.0, 2.0, 0.008, y_m) for y_m in (near_m, -2.9 * near_m)))
+    told = seen_beside(two, CAMERA, [box(-2.0, 2.0, 0.008)], [], LIKELY_M2)
+    assert told is not None
+    assert told.shift_m[1] == pytest.approx(near_m, abs=1e-3)
+
+
+def box(begins_m: float, ends_m: float, half_m: float = 0.03, y_m: float = 0.0) -> FloatArray:
+    """The corners of a bar along x over the table, shape (8, 3), m."""
+    return np.array([[x, y_m + y, z] for x in (begins_m, ends_m) for y in (-half_m, half_m) for z in (0.1, 0.12)])
+
+
+def bars(*those: FloatArray) -> Image:
+    """A picture of nothing but bars."""
+    away = ClothSeen(np.empty((0, 2)), np.array([[0.0, 9.0, 0.0]] * 3), np.array([[0, 1, 2]]))
+    return picture(CAMERA, towel_plan().scene.table, away, [*those], EVEN, 3)
 
 
 def test_what_is_learned_of_a_camera_gets_surer_and_stays_where_no_arm_is_seen():
