@@ -49,7 +49,7 @@ class RehearsalOptions:
         seed: the seed of the first run; each run after it has the next.
         noise: the name of the noise, one of `NOISE`.
         feedback: whether the robot looks before each step and corrects it.
-        resolution: how finely the world is simulated.
+        resolution: how finely the world is simulated; None as finely as suits the article's size.
         gate: what counts as held.
         workers: processes at most; None for two, or one on a machine with one core.
         traced: the number of the first runs of which a trace is kept.
@@ -59,7 +59,7 @@ class RehearsalOptions:
     seed: int = 0
     noise: str = "none"
     feedback: bool = True
-    resolution: Resolution = field(default_factory=Resolution)
+    resolution: Resolution | None = None
     gate: Gate = field(default_factory=Gate)
     workers: int | None = None
     traced: int = 0
@@ -133,6 +133,7 @@ def one_run(
 
     began, noise = process_time(), NOISE[options.noise]
     placement, fabric = _laid_out(plan, noise, seed)
+    resolution = options.resolution or Resolution.of(plan.garment.pattern.area)
 
     def begun(film: Tick) -> PhysicsWorld:
         def tick() -> None:
@@ -140,7 +141,7 @@ def one_run(
                 raise CancelledError
             film()
 
-        return PhysicsWorld(plan.task, fabric, options.resolution, seed, placement, tick)
+        return PhysicsWorld(plan.task, fabric, resolution, seed, placement, tick)
 
     def planned_again(task: Task) -> Plan:
         world.end()

@@ -47,7 +47,9 @@ def hung(beyond: float, friction: float, edge_m: float) -> tuple[PhysicsWorld, T
     edge_x = -Table().depth_m / 2.0
     towel = garment(rectangle_points(length, 0.2), placement=Pose2(edge_x - beyond * length, 0.0, 0.0))
     task = Task.of(towel)
-    return PhysicsWorld(task, Fabric(friction=friction), Resolution(edge_m)), task
+    return PhysicsWorld(
+        task, Fabric(friction=friction), Resolution(edge_m, settle_s=0.7)
+    ), task  # it is still there then
 
 
 @pytest.mark.parametrize(("beyond", "friction", "holds"), [(0.2, 0.5, True), (0.5, 0.3, False)])
