@@ -3,11 +3,13 @@ from dataclasses import replace
 
 import pytest
 
-from app.physics.fabric import Resolution
+from app.physics.fabric import Fabric, Resolution
+from app.physics.physics_world import PhysicsWorld
 from app.rehearsal.rehearse import CancelledError, RehearsalOptions, rehearse
 from app.rehearsal.result import RehearsalResult, Run, success_bounds
 from app.rehearsal.step_motions import step_motions
 from app.rehearsal.world import GripMotion
+from planner import Task
 from planner.errors import RequestError, UnsolvedPlanError
 from tests.app.rehearsal.towel import COARSE, towel_plan, verdict_on
 
@@ -79,6 +81,20 @@ def test_the_same_rehearsal_twice_is_the_same_alone_and_side_by_side():
     alone = rehearse(towel_plan(), replace(options, workers=1))
     assert [run.steps for run in apart.runs] == [run.steps for run in alone.runs]
     assert told == sorted(told)
+
+
+def test_a_garment_is_simulated_as_finely_as_suits_its_size(monkeypatch: pytest.MonkeyPatch):
+    taken: list[Resolution] = []
+
+    def noted(_self: PhysicsWorld, _task: Task, _fabric: Fabric, resolution: Resolution, *_rest: object) -> None:
+        taken.append(resolution)
+        raise CancelledError
+
+    monkeypatch.setattr(PhysicsWorld, "__init__", noted)
+    for options in (RehearsalOptions(), RehearsalOptions(resolution=COARSE)):
+        with pytest.raises(CancelledError):
+            rehearse(towel_plan(), options)
+    assert taken == [Resolution.of(0.12), COARSE]
 
 
 def test_a_rehearsal_that_is_cancelled_stops():
