@@ -68,7 +68,7 @@ class Fabric:
 
 
 _POINTS = 800
-"""About how many points the mesh of a cloth has for which rows need be no nearer and no further apart than below."""
+"""About how many points a mesh has, unless rows would be nearer or further apart than below."""
 
 _NEAREST_M, _FURTHEST_M = 0.012, 0.02
 """How near rows are at least, two thirds of a bending length, and how far apart at most (m)."""
