@@ -8,10 +8,11 @@ all their sources.
 import hashlib
 import os
 import re
-import shutil
 from pathlib import Path
 
 from platformdirs import user_cache_path
+
+from planner.user_cache import use
 
 _IS_KERNEL = re.compile(r"^from numba import", re.MULTILINE)
 """The mark of a module that has kernels."""
@@ -30,8 +31,7 @@ def use_kernel_cache() -> None:
     folder = user_cache_path("pleat") / "kernels" / _digest(Path(__file__).parent)
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        os.utime(folder)
-        _drop_old(folder.parent)
+        use(folder, _KEPT_MAX)
     except OSError:
         return  # nowhere to keep them: Numba finds a place of its own, or compiles each time
     os.environ["NUMBA_CACHE_DIR"] = str(folder)
@@ -49,10 +49,3 @@ def _digest(package: Path) -> str:
     for path in sorted(sources & texts.keys()):
         found.update(texts[path].encode())
     return found.hexdigest()[:16]
-
-
-def _drop_old(folder: Path) -> None:
-    """Drop the folders that have been used least lately."""
-    by_age = sorted(folder.iterdir(), key=lambda one: one.stat().st_mtime, reverse=True)
-    for old in by_age[_KEPT_MAX:]:
-        shutil.rmtree(old, ignore_errors=True)

@@ -15,6 +15,7 @@ from planner.geometry.pose import Approach
 from planner.robots.chain import Chain
 from planner.robots.posture_growth import APART, FEW, FRINGE, OUTER, Growth, finished, grow, sow
 from planner.robots.posture_map import Grid, PostureMap
+from planner.user_cache import use
 
 CELL_M = 0.075
 """The largest edge of a cell (m), but for arms that are longer than any person's."""
@@ -39,6 +40,9 @@ _SLICE = 50_000
 
 _FORMAT = 5
 """Version of the cache; raise it whenever maps are made or stored differently."""
+
+_KEPT_MAX = 64
+"""Maps that stay in the cache: of all shipped robots several times, and of robots whose cards were varied."""
 
 Progress = Callable[[float], None]
 """Is told now and then what share of the work is done, roughly (0 to 1)."""
@@ -66,12 +70,14 @@ def posture_map(
     path = (directory or user_cache_path("pleat")) / "postures" / f"{_digest(chain, grid)}.npz"
     try:
         with path.open("rb") as file, np.load(file, allow_pickle=False) as arrays:
-            return PostureMap(grid, arrays["starts"], arrays["postures"])
+            found = PostureMap(grid, arrays["starts"], arrays["postures"])
     except (OSError, ValueError, KeyError, EOFError, BadZipFile):
-        built = build_map(chain, grid, progress)
+        found = build_map(chain, grid, progress)
+        with contextlib.suppress(OSError):
+            _write(path, found)
     with contextlib.suppress(OSError):
-        _write(path, built)
-    return built
+        use(path, _KEPT_MAX)
+    return found
 
 
 def build_map(chain: Chain, grid: Grid, progress: Progress | None = None) -> PostureMap:

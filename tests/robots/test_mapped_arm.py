@@ -1,8 +1,11 @@
 """Arms of any robot: what their maps of postures answer, against the PR2's closed form and another kinematics."""
 
+import os
+
 import numpy as np
 import pytest
 
+from planner.robots import posture_maps
 from planner.robots.chain import tool_poses
 from planner.robots.described_robot import read_robot
 from planner.robots.load_robot import load_robot
@@ -98,3 +101,14 @@ def test_a_map_that_cannot_be_read_is_built_again(tmp_path, poses):
     for path in (tmp_path / "postures").iterdir():
         path.write_bytes(b"broken")
     np.testing.assert_array_equal(built.can_reach(*poses, TORSO_M), mapped(tmp_path).can_reach(*poses, TORSO_M))
+
+
+def test_maps_that_were_not_used_lately_are_dropped(tmp_path, monkeypatch):
+    monkeypatch.setattr(posture_maps, "_KEPT_MAX", 1)
+    old = tmp_path / "postures" / "old.npz"
+    old.parent.mkdir()
+    old.write_bytes(b"a map of an earlier version")
+    os.utime(old, (0, 0))
+    mapped(tmp_path)
+    assert not old.exists()
+    assert len(list(old.parent.iterdir())) == 1
