@@ -30,7 +30,7 @@ def test_the_first_plan_comes_by_itself_with_checks_and_film(desk: Desk) -> None
     desk.rest()
     state = desk.document.state
     assert state.answer is not None and state.answer.version == 1
-    assert desk.plans.plan(state.answer.plan_id) is state.answer.plan
+    assert desk.plans.plan(state.answer.plan_id) == state.answer.plan
     assert state.checks is not None
     (held,) = state.checks.folds
     assert sorted(held.must_hold) == [pytest.approx((0.0, 0.0)), pytest.approx((0.4, 0.0))]
