@@ -1,4 +1,4 @@
-"""What is kept in the user's cache: only what was used lately stays."""
+"""The user's cache, in which only what was used lately stays."""
 
 import os
 import shutil

@@ -116,7 +116,6 @@ def test_but_in_a_search_that_takes_long_some_plan_is_shown_that_begins_like_the
     begins = meanwhile.primitives[: len(before.primitives)]
     assert [(p.kind, p.details) for p in begins] == [(p.kind, p.details) for p in before.steps]
     assert last.cost_s <= meanwhile.cost_s
-    desk.plans.keep(shown[-1].plan_id)  # as the planner does, a moment later: it is packed then
     assert all(desk.plans.plan(answer.plan_id) == answer.plan for answer in shown)
 
 
