@@ -85,7 +85,7 @@ def _table(plan: Plan, result: RehearsalResult) -> Table:
     for name in ("step", "what", "overlap", "mean [mm]", "95 % [mm]", "slid [mm]", "verdict"):
         table.add_column(name, justify="left" if name in ("what", "verdict") else "right")
     for verdict in result.runs[0].steps:
-        what = "" if result.runs[0].count("replanned") else step_words(plan.steps[verdict.step], plan.garment)
+        what = "" if verdict.of_plan is None else step_words(plan.steps[verdict.of_plan], plan.garment)
         empty = f", {' and '.join(verdict.empty)} found no cloth" if verdict.empty else ""
         numbers = (f"{number:.1f}" for number in (verdict.mean_mm, verdict.p95_mm, verdict.slid_mm))
         told = ("held" if verdict.held else "lost") + empty

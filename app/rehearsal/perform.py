@@ -6,10 +6,10 @@ and holds the cloth beside it for as long as it holds on. Where it is not known 
 for another look; where that does not help, one step is made as planned, and a run that stays blind ends.
 """
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
-from app.camera.posture import Posture
 from app.rehearsal.corrections import (
     SHORT_M,
     aimed,
@@ -27,7 +27,7 @@ from app.rehearsal.corrections import (
 from app.rehearsal.eyes import Picture
 from app.rehearsal.grasp_points import into_the_cloth, laid_short, where_seen
 from app.rehearsal.judge import Gate, StepVerdict, judged
-from app.rehearsal.rest import rest_tasks
+from app.rehearsal.rest import is_loose, rest_tasks
 from app.rehearsal.result import Decision
 from app.rehearsal.step_motions import posture_at, step_motions
 from app.rehearsal.taut_way import taut
@@ -37,6 +37,7 @@ from app.rehearsal.watch import Watch
 from app.rehearsal.world import Performed, StepMotion, World
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Point2, Pose2
+from planner.geometry.tolerance import TIME_S
 from planner.task.plan import Plan
 from planner.task.plan_step import PlanStep
 from planner.task.task import Task
@@ -44,6 +45,9 @@ from planner.task.world_state import WorldState
 
 FAILURES_MAX = 3
 """Times that the rest is planned again before a run is given up."""
+
+FIRM_S = 0.5
+"""What the rest may take longer with hands that hold firmly (s): what is held loosely is lost now and then."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,9 +95,7 @@ class Performer:
 
     def performed(self) -> Performance:
         """Perform the plan."""
-        motions, number = step_motions(self.plan), 0
-        self._watch.posture = self._begins()
-        carried = Isometry()
+        motions, number, carried = self._anew()
         while number < len(motions):
             step, motion = self.plan.steps[number], motions[number]
             is_free = all(grip.closes for grip in motion.grips)
@@ -101,6 +103,9 @@ class Performer:
                 lies, blind = self._watch.before(self.plan, step, self._made)
                 if blind:
                     return self._ended(blind)
+                if self._is_firmer(step, lies):
+                    motions, number, carried = self._anew()
+                    continue
                 carried = carry(step.before.placement, lies)
                 shift_m = shift_of(motion, carried)
                 answer = None
@@ -112,8 +117,7 @@ class Performer:
                     reason = self._planned_again(step, lies, shift_m)
                     if reason:
                         return self._ended(reason)
-                    motions, number, carried = step_motions(self.plan), 0, Isometry()
-                    self._watch.posture = self._begins()
+                    motions, number, carried = self._anew()
                     continue
             else:
                 answer = self._held_on(corrected(motion, carried), step, carried)
@@ -130,9 +134,11 @@ class Performer:
         pictures, cloths = tuple(self._watch.pictures), tuple(self._cloths)
         return Performance(tuple(self._verdicts), tuple(self._decisions), reason, pictures, cloths)
 
-    def _begins(self) -> Posture | None:
+    def _anew(self) -> tuple[tuple[StepMotion, ...], int, Isometry]:
+        """Begin the plan: its motions, the number of the first, and how far the stack lies from its place."""
         path = self.plan.trajectory
-        return None if path is None else posture_at(path, 0.0)
+        self._watch.posture = None if path is None else posture_at(path, 0.0)
+        return step_motions(self.plan), 0, Isometry()
 
     def _after_drag(self, motion: StepMotion, step: PlanStep) -> Isometry:
         """Return how far from where it should be a stack lies after a drag; hands that hold on are beside it then.
@@ -178,19 +184,34 @@ class Performer:
         hands, self._hands = self._hands, {}
         return self.world.perform(aimed(made, hands))
 
+    def _is_firmer(self, step: PlanStep, lies: Pose2) -> bool:
+        """Plan the rest anew with hands that hold firmly where a step's would not, if that takes hardly longer."""
+        if not is_loose(step, self._first.task):
+            return False
+        assert self.replan is not None
+        firm = self.replan(rest_tasks(self._first.task, self._start(step, lies))[0])
+        longer_s = math.inf if firm.cost_s is None else firm.cost_s + step.start_s - (self.plan.cost_s or 0.0)
+        if longer_s > FIRM_S + TIME_S:
+            return False
+        self._decide("firmer", ("longer_s", longer_s))
+        self.plan = firm
+        return True
+
     def _planned_again(self, step: PlanStep, lies: Pose2, shift_m: float) -> str:
         """Plan the rest from what is there; return why that cannot be, "" if it can."""
         self._decide("replanned", ("shift_m", shift_m))
         if sum(one.code == "replanned" for one in self._decisions) > FAILURES_MAX:
             return f"step {self._made} failed after the rest was planned again {FAILURES_MAX} times"
-        start = WorldState(step.before.folds_done, lies, step.before.base)
         assert self.replan is not None
-        for task in rest_tasks(self._first.task, start):
+        for task in rest_tasks(self._first.task, self._start(step, lies)):
             again = self.replan(task)
             if again.is_solved:
                 self.plan = again
                 return ""
         return f"from where the cloth lies before step {self._made} the plan is {again.status}"
+
+    def _start(self, step: PlanStep, lies: Pose2) -> WorldState:
+        return WorldState(step.before.folds_done, lies, step.before.base)
 
     def _judge(self, motion: StepMotion, step: PlanStep, answer: Performed, carried: Isometry) -> None:
         truth = self.world.truth()

@@ -285,8 +285,8 @@ def test_the_rest_is_planned_with_grips_that_hold_firmly_and_only_where_that_has
     done = Performer(towel_plan(), NotedWorld(outline_at(0.05, 0.0)), Gate(), unsolved).performed()
     assert "infeasible" in done.reason
     garment = towel_plan().garment
-    assert [task.garment.grip_radius_m for task in asked] == pytest.approx([0.1111, 0.127], abs=1e-4)  # 7/8 of 12.7 cm
-    assert asked[0].garment.folds[0].grip_radius_m == pytest.approx(0.1111, abs=1e-4)
+    assert [task.garment.grip_radius_m for task in asked] == pytest.approx([0.1016, 0.127], abs=1e-4)  # 4/5 of 12.7 cm
+    assert asked[0].garment.folds[0].grip_radius_m == pytest.approx(0.1016, abs=1e-4)
     assert asked[1].garment == garment
 
 
