@@ -3,6 +3,8 @@ from pathlib import Path
 
 import pytest
 
+from app.rehearsal.judge import StepVerdict
+from app.rehearsal.result import RehearsalResult, Run
 from planner.task.plan_files import write_plan
 from tests.app.rehearsal.towel import towel_plan
 from tests.app.test_cli import pleat
@@ -15,6 +17,19 @@ def test_an_option_that_cannot_be_is_refused_by_its_name(option: tuple[str, str]
     refused = pleat("rehearse", str(path), *option)
     assert refused.exit_code == 2
     assert option[0] in refused.stderr
+
+
+def test_each_step_is_named_as_in_the_plan_also_after_the_rest_was_planned_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    # Two steps of another plan were made: the second one leaves the towel folded as the plan's only step does.
+    path = tmp_path / "towel.plan.json"
+    write_plan(towel_plan(), path)
+    verdicts = tuple(StepVerdict(step, 0.9, 1.0, 2.0, 3.0, 4.0, 0.0, of_plan=of) for step, of in ((0, None), (1, 0)))
+    monkeypatch.setattr("app.cli.rehearse.rehearse", lambda *_: RehearsalResult((Run(0, verdicts),)))
+    lines = pleat("rehearse", str(path)).stdout.splitlines()
+    rows = [line.split() for line in lines if "held" in line and "0.900" in line]
+    assert [(row[1], "half" in row) for row in rows] == [("0", False), ("1", True)]
 
 
 @pytest.mark.long
