@@ -103,7 +103,7 @@ class Performer:
                 lies, blind = self._watch.before(self.plan, step, self._made)
                 if blind:
                     return self._ended(blind)
-                if self._is_firmer(step, lies):
+                if self._is_firmer(step):
                     motions, number, carried = self._anew()
                     continue
                 carried = carry(step.before.placement, lies)
@@ -184,12 +184,16 @@ class Performer:
         hands, self._hands = self._hands, {}
         return self.world.perform(aimed(made, hands))
 
-    def _is_firmer(self, step: PlanStep, lies: Pose2) -> bool:
-        """Plan the rest anew with hands that hold firmly where a step's would not, if that takes hardly longer."""
+    def _is_firmer(self, step: PlanStep) -> bool:
+        """Plan the rest anew with hands that hold firmly where a step's would not, if that takes hardly longer.
+
+        It is planned from where the step was planned to begin, and corrected as that would be: from where the cloth
+        lies, a few millimetres beside, there may be none so quick within the comfort radius.
+        """
         if not is_loose(step, self._first.task):
             return False
         assert self.replan is not None
-        firm = self.replan(rest_tasks(self._first.task, self._start(step, lies))[0])
+        firm = self.replan(rest_tasks(self._first.task, step.before)[0])
         longer_s = math.inf if firm.cost_s is None else firm.cost_s + step.start_s - (self.plan.cost_s or 0.0)
         if longer_s > FIRM_S + TIME_S:
             return False
@@ -202,16 +206,14 @@ class Performer:
         self._decide("replanned", ("shift_m", shift_m))
         if sum(one.code == "replanned" for one in self._decisions) > FAILURES_MAX:
             return f"step {self._made} failed after the rest was planned again {FAILURES_MAX} times"
+        start = WorldState(step.before.folds_done, lies, step.before.base)
         assert self.replan is not None
-        for task in rest_tasks(self._first.task, self._start(step, lies)):
+        for task in rest_tasks(self._first.task, start):
             again = self.replan(task)
             if again.is_solved:
                 self.plan = again
                 return ""
         return f"from where the cloth lies before step {self._made} the plan is {again.status}"
-
-    def _start(self, step: PlanStep, lies: Pose2) -> WorldState:
-        return WorldState(step.before.folds_done, lies, step.before.base)
 
     def _judge(self, motion: StepMotion, step: PlanStep, answer: Performed, carried: Isometry) -> None:
         truth = self.world.truth()

@@ -23,12 +23,13 @@ def hand_towel() -> Plan:
 
 
 class FirstStep:
-    """A world in which the cloth lies as planned before the first step and is gone after it."""
+    """A world in which the cloth lies a centimetre beside its place before the first step and is gone after it."""
 
     def __init__(self, plan: Plan) -> None:
         before = plan.steps[0].before
         self.asked: list[StepMotion] = []
-        self._outline = evenly_along(before.placement.to_outer(plan.sequence.cloth(before.done).silhouette.ring), 0.005)
+        lies = replace(before.placement, x_m=before.placement.x_m + 0.01)
+        self._outline = evenly_along(lies.to_outer(plan.sequence.cloth(before.done).silhouette.ring), 0.005)
 
     def observe(self) -> Observation:
         return Observation() if self.asked else Observation(outline=self._outline)
@@ -68,6 +69,8 @@ def test_a_second_hand_takes_what_one_would_hold_loosely():
     assert 0.0 < dict(first.numbers)["longer_s"] < FIRM_S
     assert len(asked[0].grips) == 2
     assert planned[0].garment.folds[1].grip_radius_m == pytest.approx(FIRM * 0.127)
+    assert planned[0].start == hand_towel().steps[0].before, "as planned: it is corrected by where the cloth lies"
+    assert [one.code for one in done.decisions[2:4]] == ["seen", "corrected"]
 
 
 def test_where_that_takes_longer_or_cannot_be_one_hand_does_it(monkeypatch: pytest.MonkeyPatch):
