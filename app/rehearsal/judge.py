@@ -18,7 +18,7 @@ from planner.task.world_state import WorldState
 
 _MM = 1000.0
 
-GAP_M = 0.001
+GAP_M = 0.002
 """The height of a layer above the one below (m)."""
 
 _UPRIGHT_M2 = 1e-8

@@ -18,8 +18,8 @@ from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.region import Region
 from planner.geometry.tolerance import LENGTH_M
 
-LAYER_M = 0.001
-"""The thickness of a layer, an assumption (m)."""
+LAYER_M = 0.002
+"""The thickness of a layer (m)."""
 
 LOOP_M = 0.016
 """The height of the loop of a crease on which nothing lies: .907 bending lengths of 18 mm (m)."""

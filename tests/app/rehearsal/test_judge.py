@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from app.rehearsal.judge import GAP_M, Gate, StepVerdict, judged
+from app.rehearsal.judge import Gate, StepVerdict, judged
 from app.rehearsal.planned_cloth import planned_positions
 from app.rehearsal.world import Truth
 from planner.folds.fold_sequence import replayed
@@ -21,7 +21,7 @@ def verdict(shift: FloatArray, seed: int) -> StepVerdict:
     plan = towel_plan()
     sequence, state = replayed(plan.garment), plan.steps[-1].after
     pattern, triangles = woven_mesh(plan.garment.pattern, ROWS_M, seed)
-    there = planned_positions(sequence, pattern, state.done, state.placement, Table(), GAP_M)
+    there = planned_positions(sequence, pattern, state.done, state.placement, Table(), 0.002)
     is_moved = pattern[:, 1] > 0.15
     truth = Truth(pattern, there + np.where(is_moved[:, None], shift[1], shift[0]), triangles)
     return judged(truth, 0, sequence, state, Isometry(), Table(), Gate(), ())
