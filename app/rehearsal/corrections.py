@@ -16,8 +16,11 @@ from planner.task.plan_step import PlanStep
 REGRASPS = 8
 """Points round a grip at which a grasp that missed is tried again (paper, section 9)."""
 
-_NEAR = 1.0 / 3.0
-"""The share of the radius at which it is tried first: most fingers that miss have closed just beside an edge."""
+_NEAR = 2.0 / 3.0
+"""The share of the radius at which it is tried first: most fingers that miss have closed just beside an edge.
+
+Hands take edges a third of it inside (`app.rehearsal.grasp_points`).
+"""
 
 SHORT_M = 0.008
 """How far short of its place an edge is laid down where the same hands lift it again (m).

@@ -1,6 +1,7 @@
 """Where exactly hands take the cloth and seek it, and which edges they lay down short of their place."""
 
 import math
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -11,6 +12,13 @@ from planner.geometry.pose import Point2
 from planner.geometry.tolerance import LENGTH_M
 from planner.task.plan import Plan
 from planner.task.plan_step import PlanStep
+
+INSIDE_M = 0.01
+"""How far inside of an edge the middle of the fingers takes cloth (m).
+
+Edges that should lie upon each other lie up to 2 cm apart, the lower ones unseen; fingers hold what is within 11 mm of
+their middle.
+"""
 
 
 def where_seen(step: PlanStep, carried: Isometry, seen: SeenStack | None, radius_m: float) -> dict[str, Point2]:
@@ -41,22 +49,33 @@ def are_edges_hidden(step: PlanStep, seen: SeenStack | None) -> bool:
     return bool(seen is not None and points and seen.is_edge_hidden(np.array(points)))
 
 
-def into_the_cloth(step: PlanStep, sequence: FoldSequence, carried: Isometry) -> dict[str, Point2]:
-    """Return the direction from each grip of a drag into the cloth, table frame.
-
-    A drag may pull the cloth behind it, so its way says nothing of where cloth is; a fold's leads over what it turns.
-    There are none for grips that are not on the outline, and for folds.
+def inwards_at(step: PlanStep, sequence: FoldSequence, carried: Isometry) -> dict[str, Point2]:
+    """Return the direction from each grip on the outline into the cloth, table frame.
 
     Args:
         step: the step in which hands close.
         sequence: the garment's folds.
         carried: from where the stack should lie to where it lies, table frame.
     """
-    if step.fold is not None:
-        return {}
     outline = sequence.cloth(step.before.done).silhouette
     found = {one.arm: outline.inward_bisector(one.point) for one in step.holdings}
     return {arm: _turned(step, carried, inwards) for arm, inwards in found.items() if inwards is not None}
+
+
+def inside(offsets: Mapping[str, Point2], inwards: Mapping[str, Point2], radius_m: float) -> dict[str, Point2]:
+    """Return how far beside their grips hands take the cloth so that edges that lie further in are held too (m).
+
+    Args:
+        offsets: how far beside their grips the edges are, for some arms, table frame (m).
+        inwards: the direction into the cloth of those at an edge, table frame.
+        radius_m: how far at most (m).
+    """
+    moved = {
+        arm: np.array(offsets.get(arm, (0.0, 0.0))) + INSIDE_M * np.array(inwards.get(arm, (0.0, 0.0)))
+        for arm in {*offsets, *inwards}
+    }
+    shares = {arm: min(1.0, radius_m / max(math.hypot(*gone), LENGTH_M)) for arm, gone in moved.items()}
+    return {arm: (float(share * moved[arm][0]), float(share * moved[arm][1])) for arm, share in shares.items()}
 
 
 def laid_short(plan: Plan, step: PlanStep) -> frozenset[str]:

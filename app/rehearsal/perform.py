@@ -25,7 +25,7 @@ from app.rehearsal.corrections import (
     still_beside,
 )
 from app.rehearsal.eyes import Picture
-from app.rehearsal.grasp_points import into_the_cloth, laid_short, where_seen
+from app.rehearsal.grasp_points import inside, inwards_at, laid_short, where_seen
 from app.rehearsal.judge import Gate, StepVerdict, judged
 from app.rehearsal.rest import is_loose, rest_tasks
 from app.rehearsal.result import Decision
@@ -155,18 +155,20 @@ class Performer:
     def _tried(self, motion: StepMotion, step: PlanStep, carried: Isometry, spare_m: float) -> Performed | None:
         """Perform a step, and where hands find no cloth again round their grips; None if they never find any.
 
-        A part that moved last, and an edge, is taken where it is seen, `spare_m` from the grips at most.
+        A part that moved last, and an edge, is taken inside of where it is seen, `spare_m` from the grips at most.
         """
         radius_m, sequence = self.plan.task.limits.comfort_radius_m, self.plan.sequence
         fold, flaps = reflection_in(step, sequence, carried), flaps_beside(step, sequence, carried)
-        offsets = where_seen(step, carried, self._watch.stack, spare_m)
+        inwards = inwards_at(step, sequence, carried)
+        offsets = inside(where_seen(step, carried, self._watch.stack, spare_m), inwards, spare_m)
         short = landing_short(taut(motion, spare_m), laid_short(self.plan, step), SHORT_M)
         made = trailing(beside(short, offsets, fold), motion, flaps, carried, radius_m)
         self._hands = self._watch.reached(self.plan, step, motion, self._made)
         answer = self.world.perform(aimed(made, self._hands))
         missing = frozenset(arm for arm, has in answer.has_cloth.items() if not has)
-        inwards = into_the_cloth(step, sequence, carried)
-        for again in regrasps(short, missing, radius_m, inwards, offsets, fold) if missing else ():
+        # A drag may pull the cloth behind it, so that its way says nothing of where cloth is; a fold's leads over it.
+        ahead = {} if step.fold is not None else inwards
+        for again in regrasps(short, missing, radius_m, ahead, offsets, fold) if missing else ():
             self._decide("regrasped", ("radius_m", radius_m))
             made = trailing(again, motion, flaps, carried, radius_m)
             answer = self.world.perform(aimed(made, self._hands))
