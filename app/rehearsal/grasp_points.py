@@ -5,6 +5,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from app.rehearsal.corrections import within
 from app.vision.seen_stack import SeenStack
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.isometry import Isometry
@@ -14,10 +15,10 @@ from planner.task.plan import Plan
 from planner.task.plan_step import PlanStep
 
 INSIDE_M = 0.01
-"""How far inside of an edge the middle of the fingers takes cloth (m).
+"""How far inside of the edges of several layers the middle of the fingers takes them (m).
 
 Edges that should lie upon each other lie up to 2 cm apart, the lower ones unseen; fingers hold what is within 11 mm of
-their middle.
+their middle. One layer alone is taken at its edge: beyond the fingers it crumples.
 """
 
 
@@ -62,6 +63,19 @@ def inwards_at(step: PlanStep, sequence: FoldSequence, carried: Isometry) -> dic
     return {arm: _turned(step, carried, inwards) for arm, inwards in found.items() if inwards is not None}
 
 
+def stacked_at(step: PlanStep, sequence: FoldSequence) -> frozenset[str]:
+    """Return the arms that take two layers or more.
+
+    Args:
+        step: the step in which hands close.
+        sequence: the garment's folds.
+    """
+    points = np.array([one.point for one in step.holdings])
+    layers = sequence.cloth(step.before.done).layers
+    counts = np.sum([layer.region.distances_to(points) <= INSIDE_M for layer in layers], axis=0)
+    return frozenset(one.arm for one, count in zip(step.holdings, counts, strict=True) if count > 1)
+
+
 def inside(offsets: Mapping[str, Point2], inwards: Mapping[str, Point2], radius_m: float) -> dict[str, Point2]:
     """Return how far beside their grips hands take the cloth so that edges that lie further in are held too (m).
 
@@ -74,8 +88,7 @@ def inside(offsets: Mapping[str, Point2], inwards: Mapping[str, Point2], radius_
         arm: np.array(offsets.get(arm, (0.0, 0.0))) + INSIDE_M * np.array(inwards.get(arm, (0.0, 0.0)))
         for arm in {*offsets, *inwards}
     }
-    shares = {arm: min(1.0, radius_m / max(math.hypot(*gone), LENGTH_M)) for arm, gone in moved.items()}
-    return {arm: (float(share * moved[arm][0]), float(share * moved[arm][1])) for arm, share in shares.items()}
+    return {arm: within(gone, radius_m) for arm, gone in moved.items()}
 
 
 def laid_short(plan: Plan, step: PlanStep) -> frozenset[str]:

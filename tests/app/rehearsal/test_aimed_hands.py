@@ -13,7 +13,6 @@ from app.rehearsal.noisy_world import NoisyWorld
 from app.rehearsal.perform import Performer
 from app.rehearsal.step_motions import step_motions
 from tests.app.rehearsal.flat_cloth import FlatCloth, home, no_plan
-from tests.app.rehearsal.inside_edges import taken_inside
 from tests.app.rehearsal.towel import towel_plan
 
 
@@ -22,7 +21,7 @@ def test_hands_that_are_seen_beside_their_places_close_where_they_should():
     noisy = NoisyWorld(CameraWorld(cloth, plan.task, home(), 3), Noise(arm_m=0.006), 2, plan.task)
     done = Performer(plan, noisy, Gate(), no_plan).performed()
     assert [one.code for one in done.decisions] == ["seen", "corrected", "aimed"]
-    planned, (asked,) = taken_inside(plan, 0), (one for one in cloth.asked if one.kind == "fold")
+    (planned,), (asked,) = step_motions(plan), (one for one in cloth.asked if one.kind == "fold")
     for grip, former in zip(asked.grips, planned.grips, strict=True):  # both hands are 12 mm beside their places
         assert np.linalg.norm(np.subtract(grip.points[0], former.points[0])) < 0.004
     assert dict(done.decisions[-1].numbers)["beside_m"] == pytest.approx(0.012, abs=0.003)

@@ -16,7 +16,15 @@ from app.rehearsal.corrections import (
     regrasps,
     shift_of,
 )
-from app.rehearsal.grasp_points import INSIDE_M, are_edges_hidden, inside, inwards_at, laid_short, where_seen
+from app.rehearsal.grasp_points import (
+    INSIDE_M,
+    are_edges_hidden,
+    inside,
+    inwards_at,
+    laid_short,
+    stacked_at,
+    where_seen,
+)
 from app.rehearsal.judge import Gate
 from app.rehearsal.noise import Noise
 from app.rehearsal.noisy_world import NoisyWorld
@@ -36,7 +44,6 @@ from planner.robots.load_robot import load_robot
 from planner.task.grip import Holding
 from planner.task.plan_step import PlanStep
 from planner.task.task import TIME_LIMIT_S
-from tests.app.rehearsal.inside_edges import taken_inside
 from tests.app.rehearsal.towel import towel_plan
 
 
@@ -73,7 +80,7 @@ def no_plan(task: Task) -> Plan:
 def test_grips_follow_cloth_that_lies_two_centimetres_away():
     world = NotedWorld(outline_at(0.012, -0.016))
     done = Performer(towel_plan(), world, Gate(), no_plan).performed()
-    (asked,), planned = world.asked, taken_inside(towel_plan(), 0)
+    (asked,), (planned,) = world.asked, step_motions(towel_plan())
     assert [decision.code for decision in done.decisions] == ["seen", "corrected"]
     for grip, former in zip(asked.grips, planned.grips, strict=True):
         for end in (0, -1):  # between them hands keep the cloth longer than planned
@@ -124,22 +131,32 @@ def test_a_hand_takes_an_edge_where_it_is_seen():
     assert offsets["inside"] == pytest.approx((0.0, 0.0), abs=1e-9)
 
 
-def test_hands_take_an_edge_inside_of_where_it_is_seen_as_far_as_that_is_in_reach():
+def test_hands_take_the_edges_of_stacks_inside_of_where_they_are_seen_as_far_as_that_is_in_reach():
     plan = make_plan(Task.of(load_garment("letter-towel")))
     step, turned = plan.steps[0], Isometry.rotation(0.1)
     inwards = inwards_at(step, plan.sequence, turned)
-    corners = {one.arm: np.array(one.point) for one in step.holdings}
     middle, lies = plan.garment.pattern.ring.mean(axis=0), step.before.placement
-    for arm, corner in corners.items():  # of a rectangle: along the bisectors of its corners
-        to_middle = turned.apply(lies.to_outer(np.array([corner, middle])))
-        assert np.dot(inwards[arm], to_middle[1] - to_middle[0]) > 0.2
-        assert math.hypot(*inwards[arm]) == pytest.approx(1.0)
+    for one in step.holdings:  # of a rectangle: along the bisectors of its corners
+        corner, centre = turned.apply(lies.to_outer(np.array([one.point, middle])))
+        assert np.dot(inwards[one.arm], centre - corner) > 0.2
+        assert math.hypot(*inwards[one.arm]) == pytest.approx(1.0)
+    assert stacked_at(step, plan.sequence) == frozenset()  # one layer
+    vest = make_plan(Task.of(load_garment("vest")))
+    assert [sorted(stacked_at(one, vest.sequence)) for one in vest.steps] == [[], ["left", "right"]]
     seen = {"left": (0.0, 0.004)}
     found = inside(seen, {"left": (0.0, 1.0), "right": (1.0, 0.0)}, 0.03)
     assert found["left"] == pytest.approx((0.0, 0.004 + INSIDE_M))
     assert found["right"] == pytest.approx((INSIDE_M, 0.0))
     assert inside(seen, {"left": (0.0, 1.0)}, 0.006)["left"] == pytest.approx((0.0, 0.006))
     assert inside(seen, {}, 0.03) == {"left": pytest.approx((0.0, 0.004))}  # not at an edge
+
+
+def test_a_hand_that_missed_a_stack_tries_further_in_than_it_took_that():
+    (motion,) = step_motions(towel_plan())
+    arm, began = motion.grips[0].arm, np.array(motion.grips[0].points[0][:2])
+    first, second, *_ = regrasps(motion, frozenset({arm}), 0.03, {arm: (1.0, 0.0)}, {arm: (INSIDE_M, 0.0)}, None)
+    assert np.array(first.grips[0].points[0][:2]) - began == pytest.approx([INSIDE_M + 0.01, 0.0])
+    assert np.array(second.grips[0].points[0][:2]) - began == pytest.approx([0.03, 0.0])
 
 
 def test_an_edge_of_which_nothing_was_seen_is_hidden():
@@ -189,13 +206,13 @@ def test_a_fold_by_hands_that_hold_on_from_a_drag_is_not_carried_along_again():
     moved = Pose2(lies.x_m + 0.012, lies.y_m - 0.016, lies.yaw_rad)
     world = NotedWorld(evenly_along(moved.to_outer(plan.garment.pattern.ring), 0.01))
     Performer(plan, world, Gate(), lambda _: plan).performed()
-    asked, planned = world.asked, (taken_inside(plan, 0), taken_inside(plan, 1, closed=0))
-    assert [motion.kind for motion in planned] == ["drag", "fold"] and not planned[0].grips[0].opens
+    asked, planned = world.asked, step_motions(plan)
+    assert [motion.kind for motion in planned[:2]] == ["drag", "fold"] and not planned[0].grips[0].opens
     for grip, former in zip(asked[0].grips, planned[0].grips, strict=True):
         assert math.dist(grip.points[0], former.points[0]) == pytest.approx(0.02, abs=2e-3)
-        assert grip.points[-1] == pytest.approx(former.points[-1], abs=1e-4)
+        assert grip.points[-1] == pytest.approx(former.points[-1], abs=1e-9)
     for grip, former in zip(asked[1].grips, planned[1].grips, strict=True):
-        assert np.array(grip.points) == pytest.approx(np.array(former.points), abs=1e-4)
+        assert np.array(grip.points) == pytest.approx(np.array(former.points), abs=1e-9)
 
 
 class SwingingWorld(NotedWorld):
@@ -228,7 +245,7 @@ def test_the_fold_after_a_drag_goes_over_the_line_as_the_cloth_lies_then():
     assert over is not None
     assert begin == pytest.approx(drag.grips[0].points[-1][:2], abs=1e-9)
     assert end == pytest.approx(over.apply_point(begin), abs=2e-3)
-    assert math.dist(end, taken_inside(plan, 1, closed=0).grips[0].points[-1][:2]) > 0.01
+    assert math.dist(end, step_motions(plan)[1].grips[0].points[-1][:2]) > 0.01
 
 
 def test_a_hand_that_misses_tries_again_within_the_comfort_radius():
@@ -244,7 +261,7 @@ def test_a_hand_that_misses_tries_again_within_the_comfort_radius():
         [math.dist(a.points[0], b.points[0]) for a, b in zip(one.grips, planned.grips, strict=True)]
         for one in (first, *others)
     ]
-    assert apart == [pytest.approx([away_m, INSIDE_M], abs=1e-3) for away_m in (INSIDE_M, 0.02, 0.03)]
+    assert apart == [pytest.approx([miss_m, 0.0], abs=1e-3) for miss_m in (0.0, 0.01, 0.03)]
 
 
 @pytest.mark.parametrize("name", ["tie", "scarf", "skirt"])
@@ -260,9 +277,9 @@ def test_a_hand_that_misses_the_edge_of_cloth_that_it_pulls_behind_it_tries_agai
     begin, end = (np.array(missed.grips[0].points[number][:2]) for number in (0, -1))
     tried = np.array(again.grips[0].points[0][:2])
     cloth = Region.polygon(turned.to_outer(plan.garment.pattern.ring))
-    assert not cloth.contains(tuple(begin + (INSIDE_M + 0.01) * (end - begin) / np.linalg.norm(end - begin)))
-    assert np.linalg.norm(tried - begin) == pytest.approx(0.02 - INSIDE_M, abs=1e-4)
-    assert cloth.contains(tuple(begin), margin_m=0.006) and cloth.contains(tuple(tried), margin_m=0.008)
+    assert not cloth.contains(tuple(begin + 0.01 * (end - begin) / np.linalg.norm(end - begin)))
+    assert np.linalg.norm(tried - begin) == pytest.approx(0.01, abs=1e-6)
+    assert cloth.contains(tuple(tried), margin_m=0.006)
 
 
 def test_cloth_beyond_the_comfort_radius_is_planned_from_where_it_lies_and_given_up_in_the_end():
@@ -342,9 +359,8 @@ def test_a_hand_that_took_the_cloth_beside_its_grip_holds_it_there_in_the_red_fo
     for before, after in zip(blue.grips, red.grips, strict=True):
         assert math.dist(before.points[-1][:2], after.points[0][:2]) < 1e-3
     offsets = [math.dist(a.points[-1], b.points[-1]) for a, b in zip(red.grips, planned[1].grips, strict=True)]
-    # Both hands took the edge 1 cm inside, at a corner, one of them after a miss 2 cm along its way; and laid it short.
-    inside_m = INSIDE_M * math.sqrt(0.5)
-    assert sorted(offsets) == pytest.approx([math.hypot(inside_m + SHORT_M, inside_m), 0.02 + SHORT_M], abs=2e-3)
+    # The miss was tried again 1 cm further in: that hand ends 1 cm less far. Both have laid the edge down short.
+    assert sorted(offsets) == pytest.approx([SHORT_M, 0.01 + SHORT_M], abs=2e-3)
 
 
 def test_a_correction_carries_a_step_along_and_its_shift_is_that_of_the_furthest_grip():
@@ -359,7 +375,7 @@ def test_a_robot_that_sees_from_where_it_stands_corrects_its_base_error_too():
     world = NotedWorld(outline_at(0.0, 0.0))
     noisy = NoisyWorld(world, Noise(base_m=0.005, base_rad=0.005), 3, towel_plan().task)
     Performer(towel_plan(), noisy, Gate(), no_plan).performed()
-    (asked,), planned = world.asked, taken_inside(towel_plan(), 0)
+    (asked,), (planned,) = world.asked, step_motions(towel_plan())
     for grip, former in zip(asked.grips, planned.grips, strict=True):
         assert math.dist(grip.points[0], former.points[0]) < 2e-3
 
