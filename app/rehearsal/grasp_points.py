@@ -15,10 +15,10 @@ from planner.task.plan import Plan
 from planner.task.plan_step import PlanStep
 
 INSIDE_M = 0.01
-"""How far inside of the edges of several layers the middle of the fingers takes them (m).
+"""How far inside of the corners of several layers the middle of the fingers takes them (m).
 
-Edges that should lie upon each other lie up to 2 cm apart, the lower ones unseen; fingers hold what is within 11 mm of
-their middle. One layer alone is taken at its edge: beyond the fingers it crumples.
+Corners that should lie upon each other lie up to 2 cm apart, the lower ones unseen; fingers hold what is within 11 mm
+of their middle. All else is taken at its edge: beyond the fingers cloth crumples.
 """
 
 
@@ -63,17 +63,24 @@ def inwards_at(step: PlanStep, sequence: FoldSequence, carried: Isometry) -> dic
     return {arm: _turned(step, carried, inwards) for arm, inwards in found.items() if inwards is not None}
 
 
-def stacked_at(step: PlanStep, sequence: FoldSequence) -> frozenset[str]:
-    """Return the arms that take two layers or more.
+def at_several_corners(step: PlanStep, sequence: FoldSequence) -> frozenset[str]:
+    """Return the arms that take a corner of several edges, as two layers have where no crease joins them there.
 
     Args:
         step: the step in which hands close.
         sequence: the garment's folds.
     """
-    points = np.array([one.point for one in step.holdings])
-    layers = sequence.cloth(step.before.done).layers
-    counts = np.sum([layer.region.distances_to(points) <= INSIDE_M for layer in layers], axis=0)
-    return frozenset(one.arm for one, count in zip(step.holdings, counts, strict=True) if count > 1)
+    points = np.array([one.point for one in step.holdings]).reshape(-1, 2)
+    layers, ring = sequence.cloth(step.before.done).layers, sequence.cloth(step.before.done).silhouette.ring
+    near = np.array([layer.region.distances_to(points) <= INSIDE_M for layer in layers])
+    in_pattern = np.array([layer.isometry.inverse.apply(points) for layer in layers])
+
+    def has_several(number: int) -> bool:
+        edges = in_pattern[near[:, number], number]
+        is_corner = np.hypot(*(ring - points[number]).T).min() <= INSIDE_M
+        return bool(is_corner and (np.hypot(*(edges - edges[:1]).T) > INSIDE_M).any())
+
+    return frozenset(one.arm for number, one in enumerate(step.holdings) if has_several(number))
 
 
 def inside(offsets: Mapping[str, Point2], inwards: Mapping[str, Point2], radius_m: float) -> dict[str, Point2]:

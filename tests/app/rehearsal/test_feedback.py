@@ -19,10 +19,10 @@ from app.rehearsal.corrections import (
 from app.rehearsal.grasp_points import (
     INSIDE_M,
     are_edges_hidden,
+    at_several_corners,
     inside,
     inwards_at,
     laid_short,
-    stacked_at,
     where_seen,
 )
 from app.rehearsal.judge import Gate
@@ -131,7 +131,7 @@ def test_a_hand_takes_an_edge_where_it_is_seen():
     assert offsets["inside"] == pytest.approx((0.0, 0.0), abs=1e-9)
 
 
-def test_hands_take_the_edges_of_stacks_inside_of_where_they_are_seen_as_far_as_that_is_in_reach():
+def test_hands_take_corners_of_several_layers_inside_of_where_they_are_seen_as_far_as_that_is_in_reach():
     plan = make_plan(Task.of(load_garment("letter-towel")))
     step, turned = plan.steps[0], Isometry.rotation(0.1)
     inwards = inwards_at(step, plan.sequence, turned)
@@ -140,9 +140,13 @@ def test_hands_take_the_edges_of_stacks_inside_of_where_they_are_seen_as_far_as_
         corner, centre = turned.apply(lies.to_outer(np.array([one.point, middle])))
         assert np.dot(inwards[one.arm], centre - corner) > 0.2
         assert math.hypot(*inwards[one.arm]) == pytest.approx(1.0)
-    assert stacked_at(step, plan.sequence) == frozenset()  # one layer
-    vest = make_plan(Task.of(load_garment("vest")))
-    assert [sorted(stacked_at(one, vest.sequence)) for one in vest.steps] == [[], ["left", "right"]]
+    assert at_several_corners(step, plan.sequence) == frozenset()  # one layer
+    vest = make_plan(Task.of(load_garment("vest")))  # its folded half: a corner of the crease, and two of hems
+    assert [sorted(at_several_corners(one, vest.sequence)) for one in vest.steps] == [[], ["right"]]
+    assert at_several_corners(replace(step, holdings=()), plan.sequence) == frozenset()
+    hems = vest.steps[1].holdings[-1]
+    along = replace(hems, point=(hems.point[0], hems.point[1] + 0.05))  # the same hems, 5 cm from their corner
+    assert at_several_corners(replace(vest.steps[1], holdings=(along,)), vest.sequence) == frozenset()
     seen = {"left": (0.0, 0.004)}
     found = inside(seen, {"left": (0.0, 1.0), "right": (1.0, 0.0)}, 0.03)
     assert found["left"] == pytest.approx((0.0, 0.004 + INSIDE_M))
