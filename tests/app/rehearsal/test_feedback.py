@@ -19,7 +19,7 @@ from app.rehearsal.corrections import (
 from app.rehearsal.grasp_points import (
     INSIDE_M,
     are_edges_hidden,
-    at_several_corners,
+    at_several_tips,
     inside,
     inwards_at,
     laid_short,
@@ -131,7 +131,7 @@ def test_a_hand_takes_an_edge_where_it_is_seen():
     assert offsets["inside"] == pytest.approx((0.0, 0.0), abs=1e-9)
 
 
-def test_hands_take_corners_of_several_layers_inside_of_where_they_are_seen_as_far_as_that_is_in_reach():
+def test_hands_take_tips_of_several_layers_inside_of_where_they_are_seen_as_far_as_that_is_in_reach():
     plan = make_plan(Task.of(load_garment("letter-towel")))
     step, turned = plan.steps[0], Isometry.rotation(0.1)
     inwards = inwards_at(step, plan.sequence, turned)
@@ -140,13 +140,16 @@ def test_hands_take_corners_of_several_layers_inside_of_where_they_are_seen_as_f
         corner, centre = turned.apply(lies.to_outer(np.array([one.point, middle])))
         assert np.dot(inwards[one.arm], centre - corner) > 0.2
         assert math.hypot(*inwards[one.arm]) == pytest.approx(1.0)
-    assert at_several_corners(step, plan.sequence) == frozenset()  # one layer
-    vest = make_plan(Task.of(load_garment("vest")))  # its folded half: a corner of the crease, and two of hems
-    assert [sorted(at_several_corners(one, vest.sequence)) for one in vest.steps] == [[], ["right"]]
-    assert at_several_corners(replace(step, holdings=()), plan.sequence) == frozenset()
-    hems = vest.steps[1].holdings[-1]
-    along = replace(hems, point=(hems.point[0], hems.point[1] + 0.05))  # the same hems, 5 cm from their corner
-    assert at_several_corners(replace(vest.steps[1], holdings=(along,)), vest.sequence) == frozenset()
+    assert at_several_tips(step, plan.sequence) == frozenset()  # one layer
+    assert at_several_tips(replace(step, holdings=()), plan.sequence) == frozenset()
+    skirt = make_plan(Task.of(load_garment("skirt")))
+    taken = [sorted(at_several_tips(one, skirt.sequence)) for one in skirt.steps]
+    assert taken == [[], [], ["right"], []]  # two tips; in the last fold a crease, and no corner
+    (tip,) = skirt.steps[2].holdings
+    along = replace(tip, point=(tip.point[0], tip.point[1] - 0.05))  # 5 cm from the tips, along the waist or the hem
+    assert at_several_tips(replace(skirt.steps[2], holdings=(along,)), skirt.sequence) == frozenset()
+    square = make_plan(Task.of(load_garment("vest")))  # right angles
+    assert {at_several_tips(one, square.sequence) for one in square.steps} == {frozenset()}
     seen = {"left": (0.0, 0.004)}
     found = inside(seen, {"left": (0.0, 1.0), "right": (1.0, 0.0)}, 0.03)
     assert found["left"] == pytest.approx((0.0, 0.004 + INSIDE_M))
