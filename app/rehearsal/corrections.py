@@ -11,14 +11,13 @@ from app.vision.look_at_stack import Sight
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray, Point2, Point3, Pose2
-from planner.geometry.tolerance import LENGTH_M
 from planner.task.plan_step import PlanStep
 
 REGRASPS = 8
 """Points round a grip at which a grasp that missed is tried again (paper, section 9)."""
 
 _NEAR = 1.0 / 3.0
-"""The share of the radius by which it is tried further in first: most fingers that miss have closed beside an edge."""
+"""The share of the radius at which it is tried first: most fingers that miss have closed just beside an edge."""
 
 SHORT_M = 0.008
 """How far short of its place an edge is laid down where the same hands lift it again (m).
@@ -81,21 +80,14 @@ def regrasps(
         offsets: how far beside its grip each hand took the cloth at first (m).
         fold: the reflection of the cloth by the step's fold, table frame; None if it makes none.
     """
-    ways = {grip.arm: inwards.get(grip.arm) or _way(grip) for grip in motion.grips if grip.arm in arms}
-    further = {
-        arm: within(np.add(offsets.get(arm, (0.0, 0.0)), _round(way, _NEAR * radius_m, 0.0)), radius_m)
-        for arm, way in ways.items()
-    }
-    yield beside(motion, {**offsets, **further}, fold)
-    for number in range(REGRASPS - 1):
-        turn = math.pi / 4.0 * ((number + 1) // 2) * (-1.0 if number % 2 else 1.0)
-        yield beside(motion, {**offsets, **{arm: _round(way, radius_m, turn) for arm, way in ways.items()}}, fold)
-
-
-def within(offset: FloatArray, radius_m: float) -> Point2:
-    """Return a vector, shape (2,), or one as long as a radius in its direction where it is longer (m)."""
-    x, y = offset * min(1.0, radius_m / max(math.hypot(*offset), LENGTH_M))
-    return float(x), float(y)
+    turns = [math.pi / 4.0 * ((number + 1) // 2) * (-1.0 if number % 2 else 1.0) for number in range(REGRASPS - 1)]
+    for away_m, turn in ((_NEAR * radius_m, 0.0), *((radius_m, turn) for turn in turns)):
+        tried = {
+            grip.arm: _round(inwards.get(grip.arm) or _way(grip), away_m, turn)
+            for grip in motion.grips
+            if grip.arm in arms
+        }
+        yield beside(motion, {**offsets, **tried}, fold)
 
 
 def beside(motion: StepMotion, offsets: Mapping[str, Point2], fold: Isometry | None) -> StepMotion:

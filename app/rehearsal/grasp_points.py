@@ -5,7 +5,6 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from app.rehearsal.corrections import within
 from app.vision.seen_stack import SeenStack
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.isometry import Isometry
@@ -106,7 +105,8 @@ def inside(offsets: Mapping[str, Point2], inwards: Mapping[str, Point2], radius_
         arm: np.array(offsets.get(arm, (0.0, 0.0))) + INSIDE_M * np.array(inwards.get(arm, (0.0, 0.0)))
         for arm in {*offsets, *inwards}
     }
-    return {arm: within(gone, radius_m) for arm, gone in moved.items()}
+    shares = {arm: min(1.0, radius_m / max(math.hypot(*gone), LENGTH_M)) for arm, gone in moved.items()}
+    return {arm: (float(share * moved[arm][0]), float(share * moved[arm][1])) for arm, share in shares.items()}
 
 
 def laid_short(plan: Plan, step: PlanStep) -> frozenset[str]:

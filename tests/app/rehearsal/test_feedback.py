@@ -158,14 +158,6 @@ def test_hands_take_tips_of_several_layers_inside_of_where_they_are_seen_as_far_
     assert inside(seen, {}, 0.03) == {"left": pytest.approx((0.0, 0.004))}  # not at an edge
 
 
-def test_a_hand_that_missed_a_stack_tries_further_in_than_it_took_that():
-    (motion,) = step_motions(towel_plan())
-    arm, began = motion.grips[0].arm, np.array(motion.grips[0].points[0][:2])
-    first, second, *_ = regrasps(motion, frozenset({arm}), 0.03, {arm: (1.0, 0.0)}, {arm: (INSIDE_M, 0.0)}, None)
-    assert np.array(first.grips[0].points[0][:2]) - began == pytest.approx([INSIDE_M + 0.01, 0.0])
-    assert np.array(second.grips[0].points[0][:2]) - began == pytest.approx([0.03, 0.0])
-
-
 def test_an_edge_of_which_nothing_was_seen_is_hidden():
     # An arm hides what is within 8 cm of the middle of the crease.
     plan = make_plan(Task.of(load_garment("letter-towel")))
