@@ -47,7 +47,7 @@ FAILURES_MAX = 3
 """Times that the rest is planned again before a run is given up."""
 
 FIRM_S = 0.5
-"""What the rest may take longer with hands that hold firmly (s): what is held loosely is lost now and then."""
+"""The time that firm hands may add to the rest (s): what is held loosely is lost now and then."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,4 +1,4 @@
-"""What one hand would hold loosely a robot that looks takes with two, where that takes hardly longer."""
+"""A second hand where one would hold cloth loosely, in rehearsals in which the robot looks."""
 
 import math
 from dataclasses import replace
