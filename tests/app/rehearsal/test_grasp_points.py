@@ -1,0 +1,138 @@
+"""Where hands take a stack as it was seen, and which edges they lay down short."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from app.rehearsal.corrections import SHORT_M, landing_short
+from app.rehearsal.grasp_points import (
+    INSIDE_M,
+    are_edges_hidden,
+    at_several_tips,
+    inside,
+    inwards_at,
+    laid_short,
+    where_seen,
+)
+from app.rehearsal.step_motions import step_motions
+from app.vision.fit_fold import FoldedOutline
+from app.vision.seen_stack import SeenStack
+from app.vision.stack_figure import Figure
+from planner import Task, load_garment, make_plan
+from planner.geometry.isometry import Isometry
+from planner.geometry.pose import Point2
+from planner.geometry.ring import evenly_along
+from planner.task.grip import Holding
+from planner.task.plan_step import PlanStep
+
+
+def test_a_part_that_moved_last_is_taken_where_it_was_seen():
+    # The near half was folded up at y = .25 m. With its crease 4 mm to the left of the line, towards y = 0, its edge is
+    # 8 mm short. The article is turned by -90 degrees: its -y is -x of the table.
+    plan = make_plan(Task.of(load_garment("letter-towel")))
+    folded = FoldedOutline(plan.sequence, 0, 0)
+    seen = SeenStack(Figure.of(plan.sequence.cloth(1)), folded, np.array([0, 0, 0, 0.004, 0, 0.0]), np.eye(6))
+    step = replace(plan.steps[0], holdings=(Holding("left", (0.4, 0.5), ()), Holding("right", (0.1, 0.1), ())))
+    offsets = where_seen(step, Isometry(), seen, 0.03)
+    assert offsets["left"] == pytest.approx((-0.008, 0.0), abs=1e-6)
+    assert offsets["right"] == (0.0, 0.0)  # not on the part that moved
+    assert where_seen(step, Isometry(), seen, 0.0)["left"] == pytest.approx((0.0, 0.0))
+    assert where_seen(step, Isometry(), None, 0.03) == {}
+
+
+def test_a_hand_takes_an_edge_where_it_is_seen():
+    # The crease, at y = .25 m, is seen 9 mm inside of its line, 4 mm at the other end; the rest is where it should be.
+    plan = make_plan(Task.of(load_garment("letter-towel")))
+    ring = plan.sequence.cloth(1).silhouette.ring
+    (left, crease_y), (right, far_y) = ring.min(axis=0).tolist(), ring.max(axis=0).tolist()
+    outline = evenly_along(ring, 0.003)
+    at_crease = outline[:, 1] < crease_y + 1e-6
+    outline[at_crease, 1] += np.interp(outline[at_crease, 0], [left, right], [0.004, 0.009])
+    figure, folded = Figure.of(plan.sequence.cloth(1)), FoldedOutline(plan.sequence, 0, 0)
+    lies = plan.task.start.placement
+    row = np.array([*figure.fit_at(lies).row, 0.0, 0.0, 0.0])
+    seen = SeenStack(figure, folded, row, np.eye(6), lies.to_outer(outline))
+    step = replace(
+        plan.steps[0],
+        holdings=(
+            Holding("middle", ((left + right) / 2.0, crease_y), ()),
+            Holding("corner", (right, crease_y), ()),
+            Holding("edge", (right, far_y - 0.05), ()),
+            Holding("inside", (left + 0.1, crease_y + 0.1), ()),
+        ),
+    )
+    offsets = where_seen(step, Isometry(), seen, 0.03)
+    assert step.before.placement.yaw_rad == pytest.approx(-math.pi / 2.0)  # the article's y is the table's x
+    assert offsets["middle"] == pytest.approx((0.0065, 0.0), abs=1e-3)
+    assert offsets["corner"] == pytest.approx((0.009, 0.0), abs=1.5e-3)
+    assert offsets["edge"] == pytest.approx((0.0, 0.0), abs=1e-4)
+    assert offsets["inside"] == pytest.approx((0.0, 0.0), abs=1e-9)
+
+
+def test_hands_take_tips_of_several_layers_inside_of_where_they_are_seen_as_far_as_that_is_in_reach():
+    plan = make_plan(Task.of(load_garment("letter-towel")))
+    step, turned = plan.steps[0], Isometry.rotation(0.1)
+    inwards = inwards_at(step, plan.sequence, turned)
+    middle, lies = plan.garment.pattern.ring.mean(axis=0), step.before.placement
+    for one in step.holdings:  # of a rectangle: along the bisectors of its corners
+        corner, centre = turned.apply(lies.to_outer(np.array([one.point, middle])))
+        assert np.dot(inwards[one.arm], centre - corner) > 0.2
+        assert math.hypot(*inwards[one.arm]) == pytest.approx(1.0)
+    assert at_several_tips(step, plan.sequence) == frozenset()  # one layer
+    assert at_several_tips(replace(step, holdings=()), plan.sequence) == frozenset()
+    skirt = make_plan(Task.of(load_garment("skirt")))
+    taken = [sorted(at_several_tips(one, skirt.sequence)) for one in skirt.steps]
+    assert taken == [[], [], ["right"], []]  # two tips; in the last fold a crease, and no corner
+    (tip,) = skirt.steps[2].holdings
+    along = replace(tip, point=(tip.point[0], tip.point[1] - 0.05))  # 5 cm from the tips, along the waist or the hem
+    assert at_several_tips(replace(skirt.steps[2], holdings=(along,)), skirt.sequence) == frozenset()
+    square = make_plan(Task.of(load_garment("vest")))  # right angles
+    assert {at_several_tips(one, square.sequence) for one in square.steps} == {frozenset()}
+    seen = {"left": (0.0, 0.004)}
+    found = inside(seen, {"left": (0.0, 1.0), "right": (1.0, 0.0)}, 0.03)
+    assert found["left"] == pytest.approx((0.0, 0.004 + INSIDE_M))
+    assert found["right"] == pytest.approx((INSIDE_M, 0.0))
+    assert inside(seen, {"left": (0.0, 1.0)}, 0.006)["left"] == pytest.approx((0.0, 0.006))
+    assert inside(seen, {}, 0.03) == {"left": pytest.approx((0.0, 0.004))}  # not at an edge
+
+
+def test_an_edge_of_which_nothing_was_seen_is_hidden():
+    # An arm hides what is within 8 cm of the middle of the crease.
+    plan = make_plan(Task.of(load_garment("letter-towel")))
+    ring = plan.sequence.cloth(1).silhouette.ring
+    (left, crease_y), (right, _) = ring.min(axis=0).tolist(), ring.max(axis=0).tolist()
+    middle, inside = ((left + right) / 2.0, crease_y), ((left + right) / 2.0, crease_y + 0.1)
+    figure, folded = Figure.of(plan.sequence.cloth(1)), FoldedOutline(plan.sequence, 0, 0)
+    lies = plan.task.start.placement
+    outline = evenly_along(ring, 0.003)
+    outline = outline[np.hypot(*(outline - np.array(middle)).T) > 0.08]
+    row = np.array([*figure.fit_at(lies).row, 0.0, 0.0, 0.0])
+    seen = SeenStack(figure, folded, row, np.eye(6), lies.to_outer(outline))
+
+    def taken_at(*points: Point2) -> PlanStep:
+        return replace(plan.steps[0], holdings=tuple(Holding("left", point, ()) for point in points))
+
+    assert are_edges_hidden(taken_at((right, crease_y), middle), seen)
+    assert not are_edges_hidden(taken_at((right, crease_y)), seen)
+    assert not are_edges_hidden(taken_at(inside), seen)  # not an edge
+    assert not are_edges_hidden(taken_at(), seen)
+    assert not are_edges_hidden(taken_at(middle), None)
+
+
+def test_an_edge_that_the_same_hands_lift_again_lands_short_and_others_where_they_should():
+    plan = make_plan(Task.of(load_garment("letter-towel")))
+    blue, red = plan.steps
+    assert laid_short(plan, blue) == {"left", "right"}
+    assert laid_short(plan, replace(blue, details={"fold": 0})) == frozenset()
+    assert laid_short(plan, red) == frozenset()  # it goes on from there
+    scarf = make_plan(Task.of(load_garment("scarf")))  # in quarters, so that edges lie upon the stack
+    assert {laid_short(scarf, step) for step in scarf.steps} == {frozenset()}
+    red = step_motions(plan)[1]
+    for grip, former in zip(landing_short(red, frozenset({"left"}), SHORT_M).grips, red.grips, strict=True):
+        assert grip.points[0] == former.points[0]
+        short = np.subtract(grip.points[-1], former.points[-1])
+        back = np.subtract(former.points[0], former.points[-1])
+        expected = SHORT_M if grip.arm == "left" else 0.0
+        assert short == pytest.approx(expected * back / np.linalg.norm(back), abs=1e-4)
