@@ -6,6 +6,7 @@ A separate thread writes them. A stopped terminal, or a pipe that nobody reads, 
 server; lines that do not fit into the queue are dropped.
 """
 
+import asyncio
 import json
 import logging
 import os
@@ -43,6 +44,7 @@ def logging_to(descriptor: int, *, as_json: bool = False) -> Iterator[None]:
         target=_write, args=(lines, descriptor, _JsonLine() if as_json else _TextLine()), name="log", daemon=True
     )
     writer.start()
+    handler.addFilter(_is_news)
     root.addHandler(handler)
     for name, level in _LEVELS.items():
         logging.getLogger(name).setLevel(level)
@@ -58,6 +60,14 @@ def logging_to(descriptor: int, *, as_json: bool = False) -> Iterator[None]:
 def standard_error() -> int:
     """Return the descriptor of standard error."""
     return sys.stderr.fileno()
+
+
+def _is_news(record: logging.LogRecord) -> bool:
+    """Return whether a record tells something; that the end of the server has cut off a slow request does not.
+
+    uvicorn logs such a request as an exception, with its stack, as if the application had failed.
+    """
+    return record.exc_info is None or record.exc_info[0] is not asyncio.CancelledError
 
 
 class _DroppingHandler(QueueHandler):

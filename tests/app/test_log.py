@@ -1,3 +1,4 @@
+import asyncio
 import json
 import logging
 import os
@@ -29,8 +30,8 @@ def test_a_pipe_that_nobody_reads_holds_up_nobody(lines: int) -> None:
     with logging_to(write):
         for _ in range(lines):
             logging.getLogger("app.workspace").warning("x" * 1000)
+    # The writing end stays open: lines that still wait would be written to whatever gets its number next.
     os.close(read)
-    os.close(write)
 
 
 def test_a_line_within_a_request_has_its_id_as_text_and_as_json() -> None:
@@ -55,3 +56,18 @@ def test_a_line_within_a_request_has_its_id_as_text_and_as_json() -> None:
         "request": "a-b.c",
     }
     assert told["message"].startswith("it failed\nTraceback") and "bad\nluck" in told["message"]
+
+
+def test_a_request_cut_off_by_the_end_of_the_server_is_no_error_but_a_failed_one_is() -> None:
+    read, write = os.pipe()
+    with logging_to(write):
+        for error in (asyncio.CancelledError(), KeyError("a fault")):
+            try:
+                raise error
+            except (asyncio.CancelledError, KeyError):
+                logging.getLogger("uvicorn.error").exception("Exception in ASGI application")
+    os.close(write)
+    with os.fdopen(read, encoding="utf-8") as file:
+        told = file.read()
+    assert told.count("Exception in ASGI application") == 1
+    assert "a fault" in told
