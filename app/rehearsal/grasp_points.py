@@ -8,20 +8,18 @@ import numpy as np
 from app.vision.seen_stack import SeenStack
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.isometry import Isometry
-from planner.geometry.pose import FloatArray, Point2
+from planner.geometry.pose import Point2
 from planner.geometry.tolerance import LENGTH_M
+from planner.task.grip import Holding
 from planner.task.plan import Plan
 from planner.task.plan_step import PlanStep
 
 INSIDE_M = 0.01
-"""How far inside of the tips of several layers the middle of the fingers takes them (m).
+"""How far inside of the corners of several layers the middle of the fingers takes them (m).
 
-Tips that should lie upon each other lie up to 2 cm apart, the lower ones unseen; fingers hold what is within 11 mm of
-their middle. All else is taken at its edge: beyond the fingers cloth crumples.
+Layers that should end upon each other end up to 2 cm apart, the lower ones unseen; fingers hold what is within 11 mm of
+their middle. All else is taken at its edge: cloth beyond the fingers crumples, and turns a stack held by one hand.
 """
-
-_TIP = 0.17
-"""The cosine of the widest angle of a tip, 80 degrees."""
 
 
 def where_seen(step: PlanStep, carried: Isometry, seen: SeenStack | None, radius_m: float) -> dict[str, Point2]:
@@ -65,32 +63,24 @@ def inwards_at(step: PlanStep, sequence: FoldSequence, carried: Isometry) -> dic
     return {arm: _turned(step, carried, inwards) for arm, inwards in found.items() if inwards is not None}
 
 
-def at_several_tips(step: PlanStep, sequence: FoldSequence) -> frozenset[str]:
-    """Return the arms that take several tips at once, as two layers have where no crease joins them there.
+def at_layered_corners(step: PlanStep, sequence: FoldSequence) -> frozenset[str]:
+    """Return the arms that take a corner at which several layers lie upon each other, and nothing else.
 
     Args:
         step: the step in which hands close.
         sequence: the garment's folds.
     """
     points = np.array([one.point for one in step.holdings]).reshape(-1, 2)
-    layers, ring = sequence.cloth(step.before.done).layers, sequence.cloth(step.before.done).silhouette.ring
-    near = np.array([layer.region.distances_to(points) <= INSIDE_M for layer in layers])
-    in_pattern = np.array([layer.isometry.inverse.apply(points) for layer in layers])
-
-    def has_several(number: int) -> bool:
-        edges = in_pattern[near[:, number], number]
-        is_apart = (np.hypot(*(edges - edges[:1]).T) > INSIDE_M).any()
-        return bool(is_apart and _is_tip(ring, points[number]))
-
-    return frozenset(one.arm for number, one in enumerate(step.holdings) if has_several(number))
+    layers = sequence.cloth(step.before.done).layers
+    counts = np.sum([layer.region.distances_to(points) <= INSIDE_M for layer in layers], axis=0)
+    return frozenset(
+        one.arm for one, count in zip(step.holdings, counts, strict=True) if count > 1 and _is_at_corner(one)
+    )
 
 
-def _is_tip(ring: FloatArray, point: FloatArray) -> bool:
-    """Return whether a point, shape (2,), is at a sharp corner of an outline, shape (n, 2), m."""
-    apart = np.hypot(*(ring - point).T)
-    nearest = int(apart.argmin())
-    before, after = (ring[(nearest + turn) % len(ring)] - ring[nearest] for turn in (-1, 1))
-    return bool(apart[nearest] <= INSIDE_M and before @ after > _TIP * np.linalg.norm(before) * np.linalg.norm(after))
+def _is_at_corner(one: Holding) -> bool:
+    """Return whether what a hand holds is a corner, rather than an edge with corners at its ends."""
+    return bool(one.vertices) and all(math.dist(one.point, vertex) <= INSIDE_M for vertex in one.vertices)
 
 
 def inside(offsets: Mapping[str, Point2], inwards: Mapping[str, Point2], radius_m: float) -> dict[str, Point2]:

@@ -25,7 +25,7 @@ from app.rehearsal.corrections import (
     still_beside,
 )
 from app.rehearsal.eyes import Picture
-from app.rehearsal.grasp_points import at_several_tips, inside, inwards_at, laid_short, where_seen
+from app.rehearsal.grasp_points import at_layered_corners, inside, inwards_at, laid_short, where_seen
 from app.rehearsal.judge import Gate, StepVerdict, judged
 from app.rehearsal.rest import is_loose, rest_tasks
 from app.rehearsal.result import Decision
@@ -155,15 +155,14 @@ class Performer:
     def _tried(self, motion: StepMotion, step: PlanStep, carried: Isometry, spare_m: float) -> Performed | None:
         """Perform a step, and where hands find no cloth again round their grips; None if they never find any.
 
-        A part that moved last, and an edge, is taken where it is seen, tips of several layers inside of that, `spare_m`
-        from the grips at most.
+        A part that moved last, and an edge, is taken where it is seen, corners of several layers inside of that,
+        `spare_m` from the grips at most.
         """
         radius_m, sequence = self.plan.task.limits.comfort_radius_m, self.plan.sequence
         fold, flaps = reflection_in(step, sequence, carried), flaps_beside(step, sequence, carried)
         inwards = inwards_at(step, sequence, carried)
-        several = at_several_tips(step, sequence)
-        tips = {arm: way for arm, way in inwards.items() if arm in several}
-        offsets = inside(where_seen(step, carried, self._watch.stack, spare_m), tips, spare_m)
+        corners = {arm: inwards[arm] for arm in at_layered_corners(step, sequence) & inwards.keys()}
+        offsets = inside(where_seen(step, carried, self._watch.stack, spare_m), corners, spare_m)
         short = landing_short(taut(motion, spare_m), laid_short(self.plan, step), SHORT_M)
         made = trailing(beside(short, offsets, fold), motion, flaps, carried, radius_m)
         self._hands = self._watch.reached(self.plan, step, motion, self._made)

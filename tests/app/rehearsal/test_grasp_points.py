@@ -10,7 +10,7 @@ from app.rehearsal.corrections import SHORT_M, landing_short
 from app.rehearsal.grasp_points import (
     INSIDE_M,
     are_edges_hidden,
-    at_several_tips,
+    at_layered_corners,
     inside,
     inwards_at,
     laid_short,
@@ -71,7 +71,7 @@ def test_a_hand_takes_an_edge_where_it_is_seen():
     assert offsets["inside"] == pytest.approx((0.0, 0.0), abs=1e-9)
 
 
-def test_hands_take_tips_of_several_layers_inside_of_where_they_are_seen_as_far_as_that_is_in_reach():
+def test_hands_take_corners_of_several_layers_inside_of_where_they_are_seen_as_far_as_that_is_in_reach():
     plan = make_plan(Task.of(load_garment("letter-towel")))
     step, turned = plan.steps[0], Isometry.rotation(0.1)
     inwards = inwards_at(step, plan.sequence, turned)
@@ -80,16 +80,18 @@ def test_hands_take_tips_of_several_layers_inside_of_where_they_are_seen_as_far_
         corner, centre = turned.apply(lies.to_outer(np.array([one.point, middle])))
         assert np.dot(inwards[one.arm], centre - corner) > 0.2
         assert math.hypot(*inwards[one.arm]) == pytest.approx(1.0)
-    assert at_several_tips(step, plan.sequence) == frozenset()  # one layer
-    assert at_several_tips(replace(step, holdings=()), plan.sequence) == frozenset()
+    assert at_layered_corners(step, plan.sequence) == frozenset()  # one layer
+    assert at_layered_corners(replace(step, holdings=()), plan.sequence) == frozenset()
     skirt = make_plan(Task.of(load_garment("skirt")))
-    taken = [sorted(at_several_tips(one, skirt.sequence)) for one in skirt.steps]
-    assert taken == [[], [], ["right"], []]  # two tips; in the last fold a crease, and no corner
+    taken = [sorted(at_layered_corners(one, skirt.sequence)) for one in skirt.steps]
+    assert taken == [[], [], ["right"], []]  # two tips; in the last fold the middle of an edge
     (tip,) = skirt.steps[2].holdings
     along = replace(tip, point=(tip.point[0], tip.point[1] - 0.05))  # 5 cm from the tips, along the waist or the hem
-    assert at_several_tips(replace(skirt.steps[2], holdings=(along,)), skirt.sequence) == frozenset()
-    square = make_plan(Task.of(load_garment("vest")))  # right angles
-    assert {at_several_tips(one, square.sequence) for one in square.steps} == {frozenset()}
+    assert at_layered_corners(replace(skirt.steps[2], holdings=(along,)), skirt.sequence) == frozenset()
+    vest = make_plan(Task.of(load_garment("vest")))  # folded in half, then both layers by their corners
+    assert [sorted(at_layered_corners(one, vest.sequence)) for one in vest.steps] == [[], ["left", "right"]]
+    pulled = replace(vest.steps[1], holdings=(Holding("left", vest.steps[1].holdings[0].point, ()),))
+    assert at_layered_corners(pulled, vest.sequence) == frozenset()  # it holds no corner
     seen = {"left": (0.0, 0.004)}
     found = inside(seen, {"left": (0.0, 1.0), "right": (1.0, 0.0)}, 0.03)
     assert found["left"] == pytest.approx((0.0, 0.004 + INSIDE_M))
