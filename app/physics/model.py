@@ -71,7 +71,7 @@ def model_xml(
         resolution: the time step and the solver's effort.
         table: the table; None for none.
     """
-    ball = 0.5 * fabric.thickness_m
+    ball = 0.5 * fabric.layer_m
     masses = fabric.density_kg_m2 * vertex_areas(rest, triangles)
     vertices = "".join(
         f'<body name="v{i}" pos="{x:.9g} {y:.9g} {z:.9g}">{_joints(mass * fabric.drag_per_s)}'

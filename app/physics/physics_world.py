@@ -65,14 +65,14 @@ class PhysicsWorld:
         self.elapsed_s = 0.0
         lies = placement or task.start.placement
         self._pattern, triangles = woven_mesh(task.garment.pattern, resolution.edge_m, seed)
-        self._thickness_m = fabric.thickness_m
-        ball = fabric.thickness_m / 2.0
+        self._thickness_m = fabric.layer_m
+        ball = fabric.layer_m / 2.0
         rest = np.column_stack([lies.to_outer(self._pattern), np.full(len(self._pattern), ball)])
         self.simulation = ClothSimulation(rest, self._pattern, triangles, fabric, resolution, task.scene.table)
         self._grips: dict[str, HeldCloth] = {}
         if task.start.done or not self._top.covers(rest):
             sequence = replayed(task.garment)
-            table, gap_m = task.scene.table, fabric.thickness_m
+            table, gap_m = task.scene.table, fabric.layer_m
             self.simulation.put(planned_positions(sequence, self._pattern, task.start.done, lies, table, gap_m))
             self._settle()
 

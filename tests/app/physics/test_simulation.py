@@ -19,7 +19,7 @@ G = 9.81
 
 def lying(length_m: float, width_m: float, fabric: Fabric, edge_m: float, x_m: float = 0.0) -> ClothSimulation:
     points, triangles = woven_mesh(rectangle(length_m, width_m, x_m), edge_m)
-    rest = np.column_stack([points, np.full(len(points), fabric.thickness_m / 2.0)])
+    rest = np.column_stack([points, np.full(len(points), fabric.layer_m / 2.0)])
     return ClothSimulation(rest, points, triangles, fabric, Resolution(edge_m, 0.004), Table())
 
 
@@ -111,13 +111,13 @@ def test_the_loop_at_a_fold_is_as_high_as_an_elastica_makes_it():
     flat = cloth.positions
     end = np.flatnonzero(flat[:, 0] > half - 1e-6)
     for left in np.arange(half, -half, -2.0 * half / duration * cloth.step_s):
-        up = fabric.thickness_m + half - abs(left)
+        up = fabric.layer_m + half - abs(left)
         cloth.hold({int(i): np.array([left, flat[i, 1], up]) for i in end})
         cloth.step()
     cloth.release(frozenset(end.tolist()))
     cloth.run(1.0)
     places = cloth.positions
-    loop = places[:, 2].max() - fabric.thickness_m / 2.0
+    loop = places[:, 2].max() - fabric.layer_m / 2.0
     assert loop == pytest.approx(0.907 * bending, rel=0.15)
     assert np.abs(places[:, 0] + np.abs(flat[:, 0])).mean() < 0.005
 
@@ -131,7 +131,7 @@ def test_a_crease_folded_flat_rolls_on_when_the_upper_layer_is_pulled():
     crease = float(places[np.abs(places[:, 0]).argmin(), 0])
     is_over = places[:, 0] > crease + 1e-6
     places[is_over, 0] = 2.0 * crease - places[is_over, 0]
-    places[is_over, 2] += fabric.thickness_m
+    places[is_over, 2] += fabric.layer_m
     cloth.put(places)
     end, still = np.flatnonzero(is_over & (places[:, 0] < places[is_over, 0].min() + 1e-6)), places[:, 0] < -0.15
     for share in np.arange(0.0, 1.0, cloth.step_s / duration):
