@@ -16,7 +16,7 @@ def test_rows_are_as_near_as_a_cloth_has_points_for(area_m2: float, rows_m: floa
 def test_small_garments_have_about_as_many_points_as_large_ones(name: str):
     pattern = load_garment(name).pattern
     points, _ = woven_mesh(pattern, Resolution.of(pattern.area).edge_m)
-    assert 800 <= len(points) <= 1000
+    assert 800 <= len(points) <= 1100
 
 
 @pytest.mark.parametrize(("density_kg_m2", "layer_m"), [(0.1, 0.0014), (0.16, 0.0016), (0.2, 0.002), (0.45, 0.002)])
