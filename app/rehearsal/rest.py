@@ -3,6 +3,7 @@
 import math
 from dataclasses import replace
 
+from planner.cloth import grips
 from planner.cloth.garment import Garment
 from planner.geometry.tolerance import LENGTH_M
 from planner.robots.load_robot import load_robot
@@ -31,12 +32,13 @@ def is_loose(step: PlanStep, task: Task) -> bool:
     return any(math.dist(one.point, vertex) > firm_m for one in step.holdings for vertex in one.vertices)
 
 
-def rest_tasks(task: Task, start: WorldState) -> tuple[Task, Task]:
-    """Return the tasks of the rest from a state: the one to plan first, and the one for where that has no plan.
+def rest_tasks(task: Task, start: WorldState) -> tuple[Task, ...]:
+    """Return the tasks of the rest from a state, each for where those before it have no plan.
 
-    In the first, grips hold firmly what they must: a plan that saves half a second with one hand in the middle of a
-    wide edge loses the edge's corners. The work ends both searches, on any machine and under any load, so that a run
-    twice is the same.
+    In all but the last, grips hold firmly what they must: within `FIRM` of their radius, then within the planner's own
+    share, beyond which corners fold under. A plan that saves half a second with one hand in the middle of a wide edge
+    loses the edge's corners. The work ends all searches, on any machine and under any load, so that a run twice is the
+    same.
 
     Args:
         task: the task as it was at first.
@@ -45,10 +47,11 @@ def rest_tasks(task: Task, start: WorldState) -> tuple[Task, Task]:
     limits = task.limits
     work_s = limits.work_limit_s or limits.time_limit_s
     rest = replace(task, start=start, limits=replace(limits, work_limit_s=work_s, time_limit_s=TIME_LIMIT_S[1]))
-    return replace(rest, garment=_gripped_firmly(task.garment)), rest
+    firm = tuple(replace(rest, garment=_gripped_within(share, task.garment)) for share in (FIRM, grips.FIRM))
+    return *firm, rest
 
 
-def _gripped_firmly(garment: Garment) -> Garment:
-    """Return a garment of which each grip holds what it holds firmly alone."""
-    folds = tuple(replace(fold, grip_radius_m=FIRM * fold.grip_radius_m) for fold in garment.folds)
-    return replace(garment, grip_radius_m=FIRM * garment.grip_radius_m, folds=folds)
+def _gripped_within(share: float, garment: Garment) -> Garment:
+    """Return a garment of which each grip holds what is within a share of its radius."""
+    folds = tuple(replace(fold, grip_radius_m=share * fold.grip_radius_m) for fold in garment.folds)
+    return replace(garment, grip_radius_m=share * garment.grip_radius_m, folds=folds)

@@ -95,3 +95,12 @@ def test_what_is_loose_is_told_by_the_radius_of_the_task_as_it_was_at_first():
     assert is_loose(step, task)
     assert not any(is_loose(one, task) for one in firm.steps)
     assert not is_loose(step, replace(task, robot="ur5e-single"))  # of one arm
+
+
+def test_where_some_corners_can_only_be_held_loosely_the_others_are_held_firmly():
+    # Of a vest's first fold one hand must hold two corners 10.5 cm away; it could hold those of its hem, 12.7 cm away.
+    plan = make_plan(Task.of(load_garment("vest")))
+    firmest, firm, loose = rest_tasks(plan.task, plan.task.start)
+    assert not make_plan(firmest).is_solved
+    assert [len(step.holdings) for step in make_plan(firm).steps] == [2, 2]
+    assert loose.garment == plan.garment
