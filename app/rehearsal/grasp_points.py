@@ -18,7 +18,7 @@ INSIDE_M = 0.01
 """How far inside of the corners of several layers the middle of the fingers takes them (m).
 
 Layers that should end upon each other end up to 2 cm apart, the lower ones unseen; fingers hold what is within 11 mm of
-their middle. All else is taken at its edge: cloth beyond the fingers crumples, and turns a stack held by one hand.
+their middle. All else is taken at its edge: beyond the fingers cloth crumples.
 """
 
 

@@ -49,7 +49,7 @@ ALLOWED = {
 SENTENCE = re.compile(
     r"[A-Z][a-z]+ [a-z]|[a-z]{2,}[,.:;!?]? [a-z]{2,}|\b[A-Z][a-z]{2,}[.!?\u2026]|^[A-Z][a-z]{2,}$|[a-z] \{\}"
 )
-"""What only a sentence, or a word with a capital, looks like."""
+"""Matches text for people: a sentence, or a word that begins with a capital."""
 
 CLASSES = re.compile(r"^[a-z{}][a-z{}-]*( (is-|has-)?[a-z{}][a-z{}-]*)*$")
 """Names of styles, one after the other."""

@@ -1,4 +1,4 @@
-"""What plans have to spare, against hand calculations and against planning itself."""
+"""The margins of plans, against hand calculations and against what still has a plan."""
 
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""What a task is that leaves out what a robot's card says."""
+"""Tasks that take scene and placement from the robot's card."""
 
 import math
 

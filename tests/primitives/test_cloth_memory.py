@@ -1,4 +1,4 @@
-"""What is known of cloth on a table is shared by contexts in which all it depends on is equal, and by no others."""
+"""Planning contexts share a cloth memory if all that it depends on is equal, and only then."""
 
 import math
 from dataclasses import replace

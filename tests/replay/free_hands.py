@@ -32,7 +32,7 @@ SIDES = {"left": "l_", "right": "r_"}
 
 @dataclass(frozen=True)
 class Look:
-    """One sample of a trajectory.
+    """A sample of a trajectory.
 
     Attributes:
         frame: robot and cloth.

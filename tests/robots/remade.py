@@ -236,7 +236,7 @@ class RemadeClearance:
 
 
 class RemadeCollisions:
-    """What several arms touch."""
+    """The collisions of a remade robot's arms."""
 
     def __init__(self, robot: RemadeRobot, real: Collisions, torso_m: float) -> None:
         self._robot = robot
