@@ -18,7 +18,7 @@ from planner.robots.chain import Chain, tool_poses
 from planner.robots.described_robot import DescribedArm, read_robot, shipped_robots
 from planner.robots.mapped_arm import ALL_ROUND, MappedArm, heights
 from planner.robots.newton import solve_from
-from planner.robots.posture_maps import build_map, grid_of
+from planner.robots.reach_maps import build_map, grid_of
 
 COLUMNS = (
     "robot",

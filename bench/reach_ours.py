@@ -12,9 +12,9 @@ from planner.robots.approaches import APPROACHES
 from planner.robots.arm import read_arm
 from planner.robots.description import read_model
 from planner.robots.kernel import reachable_batch
+from planner.robots.mirrored_arm import MirroredArm
 from planner.robots.pr2 import Pr2
 from planner.robots.reach import Pr2Reach
-from planner.robots.sided_arm import SidedArm
 
 BATCHES = (1, 10, 100, 1000)
 STEP_M = 0.05
@@ -37,7 +37,7 @@ def in_batches(size: int) -> str:
 
 def _in_batches(size: int) -> Callable[[Queries], Answering]:
     shape = read_arm(read_model())
-    shoulder = SidedArm(shape, is_mirrored=False).shoulder(TORSO_M)
+    shoulder = MirroredArm(shape, is_mirrored=False).shoulder(TORSO_M)
 
     def prepare(queries: Queries) -> Answering:
         points, axes, count = queries.points - shoulder, queries.axes, len(queries)
@@ -54,7 +54,7 @@ def _in_batches(size: int) -> Callable[[Queries], Answering]:
 
 def _asked_first(queries: Queries) -> Answering:
     """Query the planner's memory, empty at first, approach by approach; comfort radius 0, no body in the way."""
-    reach = Pr2Reach(("left",), (SidedArm(read_arm(read_model()), is_mirrored=False),), TORSO_M, 0.0)
+    reach = Pr2Reach(("left",), (MirroredArm(read_arm(read_model()), is_mirrored=False),), TORSO_M, 0.0)
     groups = [np.flatnonzero(queries.approaches == approach) for approach in range(len(APPROACHES))]
     asked = [(queries.points[group], np.array([number])) for number, group in enumerate(groups)]
 

@@ -32,14 +32,14 @@ def two_at_once(articles: Sequence[str], repetitions: int) -> Report:
 def _measured(url: str, pid: int, pair: Sequence[str], repetitions: int) -> tuple[float, float]:
     """Return the CPU time of two plans in turn and at once (s), medians."""
     _in_turn(url, pair)  # the server has loaded all then
-    in_turn: list[float] = []
+    linked: list[float] = []
     at_once: list[float] = []
     for _ in range(repetitions):
-        for times, way in ((in_turn, _in_turn), (at_once, _at_once)):
+        for times, way in ((linked, _in_turn), (at_once, _at_once)):
             before_s = family_cpu_s(family(pid))
             way(url, pair)
             times.append(family_cpu_s(family(pid)) - before_s)
-    return median(in_turn), median(at_once)
+    return median(linked), median(at_once)
 
 
 def _in_turn(url: str, pair: Sequence[str]) -> None:

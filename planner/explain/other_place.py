@@ -3,7 +3,7 @@
 from planner.explain.suggestion import Suggestion
 from planner.explain.suggestion_budget import TrialBudget
 from planner.explain.suggestion_placement import placements
-from planner.explain.suggestion_trial import Trial
+from planner.explain.suggestion_trial import SuggestionTrial
 from planner.planning.budget import Budget
 from planner.planning.warm_up import compile_kernels
 from planner.task.task import Task
@@ -27,7 +27,7 @@ def other_place(task: Task, budget: Budget) -> Suggestion | None:
     trials = TrialBudget(budget)
     search = placements(task, None)
     wish = next(search, None)
-    while isinstance(wish, Trial) and not trials.has_spent(1.0):
+    while isinstance(wish, SuggestionTrial) and not trials.has_spent(1.0):
         plan = trials.plan(wish.task, _TRIAL_S, by_folds_alone=wish.by_folds_alone)
         try:
             wish = search.send(plan)

@@ -15,7 +15,7 @@ import numpy as np
 from planner.cloth.garment import FOLDS_MAX, DrawnFold, Garment
 from planner.errors import FieldError
 from planner.explain.suggestion_fold_line import redrawn
-from planner.explain.suggestion_trial import Search, Trial, each_cheaper
+from planner.explain.suggestion_trial import Search, SuggestionTrial, each_cheaper
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.pose import FloatArray
 from planner.geometry.segment import Segment
@@ -43,7 +43,7 @@ def halvings(task: Task, folds: Sequence[int]) -> Search:
     return each_cheaper(_halving_trials(task, folds))
 
 
-def _split_trials(task: Task, folds: Sequence[int]) -> Iterator[Trial]:
+def _split_trials(task: Task, folds: Sequence[int]) -> Iterator[SuggestionTrial]:
     sequence = FoldSequence.of(task.garment)
     for fold in folds:
         drawn, line = task.garment.folds[fold], sequence.folds[fold].line
@@ -58,7 +58,9 @@ def _split_trials(task: Task, folds: Sequence[int]) -> Iterator[Trial]:
             garment = with_fold_before(task.garment, fold, Segment((x0 + dx, y0 + dy), (x1 + dx, y1 + dy)))
             if garment is not None:
                 says = worded("split_fold", {"fold": fold, "depth_m": deep_m - depth_m}, task.garment.folds)
-                yield Trial("split", says, {"garment": garment.to_dict()}, 1.0, replace(task, garment=garment))
+                yield SuggestionTrial(
+                    "split", says, {"garment": garment.to_dict()}, 1.0, replace(task, garment=garment)
+                )
 
 
 def _depths(distances: FloatArray, deep_m: float) -> list[float]:
@@ -76,7 +78,7 @@ def _depths(distances: FloatArray, deep_m: float) -> list[float]:
     return found
 
 
-def _halving_trials(task: Task, folds: Sequence[int]) -> Iterator[Trial]:
+def _halving_trials(task: Task, folds: Sequence[int]) -> Iterator[SuggestionTrial]:
     sequence = FoldSequence.of(task.garment)
     for fold in folds:
         drawn, line = task.garment.folds[fold], sequence.folds[fold].line
@@ -92,7 +94,9 @@ def _halving_trials(task: Task, folds: Sequence[int]) -> Iterator[Trial]:
             garment = with_fold_before(task.garment, fold, Segment((x - dx, y - dy), (x + dx, y + dy)))
             if garment is not None:
                 says = worded("halve_first", {"fold": fold}, task.garment.folds)
-                yield Trial("halve", says, {"garment": garment.to_dict()}, 1.0, replace(task, garment=garment))
+                yield SuggestionTrial(
+                    "halve", says, {"garment": garment.to_dict()}, 1.0, replace(task, garment=garment)
+                )
 
 
 def with_fold_before(garment: Garment, fold: int, line: Segment) -> Garment | None:

@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 from planner.cloth.garment import DrawnFold
-from planner.explain.suggestion_trial import Proof, Search, Trial
+from planner.explain.suggestion_trial import Proof, Search, SuggestionTrial
 from planner.geometry.tolerance import LENGTH_M
 from planner.task.reason import Reason
 from planner.task.scene import FRICTION_MAX
@@ -39,7 +39,7 @@ class Lever:
 
     now: int
     most: int
-    trial_at: Callable[[Task, int], Trial]
+    trial_at: Callable[[Task, int], SuggestionTrial]
 
 
 def comforts(task: Task) -> Search:
@@ -115,20 +115,20 @@ def _least(task: Task, lever: Lever, first: Sequence[int] = ()) -> Search:
         yield best.suggestion
 
 
-def _comfort(task: Task, radius_m: float) -> Trial:
+def _comfort(task: Task, radius_m: float) -> SuggestionTrial:
     says = worded("assume_comfort", {"comfort_m": radius_m, "now_m": task.limits.comfort_radius_m})
     size = task.limits.comfort_radius_m - radius_m
-    return Trial("comfort_radius", says, {"comfort_radius_m": radius_m}, size, task.within(radius_m))
+    return SuggestionTrial("comfort_radius", says, {"comfort_radius_m": radius_m}, size, task.within(radius_m))
 
 
-def _friction(task: Task, friction: float) -> Trial:
+def _friction(task: Task, friction: float) -> SuggestionTrial:
     scene = replace(task.scene, friction=friction)
     says = worded("assume_friction", {"friction": friction, "now": task.scene.friction})
     size = friction - task.scene.friction
-    return Trial("friction", says, {"scene": scene.to_dict()}, size, task.in_scene(scene))
+    return SuggestionTrial("friction", says, {"scene": scene.to_dict()}, size, task.in_scene(scene))
 
 
-def _grip_radius(task: Task, folds: Sequence[int], radius_m: float) -> Trial:
+def _grip_radius(task: Task, folds: Sequence[int], radius_m: float) -> SuggestionTrial:
     def widened(index: int, fold: DrawnFold) -> DrawnFold:
         return replace(fold, grip_radius_m=max(radius_m, fold.grip_radius_m)) if index in folds else fold
 
@@ -138,4 +138,4 @@ def _grip_radius(task: Task, folds: Sequence[int], radius_m: float) -> Trial:
     garment = replace(task.garment, folds=folds_now, grip_radius_m=in_drags_m)
     says = worded("assume_grip_radius", {"grip_radius_m": radius_m, "folds": list(folds)}, drawn)
     size = radius_m - min(drawn[i].grip_radius_m for i in folds)
-    return Trial("grip_radius", says, {"garment": garment.to_dict()}, size, replace(task, garment=garment))
+    return SuggestionTrial("grip_radius", says, {"garment": garment.to_dict()}, size, replace(task, garment=garment))

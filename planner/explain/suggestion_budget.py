@@ -61,7 +61,7 @@ class TrialBudget:
     def require_time(self, _share: float = 0.0) -> None:
         """Raise `TimeUpError` once the time is up; what was begun then counts as unknown.
 
-        Progress can be told to it (see `planner.robots.posture_maps`): so the building of maps ends in between.
+        Progress can be told to it (see `planner.robots.reach_maps`): so the building of maps ends in between.
         """
         if self.is_late:
             self.has_unknown = True

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from planner.errors import FieldError
-from planner.explain.suggestion_trial import Search, Trial, each_cheaper
+from planner.explain.suggestion_trial import Search, SuggestionTrial, each_cheaper
 from planner.folds.fold_sequence import FoldSequence
 from planner.task.task import Task
 from planner.words.catalogue import worded
@@ -15,7 +15,7 @@ def flips(task: Task, folds: Sequence[int]) -> Search:
     return each_cheaper(_trials(task, folds))
 
 
-def _trials(task: Task, folds: Sequence[int]) -> Iterator[Trial]:
+def _trials(task: Task, folds: Sequence[int]) -> Iterator[SuggestionTrial]:
     drawn = task.garment.folds
     for index in folds:
         flipped = replace(drawn[index], start=drawn[index].end, end=drawn[index].start)
@@ -25,4 +25,4 @@ def _trials(task: Task, folds: Sequence[int]) -> Iterator[Trial]:
         except FieldError:
             continue
         says = worded("flip_fold", {"fold": index}, drawn)
-        yield Trial("flip", says, {"garment": garment.to_dict()}, 1.0, replace(task, garment=garment))
+        yield SuggestionTrial("flip", says, {"garment": garment.to_dict()}, 1.0, replace(task, garment=garment))

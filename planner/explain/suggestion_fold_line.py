@@ -7,7 +7,7 @@ import numpy as np
 
 from planner.cloth.garment import DrawnFold, Garment
 from planner.errors import FieldError
-from planner.explain.suggestion_trial import Proof, Search, Trial, narrowed
+from planner.explain.suggestion_trial import Proof, Search, SuggestionTrial, narrowed
 from planner.folds.fold import snapped_line
 from planner.folds.fold_cloth import flap_silhouette
 from planner.folds.fold_sequence import FoldSequence
@@ -56,7 +56,7 @@ class _Shift:
     folds: tuple[int, ...]
     sign: int
 
-    def shifted(self, by_m: float) -> Trial | None:
+    def shifted(self, by_m: float) -> SuggestionTrial | None:
         """Return the trial of shifting all their lines by a distance (m); None where it is not legal."""
         garment: Garment | None = self.task.garment
         says = []
@@ -70,7 +70,7 @@ class _Shift:
         change = {"garment": garment.to_dict()}
         shifts = [one.to_dict() for one in says]
         both = says[0] if len(says) == 1 else worded("shift_folds", {"shifts": shifts}, self.task.garment.folds)
-        return Trial("fold_line", both, change, by_m, replace(self.task, garment=garment))
+        return SuggestionTrial("fold_line", both, change, by_m, replace(self.task, garment=garment))
 
     def _moved(self, drawn: DrawnFold, by_m: float) -> Segment:
         line = Segment(drawn.start, drawn.end)

@@ -10,7 +10,7 @@ from itertools import combinations
 
 from planner.cloth.garment import Garment
 from planner.errors import FieldError
-from planner.explain.suggestion_trial import Search, Trial, each_cheaper
+from planner.explain.suggestion_trial import Search, SuggestionTrial, each_cheaper
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.region import Region
 from planner.message import Message
@@ -54,9 +54,9 @@ def orders(task: Task) -> Search:
     return each_cheaper(_trial(task, order, garment) for order, garment in _other_orders(task.garment))
 
 
-def _trial(task: Task, order: _Order, garment: Garment) -> Trial:
+def _trial(task: Task, order: _Order, garment: Garment) -> SuggestionTrial:
     says = _in_words(task.garment, order)
-    return Trial("order", says, {"garment": garment.to_dict()}, order.swaps, replace(task, garment=garment))
+    return SuggestionTrial("order", says, {"garment": garment.to_dict()}, order.swaps, replace(task, garment=garment))
 
 
 def _other_orders(garment: Garment) -> Iterator[tuple[_Order, Garment]]:

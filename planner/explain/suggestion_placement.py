@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from planner.explain.suggestion_grid import Room, turned_in_place
-from planner.explain.suggestion_trial import Narrowing, Proof, Search, Trial, narrowed
+from planner.explain.suggestion_trial import Narrowing, Proof, Search, SuggestionTrial, narrowed
 from planner.geometry.pose import Pose2
 from planner.message import Message
 from planner.robots.load_robot import load_robot
@@ -92,7 +92,7 @@ def _nearer(task: Task, place: _Place, proof: Proof, *, by_folds_alone: bool) ->
     far_m = place.distance_m
     room = _room(task, place.quarters)
 
-    def at(distance_m: float) -> Trial | None:
+    def at(distance_m: float) -> SuggestionTrial | None:
         share = distance_m / far_m
         nearer = replace(place, dx_m=share * place.dx_m, dy_m=share * place.dy_m)
         return _trial(task, nearer, by_folds_alone=by_folds_alone) if room.holds(nearer.dx_m, nearer.dy_m) else None
@@ -101,9 +101,11 @@ def _nearer(task: Task, place: _Place, proof: Proof, *, by_folds_alone: bool) ->
     return narrowed(at, start_m, far_m, proof, NARROWED_TO_M)
 
 
-def _trial(task: Task, place: _Place, *, by_folds_alone: bool) -> Trial:
+def _trial(task: Task, place: _Place, *, by_folds_alone: bool) -> SuggestionTrial:
     pose = _turned(task, place.quarters).moved(place.dx_m, place.dy_m)
-    return Trial("placement", place.says, {"placement": pose.to_dict()}, place.size, task.at(pose), by_folds_alone)
+    return SuggestionTrial(
+        "placement", place.says, {"placement": pose.to_dict()}, place.size, task.at(pose), by_folds_alone
+    )
 
 
 def _places(task: Task, step_m: float) -> list[_Place]:

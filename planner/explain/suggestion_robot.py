@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from planner.errors import FoldingError
 from planner.explain.suggestion_budget import TimeUpError
-from planner.explain.suggestion_trial import Search, Trial, each_cheaper
+from planner.explain.suggestion_trial import Search, SuggestionTrial, each_cheaper
 from planner.geometry.pose import Pose2
 from planner.planning.robot_task import default_scene, near_placement, task_for
 from planner.planning.warm_up import compile_kernels
@@ -33,7 +33,7 @@ def robots(task: Task, names: Iterable[str], on_map: Callable[[float], None]) ->
     return each_cheaper(_trials(task, others, on_map))
 
 
-def _trials(task: Task, names: Iterable[str], on_map: Callable[[float], None]) -> Iterator[Trial]:
+def _trials(task: Task, names: Iterable[str], on_map: Callable[[float], None]) -> Iterator[SuggestionTrial]:
     for name in names:
         try:
             title = robot_card_file(name).title
@@ -51,7 +51,7 @@ def _trials(task: Task, names: Iterable[str], on_map: Callable[[float], None]) -
             "placement": start.placement.to_dict(),
             "start_station": start.base.station,
         }
-        yield Trial("robot", worded("other_robot", {"robot": name, "title": title}), change, 1.0, other)
+        yield SuggestionTrial("robot", worded("other_robot", {"robot": name, "title": title}), change, 1.0, other)
 
 
 def _placement(task: Task, robot: str) -> Pose2 | None:

@@ -10,7 +10,7 @@ import numpy as np
 
 from planner.cloth.garment import Garment
 from planner.errors import FieldError
-from planner.explain.suggestion_trial import Proof, Search, Trial, narrowed
+from planner.explain.suggestion_trial import Proof, Search, SuggestionTrial, narrowed
 from planner.geometry.pose import Point2, Pose2
 from planner.task.task import Task
 from planner.words.catalogue import worded
@@ -41,7 +41,7 @@ def sizes(task: Task) -> Search:
         too_large = share
 
 
-def _trial(task: Task, share: float) -> Trial | None:
+def _trial(task: Task, share: float) -> SuggestionTrial | None:
     """Return the trial with all lengths of the garment multiplied by a share; None where that is no garment."""
     try:
         garment = _scaled(task.garment, share)
@@ -51,7 +51,7 @@ def _trial(task: Task, share: float) -> Trial | None:
     width, height = np.ptp(np.array(garment.outline), axis=0).tolist()
     says = worded("smaller", {"by": round(1.0 - share, 6), "size_m": [width, height]})
     change = {"garment": garment.to_dict(), "placement": placement.to_dict()}
-    return Trial("size", says, change, 1.0 - share, replace(task, garment=garment).at(placement))
+    return SuggestionTrial("size", says, change, 1.0 - share, replace(task, garment=garment).at(placement))
 
 
 def _scaled(garment: Garment, share: float) -> Garment:

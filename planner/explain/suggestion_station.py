@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import replace
 
-from planner.explain.suggestion_trial import Search, Trial, each_cheaper
+from planner.explain.suggestion_trial import Search, SuggestionTrial, each_cheaper
 from planner.geometry.pose import Pose2, wrapped_angle
 from planner.task.scene import STATIONS_MAX, Scene
 from planner.task.task import Task
@@ -25,10 +25,10 @@ def stations(task: Task) -> Search:
     return each_cheaper(_trial(task, name, pose) for name, pose in _others(task.scene))
 
 
-def _trial(task: Task, name: str, pose: Pose2) -> Trial:
+def _trial(task: Task, name: str, pose: Pose2) -> SuggestionTrial:
     scene = replace(task.scene, stations=(*task.scene.stations, (name, pose)))
     says = worded("stand_also_at", {"station": name, "at": [pose.x_m, pose.y_m]})
-    return Trial("station", says, {"scene": scene.to_dict()}, 1.0, task.in_scene(scene))
+    return SuggestionTrial("station", says, {"scene": scene.to_dict()}, 1.0, task.in_scene(scene))
 
 
 def _others(scene: Scene) -> Iterator[tuple[str, Pose2]]:

@@ -9,7 +9,7 @@ from collections.abc import Generator, Mapping, Sequence
 from typing import Any, TypeAlias
 
 from planner.explain.suggestion_assumption import levers
-from planner.explain.suggestion_trial import Proof, Search, Trial
+from planner.explain.suggestion_trial import Proof, Search, SuggestionTrial
 from planner.task.plan import Plan
 from planner.task.task import Task
 from planner.words.catalogue import worded
@@ -60,12 +60,12 @@ class _Attempt:
         self._task = task
         self.levers = levers(task, folds)
 
-    def proof(self, steps: _Steps) -> Generator[Trial, Plan | None, Proof | None]:
+    def proof(self, steps: _Steps) -> Generator[SuggestionTrial, Plan | None, Proof | None]:
         """Try assumptions; return the proof that they give a plan, or None."""
         trial = self._trial(steps)
         return Proof.of(trial, (yield trial))
 
-    def _trial(self, steps: _Steps) -> Trial:
+    def _trial(self, steps: _Steps) -> SuggestionTrial:
         task, parts, size = self._task, [], 0.0
         change: dict[str, Any] = {}
         for number, step in steps.items():
@@ -76,4 +76,4 @@ class _Attempt:
             change |= part.change
             size += (step - lever.now) / (lever.most - lever.now)
         says = worded("assume_together", {"parts": [part.to_dict() for part in parts]}, self._task.garment.folds)
-        return Trial(TOGETHER, says, change, size, task)
+        return SuggestionTrial(TOGETHER, says, change, size, task)

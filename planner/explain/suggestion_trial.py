@@ -19,7 +19,7 @@ WORTH_TELLING_S = 1.0
 
 
 @dataclass(frozen=True, slots=True)
-class Trial:
+class SuggestionTrial:
     """A change that may help.
 
     Attributes:
@@ -42,12 +42,12 @@ class Trial:
 class Proof(NamedTuple):
     """A trial that succeeded, its plan, and the cost of that plan (s)."""
 
-    trial: Trial
+    trial: SuggestionTrial
     plan: Plan
     cost_s: float
 
     @staticmethod
-    def of(trial: Trial, plan: Plan | None) -> "Proof | None":
+    def of(trial: SuggestionTrial, plan: Plan | None) -> "Proof | None":
         """Return the trial as a proof, if its plan is solved."""
         return None if plan is None or plan.cost_s is None else Proof(trial, plan, plan.cost_s)
 
@@ -61,14 +61,14 @@ class Proof(NamedTuple):
         return self.cost_s < cost_s - WORTH_TELLING_S
 
 
-Search: TypeAlias = Generator[Trial | Suggestion, Plan | None, None]
+Search: TypeAlias = Generator[SuggestionTrial | Suggestion, Plan | None, None]
 """The search of one kind of suggestion: yields trials and suggestions, is sent the plans of trials."""
 
-Narrowing: TypeAlias = Generator[Trial | Suggestion, Plan | None, Proof]
+Narrowing: TypeAlias = Generator[SuggestionTrial | Suggestion, Plan | None, Proof]
 """A part of a search that returns the best proof it found."""
 
 
-def each_cheaper(trials: Iterable[Trial]) -> Search:
+def each_cheaper(trials: Iterable[SuggestionTrial]) -> Search:
     """Suggest the first trial that gives a plan; then each that gives a cheaper one."""
     to_beat = None
     for trial in trials:
@@ -82,7 +82,7 @@ def each_cheaper(trials: Iterable[Trial]) -> Search:
 
 
 def narrowed(
-    trial_at: Callable[[float], Trial | None], fails_at: float, works_at: float, proof: Proof, step: float
+    trial_at: Callable[[float], SuggestionTrial | None], fails_at: float, works_at: float, proof: Proof, step: float
 ) -> Narrowing:
     """Suggest a change that works; then look for a smaller one by bisection, and suggest that.
 

@@ -21,7 +21,7 @@ from planner.explain.suggestion_robot import robots
 from planner.explain.suggestion_size import sizes
 from planner.explain.suggestion_station import stations
 from planner.explain.suggestion_together import together
-from planner.explain.suggestion_trial import Search, Trial
+from planner.explain.suggestion_trial import Search, SuggestionTrial
 from planner.planning.budget import Budget
 from planner.planning.warm_up import compile_kernels
 from planner.robots.load_robot import needs_maps
@@ -65,7 +65,7 @@ def suggestions(
     *,
     should_stop: Callable[[], bool] | None = None,
     plan: Plan | None = None,
-    on_trial: Callable[[Trial], None] | None = None,
+    on_trial: Callable[[SuggestionTrial], None] | None = None,
     other_robots: Sequence[str] = (),
 ) -> Suggestions:
     """Look for the smallest changes that give a plan, or one change that gives a quicker plan.
@@ -98,7 +98,7 @@ def suggestions(
 
 
 def _searched(
-    task: Task, known: Plan, budget: TrialBudget, on_trial: Callable[[Trial], None], names: Sequence[str]
+    task: Task, known: Plan, budget: TrialBudget, on_trial: Callable[[SuggestionTrial], None], names: Sequence[str]
 ) -> Suggestions:
     """Give every kind of change its turns, and in the end its last word."""
     folds = () if known.is_solved else _blocking(known)
@@ -149,12 +149,12 @@ def _lanes(*searches: Search) -> list["_Lane"]:
     return [_Lane(search) for search in searches]
 
 
-def _ignore(_: Trial) -> None:
+def _ignore(_: SuggestionTrial) -> None:
     """Tell nobody of a trial."""
 
 
 def _by_turns(
-    lanes: Sequence["_Lane"], budget: TrialBudget, on_trial: Callable[[Trial], None], share: float
+    lanes: Sequence["_Lane"], budget: TrialBudget, on_trial: Callable[[SuggestionTrial], None], share: float
 ) -> Iterator[Suggestion]:
     """Continue the lane that has done the least work, until this share of the budget is spent."""
     while not budget.has_spent(share):
@@ -176,7 +176,7 @@ class _Lane:
         self.spent_s = 0.0
         self.is_done = False
         self._search = search
-        self._trial: Trial | None = None
+        self._trial: SuggestionTrial | None = None
         self._told = 0
 
     @property
@@ -184,7 +184,7 @@ class _Lane:
         """Whether it has made a suggestion."""
         return self._told > 0
 
-    def go_on(self, budget: TrialBudget, on_trial: Callable[[Trial], None]) -> Iterator[Suggestion]:
+    def go_on(self, budget: TrialBudget, on_trial: Callable[[SuggestionTrial], None]) -> Iterator[Suggestion]:
         """Plan the next trial, and yield each suggestion that results as soon as it is there.
 
         Between two trials the search may take long, as where the maps of another robot are built.
@@ -211,7 +211,7 @@ class _Lane:
             except StopIteration:
                 self.is_done = True
                 return
-            if isinstance(wish, Trial):
+            if isinstance(wish, SuggestionTrial):
                 self._trial = wish
                 return
             yield wish

@@ -1,6 +1,6 @@
 """Find the contact that blocks a motion, and how deep it is even in the best postures.
 
-At some moments of the motion, every posture that brings an arm's tool to its pose is tested alone, then all arms'
+At some waypoints of the motion, every posture that brings an arm's tool to its pose is tested alone, then all arms'
 postures together. At each moment the posture of least penetration counts; the moment at which that is deepest tells
 what blocks the motion. If some posture is free at every moment, the postures are merely not connected by a path, and
 there is no contact to report.
@@ -12,14 +12,14 @@ from itertools import product
 import numpy as np
 
 from planner.geometry.pose import FloatArray, Point3, Pose2
-from planner.motion.moments import Moments
 from planner.motion.robot_port import Collisions, RobotPort
+from planner.motion.waypoints import Waypoints
 from planner.primitives.obstacle import BlockingContact
 from planner.robots.collision.contact import Contact
 from planner.robots.joint_layout import JointLayout
 
 _MOMENTS = 16
-"""The number of moments tested."""
+"""The number of waypoints tested."""
 
 _POSTURES, _POSTURES_TOGETHER = 16, 5
 """The postures tested of an arm alone, and of each arm when several are tested together."""
@@ -36,38 +36,40 @@ class BlockingContacts:
         self._height_m = height_m
         self._layout = JointLayout.of(machine.card)
 
-    def of(self, moments: Moments) -> BlockingContact | None:
+    def of(self, waypoints: Waypoints) -> BlockingContact | None:
         """Return the contact that blocks a motion; None where no contact does so by itself."""
-        looked_at = np.unique(np.linspace(0, len(moments) - 1, _MOMENTS).round().astype(int))
-        able = {int(moment): self._postures(moments, int(moment)) for moment in looked_at}
+        looked_at = np.unique(np.linspace(0, len(waypoints) - 1, _MOMENTS).round().astype(int))
+        able = {int(waypoint): self._postures(waypoints, int(waypoint)) for waypoint in looked_at}
         for least in (self._least_alone, self._least_together):
-            met = [contact for moment, postures in able.items() for contact in least(moments, moment, postures)]
+            met = [contact for waypoint, postures in able.items() for contact in least(waypoints, waypoint, postures)]
             if met:
                 return max(met, key=lambda contact: contact.depth_m)
         return None
 
-    def _postures(self, moments: Moments, moment: int) -> dict[int, FloatArray]:
+    def _postures(self, waypoints: Waypoints, waypoint: int) -> dict[int, FloatArray]:
         """Return the postures that bring each arm that holds cloth to its tool pose, a row each."""
         return {
             int(arm): self._machine.free_postures(
                 int(arm),
-                moments.positions[arm, moment],
-                moments.rotations[arm, moment],
+                waypoints.positions[arm, waypoint],
+                waypoints.rotations[arm, waypoint],
                 self._torso_m,
                 lambda joints: np.ones(len(joints), dtype=bool),
             )
-            for arm in np.flatnonzero(moments.is_held[:, moment])
+            for arm in np.flatnonzero(waypoints.is_held[:, waypoint])
         }
 
-    def _least_alone(self, moments: Moments, moment: int, postures: dict[int, FloatArray]) -> Iterator[BlockingContact]:
+    def _least_alone(
+        self, waypoints: Waypoints, waypoint: int, postures: dict[int, FloatArray]
+    ) -> Iterator[BlockingContact]:
         """Yield, for each arm that touches something in every posture, the least of its contacts."""
         for arm, able in postures.items():
             tried = self._layout.at_home(len(able))
             tried[:, self._layout.spans[arm]] = able
-            yield from self._least(moments, moment, arm, _some(tried, _POSTURES))
+            yield from self._least(waypoints, waypoint, arm, _some(tried, _POSTURES))
 
     def _least_together(
-        self, moments: Moments, moment: int, postures: dict[int, FloatArray]
+        self, waypoints: Waypoints, waypoint: int, postures: dict[int, FloatArray]
     ) -> Iterator[BlockingContact]:
         """Yield the least contact if the arms touch something in every combination of their postures."""
         if len(postures) < 2:
@@ -77,10 +79,10 @@ class BlockingContacts:
         tried = self._layout.at_home(len(combined))
         if len(tried):
             tried[:, self._layout.joints_of(sorted(postures))] = combined
-        yield from self._least(moments, moment, min(postures), tried)
+        yield from self._least(waypoints, waypoint, min(postures), tried)
 
-    def _least(self, moments: Moments, moment: int, arm: int, postures: FloatArray) -> Iterator[BlockingContact]:
-        base = Pose2.of(moments.bases[moment])
+    def _least(self, waypoints: Waypoints, waypoint: int, arm: int, postures: FloatArray) -> Iterator[BlockingContact]:
+        base = Pose2.of(waypoints.bases[waypoint])
         met: list[Contact] = []
         for posture in postures:
             contact = self._collisions.deepest_contact(base, posture)
@@ -89,7 +91,7 @@ class BlockingContacts:
             met.append(contact)
         if met:
             contact = min(met, key=lambda one: one.depth_m)
-            point = self._in_table(base, moments.positions[arm, moment])
+            point = self._in_table(base, waypoints.positions[arm, waypoint])
             name = self._machine.card.arms[arm].name
             yield BlockingContact(name, point, self._cause(contact), (contact.first, contact.second), contact.depth_m)
 

@@ -10,7 +10,7 @@ from itertools import chain, islice, product, takewhile
 
 from planner.folds.fold_path import REST_HEIGHT_M
 from planner.geometry.tolerance import TIME_S
-from planner.motion.act import Act, duration_s, in_turn
+from planner.motion.plan_segment import PlanSegment, duration_s, linked
 from planner.motion.robot_port import RobotPort
 from planner.motion.transfer import Transfer
 from planner.motion.transfer_planner import TransferPlanner
@@ -28,7 +28,7 @@ TRIED = 4
 
 
 class EdgeHands:
-    """Finds acts in which more hands hold edges than in those given."""
+    """Finds segments in which more hands hold edges than in those given."""
 
     def __init__(self, context: Context, machine: RobotPort, maker: TransferPlanner) -> None:
         """Keep the planning context, the robot, and the planner of the transfers."""
@@ -44,44 +44,51 @@ class EdgeHands:
             if transfer is not None:
                 yield transfer
 
-    def held(self, acts: Sequence[Act], is_over: Callable[[], bool]) -> tuple[Act, ...]:
-        """Return acts that follow one another, with more hands that hold edges where these take no longer.
+    def held(self, plan_segments: Sequence[PlanSegment], is_over: Callable[[], bool]) -> tuple[PlanSegment, ...]:
+        """Return segments that follow one another, with more hands that hold edges where these take no longer.
 
         Args:
-            acts: the acts of a validated plan.
-            is_over: polled before each act; true means that there is no time left.
+            plan_segments: the segments of a validated plan.
+            is_over: polled before each segment; true means that there is no time left.
         """
-        ways = [self._others(act) for act in acts]
+        ways = [self._others(plan_segment) for plan_segment in plan_segments]
         firsts = [None if is_over() else next(way, None) for way in ways]
         if not any(firsts):
-            return tuple(acts)
-        limit_s = duration_s(acts) + TIME_S
-        best = in_turn([first or act for first, act in zip(firsts, acts, strict=True)], self._maker)
+            return tuple(plan_segments)
+        limit_s = duration_s(plan_segments) + TIME_S
+        best = linked(
+            [first or plan_segment for first, plan_segment in zip(firsts, plan_segments, strict=True)], self._maker
+        )
         if duration_s(best) <= limit_s:
             return best
-        # Mostly one transit is slower for it: the act to which hands come late does without, or with another way.
-        are_late = [one.late_s > act.late_s + TIME_S for act, one in zip(acts, best, strict=True)]
-        mixed = (act if is_late else one for act, one, is_late in zip(acts, best, are_late, strict=True))
-        best = in_turn(tuple(mixed), self._maker)
+        # Mostly one transit is slower for it: the segment to which hands come late does without, or with another way.
+        are_late = [
+            one.late_s > plan_segment.late_s + TIME_S for plan_segment, one in zip(plan_segments, best, strict=True)
+        ]
+        mixed = (
+            plan_segment if is_late else one
+            for plan_segment, one, is_late in zip(plan_segments, best, are_late, strict=True)
+        )
+        best = linked(tuple(mixed), self._maker)
         if duration_s(best) > limit_s:
-            best, are_late = tuple(acts), [True] * len(acts)
+            best, are_late = tuple(plan_segments), [True] * len(plan_segments)
         for number, (first, others, is_late) in enumerate(zip(firsts, ways, are_late, strict=True)):
             for other in chain([first], others) if is_late and first is not None and not is_over() else ():
-                tried = in_turn((*best[:number], other, *best[number + 1 :]), self._maker)
+                tried = linked((*best[:number], other, *best[number + 1 :]), self._maker)
                 if duration_s(tried) <= limit_s:
                     best = tried
                     break
         return best
 
-    def _others(self, act: Act) -> Iterator[Act]:
-        """Yield acts between the same states, of the same duration, in which more hands hold edges."""
-        if act.transfer is None:
+    def _others(self, plan_segment: PlanSegment) -> Iterator[PlanSegment]:
+        """Yield segments between the same states, of the same duration, in which more hands hold edges."""
+        if plan_segment.transfer is None:
             return
-        edges = act.transfer.edges
-        if edges < int(act.transfer.carried.moments.is_used.sum()):
-            for transfer in self.ways(act.steps):
+        edges = plan_segment.transfer.edges
+        if edges < int(plan_segment.transfer.transfer_path.waypoints.is_used.sum()):
+            for transfer in self.ways(plan_segment.steps):
                 if transfer.edges > edges:
-                    yield Act(act.first, transfer.steps, transfer)
+                    yield PlanSegment(plan_segment.first, transfer.steps, transfer)
 
     def _at_edges(self, step: Step) -> list[Step]:
         """Return a few ways to do a step, as quick and by the same arms, whose hands may hold edges, most first.

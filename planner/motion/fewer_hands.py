@@ -8,56 +8,61 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 
 from planner.geometry.tolerance import TIME_S
-from planner.motion.act import Act, duration_s, in_turn
+from planner.motion.plan_segment import PlanSegment, duration_s, linked
+from planner.motion.search_limits import SearchLimits
 from planner.motion.transfer_planner import TransferPlanner
-from planner.motion.tries import Tries
 from planner.primitives.primitive import Step
 
 WORTH_S = 0.1
-"""The time that taking hands away from one act must save in all (s): for less the cloth is rather held firmly."""
+"""The time that taking hands away from one segment must save in all (s): for less the cloth is rather held firmly."""
 
 
 def with_fewer_hands(
-    acts: Sequence[Act], maker: TransferPlanner, tries: Tries, worth_s: float = WORTH_S
-) -> tuple[Act, ...]:
-    """Return acts that follow one another, with fewer hands where that is quicker.
+    plan_segments: Sequence[PlanSegment], maker: TransferPlanner, search_limits: SearchLimits, worth_s: float = WORTH_S
+) -> tuple[PlanSegment, ...]:
+    """Return segments that follow one another, with fewer hands where that is quicker.
 
     Args:
-        acts: the acts of a validated plan.
+        plan_segments: the segments of a validated plan.
         maker: plans the transfers.
-        tries: how many ways are tried for each act.
+        search_limits: how many ways are tried for each segment.
         worth_s: the time that each change must save (s).
     """
-    best = tuple(acts)
-    for number, act in enumerate(acts):
+    best = tuple(plan_segments)
+    for number, plan_segment in enumerate(plan_segments):
         if duration_s(best) <= sum(step.duration_s for one in best for step in one.steps) + TIME_S:
             break
-        others = (in_turn((*best[:number], one, *best[number + 1 :]), maker) for one in _with_fewer(act, maker, tries))
+        others = (
+            linked((*best[:number], one, *best[number + 1 :]), maker)
+            for one in _with_fewer(plan_segment, maker, search_limits)
+        )
         quickest = min(others, key=duration_s, default=best)
         if duration_s(quickest) < duration_s(best) - worth_s - TIME_S:
             best = quickest
     return best
 
 
-def _with_fewer(act: Act, maker: TransferPlanner, tries: Tries) -> Iterator[Act]:
-    """Yield the first few valid acts between the same states for each choice of fewer arms."""
-    ways = () if act.transfer is None else _ways(act.steps, tries)
+def _with_fewer(
+    plan_segment: PlanSegment, maker: TransferPlanner, search_limits: SearchLimits
+) -> Iterator[PlanSegment]:
+    """Yield the first few valid segments between the same states for each choice of fewer arms."""
+    ways = () if plan_segment.transfer is None else _ways(plan_segment.steps, search_limits)
     valid: Counter[tuple[object, ...]] = Counter()
-    for candidate in maker.candidates(way for way in ways if valid[_arms(way)] < tries.late):
+    for candidate in maker.candidates(way for way in ways if valid[_arms(way)] < search_limits.late):
         transfer = maker.made(candidate)
         if transfer is not None:
             valid[candidate.kind] += 1
-            yield Act(act.first, transfer.steps, transfer)
+            yield PlanSegment(plan_segment.first, transfer.steps, transfer)
 
 
-def _ways(steps: Sequence[Step], tries: Tries) -> Iterator[tuple[Step, ...]]:
+def _ways(steps: Sequence[Step], search_limits: SearchLimits) -> Iterator[tuple[Step, ...]]:
     """Yield the first few ways for each choice of fewer arms."""
     tried: Counter[tuple[object, ...]] = Counter()
     for number, step in enumerate(steps):
         for fewer in step.with_fewer_hands():
             way = (*steps[:number], fewer, *steps[number + 1 :])
             tried[_arms(way)] += 1
-            if tried[_arms(way)] <= tries.variants:
+            if tried[_arms(way)] <= search_limits.variants:
                 yield way
 
 

@@ -1,4 +1,4 @@
-"""Find the postures in which arms can hold cloth at single moments: a test much cheaper than a joint path."""
+"""Find the postures in which arms can hold cloth at single waypoints: a test much cheaper than a joint path."""
 
 from collections.abc import Iterable, Sequence
 from functools import lru_cache
@@ -9,16 +9,16 @@ import numpy as np
 
 from planner.geometry.pose import FloatArray
 from planner.motion.hand_holds import HandHold, Holds, opening_of, wide_holds
-from planner.motion.leads import rolled
 from planner.motion.lying_cloth import LyingCloth
-from planner.motion.moments import Moments
 from planner.motion.opened_collisions import OpenedCollisions
 from planner.motion.robot_port import Collisions, RobotPort
+from planner.motion.transfer_tool_paths import rolled
+from planner.motion.waypoints import Waypoints
 from planner.robots.joint_layout import JointLayout
 from planner.weakly import weakly
 
 _LOOKED_AT = 5
-"""The moments at which the arms' postures are tested together before a path is searched."""
+"""The waypoints at which the arms' postures are tested together before a path is searched."""
 
 _PLACES_KEPT = 2048
 """Size of the caches of tool poses, some 2 kB each. Twice as many save 0.02 % of a plan's time (measured)."""
@@ -44,35 +44,35 @@ class FreePostures:
         self._free_postures = lru_cache(_PLACES_KEPT)(weakly(self._search_postures))
         self._are_apart = lru_cache(_PLACES_KEPT)(weakly(self._search_apart))
 
-    def can_hold(self, moments: Moments, first: Iterable[int] = (), ways: Sequence[Holds] = ()) -> bool:
-        """Return whether the arms have free postures at a few moments; without them there is hardly ever a path.
+    def can_hold(self, waypoints: Waypoints, first: Iterable[int] = (), ways: Sequence[Holds] = ()) -> bool:
+        """Return whether the arms have free postures at a few waypoints; without them there is hardly ever a path.
 
         Args:
-            moments: the moments of the transfer.
-            first: the moments that are tested before others.
+            waypoints: the waypoints of the transfer.
+            first: the waypoints that are tested before others.
             ways: the ways in which hands may hold; none given: those in which they open widely.
         """
-        looks = _LOOKED_AT if moments.is_held.any(axis=1).sum() > 1 else 2
-        which = [*first, *np.linspace(0, len(moments) - 1, looks).astype(np.int64).tolist()]
-        return self.can_hold_at(moments, which, ways)
+        looks = _LOOKED_AT if waypoints.is_held.any(axis=1).sum() > 1 else 2
+        which = [*first, *np.linspace(0, len(waypoints) - 1, looks).astype(np.int64).tolist()]
+        return self.can_hold_at(waypoints, which, ways)
 
-    def can_hold_at(self, moments: Moments, which: Iterable[int], ways: Sequence[Holds] = ()) -> bool:
-        """Return whether the arms have free postures at some moments, each tested alone; see `can_hold`."""
-        arms = [int(arm) for arm in np.flatnonzero(moments.is_held.any(axis=1))]
-        ways = ways or wide_holds(moments)[::-1]
-        return all(any(self._can_hold(arms, moments, moment, holds) for holds in ways) for moment in which)
+    def can_hold_at(self, waypoints: Waypoints, which: Iterable[int], ways: Sequence[Holds] = ()) -> bool:
+        """Return whether the arms have free postures at some waypoints, each tested alone; see `can_hold`."""
+        arms = [int(arm) for arm in np.flatnonzero(waypoints.is_held.any(axis=1))]
+        ways = ways or wide_holds(waypoints)[::-1]
+        return all(any(self._can_hold(arms, waypoints, waypoint, holds) for holds in ways) for waypoint in which)
 
-    def _can_hold(self, arms: list[int], moments: Moments, moment: int, holds: Holds) -> bool:
+    def _can_hold(self, arms: list[int], waypoints: Waypoints, waypoint: int, holds: Holds) -> bool:
         """Return whether the arms have free postures at a moment, each alone and all together, as hands hold.
 
         An arm that takes no part in the transfer is at home.
         """
-        held = [arm for arm in arms if moments.is_held[arm, moment]]
+        held = [arm for arm in arms if waypoints.is_held[arm, waypoint]]
         poses: list[_Pose | None] = [None] * len(self._layout.arms)
         for arm in held:
-            rotation = moments.rotations[arm, moment] @ rolled(holds[arm].roll_rad * self._rolling[arm])
+            rotation = waypoints.rotations[arm, waypoint] @ rolled(holds[arm].roll_rad * self._rolling[arm])
             collisions = self._collisions.of(holds[arm], is_open=False)
-            poses[arm] = _pose(collisions, moments.bases[moment], moments.positions[arm, moment], rotation)
+            poses[arm] = _pose(collisions, waypoints.bases[waypoint], waypoints.positions[arm, waypoint], rotation)
         if len(held) < len(arms):
             return all(len(self._able(arm, pose)) > 0 for arm, pose in enumerate(poses))
         return self._are_apart(*poses)

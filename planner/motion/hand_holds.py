@@ -14,8 +14,8 @@ import numpy as np
 from planner.folds.fold_path import REST_HEIGHT_M
 from planner.geometry.tolerance import ANGLE_RAD
 from planner.motion.joint_trajectory import CLOSED_M, OPEN_M
-from planner.motion.moments import Moments
 from planner.motion.robot_port import RobotPort
+from planner.motion.waypoints import Waypoints
 from planner.robots.openings import EDGE_OPEN_M, HELD_M, OPENING_M
 from planner.task.grip import GripKind
 
@@ -71,32 +71,32 @@ Holds: TypeAlias = tuple[HandHold, ...]
 _BESIDE = HandHold(BESIDE)
 
 
-def wide_holds(moments: Moments) -> tuple[Holds, ...]:
+def wide_holds(waypoints: Waypoints) -> tuple[Holds, ...]:
     """Return the ways in which hands that open widely may hold cloth in a transfer, the best first."""
-    beside = (_BESIDE,) * len(moments.is_used)
-    sines = [-moments.rotations[arm, 0, 2, 0] for arm in np.flatnonzero(moments.is_used)]
+    beside = (_BESIDE,) * len(waypoints.is_used)
+    sines = [-waypoints.rotations[arm, 0, 2, 0] for arm in np.flatnonzero(waypoints.is_used)]
     if not all(sine > _STEEP for sine in sines):
         return (beside,)
-    kinds: list[GripKind] = ["edge" if _pitch_rad(moments, arm) < _VERTICAL else "top" for arm in range(len(beside))]
+    kinds: list[GripKind] = ["edge" if _pitch_rad(waypoints, arm) < _VERTICAL else "top" for arm in range(len(beside))]
     return tuple(HandHold(OVER, kind) for kind in kinds), beside
 
 
-def edge_holds(machine: RobotPort, moments: Moments) -> Holds | None:
+def edge_holds(machine: RobotPort, waypoints: Waypoints) -> Holds | None:
     """Return how hands hold in a transfer if all that can have one finger under the cloth, where some can.
 
     A hand that opens before others let go has no time of its own to go where it has room for that.
     """
-    if not moments.is_last_held[moments.is_used, -1].all():
+    if not waypoints.is_last_held[waypoints.is_used, -1].all():
         return None
     found = tuple(
-        _edge_hold(machine, arm, moments) if is_used else _BESIDE
-        for arm, is_used in enumerate(moments.is_used.tolist())
+        _edge_hold(machine, arm, waypoints) if is_used else _BESIDE
+        for arm, is_used in enumerate(waypoints.is_used.tolist())
     )
     return found if any(hold.is_narrow for hold in found) else None
 
 
-def _edge_hold(machine: RobotPort, arm: int, moments: Moments) -> HandHold:
-    pitch_rad = _pitch_rad(moments, arm)
+def _edge_hold(machine: RobotPort, arm: int, waypoints: Waypoints) -> HandHold:
+    pitch_rad = _pitch_rad(waypoints, arm)
     raised_m = None if pitch_rad >= _VERTICAL else machine.edge_raised_m(arm, REST_HEIGHT_M, round(pitch_rad, _DIGITS))
     return _BESIDE if raised_m is None else HandHold(OVER, "edge", EDGE_OPEN_M, raised_m)
 
@@ -105,9 +105,9 @@ _VERTICAL = math.pi / 2 - math.sqrt(ANGLE_RAD)
 """The pitch from which a hand points straight down (rad)."""
 
 
-def _pitch_rad(moments: Moments, arm: int) -> float:
+def _pitch_rad(waypoints: Waypoints, arm: int) -> float:
     """Return how far below the horizontal a hand points when it first holds (rad); nan where it never does."""
-    x, y, z = moments.rotations[arm, int(np.argmax(moments.is_held[arm])), :, 0].tolist()
+    x, y, z = waypoints.rotations[arm, int(np.argmax(waypoints.is_held[arm])), :, 0].tolist()
     return math.atan2(-z, math.hypot(x, y))
 
 

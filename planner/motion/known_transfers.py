@@ -1,4 +1,4 @@
-"""The cache of a task's transfers, which its tightened variants share."""
+"""The cache of a task's transfers, which its restricted variants share."""
 
 from dataclasses import dataclass, field
 
@@ -10,12 +10,12 @@ from planner.robots.tool_path import NoPath
 
 @dataclass(frozen=True, slots=True, eq=False)
 class KnownTransfers:
-    """Cached answers about the transfers of a task, by their steps' motions; tightened tasks share them.
+    """Cached answers about the transfers of a task, by their steps' motions; restricted tasks share them.
 
     Attributes:
         can_be_there: whether the arms have free postures where the steps begin and end.
         candidates: the candidates that steps make.
-        made: the transfer of each candidate, None where it has none, and the moments at which it was blocked, if any.
+        made: the transfer of each candidate, None where it has none, and the waypoints at which it was blocked, if any.
         transits: how hands come from one transfer to the next, by both and by what the base does meanwhile.
     """
 

@@ -16,7 +16,7 @@ from planner.primitives.state import State
 from planner.robots.openings import OPENING_M
 
 OVER_CLOTH_M = 0.032
-"""The height that empty arms keep above cloth at the moments tested (m).
+"""The height that empty arms keep above cloth at the waypoints tested (m).
 
 It is 3 cm and a reserve for what may be lost between two tests.
 """

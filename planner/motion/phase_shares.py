@@ -1,4 +1,4 @@
-"""Choose how finely a phase is cut into moments: more finely where something moves or turns fast."""
+"""Choose how finely a phase is cut into waypoints: more finely where something moves or turns fast."""
 
 import math
 
@@ -16,10 +16,10 @@ STEP_RAD = 0.05
 
 
 def shares_of(phase: Phase) -> FloatArray:
-    """Return the fraction of a phase that is done at each of its moments, with even steps on each piece of its paths.
+    """Return the fraction of a phase that is done at each of its waypoints, with even steps on each piece of its paths.
 
     The start is included. Some pieces need more steps than others: a hand near the fold line's end rolls there within a
-    few centimetres. Cutting the whole phase as finely would take several times as many moments.
+    few centimetres. Cutting the whole phase as finely would take several times as many waypoints.
 
     Returns:
         Shape (n,), rising from 0 to 1.

@@ -1,4 +1,4 @@
-"""Cut phases into stretches of moments: each hand first turns in its grip where it must, then follows its path."""
+"""Cut phases into stretches of waypoints: each hand first turns in its grip where it must, then follows its path."""
 
 import math
 from collections.abc import Iterator
@@ -65,7 +65,7 @@ class _Turn(NamedTuple):
 
 
 class StretchSampler:
-    """Cuts phases into moments, knowing each hand's orientation at the end of the phase before."""
+    """Cuts phases into waypoints, knowing each hand's orientation at the end of the phase before."""
 
     def __init__(self, arms: int, only_ends: bool) -> None:
         self._only_ends = only_ends

@@ -1,6 +1,6 @@
-"""Make the trajectory of a plan from its acts: segments for base and cloth, one joint trajectory for the arms.
+"""Make the trajectory of a plan from its segments: segments for base and cloth, one joint trajectory for the arms.
 
-Both are those of the acts' transfers, while cloth is held, and of the transits between these, while hands are empty and
+Both are those of the segments' transfers, while cloth is held, and of the transits between these, while hands are empty and
 the base drives.
 """
 
@@ -15,10 +15,10 @@ from planner.geometry.pose import FloatArray
 from planner.geometry.ramps import ramps
 from planner.geometry.table_top import TableTop
 from planner.geometry.tolerance import TIME_S
-from planner.motion.act import Act
 from planner.motion.hand_holds import settling_s
 from planner.motion.joint_trajectory import JointTrajectory, finger_limits_over
 from planner.motion.line import Keyframes
+from planner.motion.plan_segment import PlanSegment
 from planner.motion.timed_phase import TimedPhase
 from planner.motion.transfer import Transfer
 from planner.motion.transfer_planner import TransferPlanner
@@ -37,17 +37,19 @@ _NEAR_M = 1e-6
 """The distance between openings by which the joint's change with the opening is told (m)."""
 
 
-def trajectory(context: Context, card: RobotCard, maker: TransferPlanner, acts: Sequence[Act]) -> Trajectory:
-    """Return the trajectory of robot and cloth in a plan's acts.
+def trajectory(
+    context: Context, card: RobotCard, maker: TransferPlanner, plan_segments: Sequence[PlanSegment]
+) -> Trajectory:
+    """Return the trajectory of robot and cloth in a plan's segments.
 
     Args:
         context: the planning context.
         card: the robot.
-        maker: the planner that made the acts' joint paths.
-        acts: the acts, one after the other.
+        maker: the planner that made the segments' joint paths.
+        plan_segments: the segments, one after the other.
     """
     builder = _TrajectoryBuilder(context.drive_time, maker.transits, maker.dwell_s)
-    segments = tuple(builder.segments(acts, _standing(context)))
+    segments = tuple(builder.segments(plan_segments, _standing(context)))
     track = builder.track
     rows, velocities = np.array(track.joints), np.array(track.velocities)
     names = tuple(name for arm in card.arms for name in arm.joint_names)
@@ -108,15 +110,15 @@ class _TrajectoryBuilder:
         self._now = 0.0
         self._turns: FloatArray = np.zeros_like(transits.home)
 
-    def segments(self, acts: Sequence[Act], rest: Phase) -> Iterator[Segment]:
-        """Yield the segments of base and cloth in a plan's acts; only `rest` if there are none."""
+    def segments(self, plan_segments: Sequence[PlanSegment], rest: Phase) -> Iterator[Segment]:
+        """Yield the segments of base and cloth in a plan's segments; only `rest` if there are none."""
         moves: list[TimedPhase] = []
-        for act in acts:
-            if act.transfer is not None:
-                self._add(act, act.transfer)
+        for plan_segment in plan_segments:
+            if plan_segment.transfer is not None:
+                self._add(plan_segment, plan_segment.transfer)
                 moves.clear()  # they were part of the transit
                 continue
-            for number, step in enumerate(act.steps, start=act.first):
+            for number, step in enumerate(plan_segment.steps, start=plan_segment.first):
                 lasting = (phase for phase in step.phases() if phase.duration_s > 0.0)
                 moves += [TimedPhase.driven(number, phase, self._time) for phase in lasting]
         self._timed_phases += moves
@@ -128,27 +130,27 @@ class _TrajectoryBuilder:
             rates, base_rates = tuple(timed.rates.tolist()), tuple(timed.base_rates.tolist())
             yield Segment(timed.primitive, start_s, timed.phase, times, fractions, rates, base_rates)
 
-    def _add(self, act: Act, transfer: Transfer) -> None:
+    def _add(self, plan_segment: PlanSegment, transfer: Transfer) -> None:
         """Add the transit to a transfer, and the transfer."""
-        if act.transit is None:
+        if plan_segment.transit is None:
             self._begin_holding(transfer)
         else:
-            self._reach(act.first, act.transit)
-            self._turns = self.track.last - transfer.carried.joints[transfer.carried.first]
+            self._reach(plan_segment.first, plan_segment.transit)
+            self._turns = self.track.last - transfer.transfer_path.joints[transfer.transfer_path.first]
         held = self._now
         timing = transfer.timing
-        self._timed_phases += _counted(act.first, timing.timed_phases)
-        carried, end = transfer.carried, held + float(timing.times_s[-1])
-        joints = carried.joints[carried.first + timing.moments] + self._turns
+        self._timed_phases += _counted(plan_segment.first, timing.timed_phases)
+        transfer_path, end = transfer.transfer_path, held + float(timing.times_s[-1])
+        joints = transfer_path.joints[transfer_path.first + timing.waypoints] + self._turns
         run = Keyframes(held + timing.times_s, joints, timing.velocities)
-        settling = settling_s(self._dwell_s) if carried.settles else 0.0
-        if carried.settles:
-            opened = carried.tail[0] + self._turns
+        settling = settling_s(self._dwell_s) if transfer_path.settles else 0.0
+        if transfer_path.settles:
+            opened = transfer_path.retreat[0] + self._turns
             settled = self._transits.eased(joints[-1], opened, settling).later(end - self._dwell_s)
             run = Keyframes.joined([run.until(len(joints) - 1), settled, Keyframes.still(opened, end)])
         self.track.add(run)
-        is_last, holds = carried.moments.is_last_held, carried.lines.holds
-        for arm in np.flatnonzero(carried.moments.is_used).tolist():
+        is_last, holds = transfer_path.waypoints.is_last_held, transfer_path.lines.holds
+        for arm in np.flatnonzero(transfer_path.waypoints.is_used).tolist():
             own = settling if holds[arm].is_narrow else 0.0
             opens = held + timing.first_s(int(np.argmax(is_last[arm]))) + own
             if held > 0.0:
@@ -160,8 +162,8 @@ class _TrajectoryBuilder:
 
     def _begin_holding(self, transfer: Transfer) -> None:
         """Begin with the cloth in the hands, at the first joints of the transfer."""
-        self.track = JointTrajectory.at_rest(transfer.carried.joints[transfer.carried.first], self._arms)
-        for arm in np.flatnonzero(transfer.carried.moments.is_used).tolist():
+        self.track = JointTrajectory.at_rest(transfer.transfer_path.joints[transfer.transfer_path.first], self._arms)
+        for arm in np.flatnonzero(transfer.transfer_path.waypoints.is_used).tolist():
             self.track.begin_closed(arm, transfer.holds[arm].held_m)
 
     def _reach(self, primitive: int, transit: Transit) -> None:

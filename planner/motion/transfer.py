@@ -3,9 +3,9 @@
 from dataclasses import dataclass
 
 from planner.geometry.tolerance import TIME_S
-from planner.motion.carried import Carried
 from planner.motion.hand_holds import Holds
 from planner.motion.line import Line
+from planner.motion.transfer_path import TransferPath
 from planner.motion.transfer_timing import TransferTiming
 from planner.primitives.primitive import Step
 from planner.task.phase import Phase
@@ -22,22 +22,22 @@ class Transfer:
 
     Attributes:
         steps: the primitives, as steps of the plan.
-        carried: the joint paths.
+        transfer_path: the joint paths.
         timing: the timing while cloth is held.
-        lead: the quickest way straight to the grips.
-        tail: the quickest way straight from them.
+        approach: the quickest way straight to the grips.
+        retreat: the quickest way straight from them.
     """
 
     steps: tuple[Step, ...]
-    carried: Carried
+    transfer_path: TransferPath
     timing: TransferTiming
-    lead: Line
-    tail: Line
+    approach: Line
+    retreat: Line
 
     @property
     def holds(self) -> Holds:
         """How each arm's hand holds the cloth."""
-        return self.carried.lines.holds
+        return self.transfer_path.lines.holds
 
     @property
     def edges(self) -> int:

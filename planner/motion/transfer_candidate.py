@@ -4,9 +4,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import chain, islice, product
 
-from planner.motion.leads import Cloths
-from planner.motion.moments import Moments
-from planner.motion.tries import Tries
+from planner.motion.search_limits import SearchLimits
+from planner.motion.transfer_tool_paths import Cloths
+from planner.motion.waypoints import Waypoints
 from planner.primitives.primitive import Step
 from planner.robots.tool_path import NoPath
 from planner.task.phase import Phase
@@ -20,14 +20,14 @@ class Candidate:
         steps: the primitives, none but the last of which lets go.
         motion: their key, see `motion_of`.
         carrying: the phases in which cloth is held, each with its primitive's number.
-        moments: the same phases, moment by moment.
+        waypoints: the same phases, moment by moment.
         cloths: the cloth on the table before and after.
     """
 
     steps: tuple[Step, ...]
     motion: tuple[object, ...]
     carrying: tuple[tuple[int, Phase], ...]
-    moments: Moments
+    waypoints: Waypoints
     cloths: Cloths
 
     @property
@@ -38,40 +38,40 @@ class Candidate:
     @property
     def is_together(self) -> bool:
         """Whether more than one arm holds cloth."""
-        return bool(self.moments.is_held.any(axis=1).sum() > 1)
+        return bool(self.waypoints.is_held.any(axis=1).sum() > 1)
 
 
-class BlockedMoments:
-    """The moments at which transfers were blocked; others of the same kind are mostly blocked nearby."""
+class BlockedWaypoints:
+    """The waypoints at which transfers were blocked; others of the same kind are mostly blocked nearby."""
 
     def __init__(self) -> None:
         self._shares: dict[tuple[object, ...], float] = {}
 
     def note(self, candidate: "Candidate", found: NoPath) -> None:
-        """Note the middle of the moments at which a candidate is blocked."""
+        """Note the middle of the waypoints at which a candidate is blocked."""
         if len(found.blocked):
             middle = found.blocked[len(found.blocked) // 2]
-            self._shares[candidate.kind] = float(middle) / (len(candidate.moments) - 1)
+            self._shares[candidate.kind] = float(middle) / (len(candidate.waypoints) - 1)
 
     def suspects(self, candidate: "Candidate") -> list[int]:
         """Return the moment of a candidate at which the last one of its kind was blocked, if any was."""
         share = self._shares.get(candidate.kind)
-        return [] if share is None else [round(share * (len(candidate.moments) - 1))]
+        return [] if share is None else [round(share * (len(candidate.waypoints) - 1))]
 
 
-def ways_of(steps: Sequence[Step], tries: Tries) -> Iterator[tuple[Step, ...]]:
+def ways_of(steps: Sequence[Step], search_limits: SearchLimits) -> Iterator[tuple[Step, ...]]:
     """Yield the steps, then combinations of their variants, up to the number of tries; variants take time to find.
 
     Those in which the hands of the first step are turned as the second needs them come before others: such hands need
     not turn in their grip, and the first few variants of both may have no turn in common.
     """
     yield tuple(steps)
-    yield from islice(_others(steps, tries), tries.ways - 1)
+    yield from islice(_others(steps, search_limits), search_limits.ways - 1)
 
 
-def _others(steps: Sequence[Step], tries: Tries) -> Iterator[tuple[Step, ...]]:
+def _others(steps: Sequence[Step], search_limits: SearchLimits) -> Iterator[tuple[Step, ...]]:
     """Yield the combinations of variants but for the steps themselves, each once."""
-    choices = [tuple(islice(step.variants(), tries.variants)) for step in steps]
+    choices = [tuple(islice(step.variants(), search_limits.variants)) for step in steps]
     seen = {motion_of(steps)}
     alike = ((one, *rest) for rest in product(*choices[1:]) if rest for one in steps[0].turned(rest[0].turns))
     for way in chain(alike, product(*choices)):

@@ -11,24 +11,24 @@ from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
 from planner.geometry.tolerance import TIME_S
 from planner.motion.blocking_contacts import BlockingContacts
-from planner.motion.carried import Carried
 from planner.motion.edge_sag import is_clear_between
 from planner.motion.hand_holds import edge_holds, opening_of, settling_s
 from planner.motion.joint_trajectory import finger_run_s
 from planner.motion.known_transfers import KnownTransfers
 from planner.motion.line import Line
 from planner.motion.lying_cloth import LyingCloths
-from planner.motion.moments import Moments, forget_moments, moments_of
 from planner.motion.opened_collisions import OpenedCollisions
 from planner.motion.robot_port import RobotPort
+from planner.motion.search_limits import QUICK, SearchLimits
 from planner.motion.transfer import Transfer, is_carrying
-from planner.motion.transfer_candidate import BlockedMoments, Candidate, motion_of, ways_of
-from planner.motion.transfer_paths import TransferPaths
+from planner.motion.transfer_candidate import BlockedWaypoints, Candidate, motion_of, ways_of
+from planner.motion.transfer_path import TransferPath
+from planner.motion.transfer_path_finder import TransferPathFinder
 from planner.motion.transfer_timing import TransferLimits, TransferTiming
 from planner.motion.transit import Transit, transit_between
 from planner.motion.transit_paths import TransitPaths
 from planner.motion.transit_planner import TransitPlanner
-from planner.motion.tries import QUICK, Tries
+from planner.motion.waypoints import Waypoints, forget_waypoints, waypoints_of
 from planner.primitives.context import Context
 from planner.primitives.obstacle import BlockingContact
 from planner.primitives.primitive import Step
@@ -36,7 +36,7 @@ from planner.robots.tool_path import NoPath
 from planner.task.phase import Phase
 
 MARGIN_M = 0.001
-"""The distance kept between bodies that must not touch, at the moments tested (m)."""
+"""The distance kept between bodies that must not touch, at the waypoints tested (m)."""
 
 
 class TransferPlanner:
@@ -46,7 +46,7 @@ class TransferPlanner:
         transits: the paths of empty hands.
         dwell_s: how long hands rest while fingers close, and while they open (s).
         glances: how often the ends of steps were tested for free postures, cached answers counted.
-        tries: how often joint paths were requested, cached answers counted.
+        path_requests: how often joint paths were requested, cached answers counted.
         transits_planned: how many transits were planned.
     """
 
@@ -60,26 +60,26 @@ class TransferPlanner:
                 ways to do the steps; None: nothing is known.
         """
         scene = context.scene
-        paths, self.transits, collisions = _transfer_paths(machine, scene.table, scene.torso_m)
+        paths, self.transits, collisions = _transfer_path_finder(machine, scene.table, scene.torso_m)
         self._context, self._machine = context, machine
         self._paths = paths
         self._collisions = collisions
-        self._blocked = BlockedMoments()
+        self._blocked = BlockedWaypoints()
         self.known = known or KnownTransfers()
         self._candidates: dict[tuple[object, ...], Candidate] = {}
         self._made: dict[Candidate, Transfer | None] = {}
-        self.glances = self.tries = self.transits_planned = 0
+        self.glances = self.path_requests = self.transits_planned = 0
         self._contacts = BlockingContacts(machine, collisions.wide, scene.torso_m, scene.table.height_m)
         self.dwell_s = max(scene.grip_dwell_s, *(finger_run_s(arm.gripper) for arm in machine.card.arms))
         self._cloths = LyingCloths(context, collisions)
         self._hands = TransitPlanner(self.transits, self.dwell_s)
         self._limits = TransferLimits.of(self.transits.layout, context.drive_time, self.dwell_s)
 
-    def validated(self, steps: Sequence[Step], tries: Tries = QUICK) -> Transfer | None:
+    def validated(self, steps: Sequence[Step], search_limits: SearchLimits = QUICK) -> Transfer | None:
         """Return the transfer of a few primitives, none but the last of which lets go; None if none was found."""
-        return self.first_valid(ways_of(steps, tries), tries)
+        return self.first_valid(ways_of(steps, search_limits), search_limits)
 
-    def first_valid(self, choices: Iterable[tuple[Step, ...]], tries: Tries) -> Transfer | None:
+    def first_valid(self, choices: Iterable[tuple[Step, ...]], search_limits: SearchLimits) -> Transfer | None:
         """Return the transfer of the first valid choice of steps; None if none is found within the tries.
 
         If all take longer than their steps' estimates, return the quickest of the first few. Once one is found, choices
@@ -97,20 +97,22 @@ class TransferPlanner:
             else:
                 late += 1
                 best, best_s = min((best, best_s), (made, sum(made.durations_s())), key=lambda found: found[1])
-            if late == tries.late or failed >= (tries.together if candidate.is_together else tries.alone):
+            if late == search_limits.late or failed >= (
+                search_limits.together if candidate.is_together else search_limits.alone
+            ):
                 break
         return best
 
     def candidates(self, choices: Iterable[tuple[Step, ...]]) -> "Iterator[Candidate]":
         """Yield the choices of steps that pass a quick test, much cheaper than a search for joint paths.
 
-        The arms must have free postures at a few moments: first where the steps begin and end, then where the last
+        The arms must have free postures at a few waypoints: first where the steps begin and end, then where the last
         transfer of the same kind was blocked.
         """
         for steps in choices:
             if self.can_begin_and_end(steps):
                 candidate = self.candidate(steps)
-                if self._paths.postures.can_hold(candidate.moments, self._blocked.suspects(candidate)):
+                if self._paths.postures.can_hold(candidate.waypoints, self._blocked.suspects(candidate)):
                     yield candidate
 
     def can_begin_and_end(self, steps: Sequence[Step]) -> bool:
@@ -120,9 +122,9 @@ class TransferPlanner:
         known = self.known.can_be_there
         if key not in known:
             phases = [phase for step in steps for phase in step.extremes()]
-            moments = moments_of(phases, self._context.scene.table.height_m, only_ends=True)
-            ends = np.flatnonzero(np.diff(moments.phases, append=moments.phases[-1] + 1))
-            known[key] = self._paths.postures.can_hold_at(moments, [0, *ends[::-1].tolist()])
+            waypoints = waypoints_of(phases, self._context.scene.table.height_m, only_ends=True)
+            ends = np.flatnonzero(np.diff(waypoints.phases, append=waypoints.phases[-1] + 1))
+            known[key] = self._paths.postures.can_hold_at(waypoints, [0, *ends[::-1].tolist()])
         return known[key]
 
     def candidate(self, steps: tuple[Step, ...]) -> "Candidate":
@@ -140,11 +142,11 @@ class TransferPlanner:
         carrying = tuple((n, phase) for n, phase in phases if is_carrying(phase))
         before = None if steps[0].before.held else self._cloths.of(steps[0].before)
         cloths = (before, self._cloths.of(steps[-1].after))
-        return Candidate(steps, key, carrying, self._moments([phase for _, phase in carrying]), cloths)
+        return Candidate(steps, key, carrying, self._waypoints([phase for _, phase in carrying]), cloths)
 
     def made(self, candidate: "Candidate") -> Transfer | None:
         """Return the transfer of a candidate; None if it has no path. Cached."""
-        self.tries += 1
+        self.path_requests += 1
         if candidate not in self._made:
             self._made[candidate] = self._made_or_known(candidate)
         return self._made[candidate]
@@ -152,7 +154,7 @@ class TransferPlanner:
     def _made_or_known(self, candidate: "Candidate") -> Transfer | None:
         known = self.known.made
         if candidate.motion not in known:
-            found = self._paths.carried(candidate.moments, candidate.cloths)
+            found = self._paths.transfer_path(candidate.waypoints, candidate.cloths)
             known[candidate.motion] = (self._transfer(candidate, found), found if isinstance(found, NoPath) else None)
         transfer, blocked = known[candidate.motion]
         if blocked is not None:
@@ -161,62 +163,67 @@ class TransferPlanner:
 
     def made_like(self, candidate: "Candidate", like: Transfer) -> Transfer | None:
         """Return the transfer of a candidate, with joints near to those of another if possible; None without a path."""
-        self.tries += 1
-        carried = self._paths.adapted(candidate.moments, candidate.cloths, like.carried)
-        if isinstance(carried, NoPath):
-            self._blocked.note(candidate, carried)
-        return self._transfer(candidate, carried)
+        self.path_requests += 1
+        transfer_path = self._paths.adapted(candidate.waypoints, candidate.cloths, like.transfer_path)
+        if isinstance(transfer_path, NoPath):
+            self._blocked.note(candidate, transfer_path)
+        return self._transfer(candidate, transfer_path)
 
     def made_at_edges(self, candidate: "Candidate") -> Transfer | None:
         """Return a candidate's transfer with hands holding edges where they can; None if there is none."""
-        moments = candidate.moments
-        holds = edge_holds(self._machine, moments)
-        if holds is None or not self._paths.postures.can_hold(moments, ways=(holds,)):
+        waypoints = candidate.waypoints
+        holds = edge_holds(self._machine, waypoints)
+        if holds is None or not self._paths.postures.can_hold(waypoints, ways=(holds,)):
             return None
-        self.tries += 1
-        return self._transfer(candidate, self._paths.carried(moments, candidate.cloths, (holds,)))
+        self.path_requests += 1
+        return self._transfer(candidate, self._paths.transfer_path(waypoints, candidate.cloths, (holds,)))
 
-    def _transfer(self, candidate: "Candidate", carried: Carried | NoPath) -> Transfer | None:
-        if isinstance(carried, NoPath):
+    def _transfer(self, candidate: "Candidate", transfer_path: TransferPath | NoPath) -> Transfer | None:
+        if isinstance(transfer_path, NoPath):
             return None
-        carried = carried.calmed(self._collisions)
-        joints, first, last = carried.joints, carried.first, carried.last
-        timing = TransferTiming.of(candidate.carrying, candidate.moments, joints[first : last + 1], self._limits)
-        if not is_clear_between(carried, timing, self.transits.layout, self._collisions):
+        transfer_path = transfer_path.smoothed(self._collisions)
+        joints, first, last = transfer_path.joints, transfer_path.first, transfer_path.last
+        timing = TransferTiming.of(candidate.carrying, candidate.waypoints, joints[first : last + 1], self._limits)
+        if not is_clear_between(transfer_path, timing, self.transits.layout, self._collisions):
             return None
-        coming, leaving = carried.lead, carried.tail
-        if carried.settles:
+        coming, leaving = transfer_path.approach, transfer_path.retreat
+        if transfer_path.settles:
             ways = np.array([coming[-1], joints[first]]), np.array([joints[last], leaving[0]])
             if max(float(self.transits.needed_s(way)[0]) for way in ways) > settling_s(self.dwell_s):
                 return None
-        at_grips = joints[first] if carried.settles else None
-        openings_m = np.array([opening_of(hold) for hold in carried.lines.holds])
-        lead, tail = self.transits.line(coming, openings_m, at_grips), self.transits.line(leaving, openings_m)
-        if not self._can_come_and_go(candidate.steps, carried, lead, tail):
+        at_grips = joints[first] if transfer_path.settles else None
+        openings_m = np.array([opening_of(hold) for hold in transfer_path.lines.holds])
+        approach, retreat = self.transits.line(coming, openings_m, at_grips), self.transits.line(leaving, openings_m)
+        if not self._can_come_and_go(candidate.steps, transfer_path, approach, retreat):
             return None
-        return Transfer(candidate.steps, carried, timing, lead, tail)
+        return Transfer(candidate.steps, transfer_path, timing, approach, retreat)
 
-    def _moments(self, phases: Sequence[Phase]) -> Moments:
-        return moments_of(phases, self._context.scene.table.height_m)
+    def _waypoints(self, phases: Sequence[Phase]) -> Waypoints:
+        return waypoints_of(phases, self._context.scene.table.height_m)
 
     def contact(self, steps: Sequence[Step]) -> BlockingContact | None:
         """Return the contact that blocks a transfer; None if free postures exist but no path connects them."""
         phases = [phase for step in steps for phase in step.phases() if phase.duration_s > 0.0 and is_carrying(phase)]
-        return self._contacts.of(self._moments(phases))
+        return self._contacts.of(self._waypoints(phases))
 
-    def _can_come_and_go(self, steps: Sequence[Step], carried: Carried, lead: Line, tail: Line) -> bool:
+    def _can_come_and_go(
+        self, steps: Sequence[Step], transfer_path: TransferPath, approach: Line, retreat: Line
+    ) -> bool:
         """Return whether hands can come from home and go there, beside a base that stands.
 
         They need not come where they hold the cloth already, nor go after the last fold.
         """
         home = self.transits.home
         is_last = steps[-1].after.done == (1 << len(self._context.sequence.folds)) - 1
-        (before, after), (first, last) = carried.cloths, (Pose2.of(base) for base in carried.bases[[0, -1]])
+        (before, after), (first, last) = transfer_path.cloths, (Pose2.of(base) for base in transfer_path.bases[[0, -1]])
         spared = self.transits.spared
         return (
             before is None
-            or self.transits.way(first, home, lead.joints[0], before, spared(None, lead.joints)) is not None
-        ) and (is_last or self.transits.way(last, tail.joints[-1], home, after, spared(tail.joints, None)) is not None)
+            or self.transits.way(first, home, approach.joints[0], before, spared(None, approach.joints)) is not None
+        ) and (
+            is_last
+            or self.transits.way(last, retreat.joints[-1], home, after, spared(retreat.joints, None)) is not None
+        )
 
     def transit(self, before: Transfer | None, moves: Sequence[Step], transfer: Transfer) -> Transit | None:
         """Return how hands come from a transfer, or from home, to the next one. Cached.
@@ -229,11 +236,11 @@ class TransferPlanner:
         Returns:
             None where the transfer begins with cloth in the hands.
         """
-        cloth = transfer.carried.cloths[0]
+        cloth = transfer.transfer_path.cloths[0]
         if cloth is None:
             return None
         begins = (moves[0] if moves else transfer.steps[0]).before.key
-        key = (before and before.carried, begins, *(move.after.key for move in moves), transfer.carried)
+        key = (before and before.transfer_path, begins, *(move.after.key for move in moves), transfer.transfer_path)
         known = self.known.transits
         if key not in known:
             self.transits_planned += 1
@@ -242,16 +249,16 @@ class TransferPlanner:
 
 
 @lru_cache(maxsize=4)
-def _transfer_paths(
+def _transfer_path_finder(
     machine: RobotPort, table: Table, torso_m: float
-) -> tuple[TransferPaths, TransitPaths, OpenedCollisions]:
+) -> tuple[TransferPathFinder, TransitPaths, OpenedCollisions]:
     """Return the searches for joint paths at a table and the collisions there; all are kept from plan to plan."""
     collisions = OpenedCollisions(machine, table, torso_m, MARGIN_M)
     transits = TransitPaths(machine, collisions, torso_m)
-    return TransferPaths(machine, collisions, torso_m, table.height_m), transits, collisions
+    return TransferPathFinder(machine, collisions, torso_m, table.height_m), transits, collisions
 
 
 def forget_paths() -> None:
     """Clear the cache of joint paths and transits, so that benchmarks measure their computation."""
-    _transfer_paths.cache_clear()
-    forget_moments()
+    _transfer_path_finder.cache_clear()
+    forget_waypoints()

@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.geometry.tolerance import LENGTH_M
-from planner.motion.moments import Moments
 from planner.motion.pacing import needed_s, paced_s
 from planner.motion.path_timing import UNBOUNDED, PathTiming, timed
 from planner.motion.timed_phase import TimedPhase
+from planner.motion.waypoints import Waypoints
 from planner.primitives.drive_time import DriveTime
 from planner.robots.joint_layout import JointLayout
 from planner.task.phase import Phase
@@ -56,7 +56,7 @@ class TransferTiming:
 
     Attributes:
         times_s: times since the first grip, rising (s), shape (n,).
-        moments: the moment at each time, shape (n,); a moment after which a hand lets go appears twice, with a rest in
+        waypoints: the moment at each time, shape (n,); a moment after which a hand lets go appears twice, with a rest in
             between.
         velocities: the joints' velocities at each time, shape (n, joints), rad/s.
         timed_phases: the timed phases; their primitives are counted within the transfer.
@@ -64,50 +64,50 @@ class TransferTiming:
     """
 
     times_s: FloatArray
-    moments: NDArray[np.int64]
+    waypoints: NDArray[np.int64]
     velocities: FloatArray
     timed_phases: tuple[TimedPhase, ...]
     borrowed_s: float
 
     @staticmethod
-    def of(carrying: Carrying, moments: Moments, joints: FloatArray, limits: TransferLimits) -> "TransferTiming":
+    def of(carrying: Carrying, waypoints: Waypoints, joints: FloatArray, limits: TransferLimits) -> "TransferTiming":
         """Return the evenest timing of the least duration.
 
         Args:
             carrying: the phases.
-            moments: their moments.
-            joints: the arms' joints at each moment, shape (moments, joints), rad.
+            waypoints: their waypoints.
+            joints: the arms' joints at each moment, shape (waypoints, joints), rad.
             limits: what the motion keeps.
         """
-        is_last = np.asarray(moments.is_last_held.any(axis=0))
-        rests, borrowed_s = _rests(carrying, moments, is_last, limits.rest_s)
-        way = np.column_stack([joints, _base_way(moments.bases), _cloth_way(carrying, moments)])
-        steps = np.append(0.0, _paced(carrying, moments, needed_s(way[:, :_CLOTH], limits.speeds), rests))
-        primitives = np.array([primitive for primitive, _ in carrying])[moments.phases]
+        is_last = np.asarray(waypoints.is_last_held.any(axis=0))
+        rests, borrowed_s = _rests(carrying, waypoints, is_last, limits.rest_s)
+        way = np.column_stack([joints, _base_way(waypoints.bases), _cloth_way(carrying, waypoints)])
+        steps = np.append(0.0, _paced(carrying, waypoints, needed_s(way[:, :_CLOTH], limits.speeds), rests))
+        primitives = np.array([primitive for primitive, _ in carrying])[waypoints.phases]
         is_rest = is_last | np.append(primitives[1:] != primitives[:-1], True)
         is_rest[0] = True
         planned_s = np.bincount(primitives, steps).astype(float)
         most = np.append(limits.speeds, UNBOUNDED), np.append(limits.accelerations, UNBOUNDED)
         path = timed(np.cumsum(steps), way, is_rest, primitives, planned_s, most)
-        rows = np.repeat(np.arange(len(moments)), 1 + is_last)
+        rows = np.repeat(np.arange(len(waypoints)), 1 + is_last)
         is_second = np.append(False, rows[1:] == rows[:-1])
         gaps = np.diff(path.times_s, prepend=0.0)[rows]
         times = np.cumsum(np.where(is_second, limits.rest_s, gaps))
-        timed_phases = tuple(_cues(carrying, moments, rows, times, path))
+        timed_phases = tuple(_cues(carrying, waypoints, rows, times, path))
         return TransferTiming(times, rows, path.velocities[rows, : joints.shape[1]], timed_phases, borrowed_s)
 
-    def first_s(self, moment: int) -> float:
+    def first_s(self, waypoint: int) -> float:
         """Return when a moment is reached (s)."""
-        return float(self.times_s[np.searchsorted(self.moments, moment)])
+        return float(self.times_s[np.searchsorted(self.waypoints, waypoint)])
 
 
 def _rests(
-    carrying: Carrying, moments: Moments, is_last: BoolArray, rest_s: float
+    carrying: Carrying, waypoints: Waypoints, is_last: BoolArray, rest_s: float
 ) -> tuple[dict[tuple[int, int | None], float], float]:
     """Return the rests within each arm motion (s), and the rests before which there is no arm motion (s)."""
     rests: dict[tuple[int, int | None], float] = {}
     borrowed_s = 0.0
-    for number in moments.phases[is_last].tolist():
+    for number in waypoints.phases[is_last].tolist():
         of_primitive = [motion for motion in _motions(carrying[: number + 1]) if motion[0] == carrying[number][0]]
         if of_primitive:
             rests[of_primitive[-1]] = rests.get(of_primitive[-1], 0.0) + rest_s
@@ -122,13 +122,13 @@ def _motions(carrying: Carrying) -> list[tuple[int, int | None]]:
 
 
 def _paced(
-    carrying: Carrying, moments: Moments, least_s: FloatArray, rests: dict[tuple[int, int | None], float]
+    carrying: Carrying, waypoints: Waypoints, least_s: FloatArray, rests: dict[tuple[int, int | None], float]
 ) -> FloatArray:
-    """Return the duration of each step from moment to moment (s), as speeds alone allow, shape (moments - 1,).
+    """Return the duration of each step from moment to moment (s), as speeds alone allow, shape (waypoints - 1,).
 
     The phases of one arm motion share its time, less its rests; a drive keeps its nominal speed, even in parts.
     """
-    phases, nominal = moments.phases[1:], moments.nominal_s[1:]
+    phases, nominal = waypoints.phases[1:], waypoints.nominal_s[1:]
     found = np.maximum(least_s, nominal)
     for motion in _motions(carrying):
         of_motion = [i for i, (primitive, phase) in enumerate(carrying) if (primitive, phase.motion) == motion]
@@ -138,24 +138,24 @@ def _paced(
 
 
 def _base_way(bases: FloatArray) -> FloatArray:
-    """Return how far the base is ahead, aside (m) and turned (rad) from where it begins, shape (moments, 3)."""
+    """Return how far the base is ahead, aside (m) and turned (rad) from where it begins, shape (waypoints, 3)."""
     x, y, turned = (bases - bases[0]).T
     cos, sin = np.cos(bases[0, 2]), np.sin(bases[0, 2])
     return np.column_stack([cos * x + sin * y, cos * y - sin * x, turned])
 
 
-def _cloth_way(carrying: Carrying, moments: Moments) -> FloatArray:
-    """Return how far the cloth has moved: sweeps of folds and distances of drags (m), shape (moments,)."""
+def _cloth_way(carrying: Carrying, waypoints: Waypoints) -> FloatArray:
+    """Return how far the cloth has moved: sweeps of folds and distances of drags (m), shape (waypoints,)."""
     ways = np.array([phase.cloth.way for _, phase in carrying])
     gone = np.append(0.0, np.cumsum(ways)[:-1])
-    return np.asarray(gone[moments.phases] + moments.fractions * ways[moments.phases])
+    return np.asarray(gone[waypoints.phases] + waypoints.fractions * ways[waypoints.phases])
 
 
 def _cues(
-    carrying: Carrying, moments: Moments, rows: NDArray[np.int64], times: FloatArray, path: PathTiming
+    carrying: Carrying, waypoints: Waypoints, rows: NDArray[np.int64], times: FloatArray, path: PathTiming
 ) -> Iterator[TimedPhase]:
-    start, before, phases, fractions = 0.0, 0, moments.phases[rows], moments.fractions[rows]
-    base, cloth = _base_way(moments.bases), _cloth_way(carrying, moments)
+    start, before, phases, fractions = 0.0, 0, waypoints.phases[rows], waypoints.fractions[rows]
+    base, cloth = _base_way(waypoints.bases), _cloth_way(carrying, waypoints)
     for number, (primitive, phase) in enumerate(carrying):
         own = np.flatnonzero((phases == number) & (times > start))
         if len(own) == 0:

@@ -68,7 +68,7 @@ def transit_between(
         else:
             timed_phases.append(TimedPhase.driven(0, phase, time))
             lost_s += timed_phases[-1].duration_s - phase.duration_s
-    tail = None if before is None else before.tail
-    free, keyframes = planner.keyframes(TransitTime(timed_phases, 0.0, cloth), tail, transfer.lead)
+    retreat = None if before is None else before.retreat
+    free, keyframes = planner.keyframes(TransitTime(timed_phases, 0.0, cloth), retreat, transfer.approach)
     late_s = free.end_s - planned_s
     return Transit(tuple(free.timed_phases), keyframes, late_s if late_s > TIME_S else 0.0)

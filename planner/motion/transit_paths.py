@@ -196,13 +196,14 @@ class TransitPaths:
                     return False
         return True
 
-    def spared(self, tail: FloatArray | None, lead: FloatArray | None) -> Spared:
+    def spared(self, retreat: FloatArray | None, approach: FloatArray | None) -> Spared:
         """Return how far hands may go low after lines from their grips and before lines to them.
 
         The lines are of shape (n, joints) each.
         """
         lengths = [
-            [np.inf if line is None else self._length_m(arm, line) for arm in self.layout.arms] for line in (tail, lead)
+            [np.inf if line is None else self._length_m(arm, line) for arm in self.layout.arms]
+            for line in (retreat, approach)
         ]
         before, after = np.maximum(NEAR_GRIP_M - np.array(lengths), 0.0)
         return before, after
@@ -233,7 +234,7 @@ class TransitPaths:
         places += [(place,) for place in mixed[1:-1]]
         places += [(raised_start, place) for place in mixed[1:-1]]
         places += [(place, raised_goal) for place in mixed[1:-1]]
-        places += [_staggered(start, goal, first, lead) for first in mixed[1:-1] for lead in _LEADS]
+        places += [_staggered(start, goal, first, approach) for first in mixed[1:-1] for approach in _LEADS]
         places.append((raised_start, home, raised_goal))
         ways = [np.array([start, *between, goal]) for between in places]
         return sorted(ways, key=lambda way: float(self.needed_s(way).sum()))
@@ -266,10 +267,12 @@ def _sampled(start: FloatArray, end: FloatArray) -> FloatArray:
     return np.asarray(start + np.linspace(0.0, 1.0, count + 1)[:, None] * (end - start))
 
 
-def _staggered(start: FloatArray, goal: FloatArray, first: FloatArray, lead: float) -> tuple[FloatArray, FloatArray]:
+def _staggered(
+    start: FloatArray, goal: FloatArray, first: FloatArray, approach: float
+) -> tuple[FloatArray, FloatArray]:
     """Return two configurations through which some arms are a fraction of the path ahead of the others.
 
     The arms ahead are those that are at the goal in `first`.
     """
     before, after = first - start, goal - first
-    return start + lead * before, first + (1.0 - lead) * after
+    return start + approach * before, first + (1.0 - approach) * after

@@ -13,10 +13,10 @@ import numpy as np
 
 from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import TIME_S
-from planner.motion.calm_lines import blended, calm_ends
 from planner.motion.hand_holds import settling_s
 from planner.motion.joint_trajectory import JointTrajectory
 from planner.motion.line import Keyframes, Line
+from planner.motion.smoothed_ends import blended, smoothed_ends
 from planner.motion.transit_paths import TransitPaths
 from planner.motion.transit_time import TransitTime
 from planner.motion.travel import led_along, quickest_lines
@@ -26,10 +26,10 @@ _LEAD_S, _TAIL_S = 0.8, 0.6
 """The time in which hands come straight to their grips and withdraw, if there is enough of it (s)."""
 
 _CHECK_S = 0.04
-"""The time between moments at which empty hands beside a moving base are tested (s)."""
+"""The time between waypoints at which empty hands beside a moving base are tested (s)."""
 
 _CHECKS_MAX = 1000
-"""The most moments tested: hands that take minutes for a path move less from one moment to the next."""
+"""The most waypoints tested: hands that take minutes for a path move less from one moment to the next."""
 
 
 class _Late(NamedTuple):
@@ -74,27 +74,27 @@ class TransitPlanner:
         self.dwell_s = dwell_s
         self._transits = transits
 
-    def keyframes(self, free: TransitTime, tail: Line | None, lead: Line) -> tuple[TransitTime, Keyframes]:
+    def keyframes(self, free: TransitTime, retreat: Line | None, approach: Line) -> tuple[TransitTime, Keyframes]:
         """Return the hands' keyframes from a tail, or from home, to a lead, and the transit's time.
 
         That has changed where the base must wait, or where the hands need longer: then by as little as was found. They
         may end whole turns of endless joints away from the lead.
         """
-        if tail is None:
-            tail = self._transits.line(self._transits.home[None])
-        start = lead.joints[0]
-        lead = lead.moved(self._transits.unwound(start, tail.joints[-1]) - start)
+        if retreat is None:
+            retreat = self._transits.line(self._transits.home[None])
+        start = approach.joints[0]
+        approach = approach.moved(self._transits.unwound(start, retreat.joints[-1]) - start)
         late: list[_Late] = []
-        for way in self._ways(free, tail, lead):
-            late_s = self._late_s(free, tail, way, lead)
+        for way in self._ways(free, retreat, approach):
+            late_s = self._late_s(free, retreat, way, approach)
             if late_s > TIME_S:
-                late += self._quicker(free, tail, way, lead)
-            elif (keyframes := self._overlapping(tail, way, lead, free)) is not None:
+                late += self._quicker(free, retreat, way, approach)
+            elif (keyframes := self._overlapping(retreat, way, approach, free)) is not None:
                 return free, keyframes
-        waiting = self._homeward(free, tail, lead)
+        waiting = self._homeward(free, retreat, approach)
         if waiting.late_s > TIME_S:
-            turned = lead.moved(waiting.back[-1] - lead.joints[0])
-            late += self._quicker(free, tail, np.concatenate([waiting.away, waiting.back[1:]]), turned)
+            turned = approach.moved(waiting.back[-1] - approach.joints[0])
+            late += self._quicker(free, retreat, np.concatenate([waiting.away, waiting.back[1:]]), turned)
         for late_s, run in sorted(late, key=lambda one: one.late_s):
             if late_s >= waiting.late_s:
                 break
@@ -102,66 +102,68 @@ class TransitPlanner:
             keyframes = run(longer)
             if keyframes is not None:
                 return longer, keyframes
-        return self._waiting(free.longer(waiting.late_s), tail, lead, waiting)
+        return self._waiting(free.longer(waiting.late_s), retreat, approach, waiting)
 
-    def _quicker(self, free: TransitTime, tail: Line, way: FloatArray, lead: Line) -> Iterator["_Late"]:
-        """Yield runs along a path that takes too long: as it is, with calm lines, and without stops at corners."""
-        calm = calm_ends(self._transits, tail, lead)
-        for one, other in ((tail, lead), calm):
+    def _quicker(self, free: TransitTime, retreat: Line, way: FloatArray, approach: Line) -> Iterator["_Late"]:
+        """Yield runs along a path that takes too long: as it is, with smooth lines, and without stops at corners."""
+        calm = smoothed_ends(self._transits, retreat, approach)
+        for one, other in ((retreat, approach), calm):
             yield _Late(self._late_s(free, one, way, other), partial(self._overlapping, one, way, other))
         if not free.borders_s:
-            for line in blended(self._transits, tail, way, lead):
-                yield _Late(max(line.shortest_s - self._time_s(free), 0.0), partial(self._along, line, tail, lead))
+            for line in blended(self._transits, retreat, way, approach):
+                yield _Late(
+                    max(line.shortest_s - self._time_s(free), 0.0), partial(self._along, line, retreat, approach)
+                )
 
-    def _along(self, line: Line, tail: Line, lead: Line, free: TransitTime) -> Keyframes | None:
+    def _along(self, line: Line, retreat: Line, approach: Line, free: TransitTime) -> Keyframes | None:
         """Return keyframes along one line that joins a tail and a lead; None if that is not clear."""
         run = line.over(self._time_s(free)).later(free.start_s)
         times = np.append(free.start_s, run.times_s)
-        ends_s = (float(times[len(tail.joints) - 1]), float(times[-len(lead.joints)]))
-        keyframes = Keyframes.joined([run, self._still(lead, line.joints[-1], free.end_s)])
-        return keyframes if self._is_clear(free, tail, keyframes, lead, ends_s) else None
+        ends_s = (float(times[len(retreat.joints) - 1]), float(times[-len(approach.joints)]))
+        keyframes = Keyframes.joined([run, self._still(approach, line.joints[-1], free.end_s)])
+        return keyframes if self._is_clear(free, retreat, keyframes, approach, ends_s) else None
 
-    def _still(self, lead: Line, joints: FloatArray, end_s: float) -> Keyframes:
+    def _still(self, approach: Line, joints: FloatArray, end_s: float) -> Keyframes:
         """Return keyframes of hands at rest at the end of a lead, which at last go on to their grips."""
-        if lead.at_grips is None:
+        if approach.at_grips is None:
             return Keyframes.still(joints, end_s)
         begins_s = end_s - settling_s(self.dwell_s)
-        settled = self._transits.eased(joints, lead.at_grips, end_s - begins_s).later(begins_s)
+        settled = self._transits.eased(joints, approach.at_grips, end_s - begins_s).later(begins_s)
         return Keyframes.joined([Keyframes.still(joints, begins_s), settled])
 
     def _time_s(self, free: TransitTime) -> float:
         """Return the time in which hands can move (s)."""
         return free.end_s - self.dwell_s - free.start_s
 
-    def _overlapping(self, tail: Line, way: FloatArray, lead: Line, free: TransitTime) -> Keyframes | None:
+    def _overlapping(self, retreat: Line, way: FloatArray, approach: Line, free: TransitTime) -> Keyframes | None:
         """Return keyframes of hands that travel along a path while the base drives; None if that is not clear."""
         # Beside a base that drives at once, hands that withdraw quickly are high before they have been swept along.
         for tail_s in (_TAIL_S, 0.0):
-            timed = self._timed(free, tail, way, lead, tail_s)
-            if timed is not None and self._is_clear(free, tail, timed[0], lead, timed[1]):
+            timed = self._timed(free, retreat, way, approach, tail_s)
+            if timed is not None and self._is_clear(free, retreat, timed[0], approach, timed[1]):
                 return timed[0]
         return None
 
-    def _late_s(self, free: TransitTime, tail: Line, way: FloatArray, lead: Line) -> float:
+    def _late_s(self, free: TransitTime, retreat: Line, way: FloatArray, approach: Line) -> float:
         """Return the time by which the hands would come late along a path (s)."""
-        needed_s = tail.shortest_s + lead.shortest_s + float(self._transits.needed_s(way).sum())
+        needed_s = retreat.shortest_s + approach.shortest_s + float(self._transits.needed_s(way).sum())
         return max(needed_s - self._time_s(free), 0.0)
 
-    def _ways(self, free: TransitTime, tail: Line, lead: Line) -> Iterator[FloatArray]:
+    def _ways(self, free: TransitTime, retreat: Line, approach: Line) -> Iterator[FloatArray]:
         """Yield paths from a tail to a lead: straight, free where the base will stand, by way of home.
 
         The second is looked for only once the first has failed, since that takes the most time.
         """
-        start, goal = tail.joints[-1], lead.joints[0]
+        start, goal = retreat.joints[-1], approach.joints[0]
         yield np.array([start, goal])
-        spared = self._transits.spared(tail.joints, lead.joints)
+        spared = self._transits.spared(retreat.joints, approach.joints)
         found = self._transits.way(free.last, start, goal, free.cloth, spared)
         if found is not None:
             yield found
         yield np.array([start, self._transits.unwound(self._transits.home, start), goal])
 
     def _timed(
-        self, free: TransitTime, tail: Line, way: FloatArray, lead: Line, tail_s: float
+        self, free: TransitTime, retreat: Line, way: FloatArray, approach: Line, tail_s: float
     ) -> tuple[Keyframes, tuple[float, float]] | None:
         """Return keyframes that withdraw, travel and come to the grips in time, and when the travel begins and ends.
 
@@ -169,63 +171,71 @@ class TransitPlanner:
         """
         needed = self._transits.needed_s(way)
         arrives = free.end_s - self.dwell_s
-        spare = max(arrives - free.start_s - (tail.shortest_s + lead.shortest_s + float(needed.sum())), 0.0)
-        leaves = free.start_s + max(tail.shortest_s, min(tail_s, tail.shortest_s + spare / 4))
-        comes = arrives - max(lead.shortest_s, min(_LEAD_S, lead.shortest_s + spare / 4))
+        spare = max(arrives - free.start_s - (retreat.shortest_s + approach.shortest_s + float(needed.sum())), 0.0)
+        leaves = free.start_s + max(retreat.shortest_s, min(tail_s, retreat.shortest_s + spare / 4))
+        comes = arrives - max(approach.shortest_s, min(_LEAD_S, approach.shortest_s + spare / 4))
         travel = led_along(self._transits, way, needed, (leaves, comes), free.borders_s)
         if travel is None:
             return None
-        out, down = tail.over(leaves - free.start_s), lead.over(arrives - comes)
-        still = self._still(lead, lead.joints[-1], free.end_s)
+        out, down = retreat.over(leaves - free.start_s), approach.over(arrives - comes)
+        still = self._still(approach, approach.joints[-1], free.end_s)
         return _joined(free.start_s, out, travel, comes, down, still), (leaves, comes)
 
     def _is_clear(
-        self, free: TransitTime, tail: Line, keyframes: Keyframes, lead: Line, ends_s: tuple[float, float]
+        self, free: TransitTime, retreat: Line, keyframes: Keyframes, approach: Line, ends_s: tuple[float, float]
     ) -> bool:
         """Return whether hands that go on from a tail touch nothing while the base drives, nor pass low over cloth."""
-        track = JointTrajectory.at_rest(tail.joints[0], len(self._transits.layout.arms), free.start_s)
+        track = JointTrajectory.at_rest(retreat.joints[0], len(self._transits.layout.arms), free.start_s)
         track.add(keyframes)
         count = min(int(np.ceil((free.end_s - free.start_s) / _CHECK_S)), _CHECKS_MAX)
-        moments = np.linspace(free.start_s, free.end_s, count + 1)
-        bases, there = free.bases_at(moments), track.joints_at(moments)
-        is_out, is_in = (moments <= ends_s[0])[:, None], (moments >= ends_s[1])[:, None]
-        openings_m = np.where(is_out, tail.openings_m, np.where(is_in, lead.openings_m, OPENING_M))
-        if lead.at_grips is not None:  # fingers at edges are shut when their hands go on to the grips
-            is_settling = (moments > free.end_s - settling_s(self.dwell_s))[:, None]
-            openings_m[is_settling & (lead.openings_m <= EDGE_OPEN_M)] = HELD_M
+        waypoints = np.linspace(free.start_s, free.end_s, count + 1)
+        bases, there = free.bases_at(waypoints), track.joints_at(waypoints)
+        is_out, is_in = (waypoints <= ends_s[0])[:, None], (waypoints >= ends_s[1])[:, None]
+        openings_m = np.where(is_out, retreat.openings_m, np.where(is_in, approach.openings_m, OPENING_M))
+        if approach.at_grips is not None:  # fingers at edges are shut when their hands go on to the grips
+            is_settling = (waypoints > free.end_s - settling_s(self.dwell_s))[:, None]
+            openings_m[is_settling & (approach.openings_m <= EDGE_OPEN_M)] = HELD_M
         return self._transits.is_clear(free.cloth, bases, there, openings_m)
 
-    def _homeward(self, free: TransitTime, tail: Line, lead: Line) -> "_Homeward":
+    def _homeward(self, free: TransitTime, retreat: Line, approach: Line) -> "_Homeward":
         """Return the ways home and from there, beside a base that stands."""
-        home = self._transits.unwound(self._transits.home, tail.joints[-1])
+        home = self._transits.unwound(self._transits.home, retreat.joints[-1])
         first, last = free.first, free.last
-        away = self._transits.way(first, tail.joints[-1], home, free.cloth, self._transits.spared(tail.joints, None))
-        if away is None and np.array_equal(tail.joints[-1], home):  # Already at home, at a table as high as the hands.
+        away = self._transits.way(
+            first, retreat.joints[-1], home, free.cloth, self._transits.spared(retreat.joints, None)
+        )
+        if away is None and np.array_equal(
+            retreat.joints[-1], home
+        ):  # Already at home, at a table as high as the hands.
             away = np.array([home, home])
-        back = self._transits.way(last, home, lead.joints[0], free.cloth, self._transits.spared(None, lead.joints))
+        back = self._transits.way(
+            last, home, approach.joints[0], free.cloth, self._transits.spared(None, approach.joints)
+        )
         assert away is not None and back is not None, (
             "a transfer that was validated can be left and reached by way of home"
         )
         leave_s, back_s = self._transits.needed_s(away), self._transits.needed_s(back)
-        wait_s, come_s = tail.shortest_s + float(leave_s.sum()), float(back_s.sum()) + lead.shortest_s
+        wait_s, come_s = retreat.shortest_s + float(leave_s.sum()), float(back_s.sum()) + approach.shortest_s
         late_s = max(wait_s + come_s + self.dwell_s - free.reach_s, 0.0)
         return _Homeward(away, leave_s, back, back_s, wait_s, late_s)
 
-    def _waiting(self, free: TransitTime, tail: Line, lead: Line, ways: "_Homeward") -> tuple[TransitTime, Keyframes]:
+    def _waiting(
+        self, free: TransitTime, retreat: Line, approach: Line, ways: "_Homeward"
+    ) -> tuple[TransitTime, Keyframes]:
         """Return keyframes for a base that waits until the hands are home; they set out again when it has arrived.
 
         The waiting is taken from the reach, which must last long enough for both.
         """
-        waited, lead = free.after_waiting(ways.wait_s), lead.moved(ways.back[-1] - lead.joints[0])
-        comes = waited.end_s - self.dwell_s - lead.shortest_s
+        waited, approach = free.after_waiting(ways.wait_s), approach.moved(ways.back[-1] - approach.joints[0])
+        comes = waited.end_s - self.dwell_s - approach.shortest_s
         begins = comes - float(ways.back_s.sum())
         travel = [
-            *quickest_lines(self._transits, ways.away, ways.leave_s, waited.start_s + tail.shortest_s),
+            *quickest_lines(self._transits, ways.away, ways.leave_s, waited.start_s + retreat.shortest_s),
             Keyframes.still(ways.away[-1], begins),
             *quickest_lines(self._transits, ways.back, ways.back_s, begins),
         ]
-        still = self._still(lead, lead.joints[-1], waited.end_s)
-        out, down = tail.over(tail.shortest_s), lead.over(lead.shortest_s)
+        still = self._still(approach, approach.joints[-1], waited.end_s)
+        out, down = retreat.over(retreat.shortest_s), approach.over(approach.shortest_s)
         return waited, _joined(waited.start_s, out, travel, comes, down, still)
 
 

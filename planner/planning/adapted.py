@@ -9,8 +9,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import islice, zip_longest
 
-from planner.motion.act import Act
-from planner.motion.tries import QUICK
+from planner.motion.plan_segment import PlanSegment
+from planner.motion.search_limits import QUICK
 from planner.planning.effort import Effort
 from planner.planning.found_plan import FoundPlan
 from planner.planning.problem import Problem
@@ -27,31 +27,31 @@ _PATIENT = replace(QUICK, alone=2 * QUICK.alone, together=2 * QUICK.together, la
 """Tries for validating a repeated transfer: twice as many as elsewhere, since one that succeeds saves a search."""
 
 
-def adapted(plan: FoundPlan, problem: Problem, effort: Effort) -> tuple[Act, ...]:
-    """Repeat the acts of a solved plan in another problem as far as possible, perhaps completely.
+def adapted(plan: FoundPlan, problem: Problem, effort: Effort) -> tuple[PlanSegment, ...]:
+    """Repeat the segments of a solved plan in another problem as far as possible, perhaps completely.
 
     The work done is added to the effort.
     """
     state = problem.start
-    acts: list[Act] = []
-    for act in plan.acts:
-        found = None if problem.is_goal(state) else _act(act, problem, state, effort)
+    plan_segments: list[PlanSegment] = []
+    for plan_segment in plan.plan_segments:
+        found = None if problem.is_goal(state) else _act(plan_segment, problem, state, effort)
         if found is None:
             break
-        acts.append(found)
+        plan_segments.append(found)
         state = found.steps[-1].after
-    return tuple(acts)
+    return tuple(plan_segments)
 
 
-def _act(act: Act, problem: Problem, state: State, effort: Effort) -> Act | None:
-    ways = islice(_again(act.steps, problem, state, effort), _LOOKS_MAX)
+def _act(plan_segment: PlanSegment, problem: Problem, state: State, effort: Effort) -> PlanSegment | None:
+    ways = islice(_again(plan_segment.steps, problem, state, effort), _LOOKS_MAX)
     likest = next(ways, None)
-    if likest is None or act.transfer is None:
-        return None if likest is None else Act(act.first, likest, None)
+    if likest is None or plan_segment.transfer is None:
+        return None if likest is None else PlanSegment(plan_segment.first, likest, None)
     maker = problem.maker
     with effort.on_joints():
-        transfer = maker.made_like(maker.candidate(likest), act.transfer) or maker.first_valid(ways, _PATIENT)
-    return None if transfer is None else Act(act.first, transfer.steps, transfer)
+        transfer = maker.made_like(maker.candidate(likest), plan_segment.transfer) or maker.first_valid(ways, _PATIENT)
+    return None if transfer is None else PlanSegment(plan_segment.first, transfer.steps, transfer)
 
 
 def _again(steps: Sequence[Step], problem: Problem, state: State, effort: Effort) -> Iterator[tuple[Step, ...]]:

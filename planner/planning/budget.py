@@ -80,17 +80,17 @@ class Budget:
     def spent_s(self) -> float:
         """The work done so far (s)."""
         # Asked for at each look: plain loops take a third of what generators took.
-        queries = glances = tries = transits = 0
+        queries = glances = path_requests = transits = 0
         for problem in self._problems:
             queries += problem.context.reach.queries
             glances += problem.maker.glances
-            tries += problem.maker.tries
+            path_requests += problem.maker.path_requests
             transits += problem.maker.transits_planned
         return (
             self.looks * _LOOK_S * max(1.0, self._folds / _FEW_FOLDS)
             + queries * _QUERY_S
             + glances * _GLANCE_S
-            + tries * _TRY_S
+            + path_requests * _TRY_S
             + transits * _TRANSIT_S
             + self.beside_s
         )

@@ -50,7 +50,7 @@ class Edges:
         self._compute = weakly(self._computed)
         self._context = context
         self._possible = possible
-        self._is_wanted = is_wanted
+        self._meets_query = is_wanted
         self._steps: dict[tuple[State, bool], _Found] = {}
         self._asked: set[State] = set()
         self._left: dict[tuple[object, ...], list[tuple[int, float]]] = {}
@@ -102,7 +102,7 @@ class Edges:
     ) -> None:
         """Append the edges of what a primitive found; of deferred steps computed before, those of their results."""
         for later in found.deferred:
-            if later.is_spare and not self._is_wanted(later.towards):
+            if later.is_spare and not self._meets_query(later.towards):
                 continue
             worked_out = self._worked_out.get(later)
             if worked_out is None:

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from planner.geometry.tolerance import TIME_S
-from planner.motion.act import Act
+from planner.motion.plan_segment import PlanSegment
 from planner.motion.trajectory_maker import trajectory
 from planner.planning.problem import Problem
 from planner.primitives.context import DRAGS_PER_M, Context
@@ -29,30 +29,34 @@ class FoundPlan:
         plan: the plan, which is data alone.
         context: the planning context, with the obstacles met. The problem's transfer planner, which has some megabytes
             of joint paths, ends with the search.
-        acts: the steps, grouped into acts with their transfers.
+        plan_segments: the steps, grouped into segments with their transfers.
     """
 
     plan: Plan
     context: Context
-    acts: tuple[Act, ...]
+    plan_segments: tuple[PlanSegment, ...]
 
     @staticmethod
     def of(
         problem: Problem,
         status: Literal["solved", "infeasible", "budget_exceeded"],
-        acts: tuple[Act, ...],
+        plan_segments: tuple[PlanSegment, ...],
         reasons: tuple[Reason, ...],
         statistics: Statistics,
         *,
         is_exhaustive: bool,
     ) -> "FoundPlan":
-        """Make a plan of the acts that were found."""
-        path = trajectory(problem.context, problem.robot.card, problem.maker, acts) if status == "solved" else None
-        steps = () if path is None else tuple(_scheduled(problem, acts, path))
+        """Make a plan of the segments that were found."""
+        path = (
+            trajectory(problem.context, problem.robot.card, problem.maker, plan_segments)
+            if status == "solved"
+            else None
+        )
+        steps = () if path is None else tuple(_scheduled(problem, plan_segments, path))
         if path is not None and steps:
             path = replace(path, duration_s=steps[-1].end_s)
         plan = Plan(problem.task, status, steps, path, reasons, statistics, is_exhaustive)
-        return FoundPlan(plan, problem.context, acts)
+        return FoundPlan(plan, problem.context, plan_segments)
 
     def or_quicker(self, other: "FoundPlan") -> "FoundPlan":
         """Return the quicker of this plan and another for the same task; its bound is one that neither beats."""
@@ -67,7 +71,7 @@ class FoundPlan:
     def told_again(self, task: Task, statistics: Statistics, *, is_exhaustive: bool) -> "FoundPlan":
         """Return this plan as the answer to a task with other limits, with new statistics."""
         plan = replace(self.plan, task=task, statistics=statistics, is_exhaustive=is_exhaustive)
-        return FoundPlan(plan, self.context, self.acts)
+        return FoundPlan(plan, self.context, self.plan_segments)
 
 
 def _rank(found: FoundPlan) -> tuple[bool, float, bool]:
@@ -76,11 +80,13 @@ def _rank(found: FoundPlan) -> tuple[bool, float, bool]:
     return cost_s is None, 0.0 if cost_s is None else cost_s, found.plan.status == "infeasible"
 
 
-def _scheduled(problem: Problem, acts: Sequence[Act], path: Trajectory) -> Iterator[PlanStep]:
+def _scheduled(problem: Problem, plan_segments: Sequence[PlanSegment], path: Trajectory) -> Iterator[PlanStep]:
     """Yield the steps; each lasts as long as its motion: what was validated, or longer for a transit before it."""
     now, before = 0.0, problem.task.start
-    for act in acts:
-        for number, (step, validated_s) in enumerate(zip(act.steps, act.durations_s(), strict=True), start=act.first):
+    for plan_segment in plan_segments:
+        for number, (step, validated_s) in enumerate(
+            zip(plan_segment.steps, plan_segment.durations_s(), strict=True), start=plan_segment.first
+        ):
             segments = path.of_step(number)
             lasts_s = segments[-1].start_s + segments[-1].duration_s - segments[0].start_s
             duration_s = validated_s if abs(lasts_s - validated_s) <= TIME_S else lasts_s
@@ -91,7 +97,7 @@ def _scheduled(problem: Problem, acts: Sequence[Act], path: Trajectory) -> Itera
                 duration_s,
                 step.details,
                 problem.context.base_stop(step.after),
-                _grips(problem.context, step, act),
+                _grips(problem.context, step, plan_segment),
                 before,
                 after,
                 step.holdings(),
@@ -99,11 +105,11 @@ def _scheduled(problem: Problem, acts: Sequence[Act], path: Trajectory) -> Itera
             now, before = now + duration_s, after
 
 
-def _grips(context: Context, step: Step, act: Act) -> tuple[Grip, ...]:
+def _grips(context: Context, step: Step, plan_segment: PlanSegment) -> tuple[Grip, ...]:
     """Return a step's grips, with the way in which each hand holds the cloth."""
-    if act.transfer is None:
+    if plan_segment.transfer is None:
         return step.grips
-    kinds = dict(zip(context.reach.arm_names, (hold.kind for hold in act.transfer.holds), strict=True))
+    kinds = dict(zip(context.reach.arm_names, (hold.kind for hold in plan_segment.transfer.holds), strict=True))
     return tuple(replace(grip, kind=kinds[grip.arm]) for grip in step.grips)
 
 

@@ -10,9 +10,9 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import count
 
-from planner.motion.act import Act, is_transfer, transfers_of
+from planner.motion.plan_segment import PlanSegment, is_transfer, transfers_of
+from planner.motion.search_limits import QUICK
 from planner.motion.transfer import Transfer
-from planner.motion.tries import QUICK
 from planner.planning.edges import Edges
 from planner.planning.effort import Effort
 from planner.planning.heuristic import arm_time
@@ -46,8 +46,8 @@ def greedy(
     wanted: int | None = None,
     *,
     is_patient: bool = False,
-) -> tuple[Act, ...] | None:
-    """Find acts that lead from a state to the goal.
+) -> tuple[PlanSegment, ...] | None:
+    """Find segments that lead from a state to the goal.
 
     Args:
         problem: the problem to plan.
@@ -58,10 +58,10 @@ def greedy(
         is_patient: whether to give up later.
 
     Returns:
-        The acts, the first beginning with primitive 0; None where the search soon found no way that the arms can
+        The segments, the first beginning with primitive 0; None where the search soon found no way that the arms can
             follow.
     """
-    return _Greedy(problem, effort, is_over, wanted, is_patient=is_patient).acts(start)
+    return _Greedy(problem, effort, is_over, wanted, is_patient=is_patient).plan_segments(start)
 
 
 class _Greedy:
@@ -83,7 +83,7 @@ class _Greedy:
         self._struck: set[tuple[StateKey, StateKey]] = set()
         self._doubted: set[tuple[object, ...]] = set()
 
-    def acts(self, start: State) -> tuple[Act, ...] | None:
+    def plan_segments(self, start: State) -> tuple[PlanSegment, ...] | None:
         looks = count()
         while len(self._struck) < self._failures_max and not self._is_over():
             self._edges.begin()
@@ -112,27 +112,27 @@ class _Greedy:
     def _is_in_doubt(self, held: State) -> bool:
         return held.grasp in self._doubted
 
-    def _real(self, steps: Sequence[Step]) -> tuple[Act, ...] | None:
+    def _real(self, steps: Sequence[Step]) -> tuple[PlanSegment, ...] | None:
         """Validate steps, transfer by transfer; where a transfer fails, reject its last step."""
-        acts = []
+        plan_segments = []
         for first, part in transfers_of(steps):
-            act = None if self._is_over() else self._act(first, part)
-            if act is None:
+            plan_segment = None if self._is_over() else self._act(first, part)
+            if plan_segment is None:
                 self._struck.add(_ends(part[-1]))
                 self._doubted.update(step.after.grasp for step in part if step.after.held)
                 return None
-            acts.append(act)
-        return tuple(acts)
+            plan_segments.append(plan_segment)
+        return tuple(plan_segments)
 
-    def _act(self, first: int, steps: tuple[Step, ...]) -> Act | None:
+    def _act(self, first: int, steps: tuple[Step, ...]) -> PlanSegment | None:
         if not is_transfer(steps):
-            return Act(first, steps, None)
+            return PlanSegment(first, steps, None)
         key = (steps[0].before.key, *(step.after.key for step in steps))
         if key not in self._made:
-            tries = _ALONE if all(len(step.grips) == 1 for step in steps) else _TOGETHER
-            self._made[key] = self._problem.maker.validated(steps, tries)
+            search_limits = _ALONE if all(len(step.grips) == 1 for step in steps) else _TOGETHER
+            self._made[key] = self._problem.maker.validated(steps, search_limits)
         transfer = self._made[key]
-        return None if transfer is None else Act(first, transfer.steps, transfer)
+        return None if transfer is None else PlanSegment(first, transfer.steps, transfer)
 
 
 def _ends(step: Step) -> tuple[StateKey, StateKey]:

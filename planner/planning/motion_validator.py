@@ -21,17 +21,17 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import islice
 
 from planner.geometry.tolerance import TIME_S
-from planner.motion.act import Act, duration_s, in_turn, is_transfer, transfers_of
 from planner.motion.edge_hands import EdgeHands
+from planner.motion.plan_segment import PlanSegment, duration_s, is_transfer, linked, transfers_of
+from planner.motion.search_limits import QUICK, SearchLimits
 from planner.motion.transfer import Transfer
 from planner.motion.transfer_candidate import Candidate, ways_of
 from planner.motion.transfer_planner import TransferPlanner
-from planner.motion.tries import QUICK, Tries
 from planner.planning.budget import OutOfTimeError
 from planner.planning.edge_acts import EdgeActs
-from planner.planning.given_up import GivenUp
+from planner.planning.failure_memory import FailureMemory
 from planner.planning.rejection import Rejection
-from planner.planning.surcharges import Surcharges, step_key
+from planner.planning.sequence_costs import SequenceCosts, step_key
 from planner.primitives.primitive import Step
 from planner.primitives.state import State
 from planner.weakly import weakly
@@ -42,33 +42,33 @@ class MotionValidator:
 
     Attributes:
         rejected: the transfers that failed, each up to the step that failed.
-        slower: the acts of the steps validated last, where they succeed but take longer than assumed.
-        surcharges: what sequences of steps take longer because hands come late from one transfer to the next.
+        slower: the segments of the steps validated last, where they succeed but take longer than assumed.
+        sequence_costs: what sequences of steps take longer because hands come late from one transfer to the next.
     """
 
     def __init__(
         self,
         maker: TransferPlanner,
         is_over: Callable[[], bool],
-        tries: Tries = QUICK,
+        search_limits: SearchLimits = QUICK,
         transfers_max: float = math.inf,
         hands: EdgeHands | None = None,
-        show: Callable[[tuple[Act, ...]], None] = lambda _: None,
+        show: Callable[[tuple[PlanSegment, ...]], None] = lambda _: None,
     ) -> None:
         """Start with nothing known.
 
         Args:
             maker: plans the transfers.
             is_over: polled before each transfer and each look; true means that there is no time left.
-            tries: how much is tried.
+            search_limits: how much is tried.
             transfers_max: the most transfers that the arms are led through.
             hands: finds transfers in which hands hold edges; None where it does not matter how they hold.
-            show: called with acts that can be performed, before it is known whether others are quicker.
+            show: called with segments that can be performed, before it is known whether others are quicker.
         """
         self._maker = maker
         self._is_over = is_over
-        self._tries = tries
-        self._last_try = maker.tries + transfers_max
+        self._search_limits = search_limits
+        self._last_try = maker.path_requests + transfers_max
         self._made: dict[tuple[object, ...], Transfer | None] = {}
         self._edges = hands and EdgeActs(
             hands, maker, weakly(self._real), weakly(self._known_s), weakly(self._require_time), show
@@ -76,12 +76,12 @@ class MotionValidator:
         self._least_s: dict[object, float] = {}
         self._others: dict[object, tuple[Step, ...]] = {}
         self._real_steps: set[object] = set()
-        self._given_up = GivenUp(tries.failures)
+        self._given_up = FailureMemory(search_limits.failures)
         self._doubted: set[tuple[object, ...]] = set()
         self._postponed: list[Rejection] = []
         self.rejected: list[tuple[Step, ...]] = []
-        self.slower: tuple[Act, ...] = ()
-        self.surcharges = Surcharges()
+        self.slower: tuple[PlanSegment, ...] = ()
+        self.sequence_costs = SequenceCosts()
 
     def possible(self, state: State, steps: Iterable[Step]) -> list[tuple[Step, float]]:
         """Return the steps leaving a state that may succeed, each with the least known cost (s)."""
@@ -104,53 +104,53 @@ class MotionValidator:
     @property
     def has_doubts(self) -> bool:
         """Whether some steps were rejected or cost more than the bounds; steps left untried may then succeed."""
-        return bool(self._least_s or self.surcharges)
+        return bool(self._least_s or self.sequence_costs)
 
     def is_in_doubt(self, held: State) -> bool:
         """Return whether ways to or from a grasp have failed or turned out to take longer than assumed."""
         return held.grasp in self._doubted or self._given_up.is_given_up_from(held.station)
 
-    def acts(self, steps: Sequence[Step]) -> tuple[Act, ...] | None:
+    def plan_segments(self, steps: Sequence[Step]) -> tuple[PlanSegment, ...] | None:
         """Validate a plan's steps; return None if a step was rejected, or if some take longer than assumed.
 
-        In the second case the acts can still be performed: they are in `slower`.
+        In the second case the segments can still be performed: they are in `slower`.
 
         Raises:
             OutOfTimeError: there was no time to find out; what is known by then stays.
         """
         self.slower = ()
-        seemed_s = sum(self._known_s(step) for step in steps) + self.surcharges.of(steps)
-        held = self._edges.acts(steps) if self._edges else None
+        seemed_s = sum(self._known_s(step) for step in steps) + self.sequence_costs.of(steps)
+        held = self._edges.plan_segments(steps) if self._edges else None
         if held is not None and duration_s(held) <= seemed_s + TIME_S:
             return held
-        found: list[Act] = []
+        found: list[PlanSegment] = []
         transfers: list[tuple[tuple[Step, ...], Transfer]] = []
         for first, part in transfers_of(steps):
             made = self._real(part) if is_transfer(part) else None
-            found.append(Act(first, part if made is None else made.steps, made))
+            found.append(PlanSegment(first, part if made is None else made.steps, made))
             if made is not None:
                 transfers.append((part, made))
             elif is_transfer(part):
                 self._all_agree(transfers)
                 self._reject(part, seemed_s)
                 return None
-        acts = in_turn(found, self._maker)
-        if duration_s(acts) <= seemed_s + TIME_S:
-            return acts
+        plan_segments = linked(found, self._maker)
+        if duration_s(plan_segments) <= seemed_s + TIME_S:
+            return plan_segments
         is_known = self._all_agree(transfers)
-        for late in self.surcharges.noted(steps, acts):
+        for late in self.sequence_costs.noted(steps, plan_segments):
             is_known = False
             self._doubt(late)
         if is_known:
-            return acts
-        self.slower = acts if held is None else min(acts, held, key=duration_s)
+            return plan_segments
+        self.slower = plan_segments if held is None else min(plan_segments, held, key=duration_s)
         return None
 
     def _real(self, steps: tuple[Step, ...]) -> Transfer | None:
         key = tuple(step_key(step) for step in steps)
         if key not in self._made:
-            ways = self._in_time(ways_of(steps, self._tries))
-            made = self._maker.first_valid(ways, self._tries)
+            ways = self._in_time(ways_of(steps, self._search_limits))
+            made = self._maker.first_valid(ways, self._search_limits)
             self._made[key] = self._edges.transfer(steps) if made is None and self._edges else made
         return self._made[key]
 
@@ -164,7 +164,7 @@ class MotionValidator:
         self.rejected.append(steps[: number + 1])
         self._least_s[step_key(culprit)] = math.inf
         self._doubt(steps)
-        rejection = Rejection(culprit, before, tuple(culprit.elsewhere(self._tries.spread)), path_s)
+        rejection = Rejection(culprit, before, tuple(culprit.elsewhere(self._search_limits.spread)), path_s)
         found = self._as_good(rejection)
         if found:
             self._postponed.append(rejection)
@@ -177,7 +177,7 @@ class MotionValidator:
 
     def _as_good(self, rejection: Rejection) -> tuple[Step, ...]:
         """Return a valid way to the same state that takes no longer than the rejected step; empty if none is found."""
-        for candidate in islice(self._maker.candidates(self._in_time(rejection.as_good())), self._tries.enough):
+        for candidate in islice(self._maker.candidates(self._in_time(rejection.as_good())), self._search_limits.enough):
             made = self._noted(candidate)
             if made is not None and made.durations_s()[-1] <= rejection.culprit.duration_s + TIME_S:
                 return (candidate.steps[-1],)
@@ -185,12 +185,12 @@ class MotionValidator:
 
     def _replace(self, rejection: Rejection) -> None:
         """Set the ways that replace a rejected step in every state of its situation."""
-        tries, situation = self._tries, rejection.culprit.situation
+        search_limits, situation = self._search_limits, rejection.culprit.situation
         others = {step_key(other): other for other in self._others.get(situation, ()) if rejection in self._postponed}
-        enough = len(others) + tries.enough
+        enough = len(others) + search_limits.enough
         new = ((*rejection.before, other) for other in rejection.elsewhere if step_key(other) not in others)
-        for tried, candidate in enumerate(islice(self._maker.candidates(self._in_time(new)), tries.tried)):
-            if candidate.is_together and tried == tries.vain and not others:
+        for tried, candidate in enumerate(islice(self._maker.candidates(self._in_time(new)), search_limits.tried)):
+            if candidate.is_together and tried == search_limits.vain and not others:
                 break
             if self._noted(candidate) is not None:
                 others[step_key(candidate.steps[-1])] = candidate.steps[-1]
@@ -227,7 +227,7 @@ class MotionValidator:
             yield steps
 
     def _require_time(self) -> None:
-        if self._is_over() or self._maker.tries >= self._last_try:
+        if self._is_over() or self._maker.path_requests >= self._last_try:
             raise OutOfTimeError
 
     def _known_s(self, step: Step) -> float:

@@ -9,10 +9,10 @@ from typing import Any
 
 from planner.cloth.g_state import Unrest
 from planner.geometry.tolerance import TIME_S
-from planner.motion.act import Act, duration_s
 from planner.motion.edge_hands import EdgeHands
 from planner.motion.fewer_hands import with_fewer_hands
-from planner.motion.tries import QUICK, Tries
+from planner.motion.plan_segment import PlanSegment, duration_s
+from planner.motion.search_limits import QUICK, SearchLimits
 from planner.planning.budget import Budget, OutOfTimeError
 from planner.planning.driving_bound import DrivingBound
 from planner.planning.edges import Edges
@@ -20,8 +20,8 @@ from planner.planning.found_plan import FoundPlan
 from planner.planning.heuristic import HEURISTICS, Heuristic
 from planner.planning.motion_validator import MotionValidator
 from planner.planning.problem import Problem
+from planner.planning.sequence_costs import ChargedEdges, Reached
 from planner.planning.single_fold import SingleFold
-from planner.planning.surcharges import ChargedEdges, Reached
 from planner.planning.trial import Explainer, Trial
 from planner.primitives.obstacle import BlockingContact, situation
 from planner.primitives.primitive import Step
@@ -77,29 +77,31 @@ class PathSearch:
         self._validator = self._validator_with(QUICK)
         budget.watch(problem)
         budget.limit(problem.context.patience)
-        self._found: tuple[Act, ...] = ()
+        self._found: tuple[PlanSegment, ...] = ()
         self._bound_s: float | None = None
-        self._edges = Edges(problem.context, weakly(self._possible), weakly(self._is_wanted))
+        self._edges = Edges(problem.context, weakly(self._possible), weakly(self._meets_query))
         self._explored = 0
         self._joint_time_s = 0.0
         self._is_looked_at_alone = False
 
-    def quicker(self, found: tuple[Act, ...]) -> tuple[Act, ...]:
-        """Return the acts of the quickest path found, or given ones where no quicker path is found."""
+    def quicker(self, found: tuple[PlanSegment, ...]) -> tuple[PlanSegment, ...]:
+        """Return the segments of the quickest path found, or given ones where no quicker path is found."""
         self._found = found
         self._validated_path(self._problem.start)
         return self._found
 
-    def _validator_with(self, tries: Tries, transfers_max: float = math.inf) -> MotionValidator:
+    def _validator_with(self, search_limits: SearchLimits, transfers_max: float = math.inf) -> MotionValidator:
         """Return a validator with nothing rejected, and limits on what it tries."""
         is_over = weakly(self._is_out_of_budget)
-        return MotionValidator(self._problem.maker, is_over, tries, transfers_max, self._hands, weakly(self._show))
+        return MotionValidator(
+            self._problem.maker, is_over, search_limits, transfers_max, self._hands, weakly(self._show)
+        )
 
-    def _show(self, acts: tuple[Act, ...]) -> None:
-        """Show acts that can be performed while quicker ones are looked for; a search by itself shows none."""
+    def _show(self, plan_segments: tuple[PlanSegment, ...]) -> None:
+        """Show segments that can be performed while quicker ones are looked for; a search by itself shows none."""
 
-    def _validated_path(self, start: State) -> tuple[SearchResult[Any, Step], tuple[Act, ...]]:
-        """Return the search's result for the quickest validated path, and the acts of that path."""
+    def _validated_path(self, start: State) -> tuple[SearchResult[Any, Step], tuple[PlanSegment, ...]]:
+        """Return the search's result for the quickest validated path, and the segments of that path."""
         bound = self._bound(start)
         while True:
             result = self._path(start, bound)
@@ -113,7 +115,7 @@ class PathSearch:
                     continue
                 if result.cost >= self._limit_s:
                     return replace(result, outcome=Outcome.INFEASIBLE), self._found
-                found = self._validator.acts([edge.action for edge in result.path])
+                found = self._validator.plan_segments([edge.action for edge in result.path])
             except OutOfTimeError:
                 return replace(result, outcome=Outcome.BUDGET_EXCEEDED), self._found
             finally:
@@ -127,12 +129,12 @@ class PathSearch:
         """Return the search's result for the path that seems to be the quickest by what is known."""
         self._edges.begin()
         limits = (self._max_expanded, self._is_over, self._limit_s)
-        surcharges = self._validator.surcharges
-        if not surcharges:
+        sequence_costs = self._validator.sequence_costs
+        if not sequence_costs:
             return a_star(start, self._edges.leaving, self._is_goal, bound, *limits)
         return a_star(
-            Reached(start, surcharges.at_start),
-            ChargedEdges(self._edges, surcharges).leaving,
+            Reached(start, sequence_costs.at_start),
+            ChargedEdges(self._edges, sequence_costs).leaving,
             lambda node: self._is_goal(node.state),
             lambda node: bound(node.state),
             *limits,
@@ -146,11 +148,11 @@ class PathSearch:
         """Forget the states reached: the next path is searched for with raised costs."""
         self._reached.clear()
 
-    def _keep(self, acts: tuple[Act, ...]) -> None:
-        """Keep acts that can be performed if they are quicker than those kept; fewer hands may make them so."""
-        acts = with_fewer_hands(acts, self._problem.maker, QUICK)
-        if acts and (not self._found or duration_s(acts) < duration_s(self._found)):
-            self._found = acts
+    def _keep(self, plan_segments: tuple[PlanSegment, ...]) -> None:
+        """Keep segments that can be performed if they are quicker than those kept; fewer hands may make them so."""
+        plan_segments = with_fewer_hands(plan_segments, self._problem.maker, QUICK)
+        if plan_segments and (not self._found or duration_s(plan_segments) < duration_s(self._found)):
+            self._found = plan_segments
 
     def _bound(self, start: State) -> Heuristic:
         """Return the requested lower bound; it includes driving where the folds have too many orders to search."""
@@ -185,7 +187,7 @@ class PathSearch:
             self._reached.add(step.after)
         return possible
 
-    def _is_wanted(self, held: State) -> bool:
+    def _meets_query(self, held: State) -> bool:
         """Return whether the search should also consider a grasp that it met with the base elsewhere."""
         self._reached.add(held)
         return self._validator.is_in_doubt(held)

@@ -5,15 +5,15 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from planner.motion.act import Act, duration_s
 from planner.motion.edge_hands import EdgeHands
-from planner.motion.tries import MORE_TRANSFERS, THOROUGH
+from planner.motion.plan_segment import PlanSegment, duration_s
+from planner.motion.search_limits import MORE_TRANSFERS, THOROUGH
 from planner.planning.budget import Budget
 from planner.planning.found_plan import FoundPlan
 from planner.planning.path_search import PathSearch
 from planner.planning.problem import Problem
 from planner.planning.quick_plan import quickly_planned
-from planner.planning.tightened import with_more_comfort, with_narrower_cones
+from planner.planning.restricted_tasks import with_more_comfort, with_narrower_cones
 from planner.planning.trial import Explainer, Trial
 from planner.planning.trial_search import TrialSearch
 from planner.search.a_star import Outcome
@@ -24,7 +24,7 @@ GREEDY_AFTER_S, PATIENT_GREEDY_AFTER_S = 1.0, 3.0
 """Work without a plan after which some plan to fall back on is looked for, and again, patiently (s, see `Budget`)."""
 
 LESS_ROOM_AFTER_S = 1.0
-"""Work after which a search that found only plans slower than assumed looks at tightened tasks (s, see `Budget`)."""
+"""Work after which a search that found only plans slower than assumed looks at restricted tasks (s, see `Budget`)."""
 
 # A comfort radius below its default is rare, and a larger one then usually pays; a cone that could be narrower is in
 # every request.
@@ -100,7 +100,7 @@ class PlanSearch(PathSearch):
         if self._found:
             return self._answer(Outcome.SOLVED, self._found, (), is_cut_short, is_last=True)
         if self._known is not None:
-            return self._answer(Outcome.SOLVED, self._known.acts, (), is_cut_short, is_last=True)
+            return self._answer(Outcome.SOLVED, self._known.plan_segments, (), is_cut_short, is_last=True)
         if self._blocking or result.outcome is Outcome.INFEASIBLE:
             return self._answer(Outcome.INFEASIBLE, (), self._reasons(), is_cut_short)
         return self._answer(result.outcome, (), (), is_cut_short)
@@ -111,7 +111,7 @@ class PlanSearch(PathSearch):
         return self._validator.has_doubts and self._limit_s > (self._bound_s or 0.0)
 
     def _is_cut_short_trying_more(self) -> bool:
-        """Search again in tightened tasks, and with more tries if there is no plan; return whether the budget ran out.
+        """Search again in restricted tasks, and with more tries if there is no plan; return whether the budget ran out.
 
         The reasons keep to the first round: they say what was in the way of the quickest ways.
         """
@@ -124,9 +124,9 @@ class PlanSearch(PathSearch):
         return self._is_out_of_budget()
 
     def _try_with_less_room(self) -> None:
-        """Look once for a quicker plan in tightened tasks.
+        """Look once for a quicker plan in restricted tasks.
 
-        A plan for a tightened task is also a plan for this one. With more room, the first few ways tried may all be
+        A plan for a restricted task is also a plan for this one. With more room, the first few ways tried may all be
         worse.
         """
         if self._has_tried_less:
@@ -140,7 +140,7 @@ class PlanSearch(PathSearch):
             left_s -= self._try_tighter(problem, left_s)
 
     def _try_tighter(self, problem: Problem, work_s: float) -> float:
-        """Look for a quicker plan in a tightened task with limited work (s); return the work done (s).
+        """Look for a quicker plan in a restricted task with limited work (s); return the work done (s).
 
         The search is left out where no quicker plan can exist.
         """
@@ -190,12 +190,12 @@ class PlanSearch(PathSearch):
         if self._found and self._budget.spent_s > LESS_ROOM_AFTER_S:
             self._try_with_less_room()
 
-    def _show(self, acts: tuple[Act, ...]) -> None:
-        """Show acts, if any, while the search for quicker ones continues, unless a plan as quick was shown."""
-        if self._on_found is None or not acts or duration_s(acts) > self._shown_s - WORTH_SHOWING_S:
+    def _show(self, plan_segments: tuple[PlanSegment, ...]) -> None:
+        """Show segments, if any, while the search for quicker ones continues, unless a plan as quick was shown."""
+        if self._on_found is None or not plan_segments or duration_s(plan_segments) > self._shown_s - WORTH_SHOWING_S:
             return
-        self._shown_s = duration_s(acts)
-        self._on_found(self._answer(Outcome.SOLVED, acts, (), is_cut_short=True))
+        self._shown_s = duration_s(plan_segments)
+        self._on_found(self._answer(Outcome.SOLVED, plan_segments, (), is_cut_short=True))
 
     def _look(self) -> None:
         super()._look()
@@ -218,7 +218,7 @@ class PlanSearch(PathSearch):
     def _answer(
         self,
         outcome: Outcome,
-        acts: tuple[Act, ...],
+        plan_segments: tuple[PlanSegment, ...],
         why: tuple[Reason, ...],
         is_cut_short: bool,
         *,
@@ -241,9 +241,9 @@ class PlanSearch(PathSearch):
         if self._known is not None:
             statistics = statistics.after(self._known.plan.statistics)
         is_exhaustive = not is_cut_short and (bool(self._blocking) or not self._validator.has_doubts)
-        held = acts
+        held = plan_segments
         if is_last:
-            held = self._edge_hands.held(acts, lambda: self._budget.is_late)
-        if self._known is not None and held == self._known.acts:
+            held = self._edge_hands.held(plan_segments, lambda: self._budget.is_late)
+        if self._known is not None and held == self._known.plan_segments:
             return self._known.told_again(self._problem.task, statistics, is_exhaustive=is_exhaustive)
         return FoundPlan.of(self._problem, outcome.value, held, why, statistics, is_exhaustive=is_exhaustive)

@@ -112,7 +112,7 @@ class Problem:
         )
         return Problem(changed, fresh, machine, TransferPlanner(fresh, machine))
 
-    def tightened(self, scene: Scene | None = None, comfort_m: float | None = None) -> "Problem":
+    def restricted(self, scene: Scene | None = None, comfort_m: float | None = None) -> "Problem":
         """Return this problem with a narrower approach cone or a larger comfort radius.
 
         There are fewer ways to do the steps. A narrower cone leaves each of them as it is, so that what is known of

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from planner.motion.act import Act, in_turn
+from planner.motion.plan_segment import PlanSegment, linked
 from planner.planning.adapted import adapted
 from planner.planning.effort import Effort
 from planner.planning.found_plan import FoundPlan
@@ -18,7 +18,7 @@ def quickly_planned(
 ) -> FoundPlan | None:
     """Return a plan adapted from similar ones, completed greedily if need be; None if none was found.
 
-    The first plan whose acts can all be repeated is used as it is. Otherwise the plan of which most folds can be
+    The first plan whose segments can all be repeated is used as it is. Otherwise the plan of which most folds can be
     repeated is the beginning, and a greedy search finds the rest.
 
     Args:
@@ -29,26 +29,28 @@ def quickly_planned(
     """
     context, effort = problem.context, Effort()
     found = _acts(problem, like, effort, is_over, is_patient=is_patient) if problem.unrest is None else ()
-    acts = in_turn(found, problem.maker)
+    plan_segments = linked(found, problem.maker)
     statistics = effort.statistics(context.reach, arm_time(context)(problem.start))
     context.forget()
-    return FoundPlan.of(problem, "solved", acts, (), statistics, is_exhaustive=False) if acts else None
+    return (
+        FoundPlan.of(problem, "solved", plan_segments, (), statistics, is_exhaustive=False) if plan_segments else None
+    )
 
 
 def _acts(
     problem: Problem, like: Sequence[FoundPlan], effort: Effort, is_over: Callable[[], bool], *, is_patient: bool
-) -> tuple[Act, ...]:
-    """Return all acts to the goal, or none where they were not found."""
-    begun: tuple[Act, ...] = ()
+) -> tuple[PlanSegment, ...]:
+    """Return all segments to the goal, or none where they were not found."""
+    begun: tuple[PlanSegment, ...] = ()
     for plan in like:
         found = () if is_over() else adapted(plan, problem, effort)
         if problem.is_goal(_after(problem, found)):
             return found
-        begun = max(begun, found, key=lambda acts: _after(problem, acts).done.bit_count())
+        begun = max(begun, found, key=lambda plan_segments: _after(problem, plan_segments).done.bit_count())
     rest = greedy(problem, _after(problem, begun), effort, is_over, is_patient=is_patient)
-    shift = sum(len(act.steps) for act in begun)
-    return (*begun, *(replace(act, first=shift + act.first) for act in rest)) if rest else ()
+    shift = sum(len(plan_segment.steps) for plan_segment in begun)
+    return (*begun, *(replace(plan_segment, first=shift + plan_segment.first) for plan_segment in rest)) if rest else ()
 
 
-def _after(problem: Problem, acts: Sequence[Act]) -> State:
-    return acts[-1].steps[-1].after if acts else problem.start
+def _after(problem: Problem, plan_segments: Sequence[PlanSegment]) -> State:
+    return plan_segments[-1].steps[-1].after if plan_segments else problem.start

@@ -1,6 +1,6 @@
 """Try whether some folds of a problem can be done at all, not necessarily in the quickest way."""
 
-from planner.motion.act import Act
+from planner.motion.plan_segment import PlanSegment
 from planner.planning.budget import Budget
 from planner.planning.effort import Effort
 from planner.planning.greedy import WEIGHT, greedy
@@ -39,14 +39,19 @@ class TrialSearch(PathSearch):
         unrest = self._problem.unrest
         if unrest is not None:
             return self._unrestful(unrest)
-        acts = None if may_collide else self._greedy_acts(start)
-        if acts is not None:
-            return Trial(self._context, (start, *(step.after for act in acts for step in act.steps)), False, tuple)
+        plan_segments = None if may_collide else self._greedy_acts(start)
+        if plan_segments is not None:
+            return Trial(
+                self._context,
+                (start, *(step.after for plan_segment in plan_segments for step in plan_segment.steps)),
+                False,
+                tuple,
+            )
         result = self._some_path(start) if may_collide else self._validated_path(start)[0]
         states = (start, *(edge.action.after for edge in result.path)) if result.outcome is Outcome.SOLVED else None
         return Trial(self._context, states, bool(self._validator.rejected), self._measured)
 
-    def _greedy_acts(self, start: State) -> tuple[Act, ...] | None:
+    def _greedy_acts(self, start: State) -> tuple[PlanSegment, ...] | None:
         return greedy(self._problem, start, Effort(), self._is_out_of_budget, self._wanted)
 
     def _some_path(self, start: State) -> SearchResult[State, Step]:

@@ -5,7 +5,7 @@ from itertools import product
 
 from planner.cloth.grips import GripCovers, grip_covers
 from planner.cloth.must_hold import must_hold
-from planner.cloth.tongues import tongue_left_behind
+from planner.cloth.trailing_strips import strip_left_behind
 from planner.geometry.pose import Point2
 from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M
 from planner.primitives.context import DRAGS_PER_M, Context
@@ -82,7 +82,7 @@ def _drag_covers(context: Context, done: int, offset: Point2, towards: Point2) -
     silhouette = context.sequence.cloth(done).silhouette
     lying = silhouette.intersection(context.table_in_article(offset).region)
     vertices = must_hold(lying, towards, (), context.scene.support_angle_rad)
-    tip = tongue_left_behind(lying, towards)
+    tip = strip_left_behind(lying, towards)
     if tip is not None:
         return GripCovers((*((float(x), float(y)) for x, y in vertices), tip), ())
     return grip_covers(lying, vertices, context.sequence.garment.grip_radius_m, len(context.reach.arm_names))

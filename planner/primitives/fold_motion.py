@@ -36,7 +36,7 @@ class _Piece:
     stands: tuple[float, float]
 
     @property
-    def moments(self) -> FloatArray:
+    def waypoints(self) -> FloatArray:
         """The sweeps at which its points lie."""
         start, end = self.sweeps
         return np.linspace(start, end, max(2, nearest_whole((end - start) / _DENSE_SWEEP) + 1) if end > start else 1)
@@ -65,9 +65,9 @@ class FoldMotion:
     def phases(self) -> tuple[Phase, ...]:
         """Return the phases: drive, reach, follow the path with the base's legs in between."""
         pieces = tuple(self._pieces())
-        moments = [np.zeros(1), *(piece.moments for piece in pieces)]
-        places = tuple(accumulate(len(sweeps) for sweeps in moments))[:-1]
-        hands = [self._cut(number, np.concatenate(moments), places) for number in range(len(self.way.trial.arms))]
+        waypoints = [np.zeros(1), *(piece.waypoints for piece in pieces)]
+        places = tuple(accumulate(len(sweeps) for sweeps in waypoints))[:-1]
+        hands = [self._cut(number, np.concatenate(waypoints), places) for number in range(len(self.way.trial.arms))]
         begin = () if self.before.held else self._begin([of_hand[0] for of_hand in hands])
         follow = (self._phase(piece, [parts[i] for parts in hands]) for i, piece in enumerate(pieces, start=1))
         return (*begin, *follow)

@@ -5,7 +5,7 @@ from functools import cache, partial
 
 from planner.geometry.driving import IMPOSSIBLE
 from planner.primitives.context import Context
-from planner.primitives.fold_question import FoldQuestions
+from planner.primitives.fold_query import FoldQueries
 from planner.primitives.fold_stands import FoldStands
 from planner.primitives.fold_step import FoldStep, fold_step
 from planner.primitives.primitive import Deferred, DeferredSteps
@@ -19,7 +19,7 @@ class GFold:
 
     def __init__(self, context: Context) -> None:
         self._context = context
-        self._questions = context.kept(FoldQuestions)
+        self._queries = context.kept(FoldQueries)
         self._available = cache(context.sequence.dag.available)
         self._follows_at_once = [context.sequence.dag.follows_at_once(fold.index) for fold in context.sequence.folds]
         self._stands = context.kept(FoldStands) if context.sequence.dag.is_loose else None
@@ -52,12 +52,12 @@ class GFold:
 
     def _steps(self, state: State, fold: int, driven: int) -> Iterator[FoldStep | Deferred[FoldStep]]:
         """Yield the steps with up to three times `driven` steps of driving, then deferred ones with more."""
-        question, begun = self._questions.of(state, fold), self._questions.begun(state)
+        query, begun = self._queries.of(state, fold), self._queries.begun(state)
         if self._follows_at_once[fold]:
-            ends, more = question.every_end(begun), IMPOSSIBLE
+            ends, more = query.every_end(begun), IMPOSSIBLE
         else:
             # The limit grows geometrically, so that a fold far away is queried only a few times.
-            ends, more = question.ends(begun, driven, 3 * driven)
+            ends, more = query.ends(begun, driven, 3 * driven)
         for end in ends:
             yield fold_step(self._context, end.way, state, end.first, end.standoff, end.steps)
         if more < IMPOSSIBLE:

@@ -17,7 +17,7 @@ from planner.geometry.pose import Point2
 from planner.primitives.context import DRAGS_PER_M, STANDOFFS_PER_M, Context
 from planner.primitives.drag_step import DragStep
 from planner.primitives.drag_way import DragWay
-from planner.primitives.fold_question import FoldQuestions
+from planner.primitives.fold_query import FoldQueries
 from planner.primitives.held_covers import held_covers
 from planner.primitives.primitive import Deferred
 from planner.primitives.state import Held, State
@@ -87,7 +87,7 @@ class HoldingDrags:
 
     def __init__(self, context: Context) -> None:
         self._context = context
-        self._questions = context.kept(FoldQuestions)
+        self._queries = context.kept(FoldQueries)
         self._leads: dict[tuple[object, ...], _Leads] = {}
 
     def every(self, state: State, way: DragWay, count: int, offset: Point2) -> Iterator[DragStep]:
@@ -141,7 +141,7 @@ class HoldingDrags:
         begun[at] = np.abs(drag.before.standoff + drag.driven - at) + drag.driven
         # The limit grows geometrically, so that a fold far away is queried only a few times.
         most = drag.driven + 3 * (least - drag.driven)
-        ends, more = self._questions.of(drag.leads.first, fold).ends(begun, least, most)
+        ends, more = self._queries.of(drag.leads.first, fold).ends(begun, least, most)
         for end in ends:
             step = self._step(drag, drag.leads.after(end.first))
             yield self._later(drag, end.steps, partial(iter, (step,)))

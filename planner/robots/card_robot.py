@@ -6,7 +6,6 @@ import numpy as np
 
 from planner.geometry.table import Table
 from planner.robots.armed_robot import ArmedRobot
-from planner.robots.asked_arms import AskedArms
 from planner.robots.collision.collisions import Collisions
 from planner.robots.collision.described_parts import described_parts
 from planner.robots.described_card import robot_card
@@ -16,7 +15,8 @@ from planner.robots.mapped_arm import ALL_ROUND, MappedArm, all_arms
 from planner.robots.mapped_comfort import ARM_LABELS, MappedArms, mapped_arms, rooted
 from planner.robots.mapped_reach import MappedReach
 from planner.robots.openings import OPENING_M
-from planner.robots.posture_maps import Progress
+from planner.robots.queried_arms import QueriedArms
+from planner.robots.reach_maps import Progress
 from planner.robots.shared_maps import shared_maps
 
 
@@ -24,7 +24,7 @@ class CardRobot(ArmedRobot):
     """A robot of a card."""
 
     def __init__(self, described: DescribedRobot) -> None:
-        """Take the description; maps of postures are read, or built in seconds, when they are first needed."""
+        """Take the description; reach maps are read, or built in seconds, when they are first needed."""
         super().__init__(robot_card(described))
         self._described = described
         self._mapping = threading.Lock()
@@ -46,7 +46,7 @@ class CardRobot(ArmedRobot):
         ask = np.arange(1, len(ALL_ROUND) + 1)
         labels = tuple(ARM_LABELS * number + ask for number in range(len(names)))
         numbers = rooted(self._prepared()[0], [arm.shoulder(float(torso_m)) for arm in self._arms])
-        asked = AskedArms(names, self._arms, numbers, ALL_ROUND, labels)
+        asked = QueriedArms(names, self._arms, numbers, ALL_ROUND, labels)
         joints = tuple(arm.joint_names for arm in self._card.arms)
         lengths = tuple(arm.length_m for arm in self._arms)
         return MappedReach(asked, numbers, joints, lengths, float(torso_m), float(comfort_m), memories)
@@ -62,7 +62,7 @@ class CardRobot(ArmedRobot):
         self._arms[0].compile_samples()
 
     def prepare(self, progress: Progress | None = None) -> tuple[MappedArm, ...]:
-        """Return the arms with their maps of postures, which are read or built at the first call.
+        """Return the arms with their reach maps, which are read or built at the first call.
 
         Args:
             progress: is told how far the maps are that must be built (0 to 1).

@@ -17,7 +17,7 @@ from planner.robots.place import Place, in_steps
 from planner.robots.posture_room import Room, has_room_about, may_be_hindered
 
 
-class ClosedQuestion(NamedTuple):
+class ClosedQuery(NamedTuple):
     """The constants of the queries in one approach; numbers alone, because those are passed on without cost.
 
     Attributes:
@@ -38,9 +38,9 @@ class ClosedQuestion(NamedTuple):
 
 
 @njit(cache=True, nogil=True)
-def closed_question(
+def closed_query(
     numbers: FloatArray, shoulder: FloatArray, axes: FloatArray, label: int, comfort: float, step: int
-) -> ClosedQuestion:
+) -> ClosedQuery:
     """Return the query in the approach of a label."""
     rest = (
         shoulder[0] - in_steps(shoulder[0]) * LENGTH_M,
@@ -48,11 +48,11 @@ def closed_question(
         shoulder[2] - in_steps(shoulder[2]) * LENGTH_M,
     )
     axis = (axes[label - 1, 0], axes[label - 1, 1], axes[label - 1, 2])
-    return ClosedQuestion(shape_of(numbers), rest, axis, label, comfort, step)
+    return ClosedQuery(shape_of(numbers), rest, axis, label, comfort, step)
 
 
 @njit(cache=True, nogil=True)
-def aim_from(ask: ClosedQuestion, place: Place, standoff: int) -> ToolPose:
+def aim_from(ask: ClosedQuery, place: Place, standoff: int) -> ToolPose:
     """Return the tool pose at a place with the base at a standoff."""
     x, rest, axis = place.x + standoff * ask.step, ask.rest, ask.axis
     ahead, left, up = x * LENGTH_M - rest[0], place.y * LENGTH_M - rest[1], place.z * LENGTH_M - rest[2]
@@ -60,21 +60,21 @@ def aim_from(ask: ClosedQuestion, place: Place, standoff: int) -> ToolPose:
 
 
 @njit(cache=True, nogil=True)
-def closed_in_height(ask: ClosedQuestion, place: Place) -> bool:
+def closed_in_height(ask: ClosedQuery, place: Place) -> bool:
     """Return whether a place's height is one that the arm can have; an approximate test."""
     return is_within_height(ask.shape, aim_from(ask, place, 0))
 
 
 @njit(cache=True, nogil=True)
-def closed_in_length(ask: ClosedQuestion, place: Place, standoff: int) -> bool:
+def closed_in_length(ask: ClosedQuery, place: Place, standoff: int) -> bool:
     """Return whether the arm is long enough for a place, ignoring most limits."""
     aim = aim_from(ask, place, standoff)
     return is_within_length(ask.shape, aim) and is_within_height(ask.shape, aim)
 
 
 @njit(cache=True, nogil=True)
-def closed_had(
-    ask: ClosedQuestion, hints: FloatArray, room: Room, arcs: FloatArray, place: Place, standoff: int
+def closed_within_margin(
+    ask: ClosedQuery, hints: FloatArray, room: Room, arcs: FloatArray, place: Place, standoff: int
 ) -> bool:
     """Return whether a place is within the comfort radius from a standoff; `arcs` is scratch space."""
     aim = aim_from(ask, place, standoff)

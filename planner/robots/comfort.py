@@ -10,7 +10,7 @@ query came first. All arms share the memory: mirror images of each other under t
 their own. The memory is a hash table with linear probing. When it is
 three quarters full it stores no more rows, and the answers stay the same.
 
-Whether a place is within the radius is told by the arm (see `planner.robots.arm_question`).
+Whether a place is within the radius is told by the arm (see `planner.robots.arm_query`).
 """
 
 from typing import NamedTuple
@@ -20,7 +20,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from planner.geometry.pose import FloatArray
-from planner.robots.arm_question import Question, Space, is_had, is_in_length
+from planner.robots.arm_query import ArmQuery, Space, is_in_length, is_within_margin
 from planner.robots.place import Place
 from planner.robots.posture_room import Room
 
@@ -163,7 +163,7 @@ def _count_of(bits: int) -> int:
 
 @njit(cache=True, nogil=True, inline="always")
 def is_comfortable_at(
-    ask: Question, memory: Memory, room: Room, space: Space, slot: int, place: Place, standoff: int
+    ask: ArmQuery, memory: Memory, room: Room, space: Space, slot: int, place: Place, standoff: int
 ) -> bool:
     """Return whether a tool is within the comfort radius at a place from a standoff, from memory if it is known there.
 
@@ -181,7 +181,7 @@ def is_comfortable_at(
     elif memory.bits[slot, PASSED] & bit == 0:
         is_tested = is_in_length(ask, place, standoff)
         if is_tested:
-            answer = is_had(ask, memory.hints, room, space, place, standoff)
+            answer = is_within_margin(ask, memory.hints, room, space, place, standoff)
             memory.bits[slot, TESTED] |= bit
         memory.bits[slot, PASSED] |= bit if answer or not is_tested else 0
     if is_tested:

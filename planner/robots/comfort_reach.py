@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 
 from planner.geometry.pose import Approach, BoolArray, FloatArray, Point3
 from planner.geometry.tolerance import LENGTH_M, grid_keys
-from planner.robots.asked_arms import AskedArms
 from planner.robots.comfort import QUERIES, ROW_CELLS, ROW_STEP, ROWS, Memory, empty_memory
 from planner.robots.comfort_memories import Memories
-from planner.robots.driving_task import UNSEEN, Task
-from planner.robots.following import Following
+from planner.robots.driving_task import UNSEEN, DrivingTask
+from planner.robots.following import FollowingPaths
 from planner.robots.posture_room import Room, no_walls
+from planner.robots.queried_arms import QueriedArms
 from planner.robots.standoffs import anywhere, standoff_masks
 
 _MOST_STANDOFFS = 32
@@ -35,7 +35,7 @@ class ComfortReach:
 
     def __init__(
         self,
-        asked: AskedArms,
+        asked: QueriedArms,
         torso_m: float,
         comfort_m: float,
         room: Room | None = None,
@@ -169,7 +169,7 @@ class ComfortReach:
 
     def following(
         self, arms: tuple[int, ...], paths: FloatArray, approaches: tuple[NDArray[np.int64], ...], step_m: float
-    ) -> Following:
+    ) -> FollowingPaths:
         """Return hands that are to follow paths, each in one approach.
 
         Args:
@@ -187,7 +187,7 @@ class ComfortReach:
         slots = np.full((*labels.shape, paths.shape[1]), UNSEEN, dtype=np.int64)
         step = round(step_m / LENGTH_M)
         cells = places[:, :, 0] // ROW_STEP + ROW_CELLS // 2
-        task = Task(
+        task = DrivingTask(
             self._asked.numbers,
             self._shoulders[0],
             self._memory,
@@ -200,7 +200,7 @@ class ComfortReach:
             step,
             self._room,
         )
-        return Following(task, self._add_time)
+        return FollowingPaths(task, self._add_time)
 
     def _add_time(self, time_s: float) -> None:
         self._query_time_s += time_s

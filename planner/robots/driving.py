@@ -21,13 +21,15 @@ from numba import njit
 from numpy.typing import NDArray
 
 from planner.geometry.driving import IMPOSSIBLE
-from planner.robots.arm_question import Space, space_for
+from planner.robots.arm_query import Space, space_for
 from planner.robots.driving_incumbents import EVERY, UNBEATEN, Incumbents, least_steps, no_incumbents, tell_useful
-from planner.robots.driving_task import Task, ask_each, at_extremes, recalled, remembered
+from planner.robots.driving_task import DrivingTask, ask_each, at_extremes, recalled, remembered
 
 
 @njit(cache=True, nogil=True)
-def _follow(task: Task, space: Space, chosen: NDArray[np.int64], best: Incumbents, answer: NDArray[np.int64]) -> bool:
+def _follow(
+    task: DrivingTask, space: Space, chosen: NDArray[np.int64], best: Incumbents, answer: NDArray[np.int64]
+) -> bool:
     """Follow the paths in one choice of approaches and record improved ends; return whether more steps may help."""
     bits, counts, slots, cells, useful = task.memory.bits, task.memory.counts, task.slots, task.cells, best.useful
     reached, last_begun = np.zeros(cells.shape[1], dtype=np.int64), 0
@@ -64,7 +66,7 @@ def _follow(task: Task, space: Space, chosen: NDArray[np.int64], best: Incumbent
 
 
 @njit(cache=True, nogil=True)
-def least_driving(task: Task, begun: NDArray[np.int64], most: int, wanted: int) -> tuple[NDArray[np.int64], int]:
+def least_driving(task: DrivingTask, begun: NDArray[np.int64], most: int, wanted: int) -> tuple[NDArray[np.int64], int]:
     """Return the least total steps of driving for each standoff at which the base may stand in the end.
 
     Args:
@@ -147,7 +149,7 @@ def _of_first_hand(masks: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray
 
 
 @njit(cache=True, nogil=True)
-def _settle(task: Task, space: Space, begun: NDArray[np.int64], wanted: int, answer: NDArray[np.int64]) -> None:
+def _settle(task: DrivingTask, space: Space, begun: NDArray[np.int64], wanted: int, answer: NDArray[np.int64]) -> None:
     """Remove ends that were beaten later on, and find where the base begins on the way to the others."""
     count = len(begun)
     alone, found = np.empty(count, dtype=np.int64), np.empty_like(answer)

@@ -11,7 +11,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from planner.geometry.pose import FloatArray
-from planner.robots.arm_question import ArmNumbers, Space, question
+from planner.robots.arm_query import ArmNumbers, Space, query
 from planner.robots.comfort import (
     FORGETFUL,
     GOOD,
@@ -35,11 +35,11 @@ UNSEEN = -2
 _WHOLE_ROW = (1 << ROW_CELLS) - 1
 
 
-class Task(NamedTuple):
+class DrivingTask(NamedTuple):
     """The paths that hands follow.
 
     Attributes:
-        numbers: the arms, see `planner.robots.arm_question`.
+        numbers: the arms, see `planner.robots.arm_query`.
         shoulder: the shoulder of an arm with a closed form, in the base frame (m), shape (3,).
         memory: earlier answers for this comfort radius; added to.
         axes: all approach axes, shape (m, 3).
@@ -68,7 +68,7 @@ class Task(NamedTuple):
 
 
 @njit(cache=True, nogil=True)
-def ask_each(task: Task, space: Space, hand: int, approach: int, waypoint: int, wanted: int) -> int:
+def ask_each(task: DrivingTask, space: Space, hand: int, approach: int, waypoint: int, wanted: int) -> int:
     """Return which of the wanted standoffs have one hand within the comfort radius, testing them one by one."""
     x, y, z = task.places[hand, waypoint]
     place, label, memory = Place(x, y, z), task.labels[hand, approach], task.memory
@@ -82,7 +82,7 @@ def ask_each(task: Task, space: Space, hand: int, approach: int, waypoint: int, 
                 return found
             found = wanted & from_cell(memory.bits[slot, GOOD], cell)
             wanted &= ~from_cell(memory.bits[slot, KNOWN], cell)
-    ask = question(task.numbers, task.shoulder, task.axes, label, task.comfort, task.step)
+    ask = query(task.numbers, task.shoulder, task.axes, label, task.comfort, task.step)
     while wanted >> standoff:
         is_wanted = (wanted >> standoff) & 1 == 1
         if is_wanted and is_comfortable_at(ask, memory, task.room, space, slot, place, standoff):
@@ -117,7 +117,7 @@ def recalled(
 
 
 @njit(cache=True, nogil=True)
-def at_extremes(task: Task, space: Space, hand: int, near: int) -> NDArray[np.int64]:
+def at_extremes(task: DrivingTask, space: Space, hand: int, near: int) -> NDArray[np.int64]:
     """Return the near standoffs within the comfort radius at the beginning, apex and end of a hand's path.
 
     Shape (k, 3), for each approach; all 0 where one of them is.

@@ -9,15 +9,15 @@ from numpy.typing import NDArray
 from planner.geometry.driving import IMPOSSIBLE, Driving, Wanted
 from planner.robots.driving import least_driving
 from planner.robots.driving_incumbents import ANY, EVERY, UNBEATEN
-from planner.robots.driving_task import Task
+from planner.robots.driving_task import DrivingTask
 
 _WANTED = {"unbeaten": UNBEATEN, "every": EVERY, "any": ANY}
 
 
-class Following:
+class FollowingPaths:
     """Hands that follow paths."""
 
-    def __init__(self, task: Task, charge: Callable[[float], None]) -> None:
+    def __init__(self, task: DrivingTask, charge: Callable[[float], None]) -> None:
         """Take the task; `charge` is called with the time spent on each query (s)."""
         self._task = task
         self._charge = charge

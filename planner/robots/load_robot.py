@@ -9,12 +9,12 @@ from planner.robots.card_file import CardFile
 from planner.robots.card_robot import CardRobot
 from planner.robots.described_robot import DescribedRobot, read_card
 from planner.robots.known_robots import card_path, robot_names
-from planner.robots.posture_maps import Progress
 from planner.robots.pr2 import Pr2
+from planner.robots.reach_maps import Progress
 from planner.robots.varied_card import split_changes, varied
 
 CLOSED_FORMS = {"pr2": Pr2}
-"""The robots whose arms have a closed form, by name; the others have maps of postures."""
+"""The robots whose arms have a closed form, by name; the others have reach maps."""
 
 _SCENE = "scene."
 """Fields of a card that do not concern the robot itself begin with this."""
@@ -96,7 +96,7 @@ def _found(name_or_path: str) -> tuple[Path, _Stamp]:
 
 
 def compile_samples(name: str) -> None:
-    """Compile what samples the joints of any robot that has maps of postures, with the arms of one of them."""
+    """Compile what samples the joints of any robot that has reach maps, with the arms of one of them."""
     robot = load_robot(name)
     if isinstance(robot, CardRobot):
         robot.compile_samples()

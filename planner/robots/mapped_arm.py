@@ -11,9 +11,9 @@ from planner.robots.described_robot import DescribedArm, DescribedRobot
 from planner.robots.hand_roll import gives_roll
 from planner.robots.newton import solve_from
 from planner.robots.posture_following import followed
-from planner.robots.posture_map import PostureMap, reachable_poses
-from planner.robots.posture_maps import Progress, posture_map
 from planner.robots.posture_samples import axis_samples, posture_samples
+from planner.robots.reach_map import ReachMap, reachable_poses
+from planner.robots.reach_maps import Progress, reach_map
 from planner.robots.rolled_samples import gives_roll_alone, rolled_samples, unrolled
 from planner.robots.sample_memory import SampleMemory
 
@@ -39,13 +39,13 @@ joints turn farther for a centimetre.
 
 
 class MappedArm:
-    """An arm with the map of its postures. Its answers do not change, so all users may share one instance.
+    """An arm with the reach map. Its answers do not change, so all users may share one instance.
 
     Poses are of the tool, x along the approach axis, in the base frame (m). How high the lift is raised is given with
     each question.
     """
 
-    def __init__(self, arm: DescribedArm, known: PostureMap) -> None:
+    def __init__(self, arm: DescribedArm, known: ReachMap) -> None:
         """Take the arm and its map."""
         self._described = arm
         self._chain = arm.chain
@@ -64,11 +64,11 @@ class MappedArm:
         return self._chain
 
     @property
-    def known(self) -> PostureMap:
-        """The map of its postures."""
+    def known(self) -> ReachMap:
+        """The reach map."""
         return self._known
 
-    def with_map(self, known: PostureMap) -> "MappedArm":
+    def with_map(self, known: ReachMap) -> "MappedArm":
         """Return the arm with the same map at another place in memory."""
         return MappedArm(self._described, known)
 
@@ -194,7 +194,7 @@ def mapped_arm(robot: DescribedRobot, number: int, progress: Progress | None = N
         progress: is told how far a map is that must be built.
     """
     arm = robot.arms[number]
-    return MappedArm(arm, posture_map(arm.chain, ALL_ROUND, heights(robot, arm), progress))
+    return MappedArm(arm, reach_map(arm.chain, ALL_ROUND, heights(robot, arm), progress))
 
 
 def all_arms(robot: DescribedRobot, progress: Progress | None = None) -> tuple[MappedArm, ...]:

@@ -1,4 +1,4 @@
-"""A place within the comfort radius of arms that have maps of postures. Compiled.
+"""A place within the comfort radius of arms that have reach maps. Compiled.
 
 The joints for the place itself are found from the map; those for the four places on the circle round it by Newton's
 method from these, or else from the map too. Nothing is taken over from one question to the next, so that answers do not
@@ -17,7 +17,7 @@ from planner.geometry.tolerance import LENGTH_M, grid_keys
 from planner.robots.chain import Chain, Scratch, length_of, scratch_for
 from planner.robots.newton import solve
 from planner.robots.place import Place
-from planner.robots.posture_map import Grid, PostureMap, find_joints
+from planner.robots.reach_map import Grid, ReachMap, find_joints
 
 ARM_LABELS = 64
 """Labels of each arm in the memory: 0 is none, the others are the approaches'."""
@@ -43,7 +43,7 @@ class MappedArms(NamedTuple):
         flags: which joints of each arm slide, and which have whole turns, shape (arms, 2, joints).
         rotations: the approaches, which all maps share, shape (k, 3, 3).
         beside: the approaches nearest to each approach, shape (k, 4).
-        starts: where the postures of each map's entries begin among all, see `PostureMap`.
+        starts: where the postures of each map's entries begin among all, see `ReachMap`.
         postures: the postures of all maps, shape (m, joints), those of fewer joints filled up.
     """
 
@@ -56,7 +56,7 @@ class MappedArms(NamedTuple):
     postures: NDArray[np.int8]
 
 
-class MappedQuestion(NamedTuple):
+class MappedQuery(NamedTuple):
     """The constants of the queries of one arm in one approach.
 
     Attributes:
@@ -72,7 +72,7 @@ class MappedQuestion(NamedTuple):
     """
 
     chain: Chain
-    known: PostureMap
+    known: ReachMap
     rotation: FloatArray
     rest: tuple[float, float, float]
     length: float
@@ -98,7 +98,7 @@ class MappedSpace(NamedTuple):
     newton: Scratch
 
 
-def mapped_arms(chains: Sequence[Chain], maps: Sequence[PostureMap]) -> MappedArms:
+def mapped_arms(chains: Sequence[Chain], maps: Sequence[ReachMap]) -> MappedArms:
     """Return arms whose roots are on the grid in the form of the compiled queries; their maps have the same approaches.
 
     See `rooted`.
@@ -139,7 +139,7 @@ def mapped_space(arms: MappedArms) -> MappedSpace:
 
 
 @njit(cache=True, nogil=True)
-def mapped_question(arms: MappedArms, label: int, comfort: float, step: int) -> MappedQuestion:
+def mapped_query(arms: MappedArms, label: int, comfort: float, step: int) -> MappedQuery:
     """Return the query in the approach, and of the arm, of a label."""
     arm, approach = label // ARM_LABELS, label % ARM_LABELS - 1
     n, whole, count = arms.numbers[arm], arms.whole[arm], arms.whole[arm, _COUNT]
@@ -171,19 +171,19 @@ def mapped_question(arms: MappedArms, label: int, comfort: float, step: int) -> 
         n[ends[4] : ends[5]],
         n[ends[5] : ends[6]],
     )
-    known = PostureMap(grid, arms.starts[whole[_START] : whole[_START] + whole[_STARTS]], arms.postures)
+    known = ReachMap(grid, arms.starts[whole[_START] : whole[_START] + whole[_STARTS]], arms.postures)
     rest = (n[_REST], n[_REST + 1], n[_REST + 2])
-    return MappedQuestion(chain, known, arms.rotations[approach], rest, n[_LENGTH], approach, label, comfort, step)
+    return MappedQuery(chain, known, arms.rotations[approach], rest, n[_LENGTH], approach, label, comfort, step)
 
 
 @njit(cache=True, nogil=True)
-def mapped_in_height(ask: MappedQuestion, place: Place) -> bool:
+def mapped_in_height(ask: MappedQuery, place: Place) -> bool:
     """Return whether a place's height is one that the arm can have."""
     return abs(place.z * LENGTH_M - ask.rest[2]) <= ask.length
 
 
 @njit(cache=True, nogil=True)
-def mapped_in_length(ask: MappedQuestion, place: Place, standoff: int) -> bool:
+def mapped_in_length(ask: MappedQuery, place: Place, standoff: int) -> bool:
     """Return whether the arm is long enough for a place."""
     x = (place.x + standoff * ask.step) * LENGTH_M - ask.rest[0]
     y, z = place.y * LENGTH_M - ask.rest[1], place.z * LENGTH_M - ask.rest[2]
@@ -191,7 +191,7 @@ def mapped_in_length(ask: MappedQuestion, place: Place, standoff: int) -> bool:
 
 
 @njit(cache=True, nogil=True)
-def mapped_had(ask: MappedQuestion, space: MappedSpace, place: Place, standoff: int) -> bool:
+def mapped_within_margin(ask: MappedQuery, space: MappedSpace, place: Place, standoff: int) -> bool:
     """Return whether a place is within the comfort radius from a standoff."""
     point = space.point
     point[0] = (place.x + standoff * ask.step) * LENGTH_M - ask.rest[0]
@@ -200,7 +200,7 @@ def mapped_had(ask: MappedQuestion, space: MappedSpace, place: Place, standoff: 
 
 
 @njit(cache=True, nogil=True)
-def is_held_round(ask: MappedQuestion, space: MappedSpace, point: FloatArray) -> bool:
+def is_held_round(ask: MappedQuery, space: MappedSpace, point: FloatArray) -> bool:
     """Return whether a point, seen from the arm's root (m), is within the comfort radius; `point` may be changed."""
     count, chain, rotation = len(ask.chain.low), ask.chain, ask.rotation
     middle, beside = space.middle[:count], space.beside[:count]

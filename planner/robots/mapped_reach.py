@@ -1,4 +1,4 @@
-"""The reach of a robot whose arms have maps of postures, with the shortfall of places out of reach."""
+"""The reach of a robot whose arms have reach maps, with the shortfall of places out of reach."""
 
 import math
 from collections.abc import Callable
@@ -8,10 +8,10 @@ from numpy.typing import NDArray
 
 from planner.geometry.pose import FloatArray
 from planner.geometry.shortfall import Cause, Shortfall, never
-from planner.robots.asked_arms import AskedArms
 from planner.robots.comfort_memories import Memories
 from planner.robots.mapped_comfort import MappedArms
 from planner.robots.mapped_shortfall import joint_at_limit, nearest_place, widest_circle
+from planner.robots.queried_arms import QueriedArms
 from planner.robots.shortfall import DIRECTIONS, FURTHEST_M, SIDEWAYS, as_point, homewards
 from planner.robots.shortfall_reach import ShortfallReach
 
@@ -23,11 +23,11 @@ _QUERIES_LATE_MAX = 5_000
 
 
 class MappedReach(ShortfallReach):
-    """The reach of a robot whose arms have maps of postures; see `ShortfallReach`."""
+    """The reach of a robot whose arms have reach maps; see `ShortfallReach`."""
 
     def __init__(
         self,
-        asked: AskedArms,
+        asked: QueriedArms,
         arms: MappedArms,
         joint_names: tuple[tuple[str, ...], ...],
         lengths_m: tuple[float, ...],

@@ -25,7 +25,7 @@ from planner.robots.arm import ArmShape
 from planner.robots.arm_gap import comfort_gap
 from planner.robots.closed_comfort import is_comfortable
 from planner.robots.posture_room import blocked_for
-from planner.robots.wanted_place import Scratch, Wanted, aim_of, aims_gap, is_wanted, rooms_tested, scratch_for
+from planner.robots.reach_query import ReachQuery, Scratch, aim_of, aims_gap, meets_query, rooms_tested, scratch_for
 
 SHELL_M, WIDENING = 0.002, 0.03
 """Thickness of a shell (m), or as a fraction of its distance where that is more."""
@@ -43,7 +43,7 @@ MANY_QUERIES = 1 << 62
 """More queries than any search makes."""
 
 
-class Lines(NamedTuple):
+class DirectionSearch(NamedTuple):
     """The progress of a search along its lines: from each place, in each approach, along each direction.
 
     Attributes:
@@ -65,30 +65,30 @@ def _aim_along(shape: ArmShape, axis: FloatArray, point: FloatArray, far: float,
 
 
 @njit(cache=True, nogil=True)
-def lines_from(shape: ArmShape, wanted: Wanted, points: FloatArray, directions: FloatArray) -> Lines:
+def directions_from(shape: ArmShape, query: ReachQuery, points: FloatArray, directions: FloatArray) -> DirectionSearch:
     """Return the lines of a search that has not begun; see `nearest_comfort` for the arguments."""
-    hopeless = np.empty((len(points), len(wanted.axes), len(directions)))
+    hopeless = np.empty((len(points), len(query.axes), len(directions)))
     for place in range(len(points)):
-        for approach in range(len(wanted.axes)):
-            hopeless[place, approach] = aims_gap(shape, wanted, points[place], approach)
-    return Lines(hopeless, hopeless[:, :, 0].copy(), np.zeros(1))
+        for approach in range(len(query.axes)):
+            hopeless[place, approach] = aims_gap(shape, query, points[place], approach)
+    return DirectionSearch(hopeless, hopeless[:, :, 0].copy(), np.zeros(1))
 
 
 @njit(cache=True, nogil=True)
 def nearest_comfort(
     shape: ArmShape,
-    wanted: Wanted,
+    query: ReachQuery,
     points: FloatArray,
     directions: FloatArray,
     furthest: float,
-    lines: Lines,
+    lines: DirectionSearch,
     most: int,
 ) -> tuple[float, int, int, int, int]:
     """Return the smallest displacement along one of the directions that brings the tool within the comfort radius.
 
     Args:
         shape: the arm.
-        wanted: the requirements on the place.
+        query: the requirements on the place.
         points: one place of the tool as seen from several places of the base, shape (n, 3); within the comfort radius
             from none.
         directions: unit vectors, shape (m, 3).
@@ -100,16 +100,16 @@ def nearest_comfort(
         The displacement (m), rounded up to `FINEST_M`; the point; the approach; the direction; queries made. Infinity,
         -1, -1, -1 where there is none, or none yet. Places narrower than a shell may be overlooked.
     """
-    scratch, comfort, hopeless, nearest = scratch_for(shape), wanted.comfort, lines.hopeless, lines.nearest
+    scratch, comfort, hopeless, nearest = scratch_for(shape), query.comfort, lines.hopeless, lines.nearest
     best, best_place, best_approach, best_direction, queries = math.inf, -1, -1, -1, 0
-    inner, tested = lines.inner[0], rooms_tested(wanted)
-    while inner < furthest and best_place < 0 and queries + ROOM_QUERIES * (rooms_tested(wanted) - tested) < most:
+    inner, tested = lines.inner[0], rooms_tested(query)
+    while inner < furthest and best_place < 0 and queries + ROOM_QUERIES * (rooms_tested(query) - tested) < most:
         limit = outer = inner + max(SHELL_M, WIDENING * inner)
         for place in range(len(points)):
-            for approach in range(len(wanted.axes)):
+            for approach in range(len(query.axes)):
                 if nearest[place, approach] >= limit:
                     continue
-                start, axis = points[place], wanted.axes[approach]
+                start, axis = points[place], query.axes[approach]
                 for direction in range(len(directions)):
                     near, far, towards = inner, limit, directions[direction]
                     if far <= max(near, hopeless[place, approach, direction]):
@@ -117,16 +117,16 @@ def nearest_comfort(
                     aim = _aim_along(shape, axis, start, far, towards)
                     short = max(
                         comfort_gap(shape, aim, comfort),
-                        blocked_for(wanted.room, wanted.labels[approach], aim, towards),
+                        blocked_for(query.room, query.labels[approach], aim, towards),
                     )
                     if short > 0.0:
                         hopeless[place, approach, direction] = far + short
                         continue
-                    found, asked = is_wanted(shape, wanted, aim, approach, comfort, scratch)
+                    found, asked = meets_query(shape, query, aim, approach, comfort, scratch)
                     queries += asked
                     if not found:
                         continue
-                    far, asked = _nearest_on(shape, wanted, approach, start, towards, near, far, scratch)
+                    far, asked = _nearest_on(shape, query, approach, start, towards, near, far, scratch)
                     queries += asked
                     best, best_place, best_approach, best_direction = far, place, approach, direction
                     limit = far - FINEST_M
@@ -138,7 +138,7 @@ def nearest_comfort(
 @njit(cache=True, nogil=True)
 def _nearest_on(
     shape: ArmShape,
-    wanted: Wanted,
+    query: ReachQuery,
     approach: int,
     start: FloatArray,
     towards: FloatArray,
@@ -150,22 +150,22 @@ def _nearest_on(
     queries = 0
     while far - near > FINEST_M:
         middle = 0.5 * (near + far)
-        aim = _aim_along(shape, wanted.axes[approach], start, middle, towards)
-        found, asked = is_wanted(shape, wanted, aim, approach, wanted.comfort, scratch)
+        aim = _aim_along(shape, query.axes[approach], start, middle, towards)
+        found, asked = meets_query(shape, query, aim, approach, query.comfort, scratch)
         queries += asked
         near, far = (near, middle) if found else (middle, far)
     return far, queries
 
 
 @njit(cache=True, nogil=True)
-def widest_comfort(shape: ArmShape, wanted: Wanted, points: FloatArray) -> tuple[float, int, int, int]:
+def widest_comfort(shape: ArmShape, query: ReachQuery, points: FloatArray) -> tuple[float, int, int, int]:
     """Return the largest circle round a point on which the tool is still within reach.
 
     The point itself is not within the comfort radius wanted.
 
     Args:
         shape: the arm.
-        wanted: the requirements on the place, with a comfort radius that is too large.
+        query: the requirements on the place, with a comfort radius that is too large.
         points: one place of the tool as seen from several places of the base, shape (n, 3).
 
     Returns:
@@ -175,20 +175,20 @@ def widest_comfort(shape: ArmShape, wanted: Wanted, points: FloatArray) -> tuple
     scratch = scratch_for(shape)
     best, best_place, best_approach, queries = 0.0, -1, -1, 0
     for place in range(len(points)):
-        for approach in range(len(wanted.axes)):
-            near, far = best + (FINEST_M if best_place >= 0 else 0.0), wanted.comfort
+        for approach in range(len(query.axes)):
+            near, far = best + (FINEST_M if best_place >= 0 else 0.0), query.comfort
             if near >= far:
                 break
-            aim = aim_of(shape, wanted, points[place], approach)
+            aim = aim_of(shape, query, points[place], approach)
             if comfort_gap(shape, aim, 0.0) > 0.0:
                 continue
-            found, asked = is_wanted(shape, wanted, aim, approach, near, scratch)
+            found, asked = meets_query(shape, query, aim, approach, near, scratch)
             queries += asked
             if not found:
                 continue
             while far - near > FINEST_M:
                 middle = 0.5 * (near + far)
-                found, asked = is_wanted(shape, wanted, aim, approach, middle, scratch)
+                found, asked = meets_query(shape, query, aim, approach, middle, scratch)
                 queries += asked
                 near, far = (middle, far) if found else (near, middle)
             best, best_place, best_approach = near, place, approach
@@ -196,13 +196,13 @@ def widest_comfort(shape: ArmShape, wanted: Wanted, points: FloatArray) -> tuple
 
 
 @njit(cache=True, nogil=True)
-def is_hindered(shape: ArmShape, wanted: Wanted, points: FloatArray) -> bool:
+def is_hindered(shape: ArmShape, query: ReachQuery, points: FloatArray) -> bool:
     """Return whether only the body prevents a place that the joints put within the comfort radius."""
     scratch = scratch_for(shape)
     for point in points:
-        for approach in range(len(wanted.axes)):
-            if aims_gap(shape, wanted, point, approach) <= 0.0:
-                aim = aim_of(shape, wanted, point, approach)
-                if is_comfortable(shape, aim, wanted.comfort, scratch.arcs, scratch.hint)[0]:
+        for approach in range(len(query.axes)):
+            if aims_gap(shape, query, point, approach) <= 0.0:
+                aim = aim_of(shape, query, point, approach)
+                if is_comfortable(shape, aim, query.comfort, scratch.arcs, scratch.hint)[0]:
                     return True
     return False

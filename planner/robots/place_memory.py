@@ -17,16 +17,16 @@ _SCATTER = 0x1E3779B97F4A7C15
 """Odd multiplier of the hash function, which spreads neighbouring keys over the table."""
 
 
-class Memory(NamedTuple):
+class PlaceMemory(NamedTuple):
     """The memory of answers: the hash table, its length a power of two, and its number of entries."""
 
     table: NDArray[np.int64]
     entries: NDArray[np.int64]
 
 
-def empty_memory(bits: int = 18) -> Memory:
+def empty_memory(bits: int = 18) -> PlaceMemory:
     """Return a memory with room for 2 ** bits entries, of which it uses three quarters."""
-    return Memory(np.zeros(1 << bits, dtype=np.int64), np.zeros(1, dtype=np.int64))
+    return PlaceMemory(np.zeros(1 << bits, dtype=np.int64), np.zeros(1, dtype=np.int64))
 
 
 @njit(cache=True, nogil=True)
@@ -47,7 +47,7 @@ def slot_of(table: NDArray[np.int64], key: int) -> int:
 
 
 @njit(cache=True, nogil=True)
-def learn(memory: Memory, slot: int, key: int, answer: bool) -> None:
+def learn(memory: PlaceMemory, slot: int, key: int, answer: bool) -> None:
     """Store an answer in the slot that was found for its key, while there is room."""
     if 4 * memory.entries[0] < 3 * len(memory.table):
         memory.table[slot] = 2 * key + (1 if answer else 0)

@@ -25,7 +25,7 @@ from planner.robots.collision.separation import Parts, first_close_pair
 from planner.robots.inverse_kinematics import place_wrist, turn_hand
 from planner.robots.joint_slack import slacks
 from planner.robots.pan_arcs import pan_arcs, pan_on
-from planner.robots.place_memory import Memory, empty_memory, learn, place_key, slot_of
+from planner.robots.place_memory import PlaceMemory, empty_memory, learn, place_key, slot_of
 
 SAMPLES = 12
 """Postures at each tool pose for each branch of the elbow, over all arcs."""
@@ -58,7 +58,7 @@ class Room(NamedTuple):
     poses: FloatArray
     pairs: Index
     margin: float
-    memory: Memory
+    memory: PlaceMemory
 
 
 @njit(cache=True, nogil=True)

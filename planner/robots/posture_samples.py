@@ -1,4 +1,4 @@
-"""Samples of an arm's joints at tool poses, from its map of postures, for joint paths. Compiled.
+"""Samples of an arm's joints at tool poses, from its reach map, for joint paths. Compiled.
 
 Newton's method leads from the postures in a pose's cell and in the cells beside it to the pose, first with the roll
 left free; then the last joint turns to the roll, where it turns about the approach axis. The fingers of a gripper are
@@ -20,7 +20,7 @@ from planner.robots.hand_roll import gives_roll, roll_left, turn_to_roll
 from planner.robots.joint_chain import ELBOW_CLEAR_M, ELBOW_COST, LIMIT_COST, NEAR_LIMIT
 from planner.robots.newton import solve
 from planner.robots.posture_curves import SAMPLES_MAX, Samples, add, is_alike, spread
-from planner.robots.posture_map import PostureMap, approach_of, cell_of, decode
+from planner.robots.reach_map import ReachMap, approach_of, cell_of, decode
 
 _TRIED = 0.3
 """A start is not tried where another one has led to joints so near to it (rad, m)."""
@@ -43,7 +43,7 @@ _ROUNDS = 2
 
 @njit(cache=True, nogil=True)
 def posture_samples(
-    chain: Chain, known: PostureMap, periods: FloatArray, points: FloatArray, rotations: FloatArray, floor: float
+    chain: Chain, known: ReachMap, periods: FloatArray, points: FloatArray, rotations: FloatArray, floor: float
 ) -> tuple[FloatArray, FloatArray]:
     """Return samples of the joints that bring the tool to each pose.
 
@@ -79,7 +79,7 @@ def posture_samples(
 
 @njit(cache=True, nogil=True)
 def axis_samples(
-    chain: Chain, known: PostureMap, periods: FloatArray, points: FloatArray, rotations: FloatArray, floor: float
+    chain: Chain, known: ReachMap, periods: FloatArray, points: FloatArray, rotations: FloatArray, floor: float
 ) -> tuple[FloatArray, FloatArray]:
     """Return samples of the joints that bring the tool to each point and approach axis, whatever its roll.
 
@@ -123,7 +123,7 @@ def _elbow_cost(floor: float, scratch: Scratch) -> float:
 @njit(cache=True, nogil=True)
 def _collect(
     chain: Chain,
-    known: PostureMap,
+    known: ReachMap,
     periods: FloatArray,
     point: FloatArray,
     rotation: FloatArray,

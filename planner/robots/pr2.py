@@ -13,11 +13,11 @@ from planner.robots.collision.pr2_parts import pr2_parts
 from planner.robots.collision.robot_parts import RobotParts
 from planner.robots.description import read_model
 from planner.robots.edge_grip import HandShape
+from planner.robots.mirrored_arm import MirroredArm
 from planner.robots.openings import OPENING_M
 from planner.robots.posture_room import Room, room_beside
 from planner.robots.pr2_card import pr2_card
 from planner.robots.reach import Pr2Reach
-from planner.robots.sided_arm import SidedArm
 
 
 class Pr2(ArmedRobot):
@@ -30,9 +30,9 @@ class Pr2(ArmedRobot):
         self._rooms: dict[float, Room] = {}
 
     @cached_property
-    def _arms(self) -> tuple[SidedArm, ...]:
+    def _arms(self) -> tuple[MirroredArm, ...]:
         shape = read_arm(self._model)
-        return SidedArm(shape, is_mirrored=False), SidedArm(shape, is_mirrored=True)
+        return MirroredArm(shape, is_mirrored=False), MirroredArm(shape, is_mirrored=True)
 
     def reach(self, torso_m: float, comfort_m: float, *, is_passing: bool = False, minds_body: bool = True) -> Pr2Reach:
         """Return the reach with the torso raised by `torso_m`, for a comfort radius (m); see `RobotPort.reach`.

@@ -18,15 +18,15 @@ from planner.geometry.tolerance import LENGTH_M, grid_keys
 from planner.robots.approaches import APPROACHES, mirror_images
 from planner.robots.arm import numbers_of
 from planner.robots.arm_gap import least_gaps
-from planner.robots.asked_arms import AskedArms
 from planner.robots.comfort_memories import Memories
-from planner.robots.least_worst import least_worst, ranked
+from planner.robots.minimax import minimax, ranked
+from planner.robots.mirrored_arm import MirroredArm
 from planner.robots.nearest_comfort import PIECE_QUERIES
 from planner.robots.posture_room import Room
+from planner.robots.queried_arms import QueriedArms
+from planner.robots.reach_query import ReachQuery
 from planner.robots.shortfall import DIRECTIONS, FURTHEST_M, left_shortfall
 from planner.robots.shortfall_reach import ShortfallReach
-from planner.robots.sided_arm import SidedArm
-from planner.robots.wanted_place import Wanted
 
 
 class Pr2Reach(ShortfallReach):
@@ -35,7 +35,7 @@ class Pr2Reach(ShortfallReach):
     def __init__(
         self,
         arm_names: tuple[str, ...],
-        arms: tuple[SidedArm, ...],
+        arms: tuple[MirroredArm, ...],
         torso_m: float,
         comfort_m: float,
         room: Room | None = None,
@@ -54,16 +54,16 @@ class Pr2Reach(ShortfallReach):
         self._arms = arms
         images, numbers = mirror_images(), numbers_of(arms[0].shape)
         self._labels = tuple(1 + (images if arm.is_mirrored else np.arange(len(APPROACHES))) for arm in arms)
-        asked = AskedArms(arm_names, arms, numbers, APPROACHES, self._labels)
+        asked = QueriedArms(arm_names, arms, numbers, APPROACHES, self._labels)
         super().__init__(asked, torso_m, comfort_m, room, memories)
 
     def at_least_short(
         self, arm: int, ways: FloatArray, approaches: NDArray[np.int64], count: int, step_m: float
     ) -> FloatArray:
         """Return a lower bound in closed form, which takes no query, on each way's shortfall (see `Shortfalls`)."""
-        sided, seen = self._arms[arm], self._as_left_arm_sees(arm, approaches)
-        places = sided.mirrored_places(ways) - sided.shoulder(self._torso_m)
-        return np.asarray(least_gaps(sided.shape, places, self._axes[seen], count, float(step_m), self._comfort_m))
+        mirrored, seen = self._arms[arm], self._as_left_arm_sees(arm, approaches)
+        places = mirrored.mirrored_places(ways) - mirrored.shoulder(self._torso_m)
+        return np.asarray(least_gaps(mirrored.shape, places, self._axes[seen], count, float(step_m), self._comfort_m))
 
     def _least_shortfall(
         self,
@@ -73,10 +73,10 @@ class Pr2Reach(ShortfallReach):
         at_most_m: float,
         is_over: Callable[[], bool],
     ) -> tuple[Shortfall, int]:
-        sided, seen = self._arms[arm], self._as_left_arm_sees(arm, approaches)
-        on_grid = self._from_shoulder(sided, points)
-        found, queries = left_shortfall(sided.shape, self._wanted(seen), on_grid, at_most_m, is_over)
-        x, y, z = sided.mirrored_places(np.array(found.towards))
+        mirrored, seen = self._arms[arm], self._as_left_arm_sees(arm, approaches)
+        on_grid = self._from_shoulder(mirrored, points)
+        found, queries = left_shortfall(mirrored.shape, self._wanted(seen), on_grid, at_most_m, is_over)
+        x, y, z = mirrored.mirrored_places(np.array(found.towards))
         approach = int(approaches[found.approach])
         return replace(found, towards=(float(x), float(y), float(z)), approach=approach), queries
 
@@ -89,14 +89,14 @@ class Pr2Reach(ShortfallReach):
         is_over: Callable[[], bool] = never,
     ) -> tuple[int, Shortfall] | None:
         """Return the worst of places that one approach must reach, in the best approach for it (see `Shortfalls`)."""
-        sided, seen = self._arms[arm], self._as_left_arm_sees(arm, approaches)
+        mirrored, seen = self._arms[arm], self._as_left_arm_sees(arm, approaches)
         started = thread_time()
-        on_grid = self._from_shoulder(sided, places)
+        on_grid = self._from_shoulder(mirrored, places)
         furthest = min(at_most_m, FURTHEST_M)
-        wanted = self._wanted(seen)
-        ranking, found = ranked(sided.shape, wanted, on_grid)
+        query = self._wanted(seen)
+        ranking, found = ranked(mirrored.shape, query, on_grid)
         while True:
-            found = least_worst(sided.shape, wanted, on_grid, DIRECTIONS, furthest, ranking, found, PIECE_QUERIES)
+            found = minimax(mirrored.shape, query, on_grid, DIRECTIONS, furthest, ranking, found, PIECE_QUERIES)
             is_cut_short = found.examined < len(ranking.order)
             if not is_cut_short or is_over():
                 break
@@ -114,14 +114,14 @@ class Pr2Reach(ShortfallReach):
         worst, short = max(((n, f) for n, f in each if f is not None), key=lambda pair: pair[1].short_by_m)
         return worst, replace(short, short_by_m=max(short.short_by_m, furthest), is_at_least=True)
 
-    def _wanted(self, seen: NDArray[np.int64]) -> Wanted:
+    def _wanted(self, seen: NDArray[np.int64]) -> ReachQuery:
         """Return the requirements on a place to be reached in one of some approaches, as the left arm sees them."""
-        return Wanted(self._axes[seen], seen + 1, self._comfort_m, self._room)
+        return ReachQuery(self._axes[seen], seen + 1, self._comfort_m, self._room)
 
-    def _from_shoulder(self, sided: SidedArm, points: FloatArray) -> FloatArray:
+    def _from_shoulder(self, mirrored: MirroredArm, points: FloatArray) -> FloatArray:
         """Return points on the grid, as seen from the left arm's shoulder (m)."""
-        on_grid = LENGTH_M * grid_keys(sided.mirrored_places(points))
-        return np.asarray(on_grid - sided.shoulder(self._torso_m))
+        on_grid = LENGTH_M * grid_keys(mirrored.mirrored_places(points))
+        return np.asarray(on_grid - mirrored.shoulder(self._torso_m))
 
     def _as_left_arm_sees(self, arm: int, approaches: NDArray[np.int64]) -> NDArray[np.int64]:
         return np.asarray(self._labels[arm][approaches] - 1)

@@ -14,8 +14,8 @@ from planner.geometry.shortfall import Cause, Shortfall
 from planner.robots.arm import ArmShape
 from planner.robots.kernel import reachable_batch
 from planner.robots.limiting_joint import limiting_joint
-from planner.robots.nearest_comfort import PIECE_QUERIES, is_hindered, lines_from, nearest_comfort, widest_comfort
-from planner.robots.wanted_place import Wanted, aims_gap
+from planner.robots.nearest_comfort import PIECE_QUERIES, directions_from, is_hindered, nearest_comfort, widest_comfort
+from planner.robots.reach_query import ReachQuery, aims_gap
 
 FURTHEST_M = 0.8
 """Largest displacement tried (m)."""
@@ -33,41 +33,41 @@ _RING = np.array(_STRAIGHT)
 
 
 def left_shortfall(
-    shape: ArmShape, wanted: Wanted, points: FloatArray, at_most_m: float, is_over: Callable[[], bool]
+    shape: ArmShape, query: ReachQuery, points: FloatArray, at_most_m: float, is_over: Callable[[], bool]
 ) -> tuple[Shortfall, int]:
     """Return the shortfall of a place that is not within the comfort radius from anywhere, and the queries made.
 
     Args:
         shape: the arm.
-        wanted: the requirements on the place, at least one approach; the shortfall's `approach` is an index into them.
+        query: the requirements on the place, at least one approach; the shortfall's `approach` is an index into them.
         points: the tool's position as seen from each place of the base, shape (n, 3).
         at_most_m: the longest displacement tried, if less than `FURTHEST_M`.
         is_over: ends the search after some thousand queries, with a lower bound.
     """
     furthest = min(at_most_m, FURTHEST_M)
-    lines, queries = lines_from(shape, wanted, points, DIRECTIONS), 0
+    lines, queries = directions_from(shape, query, points, DIRECTIONS), 0
     while True:
         short_by_m, seen_from, approach, direction, more = nearest_comfort(
-            shape, wanted, points, DIRECTIONS, furthest, lines, PIECE_QUERIES
+            shape, query, points, DIRECTIONS, furthest, lines, PIECE_QUERIES
         )
         queries += more
         searched = float(lines.inner[0])
         if seen_from >= 0 or searched >= furthest or is_over():
             break
-    comfort, widest_from, widest_approach, more = widest_comfort(shape, wanted, points)
+    comfort, widest_from, widest_approach, more = widest_comfort(shape, query, points)
     queries += more
     is_at_least = seen_from < 0
     if is_at_least:
-        seen_from, approach, short_by_m = _nearest_by_length(shape, wanted, points, min(searched, furthest))
-    point, axis = points[seen_from], wanted.axes[approach]
+        seen_from, approach, short_by_m = _nearest_by_length(shape, query, points, min(searched, furthest))
+    point, axis = points[seen_from], query.axes[approach]
     towards = homewards(point) if is_at_least else DIRECTIONS[direction]
     joint, comfort_m = limiting_joint(shape, point, axis), None
     cause: Cause = "too_far" if is_at_least else _cause(point, point - shape.tool * axis, towards, short_by_m)
     if widest_from >= 0:
         cause, comfort_m = "comfort_only", comfort
-        joint = _missed_on_ring(shape, points[widest_from], wanted.axes[widest_approach], wanted.comfort)
+        joint = _missed_on_ring(shape, points[widest_from], query.axes[widest_approach], query.comfort)
         queries += len(_RING)
-    elif is_hindered(shape, wanted, points):
+    elif is_hindered(shape, query, points):
         cause, joint = "own_body", None
     return Shortfall(cause, joint, short_by_m, is_at_least, as_point(towards), approach, seen_from, comfort_m), queries
 
@@ -91,14 +91,16 @@ def _cause(point: FloatArray, wrist: FloatArray, towards: FloatArray, short_by_m
     return "too_near" if further_m > SIDEWAYS * short_by_m else "joint_limit"
 
 
-def _nearest_by_length(shape: ArmShape, wanted: Wanted, points: FloatArray, searched: float) -> tuple[int, int, float]:
+def _nearest_by_length(
+    shape: ArmShape, query: ReachQuery, points: FloatArray, searched: float
+) -> tuple[int, int, float]:
     """Return from where and how an unreachable place is nearest by length, and a lower bound on its shortfall.
 
     The bound is the larger of what its wrist is beyond the arm (`planner.robots.arm_gap`) and `searched`, up to which
     all directions were tried (m).
     """
-    approaches = range(len(wanted.axes))
-    gaps = np.array([[aims_gap(shape, wanted, point, approach) for approach in approaches] for point in points])
+    approaches = range(len(query.axes))
+    gaps = np.array([[aims_gap(shape, query, point, approach) for approach in approaches] for point in points])
     seen_from, approach = np.unravel_index(int(gaps.argmin()), gaps.shape)
     return int(seen_from), int(approach), max(float(gaps.min()), searched)
 

@@ -9,7 +9,7 @@ again. Besides the memory (see `planner.robots.comfort`) two things make it chea
   dropped if the last point is out of reach from there.
 - *Centre first.* The points on the comfort circle are tested only where the centre is reachable.
 
-Arguments dominate the cost of a call, so an arm comes in few arrays (see `planner.robots.arm_question`).
+Arguments dominate the cost of a call, so an arm comes in few arrays (see `planner.robots.arm_query`).
 """
 
 import numpy as np
@@ -17,7 +17,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from planner.geometry.pose import BoolArray, FloatArray
-from planner.robots.arm_question import ArmNumbers, Question, Space, is_in_height, question, space_for
+from planner.robots.arm_query import ArmNumbers, ArmQuery, Space, is_in_height, query, space_for
 from planner.robots.comfort import (
     FORGETFUL,
     GOOD,
@@ -39,7 +39,7 @@ ALL = -1
 
 @njit(cache=True, nogil=True)
 def _is_out_of_reach(
-    ask: Question, memory: Memory, room: Room, space: Space, place: Place, count: int, among: int
+    ask: ArmQuery, memory: Memory, room: Room, space: Space, place: Place, count: int, among: int
 ) -> bool:
     """Return whether none of some standoffs reaches a place: of all of them where `among` is `ALL`."""
     if not is_in_height(ask, place):
@@ -63,7 +63,7 @@ def _is_out_of_reach(
 
 @njit(cache=True, nogil=True)
 def _arrivals(
-    ask: Question, memory: Memory, room: Room, space: Space, place: Place, before: int, count: int, among: int
+    ask: ArmQuery, memory: Memory, room: Room, space: Space, place: Place, before: int, count: int, among: int
 ) -> int:
     """Return those of some standoffs at which the base may be at a place, having come from some at the place before.
 
@@ -123,7 +123,7 @@ def standoff_masks(
     for approach in range(len(labels)):
         if alive == enough:
             break
-        ask = question(numbers, shoulder, axes, labels[approach], comfort, step)
+        ask = query(numbers, shoulder, axes, labels[approach], comfort, step)
         is_dead, last = False, len(points) - 1
         for i in (last, len(points) // 2):
             matter = int(among[i]) & (ends if i == last else full)
@@ -169,7 +169,7 @@ def anywhere(
     for approach in range(len(labels)):
         if alive == enough:
             break
-        ask = question(numbers, shoulder, axes, labels[approach], comfort, step)
+        ask = query(numbers, shoulder, axes, labels[approach], comfort, step)
         is_dead = False
         for i in range(len(points)):
             answers[approach, i] = not _is_out_of_reach(ask, memory, room, space, places[i], count, ALL)

@@ -10,7 +10,7 @@ from planner.geometry.table import Table
 from planner.geometry.tolerance import ANGLE_RAD
 from planner.robots.described_robot import DescribedRobot
 from planner.robots.mapped_arm import ALL_ROUND, MappedArm, all_arms
-from planner.robots.posture_maps import Progress
+from planner.robots.reach_maps import Progress
 
 STEP_M = 0.05
 """The distance between the points of the table that are asked (m)."""

@@ -16,7 +16,7 @@ SHIPPED = {"pr2", "ur5e-pair", "panda-pair", "tiago-pro", "baxter", "so101-pair"
 
 @pytest.fixture
 def reach_known(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Spare the maps of postures: that they are right is shown elsewhere."""
+    """Spare the reach maps: that they are right is shown elsewhere."""
     known = TableReach({"left": 0.75, "right": 0.5}, 1.0, 0.25)
     monkeypatch.setattr(robots, "table_reach", lambda robot, progress: known)
 

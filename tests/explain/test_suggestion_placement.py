@@ -5,7 +5,7 @@ from typing import cast
 
 from planner import Task
 from planner.explain.suggestion_placement import FINE_STEP_M, STEP_M, placements
-from planner.explain.suggestion_trial import Trial
+from planner.explain.suggestion_trial import SuggestionTrial
 from planner.planning.robot_task import task_for
 from planner.task.plan import Plan
 from tests.builders import fold, garment, rectangle_points
@@ -17,11 +17,11 @@ def napkin(robot: str) -> Task:
     return task_for(garment(rectangle_points(0.3, 0.2), fold((0.15, 0.2), (0.15, 0.0))), robot=robot)
 
 
-def tried_in_vain(task: Task) -> list[Trial]:
+def tried_in_vain(task: Task) -> list[SuggestionTrial]:
     """Return all trials of a search in which none gives a plan."""
     search, found = placements(task, None), []
     trial = next(search, None)
-    while isinstance(trial, Trial):
+    while isinstance(trial, SuggestionTrial):
         found.append(trial)
         try:
             trial = search.send(IN_VAIN)
@@ -30,7 +30,7 @@ def tried_in_vain(task: Task) -> list[Trial]:
     return found
 
 
-def places(trials: list[Trial]) -> list[tuple[float, ...]]:
+def places(trials: list[SuggestionTrial]) -> list[tuple[float, ...]]:
     return [tuple(round(value, 6) for value in trial.change["placement"].values()) for trial in trials]
 
 

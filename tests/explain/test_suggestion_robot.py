@@ -13,7 +13,7 @@ from planner import Task, load_garment, make_plan
 from planner.explain import suggestions as searching
 from planner.explain.suggestion import Suggestion
 from planner.explain.suggestion_robot import robots
-from planner.explain.suggestion_trial import Trial
+from planner.explain.suggestion_trial import SuggestionTrial
 from planner.explain.suggestions import suggestions
 from planner.geometry.pose import Pose2
 from planner.planning.robot_task import default_scene, task_for
@@ -33,9 +33,9 @@ def ignore(_: float) -> None:
     """Ignore how far a map is."""
 
 
-def first_trial(task: Task, names: tuple[str, ...]) -> Trial:
+def first_trial(task: Task, names: tuple[str, ...]) -> SuggestionTrial:
     wish = next(robots(task, names, ignore))
-    assert isinstance(wish, Trial)
+    assert isinstance(wish, SuggestionTrial)
     return wish
 
 
@@ -74,7 +74,7 @@ def test_of_two_robots_the_later_is_offered_only_if_it_is_quicker_by_a_second(se
     search, kept = robots(task_for(SMALL, robot="ur5e-pair"), ("pr2", SHORT), ignore), []
     for cost_s in (30.0, second_s):
         trial = next(search)
-        assert isinstance(trial, Trial)
+        assert isinstance(trial, SuggestionTrial)
         with suppress(StopIteration):
             kept.append(search.send(cast(Plan, SimpleNamespace(cost_s=cost_s))))
     assert [one.change["robot"] for one in kept if isinstance(one, Suggestion)] == offered

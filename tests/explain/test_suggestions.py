@@ -17,7 +17,7 @@ from planner.explain.suggestion_map import placement_map
 from planner.explain.suggestion_order import orders
 from planner.explain.suggestion_station import stations
 from planner.explain.suggestion_together import together
-from planner.explain.suggestion_trial import Search, Trial
+from planner.explain.suggestion_trial import Search, SuggestionTrial
 from planner.explain.suggestions import Suggestions, suggestions
 from planner.geometry.pose import Pose2
 from planner.geometry.region import Region
@@ -100,7 +100,7 @@ def test_two_folds_that_are_both_out_of_reach_are_told_to_be_shifted_together():
 def least_of(search: Search) -> Suggestion:
     """Return the final suggestions of a search without a time limit."""
     wish = next(search)
-    while isinstance(wish, Trial):
+    while isinstance(wish, SuggestionTrial):
         task = replace(wish.task, limits=replace(wish.task.limits, time_limit_s=60.0))
         wish = search.send(find_plan(task, with_reasons=False).plan)
     return wish
@@ -238,13 +238,13 @@ def test_another_order_ends_in_the_same_outline(name: str):
         assert found.difference(wanted).area + wanted.difference(found).area < 1e-5
 
 
-def all_trials(task: Task) -> list[Trial]:
+def all_trials(task: Task) -> list[SuggestionTrial]:
     """Return all orders that the search would try if none worked."""
     trials, search = [], orders(task)
     unsolved = make_plan(towel(FAR), FRONT_ONLY)
     wish = next(search, None)
     try:
-        while isinstance(wish, Trial):
+        while isinstance(wish, SuggestionTrial):
             trials.append(wish)
             wish = search.send(unsolved)
     except StopIteration:
@@ -255,7 +255,7 @@ def all_trials(task: Task) -> list[Trial]:
 def test_no_station_is_proposed_that_is_there_already():
     scene = replace(Scene(), stations=(*Scene().stations, ("far", Pose2(0.95, 0.0, math.pi))))
     first = next(stations(asked(towel(), scene)))
-    assert isinstance(first, Trial)
+    assert isinstance(first, SuggestionTrial)
     assert [name for name, _ in first.task.scene.stations][-1] == "middle_left"
 
 

@@ -1,4 +1,4 @@
-"""Blocking contacts: moments whose answer geometry gives, and a request in which arms would have to cross."""
+"""Blocking contacts: waypoints whose answer geometry gives, and a request in which arms would have to cross."""
 
 import numpy as np
 import pytest
@@ -7,7 +7,7 @@ from planner import Scene, make_plan
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
 from planner.motion.blocking_contacts import BlockingContacts
-from planner.motion.moments import Moments
+from planner.motion.waypoints import Waypoints
 from planner.robots.load_robot import load_robot
 from planner.task.reason import Code
 from tests.builders import fold, garment
@@ -19,17 +19,17 @@ BASE = (-0.95, 0.0, 0.0)
 AHEAD = np.eye(3)
 
 
-def moments(
+def waypoints(
     *tools: tuple[float, float, float], arm: int = 0, other: tuple[float, float, float] | None = None
-) -> Moments:
-    """Return moments of hands that point ahead, level; tools in the table frame."""
+) -> Waypoints:
+    """Return waypoints of hands that point ahead, level; tools in the table frame."""
     count = len(tools)
     positions, rotations = np.full((2, count, 3), np.nan), np.full((2, count, 3, 3), np.nan)
     for number, places in ((arm, tools), (1 - arm, () if other is None else (other,) * count)):
         if places:
             positions[number] = np.array(places) - [BASE[0], BASE[1], -TABLE.height_m]
             rotations[number] = AHEAD
-    return Moments(
+    return Waypoints(
         np.zeros(count, dtype=np.int64),
         np.linspace(0.0, 1.0, count),
         np.tile(BASE, (count, 1)),
@@ -45,7 +45,7 @@ def test_fingers_in_the_table_top_are_in_it_by_their_own_half_and_its(arm):
     # The top is 3 cm thick and the hand's axis in its middle, 45 cm inside the edge: to be outside it must go up or
     # down by 1.5 cm and half the height of what is in there, which is that of the fingers or more, of the palm at most.
     side = 0.3 if arm == 0 else -0.3
-    contact = SNAGS.of(moments((EDGE_M + 0.45, side, 0.10), (EDGE_M + 0.45, side, -0.015), arm=arm))
+    contact = SNAGS.of(waypoints((EDGE_M + 0.45, side, 0.10), (EDGE_M + 0.45, side, -0.015), arm=arm))
     assert contact is not None
     assert (contact.arm, contact.cause) == (("left", "right")[arm], "table")
     assert contact.point == pytest.approx((EDGE_M + 0.45, side, -0.015))
@@ -54,12 +54,12 @@ def test_fingers_in_the_table_top_are_in_it_by_their_own_half_and_its(arm):
 
 
 def test_where_every_moment_has_a_free_posture_nothing_is_said():
-    assert SNAGS.of(moments((EDGE_M + 0.45, 0.3, 0.10), (EDGE_M + 0.50, 0.3, 0.20))) is None
+    assert SNAGS.of(waypoints((EDGE_M + 0.45, 0.3, 0.10), (EDGE_M + 0.50, 0.3, 0.20))) is None
 
 
 def test_two_hands_in_one_place_are_in_each_others_way():
     place = (EDGE_M + 0.45, 0.0, 0.25)
-    contact = SNAGS.of(moments(place, other=place))
+    contact = SNAGS.of(waypoints(place, other=place))
     assert contact is not None
     assert contact.cause == "arms"
     assert contact.point == pytest.approx(place)

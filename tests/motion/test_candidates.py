@@ -8,9 +8,9 @@ import pytest
 
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.geometry.table import Table
-from planner.motion.moments import moments_of
+from planner.motion.search_limits import QUICK
 from planner.motion.transfer_planner import TransferPlanner
-from planner.motion.tries import QUICK
+from planner.motion.waypoints import waypoints_of
 from planner.planning.problem import Problem
 from planner.robots.pr2 import Pr2
 from tests.replay.planned import planned
@@ -19,19 +19,19 @@ from tests.replay.planned import planned
 @pytest.mark.parametrize("name", ["t-shirt", "tie", "letter-towel", "big-towel"])
 def test_a_run_begins_and_ends_where_its_extremes_are(name: str):
     found = planned(name).found
-    for act in (act for act in found.acts if act.transfer is not None):
-        whole = Problem.of(found.plan.task).maker.candidate(act.steps).moments
-        phases = [phase for step in act.steps for phase in step.extremes()]
-        ends = moments_of(phases, found.plan.scene.table.height_m)
-        for moment in (0, -1):
-            np.testing.assert_allclose(ends.bases[moment], whole.bases[moment], atol=1e-9)
-            np.testing.assert_allclose(ends.positions[:, moment], whole.positions[:, moment], atol=1e-9)
-            np.testing.assert_allclose(ends.rotations[:, moment], whole.rotations[:, moment], atol=1e-9)
+    for plan_segment in (plan_segment for plan_segment in found.plan_segments if plan_segment.transfer is not None):
+        whole = Problem.of(found.plan.task).maker.candidate(plan_segment.steps).waypoints
+        phases = [phase for step in plan_segment.steps for phase in step.extremes()]
+        ends = waypoints_of(phases, found.plan.scene.table.height_m)
+        for waypoint in (0, -1):
+            np.testing.assert_allclose(ends.bases[waypoint], whole.bases[waypoint], atol=1e-9)
+            np.testing.assert_allclose(ends.positions[:, waypoint], whole.positions[:, waypoint], atol=1e-9)
+            np.testing.assert_allclose(ends.rotations[:, waypoint], whole.rotations[:, waypoint], atol=1e-9)
 
 
 def test_what_was_made_real_is_a_candidate():
     found = planned("t-shirt").found
-    transfers = [act.steps for act in found.acts if act.transfer is not None]
+    transfers = [plan_segment.steps for plan_segment in found.plan_segments if plan_segment.transfer is not None]
     assert [candidate.steps for candidate in Problem.of(found.plan.task).maker.candidates(transfers)] == transfers
 
 
@@ -57,7 +57,7 @@ class UnderCeiling(Pr2):
 def test_where_one_got_stuck_others_that_do_the_same_are_looked_at_first():
     # The skirt's last fold lifts its cloth higher than that on its way; it begins and ends on the table.
     found = planned("skirt").found
-    steps = found.acts[-1].steps
+    steps = found.plan_segments[-1].steps
     maker = TransferPlanner(found.context, UnderCeiling(0.2))
     assert [candidate.steps for candidate in maker.candidates([steps])] == [steps]
     assert maker.validated(steps, replace(QUICK, ways=1)) is None

@@ -11,7 +11,7 @@ from tests.builders import fold, garment, rectangle_points
 from tests.replay.planned import planned
 
 LOOKS = 40
-"""The number of moments of a plan at which its cloth is measured."""
+"""The number of waypoints of a plan at which its cloth is measured."""
 
 
 def area_m2(surface: ClothSurface) -> float:

@@ -5,9 +5,9 @@ from itertools import pairwise
 import pytest
 
 from planner import Scene, Task, load_garment
-from planner.motion.act import Act, duration_s
 from planner.motion.fewer_hands import with_fewer_hands
-from planner.motion.tries import QUICK
+from planner.motion.plan_segment import PlanSegment, duration_s
+from planner.motion.search_limits import QUICK
 from planner.planning.found_plan import FoundPlan
 from planner.planning.problem import Problem
 from planner.plans import find_plan, quick_plan
@@ -21,26 +21,28 @@ def firm() -> FoundPlan:
     return found
 
 
-def hands(acts: tuple[Act, ...]) -> int:
-    return sum(len(step.grips) for act in acts for step in act.steps)
+def hands(plan_segments: tuple[PlanSegment, ...]) -> int:
+    return sum(len(step.grips) for plan_segment in plan_segments for step in plan_segment.steps)
 
 
 def test_a_second_hand_that_makes_a_plan_slower_is_taken_away(firm: FoundPlan):
-    fewer = with_fewer_hands(firm.acts, Problem.of(firm.plan.task).maker, QUICK, worth_s=0.0)
-    assert hands(fewer) == hands(firm.acts) - 1
-    assert duration_s(fewer) < duration_s(firm.acts) - 0.005
-    steps = [step for act in fewer for step in act.steps]
+    fewer = with_fewer_hands(firm.plan_segments, Problem.of(firm.plan.task).maker, QUICK, worth_s=0.0)
+    assert hands(fewer) == hands(firm.plan_segments) - 1
+    assert duration_s(fewer) < duration_s(firm.plan_segments) - 0.005
+    steps = [step for plan_segment in fewer for step in plan_segment.steps]
     assert all(before.after.key == after.before.key for before, after in pairwise(steps))
 
 
 def test_a_second_hand_that_costs_less_than_it_is_worth_stays(firm: FoundPlan):
     maker = Problem.of(firm.plan.task).maker
-    saved_s = duration_s(firm.acts) - duration_s(with_fewer_hands(firm.acts, maker, QUICK, worth_s=0.0))
-    assert with_fewer_hands(firm.acts, maker, QUICK, worth_s=saved_s + 0.01) == firm.acts
+    saved_s = duration_s(firm.plan_segments) - duration_s(
+        with_fewer_hands(firm.plan_segments, maker, QUICK, worth_s=0.0)
+    )
+    assert with_fewer_hands(firm.plan_segments, maker, QUICK, worth_s=saved_s + 0.01) == firm.plan_segments
 
 
 def test_a_plan_that_takes_as_long_as_its_motions_keeps_its_hands():
     found = find_plan(Task.of(load_garment("vest"), Scene()))
     maker = Problem.of(found.plan.task).maker
-    assert with_fewer_hands(found.acts, maker, QUICK, worth_s=0.0) == found.acts
-    assert maker.tries == 0
+    assert with_fewer_hands(found.plan_segments, maker, QUICK, worth_s=0.0) == found.plan_segments
+    assert maker.path_requests == 0

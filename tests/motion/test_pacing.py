@@ -1,4 +1,4 @@
-"""The duration of moments: laws of the pace, and a few paces worked out by hand."""
+"""The duration of waypoints: laws of the pace, and a few paces worked out by hand."""
 
 import numpy as np
 import pytest

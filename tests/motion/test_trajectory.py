@@ -141,7 +141,7 @@ def test_velocities_are_those_with_which_the_joints_go_on(name: str):
     knots = np.unique([*trajectory.arms.times_s, *(t for track in trajectory.grippers for t in track.times_s)])
     step_s = 1e-3
     for t in knots[:-1][np.diff(knots) > 2 * step_s]:
-        here, there = (trajectory.joints_at(float(t) + lead) for lead in (0.25 * step_s, 1.25 * step_s))
+        here, there = (trajectory.joints_at(float(t) + approach) for approach in (0.25 * step_s, 1.25 * step_s))
         going = trajectory.velocities_at(float(t) + 0.75 * step_s)
         for joint, velocity in going.items():
             assert there[joint] - here[joint] == pytest.approx(velocity * step_s, abs=2e-7)

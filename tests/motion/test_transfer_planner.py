@@ -7,9 +7,9 @@ import pytest
 
 from planner import Scene, Task
 from planner.geometry.pose import Pose2
+from planner.motion.search_limits import QUICK
 from planner.motion.transfer_candidate import ways_of
 from planner.motion.transfer_planner import TransferPlanner
-from planner.motion.tries import QUICK
 from planner.planning.problem import Problem
 from planner.primitives.primitive import Step
 from planner.primitives.primitive_set import PRIMITIVES
@@ -37,10 +37,10 @@ def test_what_was_made_real_once_is_not_made_again_but_counted():
     maker, first, again = some_fold()
     assert first[0] is not again[0] and first[0].motion == again[0].motion
     transfer = maker.validated(first)
-    assert transfer is not None and maker.tries > 0
-    tries, glances = maker.tries, maker.glances
+    assert transfer is not None and maker.path_requests > 0
+    path_requests, glances = maker.path_requests, maker.glances
     assert maker.validated(again) is transfer
-    assert (maker.tries, maker.glances) == (2 * tries, 2 * glances)
+    assert (maker.path_requests, maker.glances) == (2 * path_requests, 2 * glances)
 
 
 def test_no_two_ways_of_a_fold_have_the_same_motion():

@@ -6,8 +6,8 @@ import pytest
 from planner.geometry.pose import Approach, Pose2
 from planner.geometry.table import Table
 from planner.geometry.table_top import TableTop
-from planner.motion.moments import moments_of
 from planner.motion.transfer_timing import TransferLimits, TransferTiming
+from planner.motion.waypoints import waypoints_of
 from planner.primitives.drive_time import DriveTime
 from planner.task.phase import ClothMotion, Hand, Phase
 
@@ -26,19 +26,19 @@ def phase(start, end, duration_s: float = 3.0, motion: int | None = 0) -> Phase:
 def drag(distance_m: float) -> Phase:
     """Return a phase in which the base drags cloth straight back."""
     after = BASE.ahead(-distance_m)
-    carried = ClothMotion(0, HERE, Pose2(-distance_m, 0.0, 0.0), TableTop.of(Table()))
+    transfer_path = ClothMotion(0, HERE, Pose2(-distance_m, 0.0, 0.0), TableTop.of(Table()))
     hand = Hand(Approach(0.0, 0.5), (START, (START[0] - distance_m, *START[1:])), is_closed=True)
-    return Phase(DRIVING.driving_s(distance_m), (BASE, after), (hand, None), carried)
+    return Phase(DRIVING.driving_s(distance_m), (BASE, after), (hand, None), transfer_path)
 
 
 def timed(*carrying: tuple[int, Phase], turn: float = 0.0, speed: float = 1.0, acceleration: float = 100.0):
     """Return the timing where one joint turns by `turn` from moment to moment, with its limits."""
-    moments = moments_of([each for _, each in carrying], 0.79)
-    joints = turn * np.arange(len(moments))[:, None]
+    waypoints = waypoints_of([each for _, each in carrying], 0.79)
+    joints = turn * np.arange(len(waypoints))[:, None]
     hard = (DRIVING.acceleration_m_s2, DRIVING.acceleration_m_s2, DRIVING.turn_acceleration_rad_s2)
     fast = (DRIVING.speed_m_s, DRIVING.speed_m_s, DRIVING.turn_rad_s)
     limits = TransferLimits(np.array([speed, *fast]), np.array([acceleration, *hard]), REST_S)
-    return TransferTiming.of(carrying, moments, joints, limits)
+    return TransferTiming.of(carrying, waypoints, joints, limits)
 
 
 def test_the_last_motion_makes_room_for_the_rest_at_its_end():
@@ -48,7 +48,7 @@ def test_the_last_motion_makes_room_for_the_rest_at_its_end():
     last_motion = timing.timed_phases[1]
     rests = last_motion.duration_s - REST_S
     assert np.interp(rests, last_motion.times_s, last_motion.fractions) == pytest.approx(1.0)
-    last = int(timing.moments[-1])
+    last = int(timing.waypoints[-1])
     assert timing.first_s(last) == pytest.approx(5.5) and timing.times_s[-1] == pytest.approx(6.0)
     assert timing.borrowed_s == 0.0
 
@@ -97,8 +97,8 @@ def test_hands_that_hold_on_rest_only_at_the_end_of_the_run():
 def test_a_phase_through_which_hands_rest_takes_no_time_where_there_is_none():
     # The first phase moves nothing; the second needs a tenth of a second for each of 60 steps; there is 1 ms for both.
     carrying = ((0, phase(START, START, 0.0005)), (0, phase(START, FAR, 0.0005)))
-    moments = moments_of([each for _, each in carrying], 0.79)
-    joints = 0.1 * np.maximum(np.arange(len(moments)) - (len(moments) - 61), 0.0)[:, None]
+    waypoints = waypoints_of([each for _, each in carrying], 0.79)
+    joints = 0.1 * np.maximum(np.arange(len(waypoints)) - (len(waypoints) - 61), 0.0)[:, None]
     limits = TransferLimits(np.ones(4), np.array([1e6, 1.0, 1.0, 1.0]), REST_S)
-    timing = TransferTiming.of(carrying, moments, joints, limits)
+    timing = TransferTiming.of(carrying, waypoints, joints, limits)
     assert [one.duration_s for one in timing.timed_phases] == pytest.approx([0.0, 6.0 + REST_S], rel=0.05)

@@ -20,7 +20,7 @@ def test_a_transit_path_is_searched_for_once_and_known_to_the_next_plan(monkeypa
         fold = next(step for step in GFold(problem.context).successors(problem.start))
         made = problem.maker.validated((fold,))
         assert made is not None
-        return made.lead.shortest_s, made.tail.shortest_s
+        return made.approach.shortest_s, made.retreat.shortest_s
 
     first = led()
     count = len(asked)

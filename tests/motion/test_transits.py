@@ -1,11 +1,11 @@
-"""Transits: planned once, part of the acts' durations, and joined to the transfers on both sides."""
+"""Transits: planned once, part of the segments' durations, and joined to the transfers on both sides."""
 
 from itertools import pairwise
 
 import numpy as np
 import pytest
 
-from planner.motion.act import Act, duration_s, in_turn
+from planner.motion.plan_segment import PlanSegment, duration_s, linked
 from planner.planning.found_plan import FoundPlan
 from planner.planning.problem import Problem
 from tests.replay.planned import planned
@@ -15,47 +15,51 @@ def plan_of(name: str) -> FoundPlan:
     return planned(name).found
 
 
-def transferring(plan: FoundPlan) -> list[Act]:
-    return [act for act in plan.acts if act.transfer is not None]
+def transferring(plan: FoundPlan) -> list[PlanSegment]:
+    return [plan_segment for plan_segment in plan.plan_segments if plan_segment.transfer is not None]
 
 
 @pytest.mark.parametrize("name", ["t-shirt", "scarf", "big-towel"])
 def test_acts_take_as_long_as_the_plan_that_is_made_of_them(name: str):
     plan = plan_of(name)
-    assert duration_s(plan.acts) == pytest.approx(plan.plan.cost_s, abs=1e-6)
-    assert duration_s(in_turn(plan.acts, Problem.of(plan.plan.task).maker)) == pytest.approx(plan.plan.cost_s, abs=1e-6)
+    assert duration_s(plan.plan_segments) == pytest.approx(plan.plan.cost_s, abs=1e-6)
+    assert duration_s(linked(plan.plan_segments, Problem.of(plan.plan.task).maker)) == pytest.approx(
+        plan.plan.cost_s, abs=1e-6
+    )
 
 
 @pytest.mark.parametrize("name", ["t-shirt", "big-towel"])
 def test_hands_go_from_one_transfer_to_the_next(name: str):
-    acts = transferring(plan_of(name))
-    for before, act in pairwise(acts):
-        assert act.transit is not None and before.transfer is not None and act.transfer is not None
-        times_s, joints, _ = act.transit.keyframes
+    plan_segments = transferring(plan_of(name))
+    for before, plan_segment in pairwise(plan_segments):
+        assert plan_segment.transit is not None and before.transfer is not None and plan_segment.transfer is not None
+        times_s, joints, _ = plan_segment.transit.keyframes
         assert times_s[0] >= 0.0 and np.diff(times_s).min() > -1e-9
-        assert times_s[-1] == pytest.approx(act.transit.duration_s)
-        lead = act.transfer.lead
-        there_rad = lead.joints[-1] if lead.at_grips is None else lead.at_grips  # where fingers close, at an edge
+        assert times_s[-1] == pytest.approx(plan_segment.transit.duration_s)
+        approach = plan_segment.transfer.approach
+        there_rad = (
+            approach.joints[-1] if approach.at_grips is None else approach.at_grips
+        )  # where fingers close, at an edge
         turns = (joints[-1] - there_rad) / (2.0 * np.pi)
         np.testing.assert_allclose(turns, np.round(turns), atol=1e-9)
-        drives = [timed for timed in act.transit.timed_phases if not any(timed.phase.hands)]
-        there = [*(timed.phase.base for timed in drives), act.transit.timed_phases[-1].phase.base]
+        drives = [timed for timed in plan_segment.transit.timed_phases if not any(timed.phase.hands)]
+        there = [*(timed.phase.base for timed in drives), plan_segment.transit.timed_phases[-1].phase.base]
         assert there[0][0] == before.transfer.steps[-1].phases()[-1].base[1]
 
 
 def test_a_transit_is_planned_once_for_the_same_steps():
     plan = plan_of("t-shirt")
     maker = Problem.of(plan.plan.task).maker
-    first, second = (in_turn(plan.acts, maker) for _ in range(2))
-    assert [act.transit for act in first] == [act.transit for act in second]
+    first, second = (linked(plan.plan_segments, maker) for _ in range(2))
+    assert [plan_segment.transit for plan_segment in first] == [plan_segment.transit for plan_segment in second]
     assert maker.transits_planned == len(transferring(plan))
 
 
 def test_a_transit_depends_on_where_the_hands_come_from():
-    acts = transferring(plan_of("t-shirt"))
+    plan_segments = transferring(plan_of("t-shirt"))
     maker = Problem.of(plan_of("t-shirt").plan.task).maker
-    assert acts[1].transfer is not None
-    from_home = maker.transit(None, (), acts[1].transfer)
-    after_first = maker.transit(acts[0].transfer, (), acts[1].transfer)
+    assert plan_segments[1].transfer is not None
+    from_home = maker.transit(None, (), plan_segments[1].transfer)
+    after_first = maker.transit(plan_segments[0].transfer, (), plan_segments[1].transfer)
     assert from_home is not None and after_first is not None and from_home is not after_first
     assert maker.transits_planned == 2

@@ -1,4 +1,4 @@
-"""Plans with the context, acts and joint paths of their search, which a plan itself does not hold."""
+"""Plans with the context, segments and joint paths of their search, which a plan itself does not hold."""
 
 from typing import Unpack
 

@@ -65,7 +65,7 @@ def test_what_is_asked_of_every_problem_watched_is_counted():
     budget = Budget.of(math.inf, 60.0, lambda: False)
     assert budget.spent_s == 0.0
     budget.watch(problem)
-    problem.maker.tries += 1
+    problem.maker.path_requests += 1
     tried = budget.spent_s
     budget.looks += 1
     assert 0.0 < tried < budget.spent_s

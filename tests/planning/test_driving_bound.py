@@ -17,7 +17,7 @@ from planner.planning.heuristic import arm_time
 from planner.primitives.base_move import BaseMove
 from planner.primitives.context import Context
 from planner.primitives.drag_service import Service
-from planner.primitives.fold_question import FoldQuestions
+from planner.primitives.fold_query import FoldQueries
 from planner.primitives.fold_stands import FoldStands
 from planner.primitives.g_drag import GDrag
 from planner.primitives.g_fold import GFold
@@ -88,7 +88,7 @@ def test_of_tabs_near_and_far_a_drag_only_holds_near_ones():
 @pytest.mark.parametrize("done", [0b0, 0b1, 0b1010, 0b110000])
 def test_from_where_a_fold_is_begun_is_known_whatever_other_folds_are_done(done: int):
     context = work_of(tabs_on_two_sides(8))
-    questions, stands = context.kept(FoldQuestions), FoldStands(context)
+    questions, stands = context.kept(FoldQueries), FoldStands(context)
     for offset in ((0.0, 0.0), (-0.2, 0.0), (-0.4, 0.0)):
         for fold in (2, 7):
             for standoff in (0, 3, 8):

@@ -3,8 +3,8 @@
 import pytest
 
 from planner import Scene, Task, find_plan, load_garment
-from planner.motion.act import duration_s
 from planner.motion.edge_hands import EdgeHands
+from planner.motion.plan_segment import duration_s
 from planner.motion.transfer_planner import TransferPlanner
 from planner.planning.motion_validator import MotionValidator
 from planner.planning.warm_up import compile_kernels
@@ -21,7 +21,7 @@ def _kernels():
 
 @pytest.mark.parametrize("name", EDGES)
 def test_the_search_itself_finds_hands_at_edges(monkeypatch: pytest.MonkeyPatch, name: str):
-    monkeypatch.setattr(EdgeHands, "held", lambda self, acts, is_over: acts)
+    monkeypatch.setattr(EdgeHands, "held", lambda self, plan_segments, is_over: plan_segments)
     plan = found_plan(load_garment(name), time_limit_s=60.0).plan
     assert plan.is_proven
     assert [grip.kind for step in plan.steps for grip in step.grips].count("edge") == EDGES[name]
@@ -36,29 +36,29 @@ def test_where_hands_hold_edges_no_others_are_led_along_the_path(monkeypatch: py
 
 
 def test_hands_that_come_late_to_an_edge_hold_otherwise(monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setattr(EdgeHands, "held", lambda self, acts, is_over: acts)
+    monkeypatch.setattr(EdgeHands, "held", lambda self, plan_segments, is_over: plan_segments)
     rounds: list[float | None] = []
-    validated = MotionValidator.acts
+    validated = MotionValidator.plan_segments
 
     def noted(self, steps):
-        acts = validated(self, steps)
-        rounds.append(None if acts is None else duration_s(acts))
-        return acts
+        plan_segments = validated(self, steps)
+        rounds.append(None if plan_segments is None else duration_s(plan_segments))
+        return plan_segments
 
-    monkeypatch.setattr(MotionValidator, "acts", noted)
+    monkeypatch.setattr(MotionValidator, "segments", noted)
     found = found_plan(load_garment("shirt"), time_limit_s=60.0)
     assert found.plan.is_proven
     assert rounds == [pytest.approx(found.plan.cost_s)], "the first path is taken, as quick as it seemed"
-    assert not any(act.late_s > 0.0 for act in found.acts)
+    assert not any(plan_segment.late_s > 0.0 for plan_segment in found.plan_segments)
 
 
 def test_hands_that_come_late_to_edges_are_shown_before_others_are_looked_for(monkeypatch: pytest.MonkeyPatch):
     events: list[str] = []
     wide = TransferPlanner.first_valid
 
-    def noted(self, choices, tries):
+    def noted(self, choices, search_limits):
         events.append("wide")
-        return wide(self, choices, tries)
+        return wide(self, choices, search_limits)
 
     monkeypatch.setattr(TransferPlanner, "first_valid", noted)
     task = Task.of(load_garment("hand-towel"), Scene(arm_motion_s=1.5))

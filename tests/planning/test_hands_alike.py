@@ -3,8 +3,8 @@
 import pytest
 
 from planner import Task, load_garment
+from planner.motion.search_limits import QUICK
 from planner.motion.transfer_candidate import ways_of
-from planner.motion.tries import QUICK
 from planner.planning.found_plan import FoundPlan
 from planner.plans import find_plan
 from planner.primitives.primitive import Step
@@ -16,14 +16,14 @@ def found() -> FoundPlan:
 
 
 def dragged_and_folded(found: FoundPlan) -> tuple[Step, ...]:
-    steps = found.acts[0].steps
+    steps = found.plan_segments[0].steps
     assert [step.kind for step in steps] == ["drag", "fold"]
     return steps
 
 
 def test_a_scarf_dragged_and_folded_is_held_at_both_corners_in_the_time_of_one_hand(found: FoundPlan):
     # One hand in the middle of its end costs as much, and lets its corners, 12.7 cm away, fold under.
-    assert [len(step.grips) for act in found.acts for step in act.steps] == [2, 2, 2, 2]
+    assert [len(step.grips) for plan_segment in found.plan_segments for step in plan_segment.steps] == [2, 2, 2, 2]
     assert found.plan.cost_s == pytest.approx(23.394, abs=1e-3)
 
 

@@ -15,12 +15,12 @@ import pytest
 from planner import Garment, Plan, Scene, make_plan
 from planner.geometry.pose import BoolArray, FloatArray, Pose2
 from planner.geometry.table import Table
-from planner.motion.act import duration_s
 from planner.motion.edge_hands import EdgeHands
+from planner.motion.plan_segment import duration_s
 from planner.motion.robot_port import Clearance, Collisions
+from planner.motion.search_limits import QUICK
 from planner.motion.transfer import Transfer
 from planner.motion.transfer_planner import TransferPlanner
-from planner.motion.tries import QUICK
 from planner.planning import motion_validator as validator
 from planner.planning import path_search, plan_search, problem
 from planner.planning.problem import Problem
@@ -119,9 +119,12 @@ def test_a_plan_costs_what_the_search_finds_that_makes_every_run_real_at_once(
         monkeypatch.setattr(plan_search, name, lambda problem: ())
     monkeypatch.setattr(EdgeHands, "ways", lambda *_: iter(()))  # such hands may be quicker too
     found = found_plan(napkin(*folds), scene(arm_motion_s, back_off_max_m), time_limit_s=60.0)
-    plan, seeming_s = found.plan, sum(step.duration_s for act in found.acts for step in act.steps)
+    plan, seeming_s = (
+        found.plan,
+        sum(step.duration_s for plan_segment in found.plan_segments for step in plan_segment.steps),
+    )
     assert (plan.cost_s > seeming_s + 0.01) == (arm_motion_s == HURRIED_S), "else nothing is to be found out"
-    assert plan.cost_s == pytest.approx(duration_s(found.acts), abs=1e-6)
+    assert plan.cost_s == pytest.approx(duration_s(found.plan_segments), abs=1e-6)
     assert plan.cost_s == pytest.approx(Eager(found.context).cost_s(found.context.start), abs=1e-6)
 
 
@@ -262,12 +265,12 @@ def test_a_fold_whose_hands_hold_on_is_to_blame_for_the_red_one_that_waits_for_i
 
 def test_where_another_way_is_as_good_the_rest_are_found_only_once_a_path_takes_longer(monkeypatch):
     found = found_plan(napkin(HALF), scene(IDLE_S, ROOM_TO_TURN_M))
-    problem, (step,) = Problem.of(found.plan.task), found.acts[0].steps
+    problem, (step,) = Problem.of(found.plan.task), found.plan_segments[0].steps
     maker, start = problem.maker, problem.start
     made = maker.made
     monkeypatch.setattr(maker, "made", lambda one: None if one.steps[-1].motion == step.motion else made(one))
     seen = validator.MotionValidator(maker, lambda: False, replace(QUICK, ways=1))
-    assert seen.acts([step]) is None
+    assert seen.plan_segments([step]) is None
     ((other, cost_s),) = seen.possible(start, [step])
     assert other.motion != step.motion and other.after.key == step.after.key and cost_s == step.duration_s
     assert not seen.catch_up(cost_s), "nothing that waits makes a path quicker than this"

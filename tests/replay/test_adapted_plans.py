@@ -49,7 +49,7 @@ def soon(cloth: Garment, known: FoundPlan) -> FoundPlan | None:
 def unhurried(found: FoundPlan) -> dict[str, Any]:
     """Return a plan as if the joints kept up everywhere: the checker infers the base's way from the time."""
     said, now = found.plan.to_dict(), 0.0
-    steps = [step for act in found.acts for step in act.steps]
+    steps = [step for plan_segment in found.plan_segments for step in plan_segment.steps]
     for primitive, step in zip(said["primitives"], steps, strict=True):
         assert primitive["duration_s"] >= step.duration_s - 1e-9
         primitive.update(start_s=now, duration_s=step.duration_s)

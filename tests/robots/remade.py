@@ -22,9 +22,9 @@ from planner.robots.collision.clearance import Clearance
 from planner.robots.collision.collisions import Collisions
 from planner.robots.collision.contact import Contact
 from planner.robots.joint_layout import JointLayout
+from planner.robots.mirrored_arm import MirroredArm
 from planner.robots.pr2 import Pr2
 from planner.robots.reach import Pr2Reach
-from planner.robots.sided_arm import SidedArm
 from planner.robots.tool_path import IsFree, NoPath, ToolPath
 
 HANDS_APART_M = 0.2
@@ -82,13 +82,13 @@ class Mounted:
 
 
 @dataclass(frozen=True, slots=True)
-class ShiftedArm(SidedArm):
+class ShiftedArm(MirroredArm):
     """A PR2's arm, asked in the frame of a base from which it is mounted further left."""
 
     aside_m: float = 0.0
 
     def mirrored_places(self, places: FloatArray) -> FloatArray:
-        return SidedArm.mirrored_places(self, places - np.array([0.0, self.aside_m, 0.0]))
+        return MirroredArm.mirrored_places(self, places - np.array([0.0, self.aside_m, 0.0]))
 
 
 class RemadeReach(Pr2Reach):
@@ -96,7 +96,7 @@ class RemadeReach(Pr2Reach):
 
     @property
     def shoulders(self) -> tuple[Point3, ...]:
-        plain = [SidedArm(arm.shape, arm.is_mirrored) for arm in self._arms]
+        plain = [MirroredArm(arm.shape, arm.is_mirrored) for arm in self._arms]
         found = [arm.mirrored_places(arm.shoulder(self._torso_m)) for arm in plain]
         return tuple(
             (float(x), float(y) + arm.aside_m, float(z)) for arm, (x, y, z) in zip(self._arms, found, strict=True)
@@ -192,7 +192,7 @@ class RemadeRobot:
 class IdleArm:
     """A PR2's arm with joints that do nothing, as searches for joint paths see it."""
 
-    def __init__(self, arm: Mounted, real: SidedArm) -> None:
+    def __init__(self, arm: Mounted, real: MirroredArm) -> None:
         self._arm = arm
         self._real = real
 

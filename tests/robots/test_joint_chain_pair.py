@@ -21,7 +21,7 @@ def _link_cost(before: np.ndarray, after: np.ndarray, speeds: np.ndarray, span: 
     return costs[0, 0]
 
 
-class Question:
+class ArmQuery:
     """Random samples, some of them forbidden, and some of their pairs."""
 
     def __init__(self, seed: int, share_allowed: float) -> None:
@@ -82,28 +82,27 @@ class Question:
 def test_no_pair_of_chains_is_cheaper(share_allowed: float):
     solved = 0
     for seed in range(12):
-        question = Question(seed, share_allowed)
-        chains, least = question.found(), question.least_cost()
+        query = ArmQuery(seed, share_allowed)
+        chains, least = query.found(), query.least_cost()
         assert bool(chains.size) == (least < math.inf)
         if chains.size:
-            assert question.cost_of(chains) == pytest.approx(least, abs=1e-9)
+            assert query.cost_of(chains) == pytest.approx(least, abs=1e-9)
             solved += 1
     assert solved > 0
 
 
 def test_where_all_pairs_are_allowed_each_chain_is_what_it_is_alone():
     for seed in range(12):
-        question = Question(seed, 1.1)
+        query = ArmQuery(seed, 1.1)
         alone = [
-            cheapest_chain(question.joints[k], question.costs[k], SPEEDS[k], PERIODS[k], JUMP, question.spans[k])
-            for k in (0, 1)
+            cheapest_chain(query.joints[k], query.costs[k], SPEEDS[k], PERIODS[k], JUMP, query.spans[k]) for k in (0, 1)
         ]
         if all(map(len, alone)):
-            np.testing.assert_array_equal(question.found(), alone)
+            np.testing.assert_array_equal(query.found(), alone)
 
 
 def test_without_a_pair_at_one_pose_there_is_no_way():
-    question = Question(3, 1.1)
-    assert question.found().shape == (2, POSES)
-    question.is_allowed[2] = False
-    assert question.found().shape == (2, 0)
+    query = ArmQuery(3, 1.1)
+    assert query.found().shape == (2, POSES)
+    query.is_allowed[2] = False
+    assert query.found().shape == (2, 0)

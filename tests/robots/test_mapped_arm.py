@@ -1,4 +1,4 @@
-"""Arms of any robot: what their maps of postures answer, against the PR2's closed form and another kinematics."""
+"""Arms of any robot: what their reach maps answer, against the PR2's closed form and another kinematics."""
 
 import os
 
@@ -10,7 +10,7 @@ from planner.robots.chain import tool_poses
 from planner.robots.described_robot import read_robot
 from planner.robots.load_robot import load_robot
 from planner.robots.mapped_arm import ALL_ROUND, MappedArm, heights, mapped_arm
-from planner.robots.posture_maps import posture_map
+from planner.robots.reach_maps import reach_map
 from tests.robots.model import pin_pose
 
 TORSO_M = 0.29
@@ -27,7 +27,7 @@ def mapped(cache, progress=None) -> MappedArm:
     arm = read_robot("pr2").arms[0]
     shoulder_m = float(arm.root[2]) + TORSO_M
     heights_m = (LOW_M - shoulder_m, HIGH_M - shoulder_m)
-    return MappedArm(arm, posture_map(arm.chain, ALL_ROUND, heights_m, progress, cache))
+    return MappedArm(arm, reach_map(arm.chain, ALL_ROUND, heights_m, progress, cache))
 
 
 @pytest.fixture(scope="module")

@@ -1,4 +1,4 @@
-"""Joint paths of arms known by a map of postures: on the path by another kinematics, within limits, without a jump."""
+"""Joint paths of arms known by a reach map: on the path by another kinematics, within limits, without a jump."""
 
 import math
 from dataclasses import replace
@@ -14,7 +14,7 @@ from planner.robots.chain import WHOLE, tool_poses
 from planner.robots.described_robot import read_robot
 from planner.robots.mapped_arm import ALL_ROUND, MappedArm
 from planner.robots.newton import solve_from
-from planner.robots.posture_maps import posture_map
+from planner.robots.reach_maps import reach_map
 from planner.robots.tool_path import NoPath, ToolPath, free_postures, near_path
 
 LEAP_RAD = 0.4
@@ -32,7 +32,7 @@ class Bench:
         shoulder_m = float(arm.root[2])
         heights_m = (self.table_m - 0.02 - shoulder_m, self.table_m + 0.16 - shoulder_m)
         self.chain, self.root = arm.chain, arm.root
-        self.arm = MappedArm(arm, posture_map(arm.chain, ALL_ROUND, heights_m, directory=cache))
+        self.arm = MappedArm(arm, reach_map(arm.chain, ALL_ROUND, heights_m, directory=cache))
         self.speeds = np.full(len(arm.chain.low), 2.0)
         self._model = pin.buildModelFromXML(robot.urdf)
         self._data = self._model.createData()
@@ -52,7 +52,7 @@ class Bench:
         link = pin.updateFramePlacement(self._model, self._data, self._model.getFrameId(part.tool.link))
         approach, closing = np.array(part.tool.approach), np.array(part.tool.closing)
         axes = np.column_stack([approach, closing, np.cross(approach, closing)])
-        return link.act(np.array(part.tool.offset_m)), link.rotation @ axes
+        return link.plan_segment(np.array(part.tool.offset_m)), link.rotation @ axes
 
     def require_followed(self, path: ToolPath, joints: FloatArray) -> None:
         """Require the tool at its pose everywhere, as far as the arm has joints for it, and an unbroken path."""

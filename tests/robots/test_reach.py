@@ -10,8 +10,8 @@ from planner.robots.approaches import APPROACHES
 from planner.robots.arm import read_arm
 from planner.robots.comfort_memories import Memories
 from planner.robots.load_robot import load_robot
+from planner.robots.mirrored_arm import MirroredArm
 from planner.robots.reach import Pr2Reach
-from planner.robots.sided_arm import SidedArm
 from tests.robots.model import MODEL, limits, pin_tool_pose, random_joints
 
 ROBOT = load_robot("pr2")
@@ -24,7 +24,7 @@ EVERY_APPROACH = np.arange(len(APPROACHES))
 
 def bodiless(comfort_m: float, memories: Memories | None = None) -> Pr2Reach:
     """Return the reach of the arms alone, with no body in their way: the naive loop finds the same."""
-    arms = tuple(SidedArm(read_arm(MODEL), is_mirrored) for is_mirrored in (False, True))
+    arms = tuple(MirroredArm(read_arm(MODEL), is_mirrored) for is_mirrored in (False, True))
     return Pr2Reach(("left", "right"), arms, TORSO_M, comfort_m, memories=memories)
 
 

@@ -9,8 +9,8 @@ from planner.geometry.pose import Approach, FloatArray
 from planner.robots.chain import tool_poses
 from planner.robots.described_robot import read_robot
 from planner.robots.mapped_arm import ALL_ROUND, MappedArm
-from planner.robots.posture_maps import posture_map
 from planner.robots.posture_samples import posture_samples
+from planner.robots.reach_maps import reach_map
 from planner.robots.rolled_samples import gives_roll_alone, unrolled
 
 FLOOR_M = 0.75
@@ -22,7 +22,7 @@ def ur5e(tmp_path_factory) -> MappedArm:
     arm = read_robot("ur5e-pair").arms[0]
     height_m = FLOOR_M + 0.02 - float(arm.root[2])
     cache = tmp_path_factory.mktemp("cache")
-    return MappedArm(arm, posture_map(arm.chain, ALL_ROUND, (height_m, height_m + 0.01), directory=cache))
+    return MappedArm(arm, reach_map(arm.chain, ALL_ROUND, (height_m, height_m + 0.01), directory=cache))
 
 
 def rolled(approach: Approach, roll_rad: float) -> FloatArray:

@@ -14,9 +14,9 @@ from planner.robots.arm import read_arm
 from planner.robots.joint_slack import slacks
 from planner.robots.limiting_joint import JOINT_NAMES, joint_slacks
 from planner.robots.load_robot import load_robot
+from planner.robots.mirrored_arm import MirroredArm
 from planner.robots.reach import Pr2Reach
 from planner.robots.shortfall import DIRECTIONS, FURTHEST_M
-from planner.robots.sided_arm import SidedArm
 from tests.robots.model import MODEL
 
 ROBOT = load_robot("pr2")
@@ -109,10 +109,10 @@ def test_the_lower_bound_is_one_and_mostly_tells(arm):
 def test_what_is_within_reach_has_no_lower_bound_behind_the_shoulder_either(arm):
     reach = ROBOT.reach(TORSO_M, 0.0)
     points = np.random.default_rng(40).uniform((-0.9, -1.0, 0.2), (0.6, 1.0, 1.9), (2000, 3))
-    is_had = reach.from_anywhere(arm, points, EVERY_APPROACH, 1, 0.0)
+    is_within_margin = reach.from_anywhere(arm, points, EVERY_APPROACH, 1, 0.0)
     bounds = np.array([reach.at_least_short(arm, points[:, None], np.array([a]), 1, 0.0) for a in EVERY_APPROACH])
-    assert is_had[:, points[:, 0] < 0.0].sum() > 100
-    assert bounds[is_had].max() <= 0.0
+    assert is_within_margin[:, points[:, 0] < 0.0].sum() > 100
+    assert bounds[is_within_margin].max() <= 0.0
     assert (bounds[:, points[:, 0] < 0.0] > 0.05).mean() > 0.5
 
 
@@ -159,7 +159,7 @@ def test_a_straight_arm_lacks_exactly_what_the_bones_lack():
 
 def test_where_only_the_body_is_in_the_way_it_is_to_blame():
     reach = ROBOT.reach(TORSO_M, COMFORT_M)
-    alone = Pr2Reach(("left",), (SidedArm(read_arm(MODEL), is_mirrored=False),), TORSO_M, COMFORT_M)
+    alone = Pr2Reach(("left",), (MirroredArm(read_arm(MODEL), is_mirrored=False),), TORSO_M, COMFORT_M)
     points = np.random.default_rng(39).uniform((-0.1, -0.3, 0.7), (0.5, 0.5, 1.2), (200, 3))
     found = [(point, reach.shortfall(0, point, FORWARD)) for point in points]
     hindered = [point for point, one in found if one is not None and one.cause == "own_body"]

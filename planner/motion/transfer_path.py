@@ -5,39 +5,39 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from planner.geometry.pose import FloatArray
-from planner.motion.calmed import calmed
 from planner.motion.hand_holds import settles
-from planner.motion.leads import Cloths, Lines
-from planner.motion.moments import Moments
 from planner.motion.opened_collisions import OpenedCollisions
+from planner.motion.smoothing import smoothed
+from planner.motion.transfer_tool_paths import ApproachLines, Cloths
+from planner.motion.waypoints import Waypoints
 from planner.robots.openings import HELD_M, OPENING_M
 
-_CALMED = 30
-"""How often joints are calmed while a base drags."""
+_SMOOTHING_PASSES = 30
+"""How often joints are smoothed while a base drags."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Carried:
+class TransferPath:
     """The joint paths of a transfer.
 
     Attributes:
-        moments: the moments while cloth is held.
+        waypoints: the waypoints while cloth is held.
         cloths: the cloth on the table before and after.
         bases: the base at each step: x (m), y (m), yaw (rad), table frame, shape (steps, 3).
         joints: every arm's joints (rad), shape (steps, joints). Arms that take no part are at home; those that have
             let go wait where they withdrew to.
-        first: the step at which the hands reach the grips: the first of the moments.
+        first: the step at which the hands reach the grips: the first of the waypoints.
         lines: how the hands approach and withdraw.
         half_turns: the extra turn of the joints that turn hands about their approach axes (rad), 0 or pi, shape
             (joints,). The two fingers are interchangeable, so each hand is turned the way that is nearer to home.
     """
 
-    moments: Moments
+    waypoints: Waypoints
     cloths: Cloths
     bases: FloatArray
     joints: FloatArray
     first: int
-    lines: Lines
+    lines: ApproachLines
     half_turns: FloatArray
 
     @property
@@ -46,43 +46,43 @@ class Carried:
         return settles(self.lines.holds)
 
     @property
-    def lead(self) -> FloatArray:
+    def approach(self) -> FloatArray:
         """The joints on the way to where fingers close (rad), shape (n, joints)."""
         return self.joints[: self.first + 1 - int(self.settles)]
 
     @property
-    def tail(self) -> FloatArray:
+    def retreat(self) -> FloatArray:
         """The joints on the way from where fingers open (rad), shape (n, joints)."""
         return self.joints[self.last + int(self.settles) :]
 
     @property
     def last(self) -> int:
-        """The step of the last of the moments, at which the hands let go."""
-        return self.first + len(self.moments) - 1
+        """The step of the last of the waypoints, at which the hands let go."""
+        return self.first + len(self.waypoints) - 1
 
-    def calmed(self, collisions: OpenedCollisions) -> "Carried":
+    def smoothed(self, collisions: OpenedCollisions) -> "TransferPath":
         """Return it without the kinks that slow it down where all tools stand still, seen from the base: in drags.
 
         It stays as it is where the joints would touch something.
         """
         is_still = np.zeros(len(self.joints), dtype=np.bool_)
-        is_still[self.first : self.last + 1] = self.moments.is_still
-        joints = calmed(self.joints, _CALMED, is_still)
+        is_still[self.first : self.last + 1] = self.waypoints.is_still
+        joints = smoothed(self.joints, _SMOOTHING_PASSES, is_still)
         opened = np.array([HELD_M if hold.is_narrow else OPENING_M for hold in self.lines.holds])
         openings_m = np.tile(opened, (int(is_still.sum()), 1))
         if not is_still.any() or not collisions.are_all_free(self.bases[is_still], joints[is_still], openings_m):
             return self
         return replace(self, joints=joints)
 
-    def guides(self, first: int, moments: Moments, steps: int) -> FloatArray:
+    def guides(self, first: int, waypoints: Waypoints, steps: int) -> FloatArray:
         """Return its joints as guides for a transfer that differs a little, shape (steps, joints).
 
         Args:
             first: the step of that transfer at which the hands reach the grips.
-            moments: its moments.
+            waypoints: its waypoints.
             steps: the number of its steps.
         """
-        old, new = self.moments.progress, moments.progress
+        old, new = self.waypoints.progress, waypoints.progress
         held = np.interp(new, old, np.arange(len(old))) + self.first
         coming = np.linspace(0.0, self.first, first, endpoint=False)
         leaving = np.linspace(self.last, len(self.joints) - 1.0, steps - first - len(new) + 1)[1:]

@@ -36,7 +36,7 @@ class End:
     way: FoldWay
 
 
-class FoldQuestion:
+class FoldQuery:
     """The query about a fold from a station, with the article in a place and with given grips held."""
 
     def __init__(self, context: Context, state: State, fold: int) -> None:
@@ -111,22 +111,22 @@ def _beats(one: End, other: End, is_before: bool) -> bool:
     return one is not other and one.steps + away <= other.steps and (away > 0 or one.steps < other.steps or is_before)
 
 
-class FoldQuestions:
+class FoldQueries:
     """The fold queries of a context; many states of a search share one, so they are kept."""
 
     def __init__(self, context: Context) -> None:
         self._context = context
-        self._kept: dict[tuple[object, ...], FoldQuestion] = {}
+        self._kept: dict[tuple[object, ...], FoldQuery] = {}
         places = np.arange(context.standoffs)
         away = np.abs(places[:, None] - places)
         self._driven = {False: away, True: np.where(away > 0, IMPOSSIBLE, 0)}
 
-    def of(self, state: State, fold: int) -> FoldQuestion:
+    def of(self, state: State, fold: int) -> FoldQuery:
         """Return the query about a fold in a state; states that differ in their standoff share it."""
         done, x, y, station, _, held, dragged = state.key
         key = (done, x, y, station, held, dragged > 0, fold)
         if key not in self._kept:
-            self._kept[key] = FoldQuestion(self._context, state, fold)
+            self._kept[key] = FoldQuery(self._context, state, fold)
         return self._kept[key]
 
     def begun(self, state: State) -> NDArray[np.int64]:

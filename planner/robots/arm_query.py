@@ -1,6 +1,6 @@
 """The questions that the search for reach puts to an arm, whatever kind of arm it is. Compiled.
 
-An arm comes to the compiled queries as its numbers: of a closed form (`closed_comfort`), or of a map of postures
+An arm comes to the compiled queries as its numbers: of a closed form (`closed_comfort`), or of a reach map
 (`mapped_comfort`). Which of the two answers is chosen when a query is compiled, by the type of the numbers.
 """
 
@@ -12,21 +12,21 @@ from numba.extending import overload
 
 from planner.geometry.pose import FloatArray
 from planner.robots.closed_comfort import (
-    ClosedQuestion,
-    closed_had,
+    ClosedQuery,
     closed_in_height,
     closed_in_length,
-    closed_question,
+    closed_query,
+    closed_within_margin,
 )
 from planner.robots.mapped_comfort import (
     MappedArms,
-    MappedQuestion,
+    MappedQuery,
     MappedSpace,
-    mapped_had,
     mapped_in_height,
     mapped_in_length,
-    mapped_question,
+    mapped_query,
     mapped_space,
+    mapped_within_margin,
 )
 from planner.robots.pan_arcs import MOST_ARCS
 from planner.robots.place import Place
@@ -35,7 +35,7 @@ from planner.robots.posture_room import Room
 ArmNumbers: TypeAlias = FloatArray | MappedArms
 """An arm for the compiled queries, or, with maps, all arms of a robot."""
 
-Question: TypeAlias = ClosedQuestion | MappedQuestion
+ArmQuery: TypeAlias = ClosedQuery | MappedQuery
 """The constants of the queries in one approach."""
 
 Space: TypeAlias = FloatArray | MappedSpace
@@ -47,30 +47,32 @@ def space_for(_arm: ArmNumbers) -> Space:
     raise NotImplementedError("compiled alone")
 
 
-def question(
+def query(
     _arm: ArmNumbers, _shoulder: FloatArray, _axes: FloatArray, _label: int, _comfort: float, _step: int
-) -> Question:
+) -> ArmQuery:
     """Return the query in the approach of a label."""
     raise NotImplementedError("compiled alone")
 
 
-def is_in_height(_ask: Question, _place: Place) -> bool:
+def is_in_height(_ask: ArmQuery, _place: Place) -> bool:
     """Return whether a place's height is one that the arm can have; an approximate test."""
     raise NotImplementedError("compiled alone")
 
 
-def is_in_length(_ask: Question, _place: Place, _standoff: int) -> bool:
+def is_in_length(_ask: ArmQuery, _place: Place, _standoff: int) -> bool:
     """Return whether the arm is long enough for a place, ignoring most limits."""
     raise NotImplementedError("compiled alone")
 
 
-def is_had(_ask: Question, _hints: FloatArray, _room: Room, _space: Space, _place: Place, _standoff: int) -> bool:
+def is_within_margin(
+    _ask: ArmQuery, _hints: FloatArray, _room: Room, _space: Space, _place: Place, _standoff: int
+) -> bool:
     """Return whether a place is within the comfort radius from a standoff."""
     raise NotImplementedError("compiled alone")
 
 
 def _is_mapped(kind: types.Type) -> bool:
-    return getattr(kind, "instance_class", None) in (MappedArms, MappedQuestion)
+    return getattr(kind, "instance_class", None) in (MappedArms, MappedQuery)
 
 
 @njit(cache=True, nogil=True)
@@ -83,8 +85,8 @@ def _space_for(_arm: types.Type) -> Any:  # noqa: ANN401
     return (lambda _arm: mapped_space(_arm)) if _is_mapped(_arm) else (lambda _arm: _arcs())
 
 
-@overload(question, strict=False)
-def _question(
+@overload(query, strict=False)
+def _query(
     _arm: types.Type,
     _shoulder: types.Type,
     _axes: types.Type,
@@ -93,8 +95,8 @@ def _question(
     _step: types.Type,
 ) -> Any:  # noqa: ANN401
     if _is_mapped(_arm):
-        return lambda _arm, _shoulder, _axes, _label, _comfort, _step: mapped_question(_arm, _label, _comfort, _step)
-    return lambda _arm, _shoulder, _axes, _label, _comfort, _step: closed_question(
+        return lambda _arm, _shoulder, _axes, _label, _comfort, _step: mapped_query(_arm, _label, _comfort, _step)
+    return lambda _arm, _shoulder, _axes, _label, _comfort, _step: closed_query(
         _arm, _shoulder, _axes, _label, _comfort, _step
     )
 
@@ -113,8 +115,8 @@ def _is_in_length(_ask: types.Type, _place: types.Type, _standoff: types.Type) -
     return lambda _ask, _place, _standoff: closed_in_length(_ask, _place, _standoff)
 
 
-@overload(is_had, strict=False)
-def _is_had(
+@overload(is_within_margin, strict=False)
+def _is_within_margin(
     _ask: types.Type,
     _hints: types.Type,
     _room: types.Type,
@@ -123,7 +125,9 @@ def _is_had(
     _standoff: types.Type,
 ) -> Any:  # noqa: ANN401
     if _is_mapped(_ask):
-        return lambda _ask, _hints, _room, _space, _place, _standoff: mapped_had(_ask, _space, _place, _standoff)
-    return lambda _ask, _hints, _room, _space, _place, _standoff: closed_had(
+        return lambda _ask, _hints, _room, _space, _place, _standoff: mapped_within_margin(
+            _ask, _space, _place, _standoff
+        )
+    return lambda _ask, _hints, _room, _space, _place, _standoff: closed_within_margin(
         _ask, _hints, _room, _space, _place, _standoff
     )

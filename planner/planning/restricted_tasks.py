@@ -1,8 +1,8 @@
-"""Tighten a task: every plan for the tightened task is also a plan for the task itself.
+"""Restrict a task: every plan for the restricted task is also a plan for the task itself.
 
 A search tries the first few ways to perform a step. With more room there are more ways, and the first few may all be
 ways that the arms can hardly follow, so a task that allows more could get a slower plan, or none. Where a plan is not
-proven, planning therefore searches tightened tasks as well.
+proven, planning therefore searches restricted tasks as well.
 """
 
 from collections.abc import Iterator
@@ -19,11 +19,11 @@ _CONES_RAD = (0.0, 0.5, 1.0)
 
 def with_more_comfort(problem: Problem) -> Iterator[Problem]:
     """Yield the problem with larger comfort radii, the smallest first."""
-    return (problem.tightened(comfort_m=more_m) for more_m in _COMFORTS_M if problem.context.reach.comfort_m < more_m)
+    return (problem.restricted(comfort_m=more_m) for more_m in _COMFORTS_M if problem.context.reach.comfort_m < more_m)
 
 
 def with_narrower_cones(problem: Problem) -> Iterator[Problem]:
     """Yield the problem with narrower approach cones, the narrowest first, since it is the quickest to search."""
     scene = problem.context.scene
     narrower = (cone_rad for cone_rad in _CONES_RAD if cone_rad < scene.approach_cone_rad)
-    return (problem.tightened(scene=replace(scene, approach_cone_rad=cone_rad)) for cone_rad in narrower)
+    return (problem.restricted(scene=replace(scene, approach_cone_rad=cone_rad)) for cone_rad in narrower)

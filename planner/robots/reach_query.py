@@ -15,7 +15,7 @@ from planner.robots.pan_arcs import MOST_ARCS
 from planner.robots.posture_room import Room, has_room_about
 
 
-class Wanted(NamedTuple):
+class ReachQuery(NamedTuple):
     """The requirements on a place.
 
     Attributes:
@@ -50,28 +50,28 @@ def scratch_for(shape: ArmShape) -> Scratch:
 
 
 @njit(cache=True, nogil=True)
-def aim_of(shape: ArmShape, wanted: Wanted, point: FloatArray, approach: int) -> ToolPose:
+def aim_of(shape: ArmShape, query: ReachQuery, point: FloatArray, approach: int) -> ToolPose:
     """Return the tool pose that brings the tool to a point in an approach."""
-    axis = wanted.axes[approach]
+    axis = query.axes[approach]
     return aim_at(shape, point[0], point[1], point[2], axis[0], axis[1], axis[2])
 
 
 @njit(cache=True, nogil=True)
-def aims_gap(shape: ArmShape, wanted: Wanted, point: FloatArray, approach: int) -> float:
+def aims_gap(shape: ArmShape, query: ReachQuery, point: FloatArray, approach: int) -> float:
     """Return a lower bound on how far a tool point is from the comfort radius (m), see `comfort_gap`."""
-    return comfort_gap(shape, aim_of(shape, wanted, point, approach), wanted.comfort)
+    return comfort_gap(shape, aim_of(shape, query, point, approach), query.comfort)
 
 
 @njit(cache=True, nogil=True)
-def is_wanted(
-    shape: ArmShape, wanted: Wanted, aim: ToolPose, approach: int, comfort: float, scratch: Scratch
+def meets_query(
+    shape: ArmShape, query: ReachQuery, aim: ToolPose, approach: int, comfort: float, scratch: Scratch
 ) -> tuple[bool, int]:
     """Return whether a tool pose meets the requirements in its approach, with a comfort radius; queries made."""
     found, queries = is_comfortable(shape, aim, comfort, scratch.arcs, scratch.hint)
-    return found and has_room_about(shape, wanted.room, wanted.labels[approach], aim, scratch.arcs), queries
+    return found and has_room_about(shape, query.room, query.labels[approach], aim, scratch.arcs), queries
 
 
 @njit(cache=True, nogil=True)
-def rooms_tested(wanted: Wanted) -> int:
+def rooms_tested(query: ReachQuery) -> int:
     """Return the number of cells tested so far for whether the body leaves the arm room."""
-    return int(wanted.room.memory.entries[0])
+    return int(query.room.memory.entries[0])

@@ -1,4 +1,4 @@
-"""Build maps of postures, and keep them in the user's cache."""
+"""Build reach maps, and keep them in the user's cache."""
 
 import contextlib
 import os
@@ -13,8 +13,8 @@ from platformdirs import user_cache_path
 
 from planner.geometry.pose import Approach
 from planner.robots.chain import Chain
-from planner.robots.posture_growth import APART, FEW, FRINGE, OUTER, Growth, finished, grow, sow
-from planner.robots.posture_map import Grid, PostureMap
+from planner.robots.reach_map import Grid, ReachMap
+from planner.robots.reach_map_building import APART, FEW, FRINGE, OUTER, ReachMapBuilding, finished, grow, sow
 from planner.user_cache import use
 
 CELL_M = 0.075
@@ -48,13 +48,13 @@ Progress = Callable[[float], None]
 """Is told now and then what share of the work is done, roughly (0 to 1)."""
 
 
-def posture_map(
+def reach_map(
     chain: Chain,
     approaches: Sequence[Approach],
     heights_m: tuple[float, float],
     progress: Progress | None = None,
     directory: Path | None = None,
-) -> PostureMap:
+) -> ReachMap:
     """Return an arm's map, read from the cache or built (in seconds) and kept.
 
     A cache that cannot be read is built again; one that cannot be written is ignored.
@@ -70,7 +70,7 @@ def posture_map(
     path = (directory or user_cache_path("pleat")) / "postures" / f"{_digest(chain, grid)}.npz"
     try:
         with path.open("rb") as file, np.load(file, allow_pickle=False) as arrays:
-            found = PostureMap(grid, arrays["starts"], arrays["postures"])
+            found = ReachMap(grid, arrays["starts"], arrays["postures"])
     except (OSError, ValueError, KeyError, EOFError, BadZipFile):
         found = build_map(chain, grid, progress)
         with contextlib.suppress(OSError):
@@ -80,30 +80,30 @@ def posture_map(
     return found
 
 
-def build_map(chain: Chain, grid: Grid, progress: Progress | None = None) -> PostureMap:
+def build_map(chain: Chain, grid: Grid, progress: Progress | None = None) -> ReachMap:
     """Return an arm's map, grown from random postures."""
     joints = len(chain.low)
     entries = int(np.prod(grid.counts)) * len(grid.rotations)
-    growth = Growth(
+    building = ReachMapBuilding(
         np.zeros((entries, _FAMILIES, joints), dtype=np.int8),
         np.zeros(entries, dtype=np.int8),
         np.empty(entries * _FAMILIES, dtype=np.int32),
         np.zeros(2, dtype=np.int64),
     )
     rng = np.random.default_rng(0)
-    sow(chain, grid, growth, grid.middle + grid.half * rng.uniform(-1.0, 1.0, (SEEDS, joints)))
-    while grow(chain, grid, growth, _SLICE):
+    sow(chain, grid, building, grid.middle + grid.half * rng.uniform(-1.0, 1.0, (SEEDS, joints)))
+    while grow(chain, grid, building, _SLICE):
         if progress is not None:
-            done, known = growth.ends
+            done, known = building.ends
             progress(0.98 * float(done / known))
-    made = PostureMap(grid, *finished(chain, grid, growth))
+    made = ReachMap(grid, *finished(chain, grid, building))
     if progress is not None:
         progress(1.0)
     return made
 
 
 def grid_of(chain: Chain, approaches: Sequence[Approach], heights_m: tuple[float, float]) -> Grid:
-    """Return the cells and approaches of an arm's map; see `posture_map`."""
+    """Return the cells and approaches of an arm's map; see `reach_map`."""
     reach = float(np.linalg.norm(chain.offsets[1:], axis=1).sum() + np.linalg.norm(chain.tool_offset))
     reach += float(np.abs(np.concatenate([chain.low, chain.high])[np.tile(chain.is_prismatic, 2)]).sum())
     cell = min(max(CELL_M, 2.0 * reach / CELLS_ACROSS_MAX), 2.0 * reach / CELLS_ACROSS)
@@ -127,7 +127,7 @@ def _digest(chain: Chain, grid: Grid) -> str:
     return digest.hexdigest()
 
 
-def _write(path: Path, made: PostureMap) -> None:
+def _write(path: Path, made: ReachMap) -> None:
     """Write a map to a file atomically, so that it exists only once it is complete."""
     path.parent.mkdir(parents=True, exist_ok=True)
     handle, temporary = tempfile.mkstemp(dir=path.parent, suffix=".npz")

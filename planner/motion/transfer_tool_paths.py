@@ -16,7 +16,7 @@ from planner.geometry.pose import BoolArray, FloatArray
 from planner.geometry.tolerance import LENGTH_M
 from planner.motion.hand_holds import HandHold, Holds, settles
 from planner.motion.lying_cloth import NEAR_GRIP_M, LyingCloth
-from planner.motion.moments import Moments, about_x
+from planner.motion.waypoints import Waypoints, about_x
 from planner.robots.tool_path import ToolPath
 
 APPROACH_M, RETREAT_M = 0.10, 0.12
@@ -53,7 +53,7 @@ Cloths = tuple[LyingCloth | None, LyingCloth]
 
 
 @dataclass(frozen=True, slots=True)
-class Lines:
+class ApproachLines:
     """The lines along which hands approach and withdraw.
 
     Attributes:
@@ -66,7 +66,7 @@ class Lines:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Lead:
+class TransferToolPath:
     """The tool path of one arm in a transfer, and its ways to the grip and from it.
 
     Attributes:
@@ -96,7 +96,7 @@ class Lead:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Leads:
+class TransferToolPaths:
     """All arms' parts in a transfer.
 
     Attributes:
@@ -106,32 +106,39 @@ class Leads:
             step before it, and at the step after the last at which they hold.
     """
 
-    each: tuple[Lead, ...]
+    each: tuple[TransferToolPath, ...]
     bases: FloatArray
     first: int
 
     @staticmethod
     def of(
-        moments: Moments, lines: Lines, rolls_rad: FloatArray, height_m: float, has_room: HasRoom, cloths: Cloths
-    ) -> "Leads":
-        """Return the parts of the arms that hold cloth at some of the moments.
+        waypoints: Waypoints,
+        lines: ApproachLines,
+        rolls_rad: FloatArray,
+        height_m: float,
+        has_room: HasRoom,
+        cloths: Cloths,
+    ) -> "TransferToolPaths":
+        """Return the parts of the arms that hold cloth at some of the waypoints.
 
         Args:
-            moments: the moments while cloth is held.
+            waypoints: the waypoints while cloth is held.
             lines: how hands approach and withdraw.
             rolls_rad: the roll of each arm's hand about its approach axis (rad), shape (arms,).
             height_m: the table top's height above the floor (m).
             has_room: the test whether a hand has room.
             cloths: the cloth on the table before and after.
         """
-        arms = np.flatnonzero(moments.is_held.any(axis=1))
-        ways = [_way(int(arm), moments, lines, rolls_rad, height_m, has_room, cloths) for arm in arms]
+        arms = np.flatnonzero(waypoints.is_held.any(axis=1))
+        ways = [_way(int(arm), waypoints, lines, rolls_rad, height_m, has_room, cloths) for arm in arms]
         settling = int(settles(lines.holds))
         before = max(len(_stepped(way.approach)) for way in ways) - 1 + settling
         after = max(len(_stepped(way.retreat)) for way in ways) - 1 + settling
-        start, end = moments.bases[:1].repeat(before, 0), moments.bases[-1:].repeat(after, 0)
-        bases = np.concatenate([start, moments.bases, end])
-        return Leads(tuple(way.lead(before, after, len(bases), settling) for way in ways), bases, before)
+        start, end = waypoints.bases[:1].repeat(before, 0), waypoints.bases[-1:].repeat(after, 0)
+        bases = np.concatenate([start, waypoints.bases, end])
+        return TransferToolPaths(
+            tuple(way.tool_path(before, after, len(bases), settling) for way in ways), bases, before
+        )
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -146,7 +153,7 @@ class _Way:
     retreat: FloatArray
     is_coming: bool
 
-    def lead(self, before: int, after: int, steps: int, settling: int) -> Lead:
+    def tool_path(self, before: int, after: int, steps: int, settling: int) -> TransferToolPath:
         """Return the tool path over `steps` steps: `before` to come, then the grip, `after` to withdraw, then rest.
 
         With `settling`, the last of those to come and the first to withdraw lead between the grip and where the fingers
@@ -166,7 +173,7 @@ class _Way:
         from_grip = np.zeros(steps)
         from_grip[:before] = _gone_m(self.positions[0], coming[::-1])[::-1]
         from_grip[steps - rest :] = _gone_m(self.positions[-1], path.positions[steps - rest :])
-        return Lead(self.arm, path, from_grip, steps - rest, self.is_coming)
+        return TransferToolPath(self.arm, path, from_grip, steps - rest, self.is_coming)
 
 
 def _gone_m(start: FloatArray, points: FloatArray) -> FloatArray:
@@ -181,16 +188,16 @@ def rolled(roll_rad: float) -> FloatArray:
 
 def _way(
     arm: int,
-    moments: Moments,
-    lines: Lines,
+    waypoints: Waypoints,
+    lines: ApproachLines,
     rolls_rad: FloatArray,
     height_m: float,
     has_room: HasRoom,
     cloths: Cloths,
 ) -> _Way:
-    held = np.flatnonzero(moments.is_held[arm])
-    positions = moments.positions[arm, held]
-    rotations = moments.rotations[arm, held] @ rolled(rolls_rad[arm])
+    held = np.flatnonzero(waypoints.is_held[arm])
+    positions = waypoints.positions[arm, held]
+    rotations = waypoints.rotations[arm, held] @ rolled(rolls_rad[arm])
     upwards = np.array([0.0, 0.0, 1.0])
     hold = lines.holds[arm]
     coming, leaving = -rotations[0, :, 0], -rotations[-1, :, 0]
@@ -199,7 +206,7 @@ def _way(
     leaving *= RETREAT_M / np.linalg.norm(leaving)
     ends = []
     for number, line, cloth in ((0, APPROACH_M * coming, cloths[0]), (-1, leaving, cloths[1])):
-        base, rotation, there = moments.bases[held[number]], rotations[number], positions[number]
+        base, rotation, there = waypoints.bases[held[number]], rotations[number], positions[number]
         if number == 0 and cloth is None:
             ends.append(there[None].repeat(3, 0))
             continue
@@ -207,7 +214,7 @@ def _way(
         corners = _corners(there, line, lines.shares, height_m)
         able = (c for c in corners if has_room(arm, hold, base, c[-1], rotation, cloth if _is_far(c) else None))
         ends.append(next(able, there[None].repeat(3, 0)))
-    spans = np.where(moments.is_driving, moments.nominal_s, np.inf)[held[1:]]
+    spans = np.where(waypoints.is_driving, waypoints.nominal_s, np.inf)[held[1:]]
     approach, retreat = ends
     return _Way(arm, positions, rotations, spans, approach, retreat, cloths[0] is not None)
 

@@ -5,7 +5,7 @@ from collections import Counter
 from planner.primitives.primitive import Step
 
 
-class GivenUp:
+class FailureMemory:
     """The tasks given up in one search, wherever the cloth lies."""
 
     def __init__(self, failures_max: int) -> None:

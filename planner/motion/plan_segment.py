@@ -1,4 +1,4 @@
-"""The acts of a validated plan: transfers in which cloth is held, and moves between them."""
+"""The segments of a validated plan: transfers in which cloth is held, and moves between them."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -10,7 +10,7 @@ from planner.primitives.primitive import Step
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Act:
+class PlanSegment:
     """Primitives that follow one another without letting go, or one primitive in which nothing is held.
 
     Attributes:
@@ -39,24 +39,24 @@ class Act:
         return 0.0 if self.transit is None else self.transit.late_s
 
 
-def in_turn(acts: Sequence[Act], maker: TransferPlanner) -> tuple[Act, ...]:
-    """Return acts as they follow one another: the hands come to each transfer from the one before it."""
+def linked(plan_segments: Sequence[PlanSegment], maker: TransferPlanner) -> tuple[PlanSegment, ...]:
+    """Return segments as they follow one another: the hands come to each transfer from the one before it."""
     before: Transfer | None = None
     moves: list[Step] = []
     found = []
-    for act in acts:
-        if act.transfer is None:
-            found.append(act)
-            moves += act.steps
+    for plan_segment in plan_segments:
+        if plan_segment.transfer is None:
+            found.append(plan_segment)
+            moves += plan_segment.steps
         else:
-            found.append(replace(act, transit=maker.transit(before, moves, act.transfer)))
-            before, moves = act.transfer, []
+            found.append(replace(plan_segment, transit=maker.transit(before, moves, plan_segment.transfer)))
+            before, moves = plan_segment.transfer, []
     return tuple(found)
 
 
-def duration_s(acts: Sequence[Act]) -> float:
-    """Return the total duration of acts (s)."""
-    return sum(sum(act.durations_s()) for act in acts)
+def duration_s(plan_segments: Sequence[PlanSegment]) -> float:
+    """Return the total duration of segments (s)."""
+    return sum(sum(plan_segment.durations_s()) for plan_segment in plan_segments)
 
 
 def is_transfer(steps: Sequence[Step]) -> bool:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True, slots=True)
-class Tries:
+class SearchLimits:
     """The limits of one round.
 
     Attributes:
@@ -37,10 +37,12 @@ class Tries:
     failures: int
 
 
-QUICK = Tries(ways=40, variants=6, alone=8, together=2, late=2, spread=64, tried=12, enough=4, vain=6, failures=5)
+QUICK = SearchLimits(
+    ways=40, variants=6, alone=8, together=2, late=2, spread=64, tried=12, enough=4, vain=6, failures=5
+)
 """The limits of the first round."""
 
-THOROUGH = Tries(
+THOROUGH = SearchLimits(
     ways=320, variants=24, alone=32, together=8, late=8, spread=256, tried=48, enough=16, vain=24, failures=20
 )
 """The limits where the first round leaves a doubt."""

@@ -20,7 +20,7 @@ LONG = 2.0
 """A tongue that is longer than that times its width stays behind."""
 
 
-def tongue_left_behind(piece: Region, up: Point2) -> Point2 | None:
+def strip_left_behind(piece: Region, up: Point2) -> Point2 | None:
     """Return the leading corner at the tip of the longest tongue that a drag leaves behind, None if there is none.
 
     Args:

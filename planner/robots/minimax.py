@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from planner.geometry.pose import FloatArray
 from planner.robots.arm import ArmShape
 from planner.robots.arm_gap import comfort_gap
-from planner.robots.nearest_comfort import MANY_QUERIES, ROOM_QUERIES, lines_from, nearest_comfort
-from planner.robots.wanted_place import Scratch, Wanted, aim_of, aims_gap, is_wanted, rooms_tested, scratch_for
+from planner.robots.nearest_comfort import MANY_QUERIES, ROOM_QUERIES, directions_from, nearest_comfort
+from planner.robots.reach_query import ReachQuery, Scratch, aim_of, aims_gap, meets_query, rooms_tested, scratch_for
 
 
 class Ranking(NamedTuple):
@@ -32,7 +32,7 @@ class Ranking(NamedTuple):
     order: NDArray[np.int64]
 
 
-class LeastWorst(NamedTuple):
+class Minimax(NamedTuple):
     """The least of the worst shortfalls of some places, in the approaches examined so far.
 
     Attributes:
@@ -50,35 +50,35 @@ class LeastWorst(NamedTuple):
 
 
 @njit(cache=True, nogil=True)
-def ranked(shape: ArmShape, wanted: Wanted, places: FloatArray) -> tuple[Ranking, LeastWorst]:
-    """Return the order in which `least_worst` examines the approaches, and its result before the first."""
-    gaps = np.full((len(wanted.axes), len(places)), math.inf)
-    for approach in range(len(wanted.axes)):
+def ranked(shape: ArmShape, query: ReachQuery, places: FloatArray) -> tuple[Ranking, Minimax]:
+    """Return the order in which `minimax` examines the approaches, and its result before the first."""
+    gaps = np.full((len(query.axes), len(places)), math.inf)
+    for approach in range(len(query.axes)):
         for place in range(len(places)):
             for point in places[place]:
-                short = aims_gap(shape, wanted, point, approach)
+                short = aims_gap(shape, query, point, approach)
                 gaps[approach, place] = min(gaps[approach, place], max(short, 0.0))
     bounds = np.array([row.max() for row in gaps])
     order = np.argsort(bounds)
-    return Ranking(gaps, bounds, order), LeastWorst(math.inf, -1, int(order[0]), 0)
+    return Ranking(gaps, bounds, order), Minimax(math.inf, -1, int(order[0]), 0)
 
 
 @njit(cache=True, nogil=True)
-def least_worst(
+def minimax(
     shape: ArmShape,
-    wanted: Wanted,
+    query: ReachQuery,
     places: FloatArray,
     directions: FloatArray,
     furthest: float,
     ranking: Ranking,
-    so_far: LeastWorst,
+    so_far: Minimax,
     most: int,
-) -> LeastWorst:
+) -> Minimax:
     """Return the worst of several places that are all to be reached in one approach, in the best approach for it.
 
     Args:
         shape: the arm.
-        wanted: the requirements on each place.
+        query: the requirements on each place.
         places: places of the tool, each as seen from several places of the base, shape (p, n, 3).
         directions: unit vectors, shape (m, 3).
         furthest: displacements as long as this no longer matter (m).
@@ -86,21 +86,21 @@ def least_worst(
         so_far: the result for the approaches examined before.
         most: the work after which the search is interrupted, between two approaches, in queries.
     """
-    scratch, queries, tested = scratch_for(shape), 0, rooms_tested(wanted)
+    scratch, queries, tested = scratch_for(shape), 0, rooms_tested(query)
     best, best_place, best_approach, examined = so_far
     while examined < len(ranking.order) and best > 0.0:
-        if queries + ROOM_QUERIES * (rooms_tested(wanted) - tested) >= most:
+        if queries + ROOM_QUERIES * (rooms_tested(query) - tested) >= most:
             break
         approach, limit = ranking.order[examined], min(best, furthest)
         if ranking.bounds[approach] >= limit:
             examined = len(ranking.order)
             break
         only = slice(approach, approach + 1)
-        alone = Wanted(wanted.axes[only], wanted.labels[only], wanted.comfort, wanted.room)
+        alone = ReachQuery(query.axes[only], query.labels[only], query.comfort, query.room)
         worst, worst_place = 0.0, -1
         for place in np.argsort(-ranking.gaps[approach]):
-            if not _is_had(shape, alone, places[place], scratch):
-                lines = lines_from(shape, alone, places[place], directions)
+            if not _is_within_margin(shape, alone, places[place], scratch):
+                lines = directions_from(shape, alone, places[place], directions)
                 short, _, _, _, asked = nearest_comfort(
                     shape, alone, places[place], directions, limit, lines, MANY_QUERIES
                 )
@@ -114,15 +114,15 @@ def least_worst(
         examined += 1
     if best <= 0.0:
         examined = len(ranking.order)
-    return LeastWorst(best, best_place, best_approach, examined)
+    return Minimax(best, best_place, best_approach, examined)
 
 
 @njit(cache=True, nogil=True)
-def _is_had(shape: ArmShape, wanted: Wanted, points: FloatArray, scratch: Scratch) -> bool:
+def _is_within_margin(shape: ArmShape, query: ReachQuery, points: FloatArray, scratch: Scratch) -> bool:
     """Return whether a place is within the comfort radius in the first approach, from some place of the base."""
     for point in points:
-        aim = aim_of(shape, wanted, point, 0)
-        is_near = comfort_gap(shape, aim, wanted.comfort) <= 0.0
-        if is_near and is_wanted(shape, wanted, aim, 0, wanted.comfort, scratch)[0]:
+        aim = aim_of(shape, query, point, 0)
+        is_near = comfort_gap(shape, aim, query.comfort) <= 0.0
+        if is_near and meets_query(shape, query, aim, 0, query.comfort, scratch)[0]:
             return True
     return False

@@ -22,7 +22,7 @@ _PERIODS = np.where(np.isin(np.arange(7), _ENDLESS), math.tau, 0.0)
 
 
 @dataclass(frozen=True, slots=True)
-class SidedArm:
+class MirroredArm:
     """An arm of the robot.
 
     Attributes:

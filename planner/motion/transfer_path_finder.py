@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.geometry.tolerance import ANGLE_RAD
-from planner.motion.carried import Carried
 from planner.motion.free_postures import FreePostures
 from planner.motion.hand_holds import Holds, edge_holds, opening_of, settles, wide_holds
-from planner.motion.leads import FAR, NEAR, UP, Cloths, Lead, Leads, Lines
-from planner.motion.moments import Moments
 from planner.motion.opened_collisions import OpenedCollisions
 from planner.motion.robot_port import RobotPort
+from planner.motion.transfer_path import TransferPath
+from planner.motion.transfer_tool_paths import FAR, NEAR, UP, ApproachLines, Cloths, TransferToolPath, TransferToolPaths
+from planner.motion.waypoints import Waypoints
 from planner.robots.joint_layout import JointLayout
 from planner.robots.tool_path import IsFree, NoPath
 from planner.weakly import weakly
@@ -33,19 +33,19 @@ class _TransferKey:
 
     key: bytes
     cloths: Cloths
-    moments: Moments = field(compare=False)
+    waypoints: Waypoints = field(compare=False)
 
     @staticmethod
-    def of(moments: Moments, cloths: Cloths) -> "_TransferKey":
-        parts = (moments.positions, moments.rotations, moments.bases, moments.nominal_s, moments.is_driving)
-        digest = blake2b(digest_size=_DIGEST_BYTES)  # the arrays are there once already, in the moments
+    def of(waypoints: Waypoints, cloths: Cloths) -> "_TransferKey":
+        parts = (waypoints.positions, waypoints.rotations, waypoints.bases, waypoints.nominal_s, waypoints.is_driving)
+        digest = blake2b(digest_size=_DIGEST_BYTES)  # the arrays are there once already, in the waypoints
         for part in parts:
             digest.update(f"{part.dtype}{part.shape}".encode())
             digest.update(part.tobytes())
-        return _TransferKey(digest.digest(), cloths, moments)
+        return _TransferKey(digest.digest(), cloths, waypoints)
 
 
-class TransferPaths:
+class TransferPathFinder:
     """Finds and caches the joint paths of transfers; most of them recur after a small change to the garment.
 
     May be shared between threads.
@@ -65,143 +65,161 @@ class TransferPaths:
         self._searched = lru_cache(_TRANSFERS_KEPT)(weakly(self._search))
         self.postures = FreePostures(machine, collisions, torso_m)
 
-    def carried(self, moments: Moments, cloths: Cloths, ways: Sequence[Holds] = ()) -> Carried | NoPath:
-        """Return the joint paths of a transfer, or the moments at which there is no path. Cached.
+    def transfer_path(self, waypoints: Waypoints, cloths: Cloths, ways: Sequence[Holds] = ()) -> TransferPath | NoPath:
+        """Return the joint paths of a transfer, or the waypoints at which there is no path. Cached.
 
         Args:
-            moments: the moments while cloth is held.
+            waypoints: the waypoints while cloth is held.
             cloths: the cloth on the table before and after.
             ways: the ways in which hands may hold, the best first; none given: those in which they open widely.
         """
-        asked = _TransferKey.of(moments, cloths)
-        *others, last = ways or wide_holds(moments)
+        asked = _TransferKey.of(waypoints, cloths)
+        *others, last = ways or wide_holds(waypoints)
         found = (self._searched(asked, holds) for holds in others)
-        best = next((one for one in found if isinstance(one, Carried)), None)
+        best = next((one for one in found if isinstance(one, TransferPath)), None)
         return self._searched(asked, last) if best is None else best
 
-    def _search(self, asked: _TransferKey, holds: Holds) -> Carried | NoPath:
+    def _search(self, asked: _TransferKey, holds: Holds) -> TransferPath | NoPath:
         """Return the joint paths of a transfer whose hands hold in given ways."""
-        found = self._with_lines(asked, Lines(holds, FAR))
+        found = self._with_lines(asked, ApproachLines(holds, FAR))
         for shares in (UP, NEAR):
-            if isinstance(found, Carried) or found.is_hopeless:
+            if isinstance(found, TransferPath) or found.is_hopeless:
                 break
-            found = self._with_lines(asked, Lines(holds, shares))
+            found = self._with_lines(asked, ApproachLines(holds, shares))
         return found
 
-    def adapted(self, moments: Moments, cloths: Cloths, like: Carried) -> Carried | NoPath:
+    def adapted(self, waypoints: Waypoints, cloths: Cloths, like: TransferPath) -> TransferPath | NoPath:
         """Return the joint paths of a transfer similar to a known one, close to its joints if possible."""
-        near = self._near(moments, cloths, like)
-        return self.carried(moments, cloths) if near is None else near
+        near = self._near(waypoints, cloths, like)
+        return self.transfer_path(waypoints, cloths) if near is None else near
 
-    def _near(self, moments: Moments, cloths: Cloths, like: Carried) -> Carried | None:
-        if _TransferKey.of(moments, cloths) == _TransferKey.of(like.moments, like.cloths):
+    def _near(self, waypoints: Waypoints, cloths: Cloths, like: TransferPath) -> TransferPath | None:
+        if _TransferKey.of(waypoints, cloths) == _TransferKey.of(like.waypoints, like.cloths):
             return like
-        are_same_arms = np.array_equal(moments.is_used, like.moments.is_used)
-        if not are_same_arms or like.lines.holds not in (*wide_holds(moments), edge_holds(self._machine, moments)):
+        are_same_arms = np.array_equal(waypoints.is_used, like.waypoints.is_used)
+        if not are_same_arms or like.lines.holds not in (*wide_holds(waypoints), edge_holds(self._machine, waypoints)):
             return None
-        leads = self._leads(moments, like.lines, cloths)
-        joints, guides = self._layout.at_home(len(leads.bases)), like.guides(leads.first, moments, len(leads.bases))
-        are_free = self._are_free(leads, cloths, like.lines.holds)
-        for lead in leads.each:
-            span = self._layout.spans[lead.arm]
+        tool_paths = self._tool_paths(waypoints, like.lines, cloths)
+        joints, guides = (
+            self._layout.at_home(len(tool_paths.bases)),
+            like.guides(tool_paths.first, waypoints, len(tool_paths.bases)),
+        )
+        are_free = self._are_free(tool_paths, cloths, like.lines.holds)
+        for approach in tool_paths.each:
+            span = self._layout.spans[approach.arm]
             known = guides[:, span]
-            found = self._machine.arm_path_near(lead.arm, lead.path, self._torso_m, are_free[lead.arm], known)
+            found = self._machine.arm_path_near(
+                approach.arm, approach.path, self._torso_m, are_free[approach.arm], known
+            )
             if found is None:
                 return None
             joints[:, span] = found
-        if len(leads.each) > 1 and not self._are_all_apart(joints):
+        if len(tool_paths.each) > 1 and not self._are_all_apart(joints):
             return None
-        return self._half_turned(leads, moments, cloths, joints, like.lines)
+        return self._half_turned(tool_paths, waypoints, cloths, joints, like.lines)
 
-    def _with_lines(self, asked: _TransferKey, lines: Lines) -> Carried | NoPath:
+    def _with_lines(self, asked: _TransferKey, lines: ApproachLines) -> TransferPath | NoPath:
         """Return the joint paths of a transfer, each hand on the first of its lines for which there is room.
 
-        Where there is no path, return the moments at which an arm collides in every posture, or cannot pass the other.
+        Where there is no path, return the waypoints at which an arm collides in every posture, or cannot pass the other.
         """
-        moments, cloths = asked.moments, asked.cloths
-        leads = self._leads(moments, lines, cloths)
+        waypoints, cloths = asked.waypoints, asked.cloths
+        tool_paths = self._tool_paths(waypoints, lines, cloths)
         found = self._machine.arm_paths(
-            {lead.arm: lead.path for lead in leads.each},
+            {approach.arm: approach.path for approach in tool_paths.each},
             self._torso_m,
             self._height_m,
-            self._are_free(leads, cloths, lines.holds),
+            self._are_free(tool_paths, cloths, lines.holds),
             self._collisions.wide,
         )
         if isinstance(found, NoPath):
             return found
-        joints = self._layout.at_home(len(leads.bases))
-        joints[:, self._layout.joints_of(lead.arm for lead in leads.each)] = found
-        return self._half_turned(leads, moments, cloths, joints, lines)
+        joints = self._layout.at_home(len(tool_paths.bases))
+        joints[:, self._layout.joints_of(approach.arm for approach in tool_paths.each)] = found
+        return self._half_turned(tool_paths, waypoints, cloths, joints, lines)
 
-    def _leads(self, moments: Moments, lines: Lines, cloths: Cloths) -> Leads:
+    def _tool_paths(self, waypoints: Waypoints, lines: ApproachLines, cloths: Cloths) -> TransferToolPaths:
         rolls = self._rolling * [hold.roll_rad for hold in lines.holds]
-        return Leads.of(moments, lines, rolls, self._height_m, self.postures.has_room, cloths)
+        return TransferToolPaths.of(waypoints, lines, rolls, self._height_m, self.postures.has_room, cloths)
 
     def _are_all_apart(self, joints: FloatArray) -> bool:
         """Return whether no arm touches another in any of some configurations."""
         return bool(self._collisions.wide.arms_apart(tuple(self._layout.arms), joints).all())
 
-    def _half_turned(self, leads: Leads, moments: Moments, cloths: Cloths, joints: FloatArray, lines: Lines) -> Carried:
+    def _half_turned(
+        self,
+        tool_paths: TransferToolPaths,
+        waypoints: Waypoints,
+        cloths: Cloths,
+        joints: FloatArray,
+        lines: ApproachLines,
+    ) -> TransferPath:
         """Return the transfer with each hand turned by half a turn if that is nearer to home and collision-free.
 
         A hand whose last joint does not turn without end stays as it is.
         """
         layout = self._layout
         if settles(lines.holds):
-            joints = self._rested(leads, moments, joints, lines.holds)
+            joints = self._rested(tool_paths, waypoints, joints, lines.holds)
         turned = joints.copy()
-        half_turns, are_free = np.zeros_like(layout.home), self._are_free(leads, cloths, lines.holds)
-        for lead in leads.each:
-            span = layout.spans[lead.arm]
+        half_turns, are_free = np.zeros_like(layout.home), self._are_free(tool_paths, cloths, lines.holds)
+        for approach in tool_paths.each:
+            span = layout.spans[approach.arm]
             last = span.stop - 1
             away = joints[[0, -1], last] - layout.home[last]
             as_is, half = (np.abs(np.remainder(away + turn, 2.0 * np.pi) - np.pi).max() for turn in (np.pi, 0.0))
             if layout.is_continuous[last] and half < as_is - ANGLE_RAD:
                 turned[:, last] += np.pi
-                if are_free[lead.arm](np.arange(len(turned)), turned[:, span], True).all():
+                if are_free[approach.arm](np.arange(len(turned)), turned[:, span], True).all():
                     half_turns[last] = np.pi
                 else:
                     turned[:, last] = joints[:, last]
-        if len(leads.each) > 1 and half_turns.any() and not self._are_all_apart(turned):
+        if len(tool_paths.each) > 1 and half_turns.any() and not self._are_all_apart(turned):
             half_turns, turned = np.zeros_like(layout.home), joints
-        return Carried(moments, cloths, leads.bases, turned, leads.first, lines, half_turns)
+        return TransferPath(waypoints, cloths, tool_paths.bases, turned, tool_paths.first, lines, half_turns)
 
-    def _rested(self, leads: Leads, moments: Moments, joints: FloatArray, holds: Holds) -> FloatArray:
+    def _rested(
+        self, tool_paths: TransferToolPaths, waypoints: Waypoints, joints: FloatArray, holds: Holds
+    ) -> FloatArray:
         """Return joints of which those of hands that open where they hold rest while other hands settle."""
-        rested, first, last = joints.copy(), leads.first, leads.first + len(moments) - 1
-        for lead in leads.each:
-            if holds[lead.arm].raised_m == 0.0:
-                span = self._layout.spans[lead.arm]
+        rested, first, last = joints.copy(), tool_paths.first, tool_paths.first + len(waypoints) - 1
+        for approach in tool_paths.each:
+            if holds[approach.arm].raised_m == 0.0:
+                span = self._layout.spans[approach.arm]
                 rested[first - 1, span], rested[last + 1, span] = joints[first, span], joints[last, span]
         return rested
 
-    def _are_free(self, leads: Leads, cloths: Cloths, holds: Holds) -> dict[int, IsFree]:
+    def _are_free(self, tool_paths: TransferToolPaths, cloths: Cloths, holds: Holds) -> dict[int, IsFree]:
         """Return for each arm that takes part a test for collisions with body, table and arms that stay at home.
 
         An empty hand also has to stay above the cloth, except near its grip.
         """
         layout, collisions = self._layout, self._collisions
 
-        def arm_free(lead: Lead, steps: NDArray[np.int64], joints: FloatArray, is_certain: bool) -> BoolArray:
+        def arm_free(
+            approach: TransferToolPath, steps: NDArray[np.int64], joints: FloatArray, is_certain: bool
+        ) -> BoolArray:
             """Return at which steps an arm touches neither body nor table, its fingers open as they are then."""
-            arm, bases = lead.arm, leads.bases[steps]
+            arm, bases = approach.arm, tool_paths.bases[steps]
             opened, held = (collisions.of(holds[arm], is_open=is_open) for is_open in (True, False))
             if opened is held:
                 return opened.arm_free(arm, bases, joints, is_certain=is_certain)
-            answers, is_open = np.empty(len(steps), dtype=np.bool_), lead.is_open(steps)
+            answers, is_open = np.empty(len(steps), dtype=np.bool_), approach.is_open(steps)
             for rows, fingers in ((is_open, opened), (~is_open, held)):
                 answers[rows] = fingers.arm_free(arm, bases[rows], joints[rows], is_certain=is_certain)
             return answers
 
-        idle = set(layout.arms) - {lead.arm for lead in leads.each}
+        idle = set(layout.arms) - {approach.arm for approach in tool_paths.each}
 
-        def is_free(lead: Lead, steps: NDArray[np.int64], joints: FloatArray, is_certain: bool) -> BoolArray:
-            arm = lead.arm
-            answers = arm_free(lead, steps, joints, is_certain)
-            for cloth, must_clear in zip(cloths, lead.must_clear(steps), strict=True):
+        def is_free(
+            approach: TransferToolPath, steps: NDArray[np.int64], joints: FloatArray, is_certain: bool
+        ) -> BoolArray:
+            arm = approach.arm
+            answers = arm_free(approach, steps, joints, is_certain)
+            for cloth, must_clear in zip(cloths, approach.must_clear(steps), strict=True):
                 asked = np.flatnonzero(answers & must_clear)
                 if cloth is not None and len(asked):
-                    bases = leads.bases[steps[asked]]
+                    bases = tool_paths.bases[steps[asked]]
                     opening_m = opening_of(holds[arm])
                     answers[asked] = cloth.arm_clear(
                         arm, bases, joints[asked], opening_m=opening_m, is_certain=is_certain
@@ -214,4 +232,4 @@ class TransferPaths:
                 )
             return answers
 
-        return {lead.arm: partial(is_free, lead) for lead in leads.each}
+        return {approach.arm: partial(is_free, approach) for approach in tool_paths.each}

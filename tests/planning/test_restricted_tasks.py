@@ -7,7 +7,7 @@ import pytest
 
 from planner import Scene, Task, load_garment
 from planner.planning.problem import Problem
-from planner.planning.tightened import with_more_comfort, with_narrower_cones
+from planner.planning.restricted_tasks import with_more_comfort, with_narrower_cones
 from planner.primitives.g_fold import GFold
 
 
@@ -69,16 +69,16 @@ def test_with_a_narrower_cone_what_is_known_of_transfers_is_not_computed_again(m
     fold = next(step for step in GFold(problem.context).successors(problem.start))
     known = problem.maker.validated((fold,))
     assert known is not None
-    narrower, closer = (next(with_narrower_cones(problem)), problem.tightened(comfort_m=0.04))
+    narrower, closer = (next(with_narrower_cones(problem)), problem.restricted(comfort_m=0.04))
     again = replace(fold, context=narrower.context)
 
     def fail(*_: object, **__: object) -> None:
         raise AssertionError("what is known is computed again")
 
-    monkeypatch.setattr("planner.motion.transfer_planner.moments_of", fail)
+    monkeypatch.setattr("planner.motion.transfer_planner.waypoints_of", fail)
     made = narrower.maker.validated((again,))
     assert made is not None and made.carried is known.carried
     assert made.steps == (again,), "its steps are those of the tighter task"
-    assert narrower.maker.tries == 1, "but it counts"
+    assert narrower.maker.path_requests == 1, "but it counts"
     with pytest.raises(AssertionError, match="computed again"):
         closer.maker.validated((replace(fold, context=closer.context),))

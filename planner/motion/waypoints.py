@@ -1,4 +1,4 @@
-"""Cut the motion of hands that hold cloth into moments: the tool poses that joint paths must meet.
+"""Cut the motion of hands that hold cloth into waypoints: the tool poses that joint paths must meet.
 
 A *transfer* is what happens between two times at which all hands are empty: a fold, a drag, or several primitives that
 follow one another without letting go. Its phases are cut so finely that the base and the tools move and turn only a
@@ -20,7 +20,7 @@ from planner.task.phase import Phase
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Moments:
+class Waypoints:
     """Moments in the order of time; n of them.
 
     Attributes:
@@ -48,7 +48,7 @@ class Moments:
 
     @property
     def is_used(self) -> BoolArray:
-        """Whether each arm holds cloth at some of the moments, shape (arms,)."""
+        """Whether each arm holds cloth at some of the waypoints, shape (arms,)."""
         return np.asarray(self.is_held.any(axis=1))
 
     @property
@@ -73,7 +73,7 @@ class Moments:
         return np.asarray(done / max(float(done[-1]), 1.0))
 
     def __len__(self) -> int:
-        """Return the number of moments."""
+        """Return the number of waypoints."""
         return len(self.phases)
 
 
@@ -84,8 +84,8 @@ _NOWHERE: Point3 = (math.nan, math.nan, math.nan)
 """Where an empty hand counts as being."""
 
 
-def moments_of(phases: Sequence[Phase], height_m: float, *, only_ends: bool = False) -> Moments:
-    """Return the moments of phases in which no hand is reaching; they are kept and must not be changed.
+def waypoints_of(phases: Sequence[Phase], height_m: float, *, only_ends: bool = False) -> Waypoints:
+    """Return the waypoints of phases in which no hand is reaching; they are kept and must not be changed.
 
     Where a hand that holds on is to take another orientation, it turns in its grip before that phase begins.
 
@@ -94,17 +94,17 @@ def moments_of(phases: Sequence[Phase], height_m: float, *, only_ends: bool = Fa
         height_m: the table top's height above the floor (m).
         only_ends: whether only the beginning and the end of each phase are wanted.
     """
-    return _known_moments(tuple(phases), height_m, only_ends)
+    return _known_waypoints(tuple(phases), height_m, only_ends)
 
 
-def forget_moments() -> None:
-    """Drop the moments that are kept, so that benchmarks measure their computation."""
-    _known_moments.cache_clear()
+def forget_waypoints() -> None:
+    """Drop the waypoints that are kept, so that benchmarks measure their computation."""
+    _known_waypoints.cache_clear()
 
 
 @lru_cache(_MOMENTS_KEPT)
-def _known_moments(phases: tuple[Phase, ...], height_m: float, only_ends: bool) -> Moments:
-    """Return what `moments_of` does: plans of similar tasks, and tightened tasks, ask for the same again."""
+def _known_waypoints(phases: tuple[Phase, ...], height_m: float, only_ends: bool) -> Waypoints:
+    """Return what `waypoints_of` does: plans of similar tasks, and restricted tasks, ask for the same again."""
     sampler = StretchSampler(len(phases[0].hands), only_ends)
     stretches = [stretch for number, phase in enumerate(phases) for stretch in sampler.stretches(number, phase)]
     lengths = [len(stretch.shares) for stretch in stretches]
@@ -115,7 +115,7 @@ def _known_moments(phases: tuple[Phase, ...], height_m: float, only_ends: bool) 
     ways = [_positions_and_rotations(phases, stretches, arm, numbers, shares) for arm in range(len(phases[0].hands))]
     paces = np.concatenate([_paces(stretch.shares) for stretch in stretches])
     is_turning = np.repeat([stretch.turned is not None for stretch in stretches], lengths)
-    return Moments(
+    return Waypoints(
         numbers,
         shares,
         bases,

@@ -1,16 +1,16 @@
-"""Surcharges: what steps that follow one another take beyond the sum of their costs.
+"""Sequence costs: what steps that follow one another take beyond the sum of their costs.
 
-How soon empty hands come to a transfer depends on the transfer before it. So a surcharge belongs to a whole sequence of
-steps, and the search must know the last steps of a path to count it. It remembers no more of them than the surcharges
+How soon empty hands come to a transfer depends on the transfer before it. So a sequence cost belongs to a whole sequence of
+steps, and the search must know the last steps of a path to count it. It remembers no more of them than the sequence costs
 known so far ask for: of the steps since, the longest tail with which a sequence begins (as in the automaton of Aho and
-Corasick). Where there is no surcharge, a place on the way is a state and nothing else.
+Corasick). Where there is no sequence cost, a place on the way is a state and nothing else.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
 from typing import NamedTuple, TypeAlias
 
-from planner.motion.act import Act
+from planner.motion.plan_segment import PlanSegment
 from planner.planning.edges import Edges
 from planner.primitives.primitive import Step
 from planner.primitives.state import State, StateKey
@@ -37,8 +37,8 @@ class Reached(NamedTuple):
     since: Since
 
 
-class Surcharges:
-    """The surcharges known so far."""
+class SequenceCosts:
+    """The sequence costs known so far."""
 
     def __init__(self) -> None:
         """Begin with none."""
@@ -57,16 +57,16 @@ class Surcharges:
             self._begun.update(steps[:count] for count in range(len(steps)))
         return known_s == extra_s
 
-    def noted(self, steps: Sequence[Step], acts: Sequence[Act]) -> Iterator[Sequence[Step]]:
+    def noted(self, steps: Sequence[Step], plan_segments: Sequence[PlanSegment]) -> Iterator[Sequence[Step]]:
         """Charge the steps of a plan for hands that come late, and yield those for which this was not known."""
         keys, begin, since = [step_key(step) for step in steps], 0, START
-        for act in acts:
-            end = act.first + len(act.steps)
-            since = (*since, *keys[act.first : end])
-            if act.transfer is not None:
-                if not self.charge(since, act.late_s):
+        for plan_segment in plan_segments:
+            end = plan_segment.first + len(plan_segment.steps)
+            since = (*since, *keys[plan_segment.first : end])
+            if plan_segment.transfer is not None:
+                if not self.charge(since, plan_segment.late_s):
                     yield steps[begin:end]
-                begin, since = act.first, tuple(keys[act.first : end])
+                begin, since = plan_segment.first, tuple(keys[plan_segment.first : end])
 
     def after(self, since: Since, step: StepKey) -> tuple[Since, float]:
         """Return what to remember after one more step, and what is charged for it (s)."""
@@ -89,12 +89,12 @@ class Surcharges:
 
 
 class ChargedEdges:
-    """The successors of each state of a planning problem, with surcharges."""
+    """The successors of each state of a planning problem, with sequence costs."""
 
-    def __init__(self, edges: Edges, surcharges: Surcharges) -> None:
-        """Keep the edges without surcharges, and these."""
+    def __init__(self, edges: Edges, sequence_costs: SequenceCosts) -> None:
+        """Keep the edges without sequence costs, and these."""
         self._edges = edges
-        self._surcharges = surcharges
+        self._sequence_costs = sequence_costs
 
     def leaving(self, node: Reached, cost_s: float) -> Successors[Reached, Step]:
         """Return the edges that leave a node reached at a cost (s), and the deferred successors."""
@@ -107,7 +107,7 @@ class ChargedEdges:
             if isinstance(way, DeferredEdges):
                 yield DeferredEdges(way.cost, Reached(way.towards, ()), partial(self._computed, since, way))
             else:
-                after, extra_s = self._surcharges.after(since, step_key(way.action))
+                after, extra_s = self._sequence_costs.after(since, step_key(way.action))
                 yield Edge(way.action, way.cost + extra_s, Reached(way.after, after))
 
     def _computed(self, since: Since, way: DeferredEdges[State, Step]) -> Successors[Reached, Step]:

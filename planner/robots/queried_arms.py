@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.geometry.pose import Approach, FloatArray
-from planner.robots.arm_question import ArmNumbers
+from planner.robots.arm_query import ArmNumbers
 
 
 class ReachingArm(Protocol):
@@ -23,7 +23,7 @@ class ReachingArm(Protocol):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class AskedArms:
+class QueriedArms:
     """The arms of a robot, and how the compiled queries are asked about them.
 
     Attributes:

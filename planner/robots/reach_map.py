@@ -1,9 +1,9 @@
-"""A map of postures from which Newton's method finds the joints for any tool pose nearby. Compiled.
+"""A reach map from which Newton's method finds the joints for any tool pose nearby. Compiled.
 
 A random start finds the joints for a pose in one of many tries; a start from a neighbouring pose nearly always. So the
 map holds, for each cell of space and each approach, postures with the tool in the middle of the cell: up to some that
 are far apart, because one family of postures may end within a cell where another goes on. A query that finds no posture
-in its cell is answered no at once. `planner.robots.posture_growth` makes the maps.
+in its cell is answered no at once. `planner.robots.reach_map_building` makes the maps.
 """
 
 import math
@@ -43,7 +43,7 @@ class Grid(NamedTuple):
     half: FloatArray
 
 
-class PostureMap(NamedTuple):
+class ReachMap(NamedTuple):
     """A finished map.
 
     Attributes:
@@ -91,7 +91,7 @@ def decode(grid: Grid, codes: NDArray[np.int8], joints: FloatArray) -> None:
 @njit(cache=True, nogil=True)
 def find_joints(
     chain: Chain,
-    known: PostureMap,
+    known: ReachMap,
     point: FloatArray,
     rotation: FloatArray,
     approach: int,
@@ -122,7 +122,7 @@ def find_joints(
 
 @njit(cache=True, nogil=True)
 def reachable_poses(
-    chain: Chain, known: PostureMap, points: FloatArray, rotations: FloatArray
+    chain: Chain, known: ReachMap, points: FloatArray, rotations: FloatArray
 ) -> tuple[NDArray[np.bool_], FloatArray]:
     """Return which tool poses, shapes (m, 3) and (m, 3, 3), the arm can take, and joints for each, shape (m, n)."""
     scratch = scratch_for(len(chain.low))

@@ -1,0 +1,52 @@
+"""Smooth lines for hands that would come late: without the kinks that slow them down, and without stops at corners."""
+
+from collections.abc import Iterator
+from itertools import pairwise
+
+import numpy as np
+
+from planner.geometry.pose import BoolArray, FloatArray
+from planner.motion.line import Line
+from planner.motion.smoothing import smoothed
+from planner.motion.transit_paths import TransitPaths
+
+_SMOOTHING_PASSES, _BLENDED = 3, (10, 30, 60, 120)
+"""How often the lines of hands that come late are smoothed, and paths without stops at their corners: the more often, the
+further from what is known to be free.
+"""
+
+_STRAIGHT = 4
+"""Steps of a centimetre at grips that stay as they are: fingers come straight to the cloth, and leave it so."""
+
+_CUT_RAD = 0.1
+"""The largest angle from one keyframe to the next on such a path (rad)."""
+
+
+def smoothed_ends(transits: TransitPaths, retreat: Line, approach: Line) -> tuple[Line, Line]:
+    """Return the lines from grips and to grips, smoothed but for some steps at the grips."""
+    return _smoothed(transits, retreat, _STRAIGHT, 0), _smoothed(transits, approach, 0, _STRAIGHT)
+
+
+def blended(transits: TransitPaths, retreat: Line, way: FloatArray, approach: Line) -> Iterator[Line]:
+    """Yield lines that join a tail, a path of shape (n, joints) and a lead, more and more smoothed."""
+    whole = np.concatenate([retreat.joints, *(_cut(a, b)[1:] for a, b in pairwise(way)), approach.joints[1:]])
+    may_move = _may_move(whole, *(_STRAIGHT if len(line.joints) > 1 else 0 for line in (retreat, approach)))
+    for passes in _BLENDED:
+        yield transits.line(smoothed(whole, passes, may_move))
+
+
+def _smoothed(transits: TransitPaths, line: Line, first: int, last: int) -> Line:
+    joints = smoothed(line.joints, _SMOOTHING_PASSES, _may_move(line.joints, first, last))
+    return transits.line(joints, line.openings_m, line.at_grips)
+
+
+def _may_move(joints: FloatArray, first: int, last: int) -> BoolArray:
+    """Return which rows of a path may be moved: all but some steps at its start and at its end."""
+    numbers = np.arange(len(joints))
+    return np.asarray((numbers > first) & (numbers < len(joints) - 1 - last))
+
+
+def _cut(start: FloatArray, end: FloatArray) -> FloatArray:
+    """Return a straight line in steps, its ends included."""
+    count = max(1, int(np.ceil(np.abs(end - start).max() / _CUT_RAD)))
+    return np.asarray(start + np.linspace(0.0, 1.0, count + 1)[:, None] * (end - start))
