@@ -138,4 +138,4 @@ class UnsolvedPlanError(FoldingError):
     status: str
 
     def __str__(self) -> str:
-        return f"the plan is {self.status}, so there is nothing to play"
+        return f"no trajectory: the plan is {self.status}"

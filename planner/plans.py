@@ -54,7 +54,10 @@ def make_plan(
         RequestError: an option is unknown or out of range, or neither a task nor a garment was given.
     """
     if not isinstance(what, Task | Garment):
-        raise RequestError("garment", f"{what!r:.80} is no garment; `load_garment` returns one by its name or file")
+        raise RequestError(
+            "garment",
+            f"expected Task or Garment, got {type(what).__name__}; `load_garment` returns one by name or file",
+        )
     task = what if isinstance(what, Task) else task_for(what, scene, **options)
     return find_plan(task, should_stop=should_stop).plan
 

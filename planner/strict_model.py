@@ -77,7 +77,7 @@ def plain_message(detail: dict[str, Any]) -> str:
     if detail["type"] in ("missing", "union_tag_not_found"):
         return "is missing"
     if detail["type"] == "union_tag_invalid":
-        return f"{detail['ctx']['tag'][:80]!r} is none of {detail['ctx']['expected_tags']}"
+        return f"expected one of {detail['ctx']['expected_tags']}; got {detail['ctx']['tag'][:80]!r}"
     shown = repr(detail["input"])
     text = detail["msg"].replace("valid array", "valid list").replace("valid tuple", "valid list")
     return f"{text}, not {shown if len(shown) <= 80 else shown[:77] + '...'}"

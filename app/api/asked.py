@@ -111,7 +111,7 @@ def _asked_base(scene: Scene, wanted: BaseField) -> BaseStop:
         return BaseStop.at(None, Pose2(x_m, y_m, yaw_rad))
     stations = dict(scene.stations)
     if wanted.station not in stations:
-        raise RequestError("start.base.station", f"{wanted.station[:80]!r} is none of {', '.join(stations)}")
+        raise RequestError("start.base.station", f"expected one of {', '.join(stations)}; got {wanted.station[:80]!r}")
     if wanted.back_off_m > scene.back_off_max_m:
         told = f"{wanted.back_off_m} is more than {scene.back_off_max_m:g}, the furthest that the base may back off"
         raise RequestError("start.base.back_off_m", told)

@@ -84,7 +84,7 @@ def _shown(show: str | None) -> frozenset[str]:
     names = frozenset(name for name in show.split(",") if name)
     unknown = sorted(names - set(OVERLAYS))
     if unknown:
-        raise RequestError("show", f"{unknown[0][:80]!r} is none of {', '.join(OVERLAYS)}")
+        raise RequestError("show", f"expected one of {', '.join(OVERLAYS)}; got {unknown[0][:80]!r}")
     return names
 
 

@@ -24,7 +24,7 @@ def export(
     out: Annotated[
         Path | None,
         typer.Option(
-            metavar="PATH", help="Where to; by default a name here. A folder is zipped where this ends in .zip."
+            metavar="PATH", help="Output path; by default a name here. A folder is zipped where this ends in .zip."
         ),
     ] = None,
     rate_hz: Annotated[float, typer.Option(help="Frames a second of a recording (1..30).")] = DEFAULT_RATE_HZ,
@@ -38,7 +38,7 @@ def export(
         raise failure("export: needs a FILE and --to KIND; --list prints the kinds")
     kind = find_export(to)
     if kind is None:
-        raise failure(f"--to: {to!r} is none of {', '.join(one.what for one in EXPORTS)}")
+        raise failure(f"--to: expected one of {', '.join(one.what for one in EXPORTS)}; got {to!r}")
     data, name = _made(kind, source, rate_hz)
     path = out or Path(name)
     with refusing(path):

@@ -50,14 +50,10 @@ class HeuristicName(StrEnum):
 @cli.command()
 def plan(
     garment: SourceArgument,
-    comfort_radius_m: Annotated[
-        float | None, typer.Option(help="How much slack every reach has (m).", show_default="0.03")
-    ] = None,
+    comfort_radius_m: Annotated[float | None, typer.Option(help="Reach margin (m).", show_default="0.03")] = None,
     scene: Annotated[Path | None, typer.Option(help="A scene file.")] = None,
     start: Annotated[str | None, typer.Option(help="The station where the robot starts.", show_default="front")] = None,
-    heuristic: Annotated[
-        HeuristicName | None, typer.Option(help="What the search knows of what is left.", show_default="arm_time")
-    ] = None,
+    heuristic: Annotated[HeuristicName | None, typer.Option(help="Search heuristic.", show_default="arm_time")] = None,
     time_limit_s: Annotated[float | None, typer.Option(help="How long to search (s).", show_default="10")] = None,
     robot: Annotated[
         str | None, typer.Option(help="The robot: its name, or the file of its card.", show_default=DEFAULT_ROBOT)
@@ -177,11 +173,13 @@ def _status(answer: Plan) -> int:
     """Return the exit status for a plan; print why there is none."""
     if answer.status == "budget_exceeded":
         bound = answer.statistics.bound_s
-        errors.print("The budget ran out" + (f"; no plan is quicker than {bound:.2f} s" if bound else ""))
+        errors.print(
+            "The search ran out of time. Raise --time-limit-s" + (f"; lower bound {bound:.2f} s" if bound else "")
+        )
         return OUT_OF_BUDGET
     if answer.is_solved and not answer.is_proven:
         bound = answer.statistics.bound_s or 0.0
-        why = "The budget ran out. " if answer.statistics.is_cut_short else ""
+        why = "The search ran out of time. " if answer.statistics.is_cut_short else ""
         errors.print(f"{why}There may be a quicker plan, but none takes less than {bound:.2f} s")
     for reason in answer.reasons:
         met = "" if reason.is_tried else "; met on the way, not tried whether it is the cause"

@@ -1,6 +1,6 @@
 """The program's shared options, output and exit codes.
 
-Exit status: 0 done; 2 bad input or usage; 3 there is no plan, or a fold cannot be held; 4 the budget ran out.
+Exit status: 0 done; 2 bad input or usage; 3 there is no plan, or a fold cannot be held; 4 the search ran out of time.
 """
 
 import json

@@ -78,6 +78,6 @@ def _scene_problems(drawing: Drawing) -> list[Problem]:
     names = [name for name, _ in drawing.scene.stations]
     if drawing.start_station in names:
         return []
-    text = f"{drawing.start_station!r} is none of {', '.join(names)}"
+    text = f"expected one of {', '.join(names)}; got {drawing.start_station!r}"
     says = Message("unknown_station", text, {"station": drawing.start_station, "stations": names})
     return [Problem("unknown_station", "start_station", text, says=says)]

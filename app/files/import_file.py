@@ -109,7 +109,7 @@ def import_file(
     path = PurePath(filename.replace("\\", "/"))
     ending = _ending(filename)
     if units is not None and units not in UNITS_M:
-        raise ImportedFileError("units", f"{units[:40]!r} is none of {', '.join(UNITS_M)}")
+        raise ImportedFileError("units", f"expected one of {', '.join(UNITS_M)}; got {units[:40]!r}")
     if not SCALES[0] <= scale <= SCALES[1]:
         raise ImportedFileError("scale", f"{scale} is not between {SCALES[0]:g} and {SCALES[1]:g}")
     if ending == _JSON:

@@ -116,7 +116,7 @@ def moment_as_drawn(state: DocumentState, station: str | None, back_off_m: float
     name = drawing.start_station if station is None and drawing.start_station in stations else station
     name = next(iter(stations)) if name is None else name
     if name not in stations:
-        raise RequestError("station", f"{name[:80]!r} is none of {', '.join(stations)}")
+        raise RequestError("station", f"expected one of {', '.join(stations)}; got {name[:80]!r}")
     if not 0.0 <= back_off_m <= drawing.scene.back_off_max_m:
         raise RequestError("back_off_m", f"{back_off_m} is not between 0 and {drawing.scene.back_off_max_m:g}")
     if not state.solution.cloths:

@@ -71,7 +71,7 @@ class RehearsalOptions:
         if not 0 <= self.seed < 2**31:
             raise RequestError("seed", f"{self.seed} is not between 0 and {2**31 - 1}")
         if self.noise not in NOISE:
-            raise RequestError("noise", f"{self.noise!r} is none of {', '.join(NOISE)}")
+            raise RequestError("noise", f"expected one of {', '.join(NOISE)}; got {self.noise!r}")
 
 
 def require_physics() -> None:

@@ -104,7 +104,9 @@ def _from_template(field: str, entry: Mapping[str, Any], _: Sources) -> Iterator
     name = text(f"{field}.template", entry["template"])
     template = find_template(name)
     if template is None:
-        raise StudyError(f"{field}.template", f"{name!r} is none of {', '.join(one.name for one in TEMPLATES)}")
+        raise StudyError(
+            f"{field}.template", f"expected one of {', '.join(one.name for one in TEMPLATES)}; got {name!r}"
+        )
     known = {measure.name: measure for measure in template.measures}
     measures = table(f"{field}.measures", entry.get("measures", {}))
     require_known(f"{field}.measures", measures, known.keys())

@@ -60,7 +60,7 @@ def read_rehearsal(given: Mapping[str, Any]) -> tuple[StudyRehearsal, Axis]:
     names = noise if isinstance(noise, list) else [noise]
     for number, name in enumerate(names):
         if text(f"rehearsal.noise[{number}]", name) not in NOISE:
-            raise StudyError(f"rehearsal.noise[{number}]", f"{name!r} is none of {', '.join(NOISE)}")
+            raise StudyError(f"rehearsal.noise[{number}]", f"expected one of {', '.join(NOISE)}; got {name!r}")
     try:
         require_physics()
     except PhysicsMissingError as error:

@@ -162,7 +162,7 @@ def _stations(content: Mapping[str, Any], scene: Scene) -> Iterator[Axis]:
 
         def check(name: str) -> None:
             if name not in known:
-                raise StudyError("", f"{name!r} is none of {', '.join(known)}")
+                raise StudyError("", f"expected one of {', '.join(known)}; got {name!r}")
 
         yield _names(START, "start_stations", content["start_stations"], check)
 

@@ -62,7 +62,9 @@ def read_scale(said: str) -> ScaleSaid:
         length_m = _metres(found[1], found[2], LENGTH_M, "the garment")
         across: Across = "width" if found[3] == "width" else "height" if found[3] == "height" else "longest"
         return LengthSaid(length_m, across)
-    raise PictureError("scale", f"{said[:40]!r} is none of a4, letter, marker:50mm, 0.60m:longest, :width or :height")
+    raise PictureError(
+        "scale", f"expected one of a4, letter, marker:50mm, 0.60m:longest, :width or :height; got {said[:40]!r}"
+    )
 
 
 def _metres(number: str, unit: str, allowed_m: tuple[float, float], what: str) -> float:

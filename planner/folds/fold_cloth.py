@@ -74,7 +74,7 @@ def _moving_part(active: tuple[Layer, ...], whole: Region, line: Segment, *, is_
     silhouette = Region.union(layer.region for layer in active) if is_red else whole
     parts = split_along(silhouette, line)
     if parts is None:
-        raise FoldError("end", "the line does not part the cloth: it hangs together round one of the line's ends")
+        raise FoldError("end", "the line must cut the cloth completely: the parts are joined around one of its ends")
     moving, staying = parts
     _require_both(not moving.is_sliver, not staying.is_sliver)
     return moving

@@ -11,8 +11,9 @@ from planner.motion.smoothing import smoothed
 from planner.motion.transit_paths import TransitPaths
 
 _SMOOTHING_PASSES, _BLENDED = 3, (10, 30, 60, 120)
-"""How often the lines of hands that come late are smoothed, and paths without stops at their corners: the more often, the
-further from what is known to be free.
+"""How often the lines of late hands are smoothed, and paths without stops at their corners.
+
+The more often, the further from what is known to be free.
 """
 
 _STRAIGHT = 4

@@ -28,7 +28,7 @@ def smoothed(joints: FloatArray, passes: int, may_move: BoolArray | None = None)
 
 @njit(cache=True, nogil=True)
 def _smooth(joints: FloatArray, rows: NDArray[np.int64], passes: int) -> None:
-    """Smooth some rows in place, as often as wanted; compiled, because hands that come late have many paths smoothed."""
+    """Smooth some rows in place, as often as wanted; compiled, because late hands have many paths smoothed."""
     before = np.empty_like(joints)
     for _ in range(passes if len(rows) else 0):
         before[:] = joints

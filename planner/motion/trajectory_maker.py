@@ -1,7 +1,7 @@
-"""Make the trajectory of a plan from its segments: segments for base and cloth, one joint trajectory for the arms.
+"""Make the trajectory of a plan from its plan segments: phases of base and cloth, one joint trajectory for the arms.
 
-Both are those of the segments' transfers, while cloth is held, and of the transits between these, while hands are empty and
-the base drives.
+Both come from the transfers, while cloth is held, and from the transits between them, while hands are empty and the
+base drives.
 """
 
 from collections.abc import Iterable, Iterator, Sequence

@@ -121,7 +121,7 @@ class TransferPathFinder:
     def _with_lines(self, asked: _TransferKey, lines: ApproachLines) -> TransferPath | NoPath:
         """Return the joint paths of a transfer, each hand on the first of its lines for which there is room.
 
-        Where there is no path, return the waypoints at which an arm collides in every posture, or cannot pass the other.
+        Without a path, return the waypoints at which an arm collides in every posture, or cannot pass the other.
         """
         waypoints, cloths = asked.waypoints, asked.cloths
         tool_paths = self._tool_paths(waypoints, lines, cloths)

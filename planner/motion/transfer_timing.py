@@ -56,7 +56,7 @@ class TransferTiming:
 
     Attributes:
         times_s: times since the first grip, rising (s), shape (n,).
-        waypoints: the moment at each time, shape (n,); a moment after which a hand lets go appears twice, with a rest in
+        waypoints: the waypoint at each time, shape (n,); one after which a hand lets go appears twice, with a rest in
             between.
         velocities: the joints' velocities at each time, shape (n, joints), rad/s.
         timed_phases: the timed phases; their primitives are counted within the transfer.

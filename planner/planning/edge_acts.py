@@ -53,7 +53,7 @@ class EdgeActs:
         return self._made[key]
 
     def plan_segments(self, steps: Sequence[Step]) -> tuple[PlanSegment, ...] | None:
-        """Return the segments of a path, with hands at edges where they are not late for it; None without any, or a path.
+        """Return the segments of a path, with hands at edges where these are not late; None without any, or a path.
 
         Where such a segment takes longer than is known of its steps, others are tried in its place. A part that has no
         transfer ends the look at once: the path will be rejected, and what its other parts could hold is of no use.
@@ -84,7 +84,7 @@ class EdgeActs:
     def _acts_of(
         self, parts: Sequence[tuple[int, tuple[Step, ...]]], transfers: Sequence[Transfer | None]
     ) -> tuple[PlanSegment, ...] | None:
-        """Return the segments of a path, with the transfers given and others where there are none; None without a path."""
+        """Return the segments of a path with the transfers given, others where none is given; None without a path."""
         plan_segments = []
         for (first, part), given in zip(parts, transfers, strict=True):
             made = given or (self._real(part) if is_transfer(part) else None)

@@ -61,7 +61,7 @@ class Problem:
         is_fixed = self.robot.card.is_fixed
         station = "" if is_fixed else world.base.station or ""
         if station not in names:
-            raise RequestError("base.station", f"{station!r} is none of {', '.join(names)}")
+            raise RequestError("base.station", f"expected one of {', '.join(names)}; got {station!r}")
         here, there = self.context.placement, world.placement
         return State(
             world.done,
@@ -221,7 +221,7 @@ def _held(start: WorldState, machine: RobotPort) -> tuple[Held, ...]:
     names = [arm.name for arm in machine.card.arms]
     for number, held in enumerate(start.held):
         if held.arm not in names:
-            raise RequestError(f"start.held[{number}].arm", f"{held.arm!r} is none of {', '.join(names)}")
+            raise RequestError(f"start.held[{number}].arm", f"expected one of {', '.join(names)}; got {held.arm!r}")
     found = [Held(names.index(held.arm), held.point) for held in start.held]
     if len({held.arm for held in found}) < len(found):
         raise RequestError("start.held", "an arm holds two points")

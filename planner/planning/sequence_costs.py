@@ -1,9 +1,9 @@
 """Sequence costs: what steps that follow one another take beyond the sum of their costs.
 
-How soon empty hands come to a transfer depends on the transfer before it. So a sequence cost belongs to a whole sequence of
-steps, and the search must know the last steps of a path to count it. It remembers no more of them than the sequence costs
-known so far ask for: of the steps since, the longest tail with which a sequence begins (as in the automaton of Aho and
-Corasick). Where there is no sequence cost, a place on the way is a state and nothing else.
+How soon empty hands come to a transfer depends on the transfer before it. So a sequence cost belongs to a whole
+sequence of steps, and the search must know the last steps of a path to count it. It remembers no more of them than the
+known sequence costs need: of the steps since, the longest tail with which a sequence begins (as in the automaton of Aho
+and Corasick). Without sequence costs, a node of the search is a state and nothing else.
 """
 
 from collections.abc import Iterable, Iterator, Sequence

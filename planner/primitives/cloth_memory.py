@@ -1,7 +1,7 @@
 """A cache of what garment and table alone decide: where the cloth rests, its grips, and the paths of its folds.
 
-The same cloth is asked about again and again: a drawing is planned soon and then well, a search also looks at restricted
-tasks, and trials of causes change one number at a time. So this is kept by value and shared by all contexts alike.
+The same cloth comes up again and again: a drawing is planned quickly and then well, a search also looks at restricted
+tasks, and trials of causes change one number at a time. So this is kept by value and shared by all contexts.
 """
 
 from collections.abc import Hashable

@@ -81,7 +81,7 @@ class ArmedRobot(ABC):
         if not low <= torso_m <= high:
             raise SceneError("torso_m", f"{torso_m} m is not between {low} and {high} m")
         if not (math.isfinite(comfort_m) and comfort_m >= 0.0):
-            raise RequestError("comfort_m", f"{comfort_m} m is no radius")
+            raise RequestError("comfort_radius_m", f"must be 0 or more, got {comfort_m} m")
         return self._memories(float(torso_m), float(comfort_m))
 
     def arm_path_near(

@@ -69,7 +69,7 @@ def _is_nothing(geometry: Element, owner: str, field: str) -> bool:
     if geometry.tag == "mesh":
         return False
     if geometry.tag not in keys:
-        raise RobotError(field, f"{owner}: a {geometry.tag} is no shape that is known")
+        raise RobotError(field, f"{owner}: unsupported shape {geometry.tag!r}; use box, sphere, cylinder or mesh")
     try:
         sizes = [float(part) for key in keys[geometry.tag] for part in geometry.get(key, "").split()]
     except ValueError:
@@ -130,7 +130,7 @@ def _find_mesh(mesh: Element, source: Source, owner: str, field: str) -> bool:
     if found is None:
         return False
     if found.suffix[1:].lower() not in MESH_FORMATS:
-        raise RobotError(field, f"{owner}: the mesh {shown!r} is none of {', '.join(MESH_FORMATS)}")
+        raise RobotError(field, f"{owner}: expected a mesh of {', '.join(MESH_FORMATS)}; got {shown!r}")
     if found.stat().st_size > MESH_BYTES_MAX:
         raise RobotError(field, f"{owner}: the mesh {shown!r} is larger than {MESH_BYTES_MAX // 1_000_000} MB")
     mesh.set("filename", str(found))

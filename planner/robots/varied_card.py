@@ -55,7 +55,7 @@ def varied(card: CardFile, changes: Changes) -> CardFile:
     data = card.to_dict()
     for path, value in changes:
         if path in _FIXED:
-            raise RequestError("robot", f"{path} is not to be changed")
+            raise RequestError("robot", f"{path} is read-only")
         try:
             _put(data, path.split("."), json.loads(value))
         except ValueError:

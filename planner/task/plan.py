@@ -181,12 +181,15 @@ class Plan:
         state, now = self.task.start, 0.0
         for number, step in enumerate(self.steps):
             if step.before != state:
-                raise RequestError(f"steps[{number}].before", "is not the state in which the step before it ends")
+                raise RequestError(f"steps[{number}].before", "differs from the previous step's `after`")
             if abs(step.start_s - now) > TIME_S:
                 raise RequestError(f"steps[{number}].start_s", f"is {step.start_s}, the step before it ends at {now}")
             state, now = step.after, step.end_s
         if self.is_solved != (self.trajectory is not None):
-            raise RequestError("trajectory", f"should {'' if self.is_solved else 'not '}be there")
+            raise RequestError(
+                "trajectory",
+                "must not be null for a solved plan" if self.is_solved else "must be null unless the plan is solved",
+            )
 
 
 def _list(data: Mapping[str, Any], name: str) -> list[Any]:

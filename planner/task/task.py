@@ -49,7 +49,7 @@ class Limits:
         """Check the fields; raises `RequestError` for a number out of range."""
         require_intervals(self, RequestError)
         if self.heuristic not in ("arm_time", "zero"):
-            raise RequestError("heuristic", f"{self.heuristic!r} is none of arm_time, zero")
+            raise RequestError("heuristic", f"expected arm_time or zero, got {self.heuristic!r}")
 
 
 class TaskOptions(TypedDict, total=False):
@@ -79,7 +79,7 @@ def require_options(scene: object, options: Mapping[str, object]) -> None:
         raise RequestError("scene", f"{scene!r:.80} is no Scene")
     for name, value in options.items():
         if name not in TaskOptions.__annotations__:
-            raise RequestError(name, f"is no option; there are {', '.join(TaskOptions.__annotations__)}")
+            raise RequestError(name, f"unknown option; valid: {', '.join(TaskOptions.__annotations__)}")
         kind = _KINDS.get(name)
         if kind is not None and not isinstance(value, kind) and (value is not None or name == "robot"):
             raise RequestError(name, f"{value!r:.80} is no {'name' if kind is str else kind.__name__}")
@@ -169,7 +169,7 @@ class Task:
         """
         require_version(data, "version", VERSION, {"garment", "scene", "robot", "start", "limits"})
         if not isinstance(data["robot"], str):
-            raise RequestError("robot", "is not a name")
+            raise RequestError("robot", f"expected a string, got {data['robot']!r:.80}")
         return Task(
             _within("garment", Garment.from_dict, data["garment"]),
             _within("scene", Scene.from_dict, data["scene"]),
@@ -187,7 +187,7 @@ def at_station(scene: Scene, placement: Pose2, station: str, back_off_m: float =
     """
     stations = dict(scene.stations)
     if station not in stations:
-        raise RequestError("start_station", f"{station!r} is none of {', '.join(stations)}")
+        raise RequestError("start_station", f"expected one of {', '.join(stations)}; got {station!r}")
     return WorldState((), placement, BaseStop.at(station, stations[station], back_off_m))
 
 

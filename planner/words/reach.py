@@ -72,8 +72,8 @@ def _lack(values: Values) -> str:
     by = ("at least " if values["is_at_least"] else "") + in_metres(values["short_by_m"])
     if cause == "comfort_only":
         return (
-            f"can be reached, but with {rounded_down(values['comfort_m'] or 0.0)} m of comfort only, not "
-            f"{values['wanted_comfort_m']:g} m{demand} ({limit or 'too far'}): it is {by} m out of comfort"
+            f"can be reached, but with a margin of {rounded_down(values['comfort_m'] or 0.0)} m only, not "
+            f"{values['wanted_comfort_m']:g} m{demand} ({limit or 'too far'}): reach margin short by {by} m"
         )
     why, up = _CAUSES[cause], values["towards"][2]
     if cause in ("too_far", "too_near") and not values["is_at_least"] and abs(up) > _OBLIQUE:
@@ -86,8 +86,8 @@ def _advice(values: Values) -> str:
     movable, shift_m = values["movable"], values["shift_m"]
     is_enough = values.get("is_enough", True)
     if values["enough_comfort_m"] is not None:
-        with_comfort = f"{rounded_down(values['enough_comfort_m'])} m of comfort"
-        return f"; with {with_comfort} it can be done" if is_enough else f"; {with_comfort} is part of what it takes"
+        margin = f"a reach margin of {rounded_down(values['enough_comfort_m'])} m"
+        return f"; {margin} works" if is_enough else f"; {margin} is part of what it takes"
     if values["enough_cone_rad"] is not None:
         pinches = f"pinches from within {in_degrees(values['enough_cone_rad'])} degrees of the way into the cloth"
         return f"; with {pinches} it can be done" if is_enough else f"; {pinches} are part of what it takes"
@@ -98,7 +98,7 @@ def _advice(values: Values) -> str:
         return f"; all of its way is in reach {in_metres(shift_m)} m {_whereto(towards)}: {_how(movable, towards[2])}"
     if values["is_at_least"]:
         return "; place the cloth or a station so that it is nearer"
-    return f"; no shift of its way by up to {values['tried_m']:g} m was found that brings it about: fold less at once"
+    return f"; no shift of its path by up to {values['tried_m']:g} m helps: make a smaller fold"
 
 
 def _how(movable: Sequence[str], up: float) -> str:

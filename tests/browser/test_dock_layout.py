@@ -105,9 +105,9 @@ def test_with_reduced_motion_nothing_eases(wide: Page) -> None:
 def test_on_a_phone_the_large_stage_has_play_and_help_speaks_of_fingers_first(phone: Page) -> None:
     phone.reload()
     expect_planned(phone)
-    play = phone.get_by_role("button", name="Play on the stage")
+    play = phone.get_by_role("button", name="Play in the 3D view")
     expect(play).to_be_hidden()
-    phone.get_by_role("button", name="Show the stage large").tap()
+    phone.get_by_role("button", name="Show the 3D view large").tap()
     expect(play).to_be_enabled(timeout=STAGE_PATIENCE_MS)
     play.tap()
     pause = phone.get_by_role("button", name="Pause on the stage")

@@ -236,7 +236,7 @@ def test_when_a_search_is_cut_short_the_pill_is_brief_and_the_dock_says_how_far_
           return [headline(message, state), explanation(message, state)];
         }"""
     )
-    brief = "Searched 1,207 ways and found none"
+    brief = "Searched 1,207 candidates and found none"
     assert told == [f"{brief}.", f"{brief}; any takes 9 s. To look longer may help."]
 
 

@@ -119,7 +119,7 @@ def test_where_a_quicker_plan_may_exist_that_is_told_with_what_any_takes(
     page.goto(new_sheet(proven).page_url)
     numbers = page.get_by_role("region", name="Numbers")
     expect(numbers).to_contain_text("There may be a quicker plan; none takes less than 6.5 s.")
-    expect(numbers).to_contain_text("Searched 1,234 ways.")
+    expect(numbers).to_contain_text("1,234 candidates examined.")
     longer = numbers.get_by_role("button", name="Look longer")
     longer.click()
     expect(longer).to_be_hidden()
@@ -242,7 +242,7 @@ def test_while_a_robots_arms_are_mapped_that_is_told_and_a_fixed_base_has_no_lan
 ) -> None:
     page.route_web_socket("**/live", learning)
     page.goto(new_sheet(napkin()).page_url)
-    told = "Learning where this robot's arms can reach, once: 42 %"
+    told = "Building the reach map (first use): 42 %"
     expect(page.get_by_role("status").filter(has_text=told)).to_be_visible()
     expect(page.locator(".lane-name").filter(has_text="Left arm")).to_be_visible()
     expect(page.locator(".lane-name").filter(has_text="Base")).to_be_hidden()

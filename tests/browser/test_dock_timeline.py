@@ -87,8 +87,8 @@ def test_a_pull_along_a_lane_takes_the_time_along(page: Page, starts_s: list[flo
 
 
 def test_the_transport_steps_from_primitive_to_primitive(page: Page, starts_s: list[float]) -> None:
-    forth = page.get_by_role("button", name="Next primitive")
-    back = page.get_by_role("button", name="Previous primitive")
+    forth = page.get_by_role("button", name="Next step")
+    back = page.get_by_role("button", name="Previous step")
     for index, start_s in enumerate(starts_s[1:], 1):
         forth.click()
         expect_time(page, start_s)

@@ -145,7 +145,7 @@ def test_a_rehearsal_tells_of_each_step_what_became_of_it(page: Page, new_sheet:
 @pytest.mark.parametrize(
     ("decisions", "why"),
     [
-        (["seen", "kept_blindly"], "before step 2: where the cloth lies was not to be made out."),
+        (["seen", "kept_blindly"], "before step 2: the camera could not locate the cloth."),
         (["replanned"], "before step 2: from where the cloth lies there is no plan."),
         (["replanned"] * 4, "before step 2, which failed though the rest was planned again 3 times."),
         ([], "before the last step."),
@@ -203,7 +203,7 @@ def test_the_corner_shows_what_was_seen_and_what_became_of_the_cloth(
     rehearsed(page, new_sheet(napkin()), run("trace"))
     card = page.get_by_role("region", name="Pictures of the rehearsal")
     expect(card.get_by_text("Seen before step 1")).to_be_visible()
-    expect(card).to_contain_text("as seen, to 0.4 cm")
+    expect(card).to_contain_text("±0.4 cm")
     expect(card.locator(".looked image")).to_have_attribute("href", re.compile("^data:image/jpeg;base64,/9j/"))
     expect(card.locator(".looked-fitted.is-over")).to_have_count(1)
     expect(card.get_by_text("After step 1")).to_have_count(0)

@@ -16,7 +16,7 @@ def test_a_documents_settings_are_one_step_and_stations_stay_beside_the_table(
     before = sheet.state["drawing"]
     page.locator("#settings").click()
     settings = page.get_by_role("dialog", name="Settings")
-    settings.get_by_label("Comfort radius").fill("2")
+    settings.get_by_label("Reach margin").fill("2")
     settings.get_by_label("Depth").fill("0.1")
     settings.get_by_role("button", name="Apply").click()
     expect(settings.get_by_role("alert")).to_have_text("Depth: \u201c0.1\u201d is too little: at least 20.0 cm.")

@@ -59,8 +59,8 @@ def there_and_back(page: Page, way: Way, sheet: Sheet) -> dict[str, Any]:
     assert pulled["drawing"]["outline"][PULLED]["point"][1] < -0.05
 
     expect(page.locator(".cards button", has_text="Move the garment").first).to_be_attached(timeout=SEARCH_MS)
-    if (folded := page.get_by_role("button", name="Show what would help")).is_visible():  # a low board has one line
-        way.press("Show what would help")
+    if (folded := page.get_by_role("button", name="Show suggestions")).is_visible():  # a low board has one line
+        way.press("Show suggestions")
         expect(folded).to_be_hidden()
     way.press("Move the garment")
     expect_planned(page)

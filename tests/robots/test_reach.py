@@ -202,7 +202,7 @@ def test_no_points_have_no_standoffs():
 def test_what_cannot_be_asked_is_refused():
     with pytest.raises(SceneError, match="torso_m"):
         ROBOT.reach(0.5, 0.03)
-    with pytest.raises(RequestError, match="comfort_m"):
+    with pytest.raises(RequestError, match="comfort_radius_m"):
         ROBOT.reach(0.1, -0.01)
     with pytest.raises(ValueError, match="33"):
         ROBOT.reach(0.1, 0.0).standoffs(0, np.zeros((1, 3)), EVERY_APPROACH, 33, STEP_M)

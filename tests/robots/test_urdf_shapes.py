@@ -26,7 +26,7 @@ def read(folder, shape):
         ('<cylinder radius="1"/>', "a cylinder whose numbers make no shape"),
         ('<sphere radius="much"/>', "a sphere whose numbers make no shape"),
         ('<torus radius="1"/>', "a torus is no shape"),
-        ('<mesh filename="rod.blend"/>', "is none of stl, dae"),
+        ('<mesh filename="rod.blend"/>', "expected a mesh of stl, dae"),
         (f'<mesh filename="{"x" * 5000}.stl"/>', "there is no mesh 'xxx"),
         ("<mesh/>", "there is no mesh ''"),
     ],

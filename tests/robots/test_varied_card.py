@@ -51,7 +51,7 @@ def test_the_closed_form_stays_where_only_the_scene_changes() -> None:
         ("pr2@scene.table.height_m=high", "is no JSON value"),
         ("pr2@scene.table.height_m=NaN", "scene.table.height_m"),
         ('pr2@scene.table.height_m="high"', "scene.table.height_m"),
-        ('pr2@name="other"', "name is not to be changed"),
+        ('pr2@name="other"', "name is read-only"),
         ("r2d2@scene.torso_m=0.1", "there is no robot 'r2d2'"),
         ("pr2@" + ":".join(["scene.torso_m=0.1"] * (CHANGES_MAX + 1)), "changes 33 fields, 32 at most"),
     ],

@@ -114,7 +114,7 @@ def _read(element: Element) -> _Shape:
         size = _numbers(element.get("size", ""))
         return coal.Box(*size), np.array([*product((-0.5, 0.5), repeat=3)]) * size, None
     if element.tag not in ("sphere", "cylinder"):
-        raise RobotError("urdf", f"a {element.tag} is no shape that is known")
+        raise RobotError("urdf", f"unsupported shape {element.tag!r}; use box, sphere, cylinder or mesh")
     (radius,) = _numbers(element.get("radius", ""))
     if element.tag == "sphere":
         return coal.Sphere(radius), radius * _ball(), None

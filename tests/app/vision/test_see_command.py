@@ -69,7 +69,7 @@ def test_nothing_to_be_told_is_status_3(bare: str):
     ("options", "says"),
     [
         ((), "--scale: nothing in the picture says how large"),
-        (("--scale", "five"), "--scale: 'five' is none of a4"),
+        (("--scale", "five"), "--scale: expected one of a4"),
         (("--scale", "0.5m", "--like", "sock"), "sock"),
         (("--scale", "0.5m", "--state-of", "sock"), "sock"),
         (("--like", "tie", "--state-of", "tie"), "cannot be given together"),

@@ -56,8 +56,8 @@ def test_what_is_switched_off_and_on_again_is_drawn_again(page: Page, legend: Lo
 
 def test_the_shades_of_reach_are_named_with_their_comfort_and_hands(page: Page, legend: Locator) -> None:
     chip(page, "Reach").click()
-    # 3 cm of comfort are asked for where nobody says otherwise.
-    rows = ["L, R: can grip with 3.0 cm of comfort; stronger: both", "Limit of reach, without comfort"]
+    # The default reach margin is 3 cm.
+    rows = ["L, R: can grip with a margin of 3.0 cm; stronger: both", "Limit of reach, without margin"]
     expect(legend.get_by_role("listitem")).to_have_text(rows)
     for drawn in ("fill", "stroke-dasharray", "stroke-opacity"):
         row, board = legend.locator(".is-bare"), page.locator(".layer-over .is-bare").first

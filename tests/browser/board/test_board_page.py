@@ -104,7 +104,7 @@ def test_on_a_phone_the_views_are_swapped_and_the_sheet_is_pulled_up(
     before = hand.px((0.0, 0.0))
     scale = hand.board.get_attribute("data-px-per-m")
     expect(phone.get_by_role("combobox", name="Robot")).to_be_hidden()
-    phone.get_by_role("button", name="Show the stage large").tap()
+    phone.get_by_role("button", name="Show the 3D view large").tap()
     assert width(phone) < 120
     expect(phone.get_by_role("combobox", name="Robot")).to_be_visible()
     phone.get_by_role("button", name="Show the board large").tap()
