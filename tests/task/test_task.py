@@ -196,7 +196,7 @@ def test_folds_done_that_are_none_or_named_twice_are_refused():
 @pytest.mark.parametrize(
     ("name", "value", "said"),
     [
-        ("comfort_radius", 0.1, "there are placement, .*, comfort_radius_m"),
+        ("comfort_radius", 0.1, "valid: placement, .*, comfort_radius_m"),
         ("scene", 3, "3 is no Scene"),
         ("placement", (0.0, 0.0, 0.0), r"\(0.0, 0.0, 0.0\) is no Pose2"),
         ("start", 3, "3 is no WorldState"),
