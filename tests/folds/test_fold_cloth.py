@@ -97,7 +97,7 @@ def test_a_line_with_everything_to_its_left_is_refused():
 
 
 def test_a_line_round_whose_end_the_cloth_hangs_together_is_refused():
-    assert "hangs together" in refusal(TOWEL, Segment((0.1, 0.0), (0.1, 0.1)))
+    assert "cut the cloth completely" in refusal(TOWEL, Segment((0.1, 0.0), (0.1, 0.1)))
 
 
 def chord(rng: random.Random, region: Region) -> Segment | None:

@@ -252,7 +252,7 @@ def test_a_mesh_of_more_triangles_than_may_be_is_refused_by_its_name(tmp_path, m
         ('<box size="0.1 0.1"/>', "box whose numbers make no shape"),
         ('<sphere radius="inf"/>', "sphere whose numbers make no shape"),
         ('<cylinder radius="0.1"/>', "cylinder whose numbers make no shape"),
-        ("<torus/>", "a torus is no shape"),
+        ("<torus/>", "unsupported shape 'torus'"),
     ],
 )
 def test_a_shape_that_is_none_is_told_with_its_link(tmp_path, rod, said):

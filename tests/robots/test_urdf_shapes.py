@@ -25,7 +25,7 @@ def read(folder, shape):
         ('<box size="1 1"/>', "a box whose numbers make no shape"),
         ('<cylinder radius="1"/>', "a cylinder whose numbers make no shape"),
         ('<sphere radius="much"/>', "a sphere whose numbers make no shape"),
-        ('<torus radius="1"/>', "a torus is no shape"),
+        ('<torus radius="1"/>', "unsupported shape 'torus'"),
         ('<mesh filename="rod.blend"/>', "expected a mesh of stl, dae"),
         (f'<mesh filename="{"x" * 5000}.stl"/>', "there is no mesh 'xxx"),
         ("<mesh/>", "there is no mesh ''"),
