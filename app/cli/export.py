@@ -11,6 +11,7 @@ from app.files.export import Export
 from app.files.exports import EXPORTS, find_export
 from app.files.folder_file import ZIP, unpack
 from app.files.recording import DEFAULT_RATE_HZ
+from app.files.slowed import SPEEDS, slowed
 from app.files.state_of_plan import state_of_garment, state_of_plan
 from planner import Garment, make_plan
 
@@ -28,6 +29,9 @@ def export(
         ),
     ] = None,
     rate_hz: Annotated[float, typer.Option(help="Frames a second of a recording (1..30).")] = DEFAULT_RATE_HZ,
+    speed: Annotated[
+        float, typer.Option(help="The motion's speed as a share of the planned one (0.01..1); poses stay the same.")
+    ] = 1.0,
     is_listing: Annotated[bool, typer.Option("--list", help="Print the kinds of files.")] = False,
 ) -> None:
     """Make a file of a plan, or of a garment, which is planned first where the kind needs that."""
@@ -39,7 +43,9 @@ def export(
     kind = find_export(to)
     if kind is None:
         raise failure(f"--to: expected one of {', '.join(one.what for one in EXPORTS)}; got {to!r}")
-    data, name = _made(kind, source, rate_hz)
+    if not SPEEDS[0] <= speed <= SPEEDS[1]:
+        raise failure(f"--speed: expected {SPEEDS[0]:g} to {SPEEDS[1]:g}, got {speed:g}")
+    data, name = _made(kind, source, rate_hz, speed)
     path = out or Path(name)
     with refusing(path):
         if kind.is_folder and path.suffix != ZIP:
@@ -49,14 +55,15 @@ def export(
     output.print(f"{path}: {len(data)} bytes")
 
 
-def _made(kind: Export, source: str, rate_hz: float) -> tuple[bytes, str]:
+def _made(kind: Export, source: str, rate_hz: float, speed: float) -> tuple[bytes, str]:
     """Return a file's content and its default name."""
     found = load_source(source)
     with blaming(source):
-        if isinstance(found, Garment):
-            state = state_of_plan(make_plan(found)) if kind.needs_plan else state_of_garment(found)
+        if isinstance(found, Garment) and not kind.needs_plan:
+            state = state_of_garment(found)
         else:
-            state = state_of_plan(found)
+            plan = make_plan(found) if isinstance(found, Garment) else found
+            state = state_of_plan(slowed(plan, speed))
         return kind.file(state, rate_hz, lambda: False), kind.filename(state).removesuffix(ZIP)
 
 

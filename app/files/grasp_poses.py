@@ -55,11 +55,12 @@ def grasp_poses(plan: Plan) -> dict[str, Any]:
     """
     if plan.trajectory is None:
         raise UnsolvedPlanError(plan.status)
-    hands = _Hands(plan, plan.trajectory, load_robot(plan.task.robot))
+    robot = load_robot(plan.task.robot)
+    hands = _Hands(plan, plan.trajectory, robot)
     return {
         "version": VERSION,
         "garment": plan.garment.name,
-        "robot": plan.task.robot,
+        "robot": robot.card.name,
         "units": _UNITS,
         "frames": _FRAMES,
         "steps": [hands.step(number) for number in range(len(plan.steps))],

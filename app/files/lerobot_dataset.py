@@ -1,7 +1,8 @@
 """Writes a plan's motion as a LeRobot dataset of one episode (format 3.0), for learning from demonstrations.
 
 A frame's state is where arms, fingers and base are, its action where they are to be at the next frame, as a leader arm
-would ask. The motion is the one that a controller is sent. There are no cameras.
+would ask. The motion is the one that a controller is sent. There are no cameras. Names and units are those of LeRobot
+for the arms that it drives itself, and otherwise the robot's own (`app.files.lerobot_features`).
 """
 
 import io
@@ -14,10 +15,11 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from app.files.folder_file import zipped
+from app.files.lerobot_features import Part, parts_of
 from planner.errors import UnsolvedPlanError
 from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import TIME_S
-from planner.motion.motion_limits import BASE_NAMES, MotionLimits
+from planner.motion.motion_limits import MotionLimits
 from planner.motion.motion_values import positions_at
 from planner.robots.card import RobotCard
 from planner.robots.load_robot import load_robot
@@ -35,7 +37,8 @@ _QUANTILES = {"q01": 0.01, "q10": 0.1, "q50": 0.5, "q90": 0.9, "q99": 0.99}
 def lerobot_folder(plan: Plan) -> bytes:
     """Return a solved plan as a zipped LeRobot dataset; raises `UnsolvedPlanError`."""
     card = load_robot(plan.task.robot).card
-    names, states = _states(plan, card)
+    parts = parts_of(card)
+    states = _states(plan, card, parts)
     count = len(states)
     numbers = np.arange(count)
     columns: dict[str, np.ndarray[Any, Any]] = {
@@ -51,7 +54,7 @@ def lerobot_folder(plan: Plan) -> bytes:
     stats = {name: _stats(values) for name, values in columns.items()}
     return zipped(
         {
-            "meta/info.json": _json(_info(plan, names, columns)),
+            "meta/info.json": _json(_info(card, parts, columns)),
             "meta/stats.json": _json(stats),
             "meta/tasks.parquet": _tasks(task),
             f"meta/episodes/{_FIRST}": _parquet(pa.Table.from_pylist([_episode(task, count, stats)])),
@@ -60,21 +63,23 @@ def lerobot_folder(plan: Plan) -> bytes:
     )
 
 
-def _states(plan: Plan, card: RobotCard) -> tuple[list[str], FloatArray]:
-    """Return what moves, and where it is at each frame, shape (frames, names); a plan without steps has one frame."""
+def _states(plan: Plan, card: RobotCard, parts: tuple[Part, ...]) -> FloatArray:
+    """Return where the parts are at each frame, shape (frames, parts); a plan without steps has one frame."""
     if plan.trajectory is None:
         raise UnsolvedPlanError(plan.status)
     limits = MotionLimits.of(card, plan.scene)
-    shown = [n for n, name in enumerate(limits.names) if not (card.is_fixed and name in BASE_NAMES)]
     frames_s = np.arange(math.ceil(plan.trajectory.duration_s * FPS - TIME_S) + 1) / FPS
-    return [limits.names[n] for n in shown], positions_at(plan.trajectory, frames_s)[:, shown]
+    columns = [limits.names.index(part.source) for part in parts]
+    values = positions_at(plan.trajectory, frames_s)[:, columns] - [part.zero for part in parts]
+    return np.asarray(values * [part.factor for part in parts])
 
 
-def _info(plan: Plan, names: list[str], columns: dict[str, np.ndarray[Any, Any]]) -> dict[str, Any]:
+def _info(card: RobotCard, parts: tuple[Part, ...], columns: dict[str, np.ndarray[Any, Any]]) -> dict[str, Any]:
     count = len(columns["index"])
+    moving = {"names": [part.name for part in parts], "units": [part.unit for part in parts]}
     return {
         "codebase_version": _FORMAT,
-        "robot_type": plan.task.robot,
+        "robot_type": card.name,
         "total_episodes": 1,
         "total_frames": count,
         "total_tasks": 1,
@@ -89,7 +94,7 @@ def _info(plan: Plan, names: list[str], columns: dict[str, np.ndarray[Any, Any]]
             name: {
                 "dtype": str(values.dtype),
                 "shape": list(values.shape[1:]) or [1],
-                "names": names if values.ndim > 1 else None,
+                **(moving if values.ndim > 1 else {"names": None}),
             }
             for name, values in columns.items()
         },

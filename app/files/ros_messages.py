@@ -32,9 +32,12 @@ RATE_HZ = 50.0
 TABLE_FRAME = "table"
 """The frame of the base's path: the middle of the table's top, z up."""
 
-_VERSION = 2
+_VERSION = 3
 _TRAJECTORY, _PATH = "trajectory_msgs/msg/JointTrajectory", "nav_msgs/msg/Path"
 _NS = 1_000_000_000
+
+_NOW = 0
+"""The stamp of every joint trajectory (ns): to begin at once. A controller rejects a trajectory whose end is past."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +47,7 @@ class RosMessage:
     Attributes:
         topic: its topic.
         type_name: its type.
-        stamp_ns: when it is sent, which its header says too: the start of its step (ns).
+        stamp_ns: when it is sent on the plan's clock, which is the bag's: the start of its step (ns).
         data: its CDR form.
     """
 
@@ -83,7 +86,7 @@ def ros_motion(plan: Plan, card: RobotCard) -> RosMotion:
     limits = MotionLimits.of(card, plan.scene)
     writer = _Writer(plan, plan.trajectory, card, limits, message_types())
     messages = tuple(message for step in plan.steps for message in writer.messages(step))
-    return RosMotion(messages, _about(plan, limits))
+    return RosMotion(messages, _about(plan, card, limits))
 
 
 class _Writer:
@@ -122,7 +125,7 @@ class _Writer:
             for t, *rows in zip(times.tolist(), *orders, strict=True)
         ]
         topic = f"/{_ros_name(name)}_controller/joint_trajectory"
-        message = self._types.types[_TRAJECTORY](self._header(_ns(step.start_s), ""), list(joints), points)
+        message = self._types.types[_TRAJECTORY](self._header(_NOW, ""), list(joints), points)
         return self._message(topic, _TRAJECTORY, step, message)
 
     def _path(self, step: PlanStep, times: FloatArray, poses: FloatArray) -> RosMessage:
@@ -150,13 +153,13 @@ class _Writer:
         return self._types.types["std_msgs/msg/Header"](time, frame)
 
 
-def _about(plan: Plan, limits: MotionLimits) -> dict[str, Any]:
+def _about(plan: Plan, card: RobotCard, limits: MotionLimits) -> dict[str, Any]:
     """Return what a reader must know besides the messages."""
     return {
         "version": _VERSION,
         "garment": plan.garment.name,
-        "robot": plan.task.robot,
-        "clock": "the plan's own: each step goes from rest to rest, with bounded speeds and accelerations",
+        "robot": card.name,
+        "clock": "the bag's is the plan's: each step goes from rest to rest, with bounded speeds and accelerations",
         "duration_s": plan.cost_s,
         "speeds": dict(zip(limits.names, limits.speeds.tolist(), strict=True)),
         "accelerations": dict(zip(limits.names, limits.accelerations.tolist(), strict=True)),

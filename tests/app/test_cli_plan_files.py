@@ -94,6 +94,17 @@ def test_a_plan_file_is_exported(file: Path, tmp_path: Path, kind: str) -> None:
         assert Plan.from_dict(json.loads(data)) == read_plan(file)
 
 
+def test_an_export_is_slowed_to_a_share_of_the_planned_speed(file: Path, tmp_path: Path) -> None:
+    target = tmp_path / "slow.plan.json"
+    assert pleat("export", str(file), "--to", "plan.json", "--speed", "0.25", "--out", str(target)).exit_code == 0
+    planned_s = read_plan(file).cost_s
+    assert planned_s is not None
+    assert read_plan(target).cost_s == pytest.approx(4.0 * planned_s)
+    poses = tmp_path / "poses.json"
+    assert pleat("export", str(file), "--to", "poses.json", "--speed", "0.25", "--out", str(poses)).exit_code == 0
+    assert max(grip["grasp"]["t_s"] for s in json.loads(poses.read_text())["steps"] for grip in s["grips"]) > planned_s
+
+
 def test_a_folder_is_exported_as_one_or_zipped(file: Path, tmp_path: Path) -> None:
     folder, archive = tmp_path / "new" / "bag", tmp_path / "bag.zip"
     for target in (folder, archive):
@@ -129,6 +140,8 @@ def test_kinds_of_exports_are_listed() -> None:
         (("timeline", "FILE", "--rate-hz", "0"), "--rate-hz"),
         (("export", "FILE", "--to", "gcode"), "--to"),
         (("export", "FILE"), "--to"),
+        (("export", "FILE", "--to", "mcap", "--speed", "0"), "--speed: expected 0.01 to 1, got 0"),
+        (("export", "FILE", "--to", "mcap", "--speed", "nan"), "--speed"),
         (("export", "FILE", "--to", "mcap", "--out", "/nowhere/towel.mcap"), "/nowhere/towel.mcap"),
         (("export", "FILE", "--to", "rosbag2", "--out", "/proc/bag"), "/proc/bag"),
     ],

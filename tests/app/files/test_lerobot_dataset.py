@@ -1,6 +1,8 @@
 """A plan as a LeRobot dataset, read back as the format's description says."""
 
 import json
+import math
+import shutil
 from pathlib import Path
 from typing import Any
 
@@ -10,8 +12,11 @@ import pytest
 
 from app.files.folder_file import unpack
 from app.files.lerobot_dataset import FPS, lerobot_folder
+from planner import Plan, make_plan
 from planner.motion.motion_limits import MotionLimits
 from planner.motion.motion_values import positions_at
+from planner.robots.load_robot import load_robot
+from tests.builders import fold, garment
 from tests.small_plan import CARD, small_plan
 
 
@@ -57,7 +62,9 @@ def test_frames_come_at_the_rate_and_actions_are_the_next_states(frames: dict[st
 
 def test_states_are_those_of_the_motion_that_is_sent(info: dict[str, Any], frames: dict[str, np.ndarray]):
     limits = MotionLimits.of(CARD, small_plan().scene)
-    assert tuple(info["features"]["observation.state"]["names"]) == limits.names
+    state = info["features"]["observation.state"]
+    assert tuple(state["names"]) == limits.names
+    assert state["units"] == ["rad"] * (len(limits.names) - 3) + ["m", "m", "rad"]
     plan = small_plan()
     assert plan.trajectory is not None
     assert frames["timestamp"][-1] == pytest.approx(small_plan().cost_s, abs=1.0 / FPS)
@@ -85,3 +92,48 @@ def test_statistics_are_those_of_the_frames(folder: Path, frames: dict[str, np.n
         np.testing.assert_allclose(stats[name]["mean"], rows.mean(axis=0), atol=1e-6)
         np.testing.assert_allclose(stats[name]["max"], rows.max(axis=0), atol=1e-6)
         assert stats[name]["count"] == [len(values)]
+
+
+def written(plan: Plan, folder: Path) -> tuple[dict[str, Any], np.ndarray]:
+    """Return what a dataset says of itself, and its actions."""
+    unpack(lerobot_folder(plan), folder)
+    table = pq.read_table(folder / "data/chunk-000/file-000.parquet")
+    return json.loads((folder / "meta/info.json").read_text()), np.array(table["action"].to_pylist())
+
+
+@pytest.fixture(scope="module")
+def napkin_plan() -> Plan:
+    napkin = garment([(0.0, 0.0), (0.2, 0.0), (0.2, 0.16), (0.0, 0.16)], fold((0.1, 0.16), (0.1, 0.0)))
+    plan = make_plan(napkin, robot="so101-pair", time_limit_s=60.0)
+    assert plan.is_solved
+    return plan
+
+
+def test_so_101_arms_have_the_names_and_units_of_lerobots_own_driver(napkin_plan: Plan, tmp_path: Path):
+    info, actions = written(napkin_plan, tmp_path / "dataset")
+    joints = ("shoulder_pan", "shoulder_lift", "elbow_flex", "wrist_flex", "wrist_roll", "gripper")
+    feature = info["features"]["action"]
+    assert feature["names"] == [f"{arm}_{joint}.pos" for arm in ("left", "right") for joint in joints]
+    assert feature["units"] == [*["deg"] * 5, "0..100"] * 2
+    assert info["robot_type"] == "so101-pair"
+    path = napkin_plan.trajectory
+    assert path is not None
+    count = len(actions)
+    for column, joint in enumerate(path.arms.names):
+        name = f"{joint}.pos"
+        wanted = [math.degrees(path.arms.at(min((n + 1) / FPS, path.duration_s))[column]) for n in range(count)]
+        np.testing.assert_allclose(actions[:, feature["names"].index(name)], wanted, atol=1e-3)
+    for track, arm in zip(path.grippers, load_robot("so101-pair").card.arms, strict=True):
+        shares = actions[:, feature["names"].index(f"{track.joint}.pos")]
+        opened = [track.opening_at(min((n + 1) / FPS, path.duration_s)) for n in range(count)]
+        np.testing.assert_allclose(shares, 100.0 * np.array(opened) / arm.gripper.opening_max_m, atol=0.5)
+        assert shares.min() >= -1e-3 and shares.max() <= 100.0 + 1e-3
+
+
+def test_the_type_of_a_robot_is_the_name_on_its_card_wherever_the_card_lies(tmp_path: Path):
+    card = Path(load_robot.__code__.co_filename).parent / "cards" / "so101-pair.json"
+    shutil.copy(card, tmp_path / "bench.json")
+    napkin = garment([(0.0, 0.0), (0.2, 0.0), (0.2, 0.16), (0.0, 0.16)])
+    plan = make_plan(napkin, robot=str(tmp_path / "bench.json"), time_limit_s=60.0)
+    info, _ = written(plan, tmp_path / "dataset")
+    assert info["robot_type"] == "so101-pair"
