@@ -46,7 +46,7 @@ def started(options: Sequence[str], at: Path, environment: Mapping[str, str]) ->
         yield int(found[1]), line
         process.send_signal(signal.SIGTERM)
         process.communicate(timeout=STOPS_WITHIN_S)
-        assert process.returncode in (0, -signal.SIGTERM), log.read_text()
+        assert process.returncode == 0, log.read_text()
     finally:
         process.kill()
         process.communicate()

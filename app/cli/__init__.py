@@ -5,6 +5,7 @@ time in which the program starts.
 """
 
 import gc
+import os
 
 is_collecting = gc.isenabled()
 gc.disable()
@@ -33,5 +34,9 @@ __all__ = [
 
 
 def main() -> None:
-    """Run the program: the entry point of the package."""
+    """Run the program: the entry point of the package.
+
+    Processes that it starts run none of the current folder's modules: Python would look for any module there first.
+    """
+    os.environ["PYTHONSAFEPATH"] = "1"
     cli()

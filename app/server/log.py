@@ -25,12 +25,29 @@ LINES_MAX = 1000
 
 _FORMAT = "%(asctime)s %(levelname)s %(name)s: %(message)s"
 _TIME_FORMAT = "%Y-%m-%dT%H:%M:%S%z"
-_LEVELS = {"app": logging.INFO, "uvicorn.access": logging.INFO, "uvicorn.error": logging.WARNING}
+_LEVELS = {"app": logging.INFO, "uvicorn.access": logging.INFO, "uvicorn.error": logging.INFO}
 _LAST_LINES_S = 0.2
 """Time to write the last lines when the server ends (s)."""
 
-_LINK = re.compile(r"(/s/)[A-Za-z0-9_-]{8,}")
-"""The token of a link to a document, which must not be in the log."""
+_WEBSOCKET = '%s - "WebSocket %s" '
+"""The beginning of uvicorn's lines about requests for websockets."""
+
+_ACCEPTED = "[accepted]"
+
+
+def _in_any_form(text: str) -> str:
+    """Return a pattern for a text in either case, whose characters may be percent-encoded, once or more often."""
+    forms = (f"{re.escape(sign)}|%(?:25)*(?:{ord(sign):02x}|{ord(sign.swapcase()):02x})" for sign in text)
+    return "".join(f"(?:{form})" for form in forms)
+
+
+_SECRETS = re.compile(
+    rf"({_in_any_form('token=')})[^\s&]+?(?=\"?(?:[\s&]|$))"
+    rf"|({_in_any_form('/')}+{_in_any_form('s')}{_in_any_form('/')}+)[A-Za-z0-9_%-]{{8,}}"
+    r"|(pleat-\d+=|bearer )[^\s;]+",
+    re.IGNORECASE,
+)
+"""What must not be in the log: the server's token in an address, a cookie or a header, and the tokens of links."""
 
 Lines = queue.Queue[logging.LogRecord | None]
 
@@ -65,9 +82,18 @@ def standard_error() -> int:
 def _is_news(record: logging.LogRecord) -> bool:
     """Return whether a record tells something; that the end of the server has cut off a slow request does not.
 
-    uvicorn logs such a request as an exception, with its stack, as if the application had failed.
+    uvicorn logs such a request as an exception, with its stack, as if the application had failed. Of what uvicorn says
+    below warnings, only the websockets that were refused are news.
     """
+    if record.name == "uvicorn.error" and record.levelno < logging.WARNING:
+        text = str(record.msg)
+        return text.startswith(_WEBSOCKET) and not text.endswith(_ACCEPTED)
     return record.exc_info is None or record.exc_info[0] is not asyncio.CancelledError
+
+
+def _without_secrets(text: str) -> str:
+    """Return a line with dots in the place of tokens."""
+    return _SECRETS.sub(lambda found: f"{next(filter(None, found.groups()))}...", text)
 
 
 class _DroppingHandler(QueueHandler):
@@ -76,7 +102,7 @@ class _DroppingHandler(QueueHandler):
     def prepare(self, record: logging.LogRecord) -> logging.LogRecord:
         """Return the record as it is written, from the context of the request."""
         prepared: logging.LogRecord = super().prepare(record)
-        prepared.msg = prepared.message = _LINK.sub(r"\1...", prepared.getMessage())
+        prepared.msg = prepared.message = _without_secrets(prepared.getMessage())
         prepared.request = REQUEST_ID.get()
         return prepared
 

@@ -1,10 +1,12 @@
 """Serves the designer on one address until interrupted."""
 
 import ipaddress
+import signal
 import socket
 import sys
 from collections.abc import Callable
-from typing import Any, TypeAlias
+from types import FrameType
+from typing import Any, NoReturn, TypeAlias
 
 import uvicorn
 from starlette.applications import Starlette
@@ -13,6 +15,7 @@ from app.api.create_app import create_app
 from app.server.arenas import use_few_arenas
 from app.server.log import logging_to, standard_error
 from app.server.timed_protocol import TimedProtocol
+from app.server.websocket_protocol import WebSocketProtocol
 from app.settings import Settings
 from app.store.access_token import AccessToken, file_token, kept_token
 from app.store.data_folder import DataFolder
@@ -53,7 +56,7 @@ class _Server(uvicorn.Server):
 
 
 def serve(settings: Settings, announce: Callable[[str, str | None], None]) -> None:
-    """Serve until interrupted.
+    """Serve until interrupted; SIGTERM ends the process with status 0, once everything is closed.
 
     Args:
         settings: the settings.
@@ -71,6 +74,7 @@ def serve(settings: Settings, announce: Callable[[str, str | None], None]) -> No
     """
     sys.setswitchinterval(_SWITCH_S)
     use_few_arenas()
+    signal.signal(signal.SIGTERM, _end)  # uvicorn raises the signal again once it has ended
     address = _address(settings)
     with DataFolder(settings.data).held() as tell_others, _listening(address) as listener:
         token, made = _token(settings, address)
@@ -86,11 +90,16 @@ def serve(settings: Settings, announce: Callable[[str, str | None], None]) -> No
             _Server(_config(app), announce_everywhere, app.state.workspace.lanes.stop).run(sockets=[listener])
 
 
+def _end(_: int, __: FrameType | None) -> NoReturn:
+    sys.exit(0)
+
+
 def _config(app: Starlette) -> uvicorn.Config:
     return uvicorn.Config(
         app,
         log_config=None,
         http=TimedProtocol,
+        ws=WebSocketProtocol,
         ws_max_size=_LARGEST_MESSAGE,
         ws_per_message_deflate=False,
         timeout_graceful_shutdown=_GRACE_S,

@@ -180,7 +180,8 @@ def test_a_client_that_goes_away_stops_its_search(served: Served) -> None:
     assert time.monotonic() - start < 30.0
 
 
-def test_ctrl_c_ends_it_whatever_is_open(tmp_path: Path) -> None:
+@pytest.mark.parametrize("end", [signal.SIGINT, signal.SIGTERM])
+def test_ctrl_c_and_kill_end_it_cleanly_whatever_is_open(tmp_path: Path, end: signal.Signals) -> None:
     server = Served(tmp_path)
     try:
         address = f"ws://{server.authority}{stage_path(server)}"
@@ -192,9 +193,11 @@ def test_ctrl_c_ends_it_whatever_is_open(tmp_path: Path) -> None:
             stage.recv(timeout=PATIENCE_S)
             with pytest.raises(httpx.ReadTimeout):
                 REST.post(f"{server.url}/api/plans", json={"garment": "shirt"}, timeout=0.05)
-            server.process.send_signal(signal.SIGINT)
+            assert (tmp_path / "server.json").exists()
+            server.process.send_signal(end)
             output, _ = server.process.communicate(timeout=PATIENCE_S)
         assert server.process.returncode == 0
         assert "Traceback" not in output
+        assert not (tmp_path / "server.json").exists()
     finally:
         server.stop()
