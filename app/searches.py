@@ -11,16 +11,19 @@ from app.files.import_file import Imported, import_file
 from app.files.robot_archive import unpack_robot
 from app.files.seam_allowance import Line
 from app.jobs.apart import Tell
+from app.jobs.bounded import bounded, one_at_a_time
 from app.jobs.job_kind import Progress
 from app.store.packed_plan import PackedPlan
 from app.store.storage_error import storing
 from planner import make_plan
 from planner.cloth.garment import Garment
+from planner.errors import RobotError
 from planner.explain.suggestion_map import PlacementMap, placement_map
 from planner.explain.suggestions import suggestions
 from planner.planning.plan_check import require_replay
 from planner.robots.card_file import CardFile
 from planner.robots.collision.described_parts import described_parts
+from planner.robots.collision.link_shapes import require_shown
 from planner.robots.described_robot import DescribedRobot, read_card
 from planner.robots.known_robots import robot_names
 from planner.robots.own_robots import CARD
@@ -129,6 +132,11 @@ def read_file(
     return import_file(filename, data, units, scale, creases, measured, like, line)
 
 
+READING_BYTES_MAX, READING_CPU_S = 3 << 29, 120
+"""Memory (bytes) and processor time (s) in which the meshes of a robot must be read."""
+
+READING_LIMITS = f"its meshes may take {READING_BYTES_MAX / (1 << 30):g} GiB and {READING_CPU_S} s to be read"
+
 _ARRIVED, _UNPACKED = "archive.zip", "robot"
 """Names in the folder for an archive: the archive itself, and the folder into which it is unpacked."""
 
@@ -149,12 +157,21 @@ def read_archive(folder: Path) -> tuple[Path, CardFile]:
 
 
 def read_robot(_: Tell, folder: Path, given: bytes | CardFile) -> CardFile:
-    """Return a robot's card once all that it names is there: that of an archive, unpacked into a folder, or a card."""
+    """Return a robot's card once all that it names is there: that of an archive, unpacked into a folder, or a card.
+
+    Robots are read one at a time. A process that takes more than `READING_CPU_S` is ended by the system.
+    """
     if isinstance(given, CardFile):
         card = given
     else:
         with storing("the robot could not be unpacked"):
             unpack_robot(given, folder)
         card = read_card(folder / CARD)
-    described_parts(DescribedRobot.of(card, folder))  # kept for the first plan
+    robot = DescribedRobot.of(card, folder)
+    try:
+        with one_at_a_time(folder.parent), bounded(READING_BYTES_MAX, READING_CPU_S):
+            require_shown(robot.urdf)
+            described_parts(robot)  # kept for the first plan
+    except MemoryError:
+        raise RobotError("urdf", f"cannot be read: {READING_LIMITS}") from None
     return card

@@ -79,7 +79,7 @@ async def post_robot_import(request: Request, prefer: Prefer = None) -> JSONResp
     if _ASYNC in (prefer or "").replace(" ", "").lower().split(","):
         return await _as_job(request, workspace.robots, data)
     work = partial(_imported, workspace.robots, data)
-    card, is_new = await answer_of(request, workspace.lanes.files, work)
+    card, is_new = await answer_of(request, workspace.lanes.robots, work)
     return JSONResponse(robot_entry(card), status_code=201 if is_new else 200)
 
 
@@ -102,7 +102,7 @@ async def save_robot_card(request: Request, name: OwnName, card: CardBody) -> JS
     if card.name != name:
         raise RobotError("name", f"is {card.name!r}, but the address says {name!r}")
     workspace = workspace_of(request)
-    is_new = await answer_of(request, workspace.lanes.files, partial(_saved, workspace.robots, card))
+    is_new = await answer_of(request, workspace.lanes.robots, partial(_saved, workspace.robots, card))
     return JSONResponse(card.to_dict(), status_code=201 if is_new else 200)
 
 
@@ -141,4 +141,5 @@ def _looked_at(should_stop: ShouldStop, folder: FilePath, given: bytes | CardFil
     try:
         return run_apart(searches.read_robot, should_stop, ignore, folder, given)
     except LostProcessError:
-        raise RobotError("urdf", "cannot be read: the program that read it has ended") from None
+        said = f"cannot be read: the program that read it has ended; {searches.READING_LIMITS}"
+        raise RobotError("urdf", said) from None

@@ -2,6 +2,7 @@
 
 - ``quick`` is for work of some hundredths of a second. All other lanes give way to it.
 - ``files`` is for work of up to some seconds: reading files, making them, sampling timelines.
+- ``robots`` is for reading robots, one at a time, in processes of their own: their meshes may take much memory.
 - ``searches`` is for plans, suggestions and maps, in processes of their own.
 - ``jobs`` is for work of any length that nobody waits for, in processes of their own; a core is left to the others.
 - ``live`` plans the open documents, in threads: it keeps its results from plan to plan.
@@ -17,6 +18,7 @@ from app.jobs.job_pool import PATIENCE_S, JobPool
 
 QUICK_WAITING_MAX = 64
 FILES_WAITING_MAX = 16
+ROBOTS_WAITING_MAX = 8
 SEARCHES_WAITING_MAX = 32
 JOBS_WAITING_MAX = 64
 
@@ -33,15 +35,16 @@ class Lanes:
         self.courtesy = Courtesy()
         self.quick = JobPool(waiting_max=QUICK_WAITING_MAX)
         self.files = JobPool(waiting_max=FILES_WAITING_MAX, courtesy=self.courtesy)
+        self.robots = JobPool(workers=1, waiting_max=ROBOTS_WAITING_MAX)
         self.searches = JobPool(waiting_max=SEARCHES_WAITING_MAX)
         self.jobs = JobPool(workers=max(1, (os.cpu_count() or 1) - 1), waiting_max=JOBS_WAITING_MAX)
         self.live = JobPool(courtesy=self.courtesy)
 
-        self._pools = (self.quick, self.files, self.searches, self.jobs, self.live)
+        self._pools = (self.quick, self.files, self.robots, self.searches, self.jobs, self.live)
 
     def load(self) -> dict[str, tuple[int, int, int]]:
         """Return by lane how many jobs wait, how many run, and how many have run so far."""
-        names = ("quick", "files", "searches", "jobs", "live")
+        names = ("quick", "files", "robots", "searches", "jobs", "live")
         return {name: pool.load() for name, pool in zip(names, self._pools, strict=True)}
 
     def stop(self) -> None:

@@ -5,13 +5,16 @@ from pathlib import Path
 
 import trimesh
 
+_STL_HEAD, _STL_TRIANGLE = 84, 50
+"""Bytes before the triangles of a binary STL file, the last four of which are their number, and of each triangle."""
+
 
 class MeshError(ValueError):
     """A file that cannot be read as a mesh."""
 
 
 def read_mesh_file(path: Path) -> trimesh.Trimesh:
-    """Return the mesh in a file, its parts where their scene has them.
+    """Return the mesh in a file, its parts where their scene has them, without triangles that have no area.
 
     Raises:
         MeshError: the file is no mesh of the format by whose name it ends.
@@ -23,9 +26,18 @@ def read_mesh_file(path: Path) -> trimesh.Trimesh:
     try:
         # Given as bytes it has no folder, so that trimesh has nowhere to look for what it names.
         mesh = trimesh.load_mesh(BytesIO(data), file_type=path.suffix[1:].lower(), process=False)
-        has_triangles = len(mesh.faces) > 0
+        mesh.update_faces(mesh.area_faces != 0.0)
     except Exception as error:  # readers of broken files raise whatever comes of it
         raise MeshError(f"{path.name} is no {path.suffix[1:].upper()} file: {type(error).__name__}") from None
-    if not has_triangles:
+    if not len(mesh.faces):
         raise MeshError(f"{path.name} has no triangles")
     return mesh
+
+
+def triangle_count(path: Path) -> int | None:
+    """Return how many triangles a binary STL file has, from its head; None of other files; raise `OSError`."""
+    if path.suffix.lower() != ".stl":
+        return None
+    with path.open("rb") as file:
+        count = int.from_bytes(file.read(_STL_HEAD)[-4:], "little")
+    return count if path.stat().st_size == _STL_HEAD + count * _STL_TRIANGLE else None

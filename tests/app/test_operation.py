@@ -37,7 +37,7 @@ async def test_metrics_tell_the_work_of_each_lane(client: httpx.AsyncClient) -> 
     assert before["pleat_lane_ended_total", quick] == 0
     assert after["pleat_lane_waiting", quick] == 0
     lanes = {labels for name, labels in after if name == "pleat_lane_running"}
-    assert lanes == {(("lane", name),) for name in ("quick", "files", "searches", "jobs", "live")}
+    assert lanes == {(("lane", name),) for name in ("quick", "files", "robots", "searches", "jobs", "live")}
     assert after["pleat_open_documents", ()] == 0
 
 

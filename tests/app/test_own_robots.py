@@ -137,6 +137,30 @@ async def test_a_mesh_that_cannot_be_read_is_refused(client: httpx.AsyncClient, 
     assert (await refused(client, archive(files), tmp_path))[0] == "urdf"
 
 
+def of_meshes(triangles: int, corners: bytes) -> bytes:
+    """Return an archive of a robot of seven links, each with another mesh of so many equal triangles."""
+    mesh = b"\0" * 80 + triangles.to_bytes(4, "little") + (corners.ljust(50, b"\0") * triangles)
+    urdf = box_urdf()
+    for number in range(7):
+        urdf = urdf.replace(BOX, f'<mesh filename="{number}.stl"/>', 2)
+    meshes = {f"urdf/{number}.stl": mesh for number in range(7)}
+    return archive({"robot.json": json.dumps(box_card()), "urdf/box.urdf": urdf, **meshes})
+
+
+@pytest.mark.parametrize(
+    ("corners", "told"),
+    [
+        (b"", "has no triangles"),
+        (struct.pack("<11f", 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1), "meshes before it; at most 1000000"),
+    ],
+)
+async def test_meshes_of_too_many_triangles_together_or_of_no_size_are_refused(
+    client: httpx.AsyncClient, tmp_path: Path, corners: bytes, told: str
+) -> None:
+    field, message = await refused(client, of_meshes(490_000, corners), tmp_path)
+    assert field == "urdf" and told in message
+
+
 def link_entry() -> zipfile.ZipInfo:
     entry = zipfile.ZipInfo("urdf/link.urdf")
     entry.external_attr = 0o120777 << 16

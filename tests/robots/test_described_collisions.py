@@ -11,6 +11,7 @@ from planner.geometry.pose import FloatArray, Pose2
 from planner.robots.collision import part_source
 from planner.robots.collision.collisions import Collisions
 from planner.robots.collision.described_parts import described_parts
+from planner.robots.collision.link_shapes import require_shown
 from planner.robots.described_robot import DescribedRobot, read_robot, shipped_robots
 from tests.replay.described_hulls import Hulls
 from tests.sweep import sweep
@@ -227,6 +228,18 @@ def test_parts_are_made_once_for_copies_under_other_names_in_other_folders_but_n
         (folder / "three.json").write_text(json.dumps(card | {"name": name, "title": name.title()}))
         described_parts(read_robot(str(folder / "three.json")), tmp_path)
         assert len(made) == times
+
+
+def test_a_mesh_counts_once_for_all_its_links_and_with_the_meshes_before_it(tmp_path, monkeypatch):
+    monkeypatch.setattr("planner.robots.collision.link_shapes.TRIANGLES_MAX", 6)
+    corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+    (tmp_path / "rod.obj").write_text(corners + "f 1 1 2\nf 3 3 3\n")  # the last two have no area
+    (tmp_path / "other.obj").write_text(corners)
+    link = '<link name="{}"><visual><geometry><mesh filename="{}"/></geometry></visual></link>'
+    rod, other = tmp_path / "rod.obj", tmp_path / "other.obj"
+    require_shown(f"<robot name='r'>{link.format('a', rod)}{link.format('b', rod)}</robot>")
+    with pytest.raises(RobotError, match=r"link 'b': the mesh 'other.obj' has 4 triangles, 8 with the meshes before"):
+        require_shown(f"<robot name='r'>{link.format('a', rod)}{link.format('b', other)}</robot>")
 
 
 def test_a_mesh_of_more_triangles_than_may_be_is_refused_by_its_name(tmp_path, monkeypatch):

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import product
@@ -16,11 +17,11 @@ from numpy.typing import NDArray
 from planner.errors import RobotError
 from planner.geometry.pose import FloatArray
 from planner.robots.collision.rounded_hull import hull_corners
-from planner.robots.mesh_file import MeshError, read_mesh_file
+from planner.robots.mesh_file import MeshError, read_mesh_file, triangle_count
 from planner.robots.urdf_reader import parsed
 
 TRIANGLES_MAX = 1_000_000
-"""A mesh of more is refused."""
+"""The most triangles of a robot's meshes together, each counted once for each of its scales (1 GB, 20 s)."""
 
 _ROUND = 24
 """Corners of the polygon round a circle."""
@@ -58,17 +59,26 @@ def link_shapes(
         is_wanted: whether the links are wanted that a joint of the model carries.
 
     Raises:
-        RobotError: a mesh cannot be read or has more than `TRIANGLES_MAX` triangles, or a number is none.
+        RobotError: a mesh cannot be read, the meshes have more than `TRIANGLES_MAX` triangles, or a number is none.
     """
-    links = parsed(urdf.encode()).iterfind("link")
-    return tuple(shape for link in links if is_wanted(_joint(model, link)) for shape in _shapes(model, link))
+    links, meshes = parsed(urdf.encode()).iterfind("link"), _Meshes()
+    return tuple(shape for link in links if is_wanted(_joint(model, link)) for shape in _shapes(model, link, meshes))
+
+
+def require_shown(urdf: str) -> None:
+    """Raise `RobotError` if the meshes that are shown cannot be read, or have too many triangles together."""
+    meshes = _Meshes()
+    for link in parsed(urdf.encode()).iterfind("link"):
+        for element in link.iterfind("visual/geometry/mesh"):
+            with _blaming(link.get("name", ""), element):
+                meshes.read(*_named(element))
 
 
 def _joint(model: pin.Model, link: Element) -> int:
     return int(model.frames[model.getFrameId(link.get("name", ""), pin.FrameType.BODY)].parentJoint)
 
 
-def _shapes(model: pin.Model, link: Element) -> Iterator[LinkShape]:
+def _shapes(model: pin.Model, link: Element, meshes: "_Meshes") -> Iterator[LinkShape]:
     name = link.get("name", "")
     frame = model.frames[model.getFrameId(name, pin.FrameType.BODY)]
     for element in link.findall("collision") or link.findall("visual"):
@@ -76,14 +86,21 @@ def _shapes(model: pin.Model, link: Element) -> Iterator[LinkShape]:
         if geometry is None or not len(geometry):
             continue
         placement = frame.placement * _origin(element.find("origin"))
-        try:
-            shape, points, triangles = _read(geometry[0])
+        with _blaming(name, geometry[0]):
+            shape, points, triangles = _read(geometry[0], meshes)
             corners: FloatArray = hull_corners(points) @ placement.rotation.T + placement.translation
-        except RobotError as error:
-            raise RobotError("urdf", f"link {name!r}: {error.message}") from None
-        except (ValueError, TypeError, RuntimeError):
-            raise RobotError("urdf", f"link {name!r} has a {geometry[0].tag} whose numbers make no shape") from None
         yield LinkShape(name, frame.parentJoint, shape, placement, corners, triangles)
+
+
+@contextmanager
+def _blaming(link: str, element: Element) -> Iterator[None]:
+    """Name the link in the errors of a shape."""
+    try:
+        yield
+    except RobotError as error:
+        raise RobotError("urdf", f"link {link!r}: {error.message}") from None
+    except (ValueError, TypeError, RuntimeError):
+        raise RobotError("urdf", f"link {link!r} has a {element.tag} whose numbers make no shape") from None
 
 
 def _origin(element: Element | None) -> pin.SE3:
@@ -105,11 +122,10 @@ _Shape = tuple[coal.CollisionGeometry, FloatArray, NDArray[np.int64] | None]
 """A shape, points whose hull contains it, and of a mesh its triangles."""
 
 
-def _read(element: Element) -> _Shape:
+def _read(element: Element, meshes: "_Meshes") -> _Shape:
     """Return a shape; raise `ValueError` or `TypeError` where numbers are wrong."""
     if element.tag == "mesh":
-        scale = _numbers(element.get("scale", "1 1 1"))
-        return _mesh(Path(element.get("filename", "")), scale)
+        return meshes.shape(*_named(element))
     if element.tag == "box":
         size = _numbers(element.get("size", ""))
         return coal.Box(*size), np.array([*product((-0.5, 0.5), repeat=3)]) * size, None
@@ -137,25 +153,69 @@ def _ball() -> FloatArray:
     return np.unique(np.vstack(rings) / math.cos(math.pi / _ROUND), axis=0)
 
 
-def _mesh(path: Path, scale: FloatArray) -> _Shape:
-    """Return a mesh, its vertices and its triangles."""
-    try:
-        read = _read_once(path, path.stat().st_mtime_ns)
-    except (MeshError, OSError) as error:
-        said = error.strerror if isinstance(error, OSError) else error
-        raise RobotError("urdf", f"the mesh {path.name!r} cannot be read: {said}") from None
-    corners, triangles = read
-    if len(triangles) > TRIANGLES_MAX:
-        raise RobotError("urdf", f"the mesh {path.name!r} has {len(triangles)} triangles, at most {TRIANGLES_MAX}")
-    vertices: FloatArray = corners * scale
-    if not np.isfinite(vertices).all():
-        raise RobotError("urdf", f"the mesh {path.name!r} has corners that are no numbers")
-    mesh = coal.BVHModelOBBRSS()
-    mesh.beginModel(len(triangles), len(vertices))
-    mesh.addVertices(vertices)
-    mesh.addTriangles(triangles)
-    mesh.endModel()
-    return mesh, vertices, triangles
+def _named(element: Element) -> tuple[Path, tuple[float, ...]]:
+    """Return the file and the scale that an element names."""
+    return Path(element.get("filename", "")), tuple(_numbers(element.get("scale", "1 1 1")))
+
+
+class _Meshes:
+    """The meshes of one robot: each is read, and made into a shape, once, however many links have it."""
+
+    def __init__(self) -> None:
+        """Begin with none."""
+        self._read: dict[tuple[Path, tuple[float, ...]], tuple[FloatArray, NDArray[np.int64]]] = {}
+        self._made: dict[tuple[Path, tuple[float, ...]], _Shape] = {}
+        self._left = TRIANGLES_MAX
+
+    def shape(self, path: Path, scale: tuple[float, ...]) -> _Shape:
+        """Return a mesh for coal, its vertices and its triangles; raise as `read` does."""
+        if (path, scale) not in self._made:
+            vertices, triangles = self.read(path, scale)
+            mesh = coal.BVHModelOBBRSS()
+            mesh.beginModel(len(triangles), len(vertices))
+            mesh.addVertices(vertices)
+            mesh.addTriangles(triangles)
+            mesh.endModel()
+            self._made[path, scale] = mesh, vertices, triangles
+        return self._made[path, scale]
+
+    def read(self, path: Path, scale: tuple[float, ...]) -> tuple[FloatArray, NDArray[np.int64]]:
+        """Return a mesh's vertices and triangles.
+
+        Raises:
+            RobotError: it cannot be read, or there are more than `TRIANGLES_MAX` triangles with it.
+            ValueError: its scale is none.
+        """
+        if (path, scale) not in self._read:
+            self._read[path, scale] = self._scaled(path, scale)
+        return self._read[path, scale]
+
+    def _scaled(self, path: Path, scale: tuple[float, ...]) -> tuple[FloatArray, NDArray[np.int64]]:
+        try:
+            if (known := triangle_count(path)) is not None:
+                self._count(path, known)
+            corners, triangles = _read_once(path, path.stat().st_mtime_ns)
+        except (MeshError, OSError) as error:
+            said = error.strerror if isinstance(error, OSError) else error
+            raise RobotError("urdf", f"the mesh {path.name!r} cannot be read: {said}") from None
+        if known is None:
+            self._count(path, len(triangles))
+        if 0.0 in scale:
+            raise ValueError(scale)
+        vertices: FloatArray = corners * np.array(scale)
+        if not np.isfinite(vertices).all():
+            raise RobotError("urdf", f"the mesh {path.name!r} has corners that are no numbers")
+        return vertices, triangles
+
+    def _count(self, path: Path, triangles: int) -> None:
+        """Count triangles; raise `RobotError` if there are too many."""
+        self._left -= triangles
+        if self._left < 0:
+            so_far = TRIANGLES_MAX - self._left
+            others = "" if so_far == triangles else f", {so_far} with the meshes before it"
+            raise RobotError(
+                "urdf", f"the mesh {path.name!r} has {triangles} triangles{others}; at most {TRIANGLES_MAX} are allowed"
+            )
 
 
 @lru_cache(maxsize=64)
