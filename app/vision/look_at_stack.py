@@ -116,7 +116,7 @@ class Looker:
         part = _round(near_by, reach)
         table = (~near_by & ~away)[part]
         try:
-            seen = segment(image[part], away[part], table if table.mean() > _LEAST_TABLE else None)
+            seen = segment(image[part], away[part], table if table.mean() > _LEAST_TABLE else None, is_known=True)
         except NothingToldError as error:
             return _blind(error.says, expected)
         contour = seen.contour + np.array([part[1].start, part[0].start])

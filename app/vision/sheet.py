@@ -7,8 +7,8 @@ import numpy as np
 
 from app.vision.picture import Image
 from app.vision.scale_said import SHEETS_M
-from app.vision.snap import snapped
-from app.vision.table_plane import Plane, clockwise, plane_of
+from app.vision.snap import snapped, steepness
+from app.vision.table_plane import USUAL_FOCAL, Focal, Plane, clockwise, plane_of
 from planner.geometry.pose import FloatArray
 
 _SHARE = (0.003, 0.25)
@@ -20,13 +20,16 @@ _WORST_MISFIT = 1200.0
 _TELLS = 25.0
 """A4 and Letter are told apart only if one of them fits so much better: by five standard deviations."""
 
+_LEAST_OF_STRONGEST = 0.2
+"""The least strength of a sheet's faintest edge, as a share of its strongest."""
+
 _SAME_PX = 20.0
 _EDGE_PX = 4.0
 
 
-def find_sheets(image: Image, names: tuple[str, ...]) -> tuple[Plane, ...]:
+def find_sheets(image: Image, names: tuple[str, ...], focal: Focal = USUAL_FOCAL) -> tuple[Plane, ...]:
     """Return the sheets of paper that may be meant, the best first: bright, even, four-sided, of the right sides."""
-    found = [sheet for quad in _bright_quads(image) for sheet in _as_sheets(image, quad, names)]
+    found = [sheet for quad in _bright_quads(image) for sheet in _as_sheets(image, quad, names, focal)]
     return tuple(sorted(found, key=lambda plane: plane.misfit))
 
 
@@ -45,7 +48,7 @@ def like_best(sheets: tuple[Plane, ...]) -> tuple[Plane, ...]:
     )
 
 
-def find_marker(image: Image, side_m: float) -> Plane | None:
+def find_marker(image: Image, side_m: float, focal: Focal = USUAL_FOCAL) -> Plane | None:
     """Return the plane of the largest ArUco or AprilTag marker, its black square so wide; None where there is none."""
     grey = cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)
     kinds = (cv2.aruco.DICT_4X4_50, cv2.aruco.DICT_5X5_100, cv2.aruco.DICT_6X6_250, cv2.aruco.DICT_APRILTAG_36H11)
@@ -59,7 +62,7 @@ def find_marker(image: Image, side_m: float) -> Plane | None:
     if not quads:
         return None
     quad = max(quads, key=lambda one: abs(float(cv2.contourArea(np.asarray(one, np.float32)))))
-    plane = plane_of("marker", quad, side_m, side_m, image.shape)
+    plane = plane_of("marker", quad, side_m, side_m, image.shape, focal)
     middle = quad.mean(axis=0)
     return replace(plane, corners=middle + 1.4 * (quad - middle))  # the white round the black belongs to it
 
@@ -82,9 +85,26 @@ def _bright_quads(image: Image) -> list[FloatArray]:
                 continue
             line, _ = snapped(image, contour[:, 0].astype(np.float64), reach=_EDGE_PX)
             sharp = _by_sides(line, quad[:, 0].astype(np.float64))
-            if sharp is not None and all(np.abs(sharp - other).max() > 6.0 for other in found):
+            if (
+                sharp is not None
+                and _is_edged(image, sharp)
+                and all(np.abs(sharp - other).max() > 6.0 for other in found)
+            ):
                 found.append(sharp)
     return sorted(found, key=lambda quad: -abs(float(cv2.contourArea(np.asarray(quad, np.float32)))))
+
+
+def _is_edged(image: Image, quad: FloatArray) -> bool:
+    """Return whether a figure has an edge on all four sides: the brighter part of an unevenly lit sheet has not."""
+    low, high = (np.clip(end, 0, image.shape[1::-1]).astype(int) for end in (quad.min(0) - 12, quad.max(0) + 12))
+    part, inner = image[low[1] : high[1], low[0] : high[0]], quad - low
+    strengths = []
+    for a, b in zip(inner, np.roll(inner, -1, axis=0), strict=True):
+        along = (b - a) / np.hypot(*(b - a))
+        points = a + np.linspace(0.15, 0.85, 24)[:, None] * (b - a)
+        normals = np.repeat([[along[1], -along[0]]], len(points), axis=0)
+        strengths.append(float(np.median(steepness(part, points, normals, np.arange(-2.0, 2.5, 0.5)).max(axis=1))))
+    return min(strengths) >= _LEAST_OF_STRONGEST * max(strengths)
 
 
 def _by_sides(contour: FloatArray, quad: FloatArray) -> FloatArray | None:
@@ -106,7 +126,7 @@ def _by_sides(contour: FloatArray, quad: FloatArray) -> FloatArray | None:
     return corners if np.abs(corners - quad).max() < 0.2 * np.ptp(quad, axis=0).max() else None
 
 
-def _as_sheets(image: Image, quad: FloatArray, names: tuple[str, ...]) -> list[Plane]:
+def _as_sheets(image: Image, quad: FloatArray, names: tuple[str, ...], focal: Focal) -> list[Plane]:
     """Return a four-sided figure as sheets of each size, either way round, as far as a camera may see them so."""
     if not _is_paper(image, quad):
         return []
@@ -114,7 +134,7 @@ def _as_sheets(image: Image, quad: FloatArray, names: tuple[str, ...]) -> list[P
     ring = clockwise(quad)
     for name in names:
         longer, shorter = SHEETS_M[name]
-        ways = [plane_of(name, np.roll(ring, shift, axis=0), longer, shorter, image.shape) for shift in (0, 1)]
+        ways = [plane_of(name, np.roll(ring, shift, axis=0), longer, shorter, image.shape, focal) for shift in (0, 1)]
         found.append(min(ways, key=lambda way: way.misfit))
     return [sheet for sheet in found if sheet.misfit <= _WORST_MISFIT and sheet.is_above(quad)]
 

@@ -17,11 +17,34 @@ from planner.geometry.pose import BoolArray, FloatArray
 _CORNER_PX = 0.2
 """Standard deviation of a corner found in a picture (pixels)."""
 
-_DRAWS = 16
+_FREE = 2
+"""By so many the coordinates of four corners and the focal length exceed what is fitted to them."""
+
+_NEAREST_M = 0.05
+"""No camera is nearer to what it shows (m)."""
+
+_EDGE_PX = 0.6
+"""All edges of a sheet may be seen so far outside or inside of where they are (pixels): blur and its shadow do that."""
+
+_DRAWS = 32
 """Other cameras drawn to tell how sure sizes are."""
 
-_FOCAL, _FOCAL_SPREAD = 0.95, 0.3
-"""Focal lengths of cameras, in longer sides of the picture, and the standard deviation of their logarithm."""
+
+@dataclass(frozen=True, slots=True)
+class Focal:
+    """What is known of a camera's focal length.
+
+    Attributes:
+        sides: the focal length, in longer sides of the picture.
+        spread: the standard deviation of its logarithm.
+    """
+
+    sides: float
+    spread: float
+
+
+USUAL_FOCAL = Focal(0.95, 0.3)
+"""The focal lengths that cameras have; an assumption."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -56,7 +79,10 @@ class Plane:
     def size_error(self, pixels: FloatArray) -> float:
         """Return by which share the size of a figure, its pixels of shape (n, 2), may be wrong: at about 95 of 100."""
         spans = [float(np.ptp(replace(self, to_table=one).on_table(pixels), axis=0).max()) for one in self.draws]
-        return 2.0 * float(np.std(spans) / np.mean(spans))
+        worse = math.sqrt(max(1.0, self.misfit / _FREE))  # corners further off than their noise say that it is larger
+        by_corners = 2.0 * worse * float(np.std(spans) / np.mean(spans))
+        sides = np.hypot(*(np.roll(self.corners, -1, axis=0) - self.corners).T)
+        return math.hypot(by_corners, 2.0 * _EDGE_PX / float(sides.mean()))
 
     def covers(self, shape: tuple[int, ...]) -> BoolArray:
         """Return which pixels it covers, with a margin."""
@@ -66,7 +92,9 @@ class Plane:
         return mask > 0
 
 
-def plane_of(by: str, quad: FloatArray, width_m: float, height_m: float, shape: tuple[int, ...]) -> Plane:
+def plane_of(
+    by: str, quad: FloatArray, width_m: float, height_m: float, shape: tuple[int, ...], focal: Focal = USUAL_FOCAL
+) -> Plane:
     """Return the plane in which a rectangle lies.
 
     Args:
@@ -75,6 +103,7 @@ def plane_of(by: str, quad: FloatArray, width_m: float, height_m: float, shape: 
         width_m: its upper side (m).
         height_m: its left side (m).
         shape: the picture's height and width (pixels).
+        focal: what is known of the camera's focal length.
     """
     x, y = width_m / 2.0, height_m / 2.0
     corners = np.array([(-x, y, 0.0), (x, y, 0.0), (x, -y, 0.0), (-x, -y, 0.0)])
@@ -84,13 +113,17 @@ def plane_of(by: str, quad: FloatArray, width_m: float, height_m: float, shape: 
     def off(row: FloatArray) -> FloatArray:
         seen = _seen(row, longer) @ np.column_stack([corners[:, :2], np.ones(4)]).T
         gaps = (seen[:2] / seen[2]).T + middle - quad
-        return np.append(gaps.ravel() / _CORNER_PX, (row[6] - math.log(_FOCAL)) / _FOCAL_SPREAD)
+        return np.append(gaps.ravel() / _CORNER_PX, (row[6] - math.log(focal.sides)) / focal.spread)
 
-    _, turn, place = cv2.solvePnP(
-        corners, quad.astype(np.float64), _intrinsic(_FOCAL * longer, middle), None, flags=cv2.SOLVEPNP_IPPE
+    _, turns, places, _ = cv2.solvePnPGeneric(
+        corners, quad.astype(np.float64), _intrinsic(focal.sides * longer, middle), None, flags=cv2.SOLVEPNP_IPPE
     )
-    start = np.concatenate([turn.ravel(), place.ravel(), [math.log(_FOCAL)]])
-    found = least_squares(off, start, x_scale=(0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1), max_nfev=60)
+    starts = [
+        _row(np.asarray(turn, np.float64).ravel(), np.asarray(place, np.float64).ravel(), focal)
+        for turn, place in zip(turns, places, strict=True)
+    ]
+    fits = [least_squares(off, start, x_scale=0.1, max_nfev=60) for start in starts]
+    found = min(fits, key=lambda fit: float(fit.cost))  # a tilt and its opposite look much alike
     shift = np.array([[1.0, 0.0, middle[0]], [0.0, 1.0, middle[1]], [0.0, 0.0, 1.0]])
     covariance = np.linalg.inv(found.jac.T @ found.jac + 1e-9 * np.eye(7))
     rows = np.random.default_rng(0).multivariate_normal(found.x, covariance, _DRAWS, method="cholesky")
@@ -104,11 +137,24 @@ def clockwise(quad: FloatArray) -> FloatArray:
     return quad if ax * by - ay * bx > 0 else quad[::-1]
 
 
+def _row(turn: FloatArray, place: FloatArray, focal: Focal) -> FloatArray:
+    """Return a camera's turn and place as the row that is fitted, see `_seen`."""
+    right, down, depth = place[0], place[1], max(float(place[2]), _NEAREST_M)
+    at = [focal.sides * right / depth, focal.sides * down / depth, math.log(focal.sides / depth)]
+    return np.array([*turn, *at, math.log(focal.sides)])
+
+
 def _seen(row: FloatArray, longer: float) -> FloatArray:
-    """Return the homography from the plane to pixels from the picture's middle: turn (3), place (3), log focal."""
+    """Return the homography from the plane to pixels from the picture's middle.
+
+    The row is the turn (3), where the plane's origin is seen (2, in longer sides of the picture), the logarithm of the
+    scale there (longer sides per metre), and that of the focal length. A scale, and not a depth: seen from straight
+    above, focal length and depth cannot be told apart, but their quotient is known well.
+    """
     turned, _ = cv2.Rodrigues(np.ascontiguousarray(row[:3]))
-    focal = math.exp(float(row[6])) * longer
-    return np.asarray(np.diag([focal, focal, 1.0]) @ np.column_stack([turned[:, :2], row[3:6]]))
+    focal, depth = math.exp(float(row[6])), math.exp(float(row[6] - row[5]))
+    place = depth * np.array([row[3] / focal, row[4] / focal, 1.0])
+    return np.asarray(np.diag([focal * longer, focal * longer, 1.0]) @ np.column_stack([turned[:, :2], place]))
 
 
 def _intrinsic(focal: float, middle: FloatArray) -> FloatArray:

@@ -18,6 +18,9 @@ export const PICTURES = {
   cut_off: ({ share }) => say("message.cut_off", { share: percent(share) }),
   ways_disagree: ({ agreement, least }) =>
     say("message.ways_disagree", { agreement: percent(agreement), least: percent(least) }),
+  several_cloths: ({ cloths }) => say("message.several_cloths", { cloths }),
+  striped_cloth: ({ pieces }) => say("message.striped_cloth", { pieces }),
+  sheet_within_cloth: () => say("message.sheet_within_cloth"),
   faint_edge: ({ contrast }) => say("message.faint_edge", { contrast: numeral(contrast, 1) }),
   size_uncertain: ({ share }) => say("message.size_uncertain", { share: percent(share) }),
   scale_needed: () => say("message.scale_needed"),

@@ -153,8 +153,8 @@ def test_a_file_that_is_no_picture_is_refused_by_what_is_wrong(data: bytes, why:
 def test_a_jpeg_is_turned_upright_as_its_exif_says():
     exif = b"Exif\0\0MM\0*\0\0\0\x08\0\x01\x01\x12\0\x03\0\0\0\x01\0\x06\0\0\0\0\0\0"
     turned = JPEG[:2] + b"\xff\xe1" + struct.pack(">H", len(exif) + 2) + exif + JPEG[2:]
-    assert read_picture(JPEG).shape[:2] == (200, 300)
-    assert read_picture(turned).shape[:2] == (300, 200)
+    assert read_picture(JPEG).image.shape[:2] == (200, 300)
+    assert read_picture(turned).image.shape[:2] == (300, 200)
 
 
 @pytest.mark.anyio
