@@ -127,9 +127,10 @@ def read_file(
     measured: str | None,
     like: str | Garment | None,
     line: Line | None,
+    size: str | None,
 ) -> Imported:
     """Read a garment from a file, as `import_file` does."""
-    return import_file(filename, data, units, scale, creases, measured, like, line)
+    return import_file(filename, data, units, scale, creases, measured, like, line, size)
 
 
 READING_BYTES_MAX, READING_CPU_S = 3 << 29, 120

@@ -59,6 +59,14 @@ Outlined = Annotated[
     Line | None,
     Query(description="the outline, where a seam line runs along inside a cut line; without it the seam line"),
 ]
+Size = Annotated[
+    str | None,
+    Query(
+        max_length=40,
+        description="which of the sizes of a pattern that is graded, as M or 40; without it the sample size, or the "
+        "middle one",
+    ),
+]
 Measured = Annotated[
     str | None,
     Query(
@@ -86,6 +94,13 @@ class AllowanceAnswer(BaseModel):
     width_m: float
 
 
+class GradedAnswer(BaseModel):
+    """The sizes of a pattern that is graded, from small to large, and which of them was taken."""
+
+    size: str
+    sizes: list[str]
+
+
 class ImportAnswer(BaseModel):
     """An imported garment, and notes about the import.
 
@@ -93,7 +108,7 @@ class ImportAnswer(BaseModel):
     gives the width and height of the drawing in other units (m). `says` has the numbers of the notes, by name, null
     for a note without numbers. `seen` says of a picture where the garment lies in it, what gave the scale, and how sure
     that is, as `pleat see` does; null for other files. `allowance` is told of a drawing
-    with a seam line inside a cut line.
+    with a seam line inside a cut line, `graded` of one in several sizes.
     """
 
     format: Literal["json", "svg", "dxf", "png", "jpeg"]
@@ -104,6 +119,7 @@ class ImportAnswer(BaseModel):
     sizes: dict[str, tuple[float, float]] | None
     seen: dict[str, Any] | None
     allowance: AllowanceAnswer | None
+    graded: GradedAnswer | None
 
 
 class FileEntry(BaseModel):
@@ -133,6 +149,7 @@ async def post_import(
     measured: Measured = None,
     like: LikeName = None,
     line: Outlined = None,
+    size: Size = None,
 ) -> Response:
     """Import a garment from a file in the body: a garment or plan file, SVG, DXF, PNG or JPEG, by its name's ending.
 
@@ -141,11 +158,11 @@ async def post_import(
     If the file has no unit of length, or an impossible one, the problem is about the field `units` and has `sizes`:
     the size of the garment in each unit. Unless `creases` says otherwise, fold lines are read on the cloth, flat or
     folded, on which more of them are legal. If nothing in a picture gives its scale, the problem is about the field
-    `measured`.
+    `measured`. A pattern in several sizes gives one of them; the problem of a `size` that it has not got lists them.
     """
     known = None if like is None else await run_in_threadpool(_liked, workspace_of(request), like)
     data = await read_bytes(request, largest(filename))
-    work = partial(_read, filename, data, units, scale, creases, measured, known, line)
+    work = partial(_read, filename, data, units, scale, creases, measured, known, line, size)
     try:
         return JSONResponse(_imported(await answer_of(request, workspace_of(request).lanes.files, work)))
     except UnitsNeededError as error:
@@ -194,9 +211,10 @@ def _read(
     measured: str | None,
     like: str | Garment | None,
     line: Line | None,
+    size: str | None,
     should_stop: ShouldStop,
 ) -> Imported:
-    asked = (filename, data, units, scale, creases, measured, like, line)
+    asked = (filename, data, units, scale, creases, measured, like, line, size)
     return run_apart(searches.read_file, should_stop, ignore, *asked)
 
 
@@ -224,4 +242,5 @@ def _imported(imported: Imported) -> dict[str, Any]:
         "sizes": imported.sizes,
         "seen": imported.seen,
         "allowance": None if imported.allowance is None else asdict(imported.allowance),
+        "graded": None if imported.graded is None else asdict(imported.graded),
     }

@@ -22,10 +22,13 @@ import re
 from collections.abc import Iterable
 
 BOUNDARY = "1"
+MIRROR_LINE = "6"
 INTERNAL_LINES = "8"
 
 _NUMBERED = re.compile(r"\d{1,2}")
 _METRIC_UNITS = re.compile(r"^\s*units\s*:?\s*(metric|english)", re.IGNORECASE)
+_SIZE = re.compile(r"^\s*size\s*:\s*(\S.{0,30}?)\s*$", re.IGNORECASE)
+_SAMPLE = re.compile(r"^\s*sample\s*size\s*:\s*(\S.{0,30}?)\s*$", re.IGNORECASE)
 _UNIT_M = {"metric": 1e-3, "english": 0.0254}
 
 INSUNITS_M = {1: 0.0254, 2: 0.3048, 4: 1e-3, 5: 1e-2, 6: 1.0, 10: 0.9144, 14: 0.1}
@@ -47,3 +50,13 @@ def unit_by_text(texts: Iterable[str]) -> float | None:
     """Return the unit's length by the text ``UNITS: METRIC`` (mm) or ``UNITS: ENGLISH`` (inches), or None (m)."""
     found = (_METRIC_UNITS.match(text) for text in texts)
     return next((_UNIT_M[match[1].lower()] for match in found if match), None)
+
+
+def size_by_text(texts: Iterable[str]) -> str | None:
+    """Return a piece's size by the text ``SIZE: M`` in its block, or None."""
+    return next((match[1] for match in map(_SIZE.match, texts) if match), None)
+
+
+def sample_by_text(texts: Iterable[str]) -> str | None:
+    """Return a style's sample size by the text ``SAMPLE SIZE: M``, or None."""
+    return next((match[1] for match in map(_SAMPLE.match, texts) if match), None)

@@ -19,10 +19,20 @@ from ezdxf.math import Vec3
 from ezdxf.path import Path, make_path
 
 from app.files.curve import POINTS_MAX, DrawnCurve
-from app.files.dxf_layers import BOUNDARY, INSUNITS_M, kind_by_name, may_carry_folds, unit_by_text
+from app.files.dxf_layers import (
+    BOUNDARY,
+    INSUNITS_M,
+    MIRROR_LINE,
+    kind_by_name,
+    may_carry_folds,
+    sample_by_text,
+    size_by_text,
+    unit_by_text,
+)
 from app.files.fold_colour import Rgb, kind_of
 from app.files.import_errors import broken
-from app.files.sketch import FoldLine, Sketch
+from app.files.piece_labels import says_on_fold, size_in
+from app.files.sketch import DrawnLine, FoldLine, MirrorLine, Role, Sketch
 from planner.geometry.pose import FloatArray
 
 ENTITIES_MAX, INSERTS_MAX = 20_000, 1_000
@@ -54,20 +64,22 @@ logging.getLogger("ezdxf").setLevel(logging.CRITICAL)
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Line:
-    """A connected line with its layer and fold kind."""
+    """A connected line with its layer, fold kind and graded size."""
 
     curve: DrawnCurve
     layer: str
     kind: str | None
     is_closed: bool
+    size: str | None
 
 
 @dataclass(frozen=True, slots=True)
 class _Inherited:
-    """The layer and the colour (ACI) that entities in a block inherit from the block's insertion."""
+    """The layer, the colour (ACI) and the size that entities in a block inherit from the block's insertion."""
 
     layer: str = "0"
     colour: int = 7
+    size: str | None = None
 
 
 def read_dxf(data: bytes) -> Sketch:
@@ -83,28 +95,45 @@ def read_dxf(data: bytes) -> Sketch:
     except _BAD as error:
         raise broken(f"it is not DXF that can be read: {str(error)[:200]}") from None
     is_pattern = any(line.layer == BOUNDARY for line in lines)
-    folds = [line for line in lines if _is_fold(line, is_pattern=is_pattern)]
-    curves = [line.curve for line in lines if line not in folds and (line.layer == BOUNDARY or not is_pattern)]
-    others = len(lines) - len(folds) - len(curves)
+    roles = [_role(line, is_pattern=is_pattern) for line in lines]
+    others = roles.count(None)
     notes = ["It is a sewing pattern: layer 1 is the boundary of its pieces."] if is_pattern else []
     if others:
         notes.append(f"{others} line{'s' if others > 1 else ''} on its other layers left out.")
-    return Sketch(
-        tuple(curves),
-        tuple(FoldLine(line.kind or "blue", line.curve) for line in folds),
-        _unit_m(drawing, entities),
+    texts = _texts(entity for entity, _ in entities)
+    sketch = Sketch(
+        (),
+        (),
+        _unit_m(drawing, texts),
         "it has no $INSUNITS",
         notes=tuple(notes),
+        says_fold=any(map(says_on_fold, texts)),
+        sample=sample_by_text(texts),
     )
+    return sketch.with_lines(_drawn(line, role) for line, role in zip(lines, roles, strict=True) if role is not None)
 
 
-def _is_fold(line: _Line, *, is_pattern: bool) -> bool:
-    may_be = may_carry_folds(line.layer) if is_pattern else True
-    return line.kind is not None and may_be and not line.is_closed
+def _role(line: _Line, *, is_pattern: bool) -> Role | None:
+    """Return what a line may be; None for one on a layer that is for something else."""
+    if not line.is_closed and ((is_pattern and line.layer == MIRROR_LINE) or says_on_fold(line.layer)):
+        return "mirror"
+    may_be_fold = not line.is_closed and (may_carry_folds(line.layer) if is_pattern else True)
+    if line.kind is not None and may_be_fold:
+        return "fold"
+    return "outline" if line.layer == BOUNDARY or not is_pattern else None
 
 
-def _unit_m(drawing: Drawing, entities: list[tuple[DXFEntity, _Inherited]]) -> float | None:
-    texts = (str(entity.dxf.get("text", "")) for entity, _ in entities if entity.dxftype() in _TEXTS)
+def _drawn(line: _Line, role: Role) -> DrawnLine:
+    if role == "fold":
+        return DrawnLine(role, FoldLine(line.kind or "blue", line.curve), line.size)
+    return DrawnLine(role, MirrorLine(line.curve) if role == "mirror" else line.curve, line.size)
+
+
+def _texts(entities: Iterable[DXFEntity]) -> list[str]:
+    return [str(entity.dxf.get("text", "")) for entity in entities if entity.dxftype() in _TEXTS]
+
+
+def _unit_m(drawing: Drawing, texts: list[str]) -> float | None:
     by_text = unit_by_text(texts)
     units = drawing.header.get("$INSUNITS", 0)
     return INSUNITS_M.get(units) if by_text is None else by_text
@@ -114,10 +143,17 @@ def _all(drawing: Drawing) -> Iterator[tuple[DXFEntity, _Inherited]]:
     """Yield all entities of the model space, with inserted blocks expanded; if it is empty, those of the blocks."""
     space = drawing.modelspace()
     blocks = (block for block in drawing.blocks if not block.is_any_layout)
-    layouts: Iterable[Iterable[DXFEntity]] = [space] if len(space) else blocks
     counts = {"entities": 0, "blocks inserted": 0}
-    for layout in layouts:
-        yield from _within(layout, _Inherited(), 0, counts)
+    if len(space):
+        yield from _within(space, _Inherited(), 0, counts)
+        return
+    for block in blocks:
+        yield from _within(block, _Inherited(size=_size_of(block, block.name)), 0, counts)
+
+
+def _size_of(entities: Iterable[DXFEntity], name: str) -> str | None:
+    """Return the size of the piece in a block, by a text in it or else by its name."""
+    return size_by_text(_texts(entities)) or size_in(name)
 
 
 def _within(
@@ -129,7 +165,9 @@ def _within(
             yield entity, around
         elif deep < _BLOCKS_DEEP:
             _count(counts, "blocks inserted", INSERTS_MAX)
-            inner = _Inherited(_layer(entity, around), _colour(entity, around))
+            block = entity.block()
+            size = None if block is None else _size_of(block, block.name)
+            inner = _Inherited(_layer(entity, around), _colour(entity, around), size or around.size)
             yield from _within(entity.virtual_entities(), inner, deep + 1, counts)
 
 
@@ -154,7 +192,7 @@ def _lines(drawing: Drawing, entity: DXFEntity, around: _Inherited) -> Iterator[
     kind = kind_by_name(layer) or kind_of(_rgb(drawing, entity, layer, around))
     for part in path.sub_paths():
         if len(part):
-            yield _Line(_curve(part), layer, kind, part.is_closed)
+            yield _Line(_curve(part), layer, kind, part.is_closed, around.size or size_in(layer))
 
 
 def _curve(path: Path) -> DrawnCurve:

@@ -7,6 +7,8 @@ import colorsys
 import re
 from typing import TypeAlias
 
+from PIL import ImageColor
+
 Rgb: TypeAlias = tuple[float, float, float]
 """Red, green and blue, 0..1."""
 
@@ -20,28 +22,16 @@ _CHROMA_MIN = 0.25
 _LONGEST = 100
 """Longest text that is parsed as a colour (characters)."""
 
-_NAMED = {
-    "blue": "0000ff",
-    "cornflowerblue": "6495ed",
-    "crimson": "dc143c",
-    "darkblue": "00008b",
-    "darkred": "8b0000",
-    "deepskyblue": "00bfff",
-    "dodgerblue": "1e90ff",
-    "firebrick": "b22222",
-    "indianred": "cd5c5c",
-    "mediumblue": "0000cd",
-    "midnightblue": "191970",
-    "navy": "000080",
-    "orangered": "ff4500",
-    "red": "ff0000",
-    "royalblue": "4169e1",
-    "steelblue": "4682b4",
-    "tomato": "ff6347",
-}
+_NAMED = {name: "#{:02x}{:02x}{:02x}".format(*ImageColor.getrgb(name)[:3]) for name in ImageColor.colormap}
+"""The colours that CSS has names for, as ``#rrggbb``."""
+
 _HEX = re.compile(r"#(?:[0-9a-f]{3,4}|[0-9a-f]{6}|[0-9a-f]{8})")
-_FUNCTION = re.compile(r"(rgb|hsl)a?\(([^()]*)\)")
-_NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+))(%?)(?:deg)?")
+_FUNCTION = re.compile(r"(rgb|hsl|hwb|color)a?\(([^()]*)\)")
+_RGB_SPACES = frozenset({"srgb", "srgb-linear", "display-p3", "a98-rgb", "prophoto-rgb", "rec2020"})
+"""The spaces of ``color()`` whose numbers are red, green and blue; hues differ by too little to matter."""
+
+_NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?|none)(%?)(?:deg)?")
+_TURN_DEG = 360.0
 
 
 def kind_of(rgb: Rgb | None) -> str | None:
@@ -56,15 +46,31 @@ def kind_of(rgb: Rgb | None) -> str | None:
 
 
 def css_rgb(text: str) -> Rgb | None:
-    """Return a CSS colour: a name, ``#rgb``, ``#rrggbb``, ``rgb()`` or ``hsl()``; None for any other text."""
+    """Return a CSS colour: a name, ``#rgb``, ``#rrggbb``, ``rgb()``, ``hsl()``, ``hwb()`` or ``color()``; else None.
+
+    A profile's colour after it, as in ``#00f icc-color(...)``, is left out.
+    """
     if len(text) > _LONGEST:
         return None
-    wanted = text.strip().lower()
-    wanted = f"#{_NAMED[wanted]}" if wanted in _NAMED else wanted
+    wanted = text.lower().partition(" icc-color")[0].strip()
+    wanted = _NAMED.get(wanted, wanted)
     if _HEX.fullmatch(wanted):
         return hex_rgb(wanted[1:])
     function = _FUNCTION.fullmatch(wanted)
-    return None if function is None else _called(function[1], _NUMBER.findall(function[2]))
+    return None if function is None else _called(function[1], function[2])
+
+
+def alpha_of(text: str) -> float:
+    """Return how opaque a CSS colour is, 0..1; 1 for what has no alpha or is no colour."""
+    if len(text) > _LONGEST:
+        return 1.0
+    wanted = text.strip().lower()
+    if _HEX.fullmatch(wanted) and len(wanted) in (5, 9):
+        digits = wanted[-1] * 2 if len(wanted) == 5 else wanted[-2:]
+        return int(digits, 16) / 255.0
+    function = _FUNCTION.fullmatch(wanted)
+    numbers = [] if function is None else _NUMBER.findall(_without_space(function[2]))
+    return _share(numbers[3], 1.0) if len(numbers) > 3 else 1.0
 
 
 def hex_rgb(digits: str) -> Rgb:
@@ -74,15 +80,34 @@ def hex_rgb(digits: str) -> Rgb:
     return (red, green, blue)
 
 
-def _called(name: str, numbers: list[tuple[str, str]]) -> Rgb | None:
+def _called(name: str, text: str) -> Rgb | None:
+    if name == "color" and text.split()[:1] and text.split()[0] not in _RGB_SPACES:
+        return None
+    numbers = _NUMBER.findall(_without_space(text))
     if len(numbers) < 3:
         return None
-    first, second, third = numbers[:3]
+    if name in ("rgb", "color"):
+        red, green, blue = (_share(number, 255.0 if name == "rgb" else 1.0) for number in numbers[:3])
+        return (red, green, blue)
+    hue = (0.0 if numbers[0][0] == "none" else float(numbers[0][0])) / _TURN_DEG % 1.0
+    second, third = (_share((number, "%"), 1.0) for number, _ in numbers[1:3])
     if name == "hsl":
-        hue, saturation, lightness = float(first[0]) / 360.0, float(second[0]) / 100.0, float(third[0]) / 100.0
-        return colorsys.hls_to_rgb(hue % 1.0, _kept(lightness), _kept(saturation))
-    red, green, blue = (_kept(float(number) / (100.0 if percent else 255.0)) for number, percent in numbers[:3])
+        return colorsys.hls_to_rgb(hue, third, second)
+    white, black = (second, third) if second + third <= 1.0 else (second / (second + third), third / (second + third))
+    red, green, blue = (white + pure * (1.0 - white - black) for pure in colorsys.hsv_to_rgb(hue, 1.0, 1.0))
     return (red, green, blue)
+
+
+def _without_space(text: str) -> str:
+    """Return the numbers of a function without the name of a colour space before them."""
+    first, gap, rest = text.strip().partition(" ")
+    return rest if gap and first in _RGB_SPACES else text
+
+
+def _share(number: tuple[str, str], whole: float) -> float:
+    """Return a number or a percentage as a share of a whole, 0..1."""
+    value = 0.0 if number[0] == "none" else float(number[0])
+    return _kept(value / (100.0 if number[1] else whole))
 
 
 def _kept(value: float) -> float:

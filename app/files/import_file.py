@@ -7,6 +7,7 @@ from typing import Any
 
 from app.files.crease_reading import Creases
 from app.files.garment_json import read_garment_json
+from app.files.graded_sizes import Graded
 from app.files.import_errors import ImportedFileError
 from app.files.seam_allowance import Allowance, Line
 from app.files.sketch import Sketch
@@ -58,6 +59,7 @@ class Imported:
         sizes: the size that a drawing would have in other units; None for a garment file or a picture.
         seen: how sure a garment in a picture is, as JSON; None for other files.
         allowance: a drawing's seam allowance, and whether it was taken along; None for none.
+        graded: a drawing's graded sizes, and which was taken; None for one size.
     """
 
     format: str
@@ -67,6 +69,7 @@ class Imported:
     sizes: Sizes | None = None
     seen: dict[str, Any] | None = None
     allowance: Allowance | None = None
+    graded: Graded | None = None
 
 
 def largest(filename: str) -> int:
@@ -85,6 +88,7 @@ def import_file(
     measured: str | None = None,
     like: str | Garment | None = None,
     line: Line | None = None,
+    size: str | None = None,
 ) -> Imported:
     """Return the garment in a file.
 
@@ -98,10 +102,11 @@ def import_file(
         like: the template, by name, or the garment whose measures are fitted to a picture and whose folds come along;
             None to take the outline as it is seen.
         line: which line of a drawing that has a cut line and a seam line is the outline; None for the seam line.
+        size: the size to take of a drawing in graded sizes; None for its sample size, or the middle one.
 
     Raises:
         ImportedFileError: the file is not a garment; the field is ``file``, ``filename``, ``units``, ``scale``,
-            ``measured`` or ``like``.
+            ``measured``, ``like`` or ``size``.
         UnitsNeededError: the drawing's unit is unknown, or the one in the file is impossible.
         GarmentError: the garment is invalid; the field is that of a garment file.
         RequestError: the file claims to be a plan but is invalid; the field is that of a plan file.
@@ -119,8 +124,16 @@ def import_file(
     if ending not in _SKETCHES:
         endings = ", ".join(f".{known}" for known in ENDINGS)
         raise ImportedFileError("filename", f"{path.name[:80]!r} ends in none of {endings}")
-    found = garment_of(_SKETCHES[ending](data), path.stem, units, scale, creases, line)
-    return Imported(ending, found.garment, found.notes, found.creases, found.sizes, allowance=found.allowance)
+    found = garment_of(_SKETCHES[ending](data), path.stem, units, scale, creases, line, size)
+    return Imported(
+        ending,
+        found.garment,
+        found.notes,
+        found.creases,
+        found.sizes,
+        allowance=found.allowance,
+        graded=found.graded,
+    )
 
 
 def _ending(filename: str) -> str:

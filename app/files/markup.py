@@ -28,6 +28,7 @@ class Element:
         line: the line of the file in which it begins.
         children: the child elements, in order.
         text: the text directly in it.
+        parent: the element around it; None for the root.
     """
 
     tag: str
@@ -35,6 +36,7 @@ class Element:
     line: int
     children: list["Element"] = field(default_factory=list)
     text: str = ""
+    parent: "Element | None" = field(default=None, repr=False)
 
     def walk(self) -> Iterator["Element"]:
         """Yield this element and all its descendants, in document order."""
@@ -43,6 +45,10 @@ class Element:
             element = waiting.pop()
             yield element
             waiting.extend(reversed(element.children))
+
+    def whole_text(self) -> str:
+        """Return the text in this element and all its descendants."""
+        return " ".join(" ".join(element.text for element in self.walk()).split())
 
     def child_text(self, tag: str) -> str | None:
         """Return the text of the first child with a tag; None without such a child or text."""
@@ -96,6 +102,7 @@ class _Builder:
         named = {_local(name): value for name, value in attributes.items()}
         element = Element(_local(tag), named, self._parser.CurrentLineNumber)
         if self._open:
+            element.parent = self._open[-1]
             self._open[-1].children.append(element)
         else:
             self._root = element

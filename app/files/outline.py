@@ -1,6 +1,5 @@
 """Finds the outline of a garment among the curves of a drawing: the largest closed one."""
 
-from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
@@ -8,19 +7,29 @@ import numpy as np
 
 from app.files.curve import POINTS_MAX as CURVE_POINTS_MAX
 from app.files.curve import Curve
+from app.files.halves import fold_edge, joined, unfolded
 from app.files.import_errors import broken
 from app.files.seam_allowance import Allowance, Line, seam_line
+from app.files.sketch import MirrorLine, Sketch
 from planner.cloth.outline import AREA_MIN_M2, EDGE_MIN_M, POINTS_MAX
+from planner.geometry.arrangement import are_tangled, enclosing_rings
 from planner.geometry.pose import FloatArray
+from planner.geometry.segment import Segment
 
 TOLERANCE_M = 0.5e-3
 """Largest deviation of the straight edges from the curve that they replace, unless they are too many (m)."""
 
 _PAIRED_MAX = 8
-"""Closed lines, the largest first, among which a cut line and its seam line are looked for."""
+"""Closed lines, the largest first, among which halves, and a cut line and its seam line, are looked for."""
 
-_JOIN_M = 0.2e-3
-"""Distance below which the ends of two lines are joined (m)."""
+_UNFOLDED_MAX = 64
+"""Closed lines, the largest first, that are unfolded, and fold lines that are looked at."""
+
+_GAP_M = 1.5e-3
+"""Largest gap between lines that is closed (m): a millimetre in x and in y."""
+
+_CROSSINGS_MAX = 20_000
+"""Largest number of crossings of open lines."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -34,6 +43,9 @@ class FoundOutline:
         is_simplified: whether corners of the drawing are left out.
         others: the lowest and highest coordinates of each other closed curve (m), shape (n, 2, 2).
         allowance: what was told of a cut line and a seam line; None where the drawing has no such two.
+        fold: where the half piece that was drawn is folded (m); None for a piece that was drawn whole.
+        is_joined: whether it was drawn as two halves beside each other.
+        has_unfolded: whether any piece of the drawing was mirrored over a fold line.
     """
 
     points: FloatArray
@@ -42,6 +54,9 @@ class FoundOutline:
     is_simplified: bool
     others: FloatArray
     allowance: Allowance | None = None
+    fold: Segment | None = None
+    is_joined: bool = False
+    has_unfolded: bool = False
 
     def is_about(self, line: FloatArray) -> bool:
         """Return whether a line, shape (n, 2), may belong to this outline: not to another, and not far away."""
@@ -56,11 +71,11 @@ class FoundOutline:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Line:
-    """A flattened curve, or several joined at their ends.
+    """A flattened curve.
 
     Attributes:
         points: its points (m), shape (n, 2).
-        is_bent: whether any of the curves is more than straight segments.
+        is_bent: whether the curve is more than straight segments.
     """
 
     points: FloatArray
@@ -71,23 +86,72 @@ class _Line:
         """Whether the line ends where it begins, within the length of the shortest edge of an outline."""
         return float(np.hypot(*(self.points[0] - self.points[-1]))) <= EDGE_MIN_M
 
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Ring:
+    """A closed line.
+
+    Attributes:
+        points: its points (m), shape (n, 2), the first not repeated.
+        is_bent: whether any of the curves that it is made of is more than straight segments.
+        fold: where it was folded (m); None if it was drawn whole.
+        is_joined: whether it is two halves.
+    """
+
+    points: FloatArray
+    is_bent: bool
+    fold: Segment | None = None
+    is_joined: bool = False
+
     @property
-    def reversed(self) -> "_Line":
-        """The line in the opposite direction."""
-        return _Line(self.points[::-1], self.is_bent)
+    def size_m2(self) -> float:
+        """The area in it (m2)."""
+        return abs(area(self.points))
 
 
-def find_outline(curves: Iterable[Curve], unit_m: float, wanted: Line = "seam") -> FoundOutline:
-    """Return the largest closed curve, after joining lines at their ends, with at most 400 corners.
+def find_outline(sketch: Sketch, unit_m: float, wanted: Line = "seam") -> FoundOutline:
+    """Return the largest closed line of a drawing, with at most 400 corners.
+
+    Open lines are joined where they meet or nearly meet, half pieces unfolded, and halves that lie beside each other
+    joined.
 
     Args:
-        curves: the curves.
-        unit_m: the length of their unit (m).
+        sketch: the drawing.
+        unit_m: the length of its unit (m).
         wanted: which line to take where a seam line runs along inside the largest one.
 
     Raises:
-        ImportedFileError: there is no closed curve.
+        ImportedFileError: there is no closed line, or there are too many points or crossings.
     """
+    lines: list[_Line] = []
+    rings: list[_Ring] = []
+    for curves in (sketch.curves, *sketch.faint):
+        lines.extend(_flattened(curves, unit_m))
+        if rings := _rings(lines):
+            break
+    if not rings:
+        raise broken("there is no closed line in it that could be the outline of a garment")
+    rings = _whole(rings, sketch.mirrors, unit_m)
+    seam = seam_line([_cornered(ring.points)[0] for ring in rings[:_PAIRED_MAX]])
+    taken = seam[0] if seam is not None and wanted == "seam" else 0
+    left = [ring for number, ring in enumerate(rings) if number and (seam is None or number != seam[0])]
+    others = [(ring.points.min(axis=0), ring.points.max(axis=0)) for ring in left]
+    ring = rings[taken]
+    points, spacing_m, tolerance_m = _cornered(ring.points)
+    return FoundOutline(
+        points,
+        TOLERANCE_M + spacing_m + tolerance_m,
+        ring.is_bent,
+        len(points) < len(ring.points),
+        np.array(others).reshape(-1, 2, 2),
+        None if seam is None else Allowance(wanted, seam[1]),
+        ring.fold,
+        ring.is_joined,
+        any(one.fold is not None for one in rings),
+    )
+
+
+def _flattened(curves: Iterable[Curve], unit_m: float) -> list[_Line]:
     lines: list[_Line] = []
     count = 0
     for curve in curves:
@@ -95,29 +159,13 @@ def find_outline(curves: Iterable[Curve], unit_m: float, wanted: Line = "seam") 
         count += len(lines[-1].points)
         if count > 2 * CURVE_POINTS_MAX:
             raise broken(f"its curves need more than {2 * CURVE_POINTS_MAX} points")
-    rings = _rings(lines)
-    if not rings:
-        raise broken("there is no closed line in it that could be the outline of a garment")
-    seam = seam_line([_cornered(ring)[0] for ring in rings[:_PAIRED_MAX]])
-    taken = seam[0] if seam is not None and wanted == "seam" else 0
-    left = [ring for number, ring in enumerate(rings) if number and (seam is None or number != seam[0])]
-    others = [(ring.points.min(axis=0), ring.points.max(axis=0)) for ring in left]
-    ring = rings[taken]
-    points, spacing_m, tolerance_m = _cornered(ring)
-    return FoundOutline(
-        points,
-        TOLERANCE_M + spacing_m + tolerance_m,
-        ring.is_bent,
-        len(points) < len(ring.points) - 1,
-        np.array(others).reshape(-1, 2, 2),
-        None if seam is None else Allowance(wanted, seam[1]),
-    )
+    return lines
 
 
-def _cornered(ring: _Line) -> tuple[FloatArray, float, float]:
+def _cornered(ring: FloatArray) -> tuple[FloatArray, float, float]:
     """Return a ring's corners, at most 400, and how much spacing and simplifying them may have moved it (m)."""
-    whole = points = _spaced(ring.points)
-    spacing_m = EDGE_MIN_M if len(whole) < len(ring.points) - 1 else 0.0
+    whole = points = _spaced(ring)
+    spacing_m = EDGE_MIN_M if len(whole) < len(ring) else 0.0
     tolerance_m = 0.0
     while len(points) > POINTS_MAX:
         tolerance_m = 2.0 * tolerance_m or TOLERANCE_M
@@ -131,48 +179,48 @@ def area(ring: FloatArray) -> float:
     return float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))) / 2.0
 
 
-def _rings(lines: Sequence[_Line]) -> list[_Line]:
+def _rings(lines: Sequence[_Line]) -> list[_Ring]:
     """Return the closed lines that are large enough to be cloth, the largest first."""
-    closed = [line for line in lines if len(line.points) > 3 and line.is_closed]
+    closed = [_Ring(line.points[:-1], line.is_bent) for line in lines if len(line.points) > 3 and line.is_closed]
     loose = [line for line in lines if len(line.points) > 1 and not line.is_closed]
-    closed.extend(line for line in _joined(loose) if line.is_closed)
-    cloth = (ring for ring in closed if abs(area(ring.points)) >= AREA_MIN_M2)
-    return sorted(cloth, key=lambda ring: -abs(area(ring.points)))
+    return _sorted([*closed, *_enclosing(loose)])
 
 
-def _joined(lines: Sequence[_Line]) -> list[_Line]:
-    """Return the lines, joined where exactly two of them meet."""
-    meeting: dict[tuple[int, int], list[int]] = defaultdict(list)
-    for number, line in enumerate(lines):
-        for end in (line.points[0], line.points[-1]):
-            meeting[_place(end)].append(number)
-    left = set(range(len(lines)))
-    found = []
-    for number in range(len(lines)):
-        if number in left:
-            left.remove(number)
-            forwards = _continued(lines[number], lines, meeting, left)
-            found.append(_continued(forwards.reversed, lines, meeting, left))
+def _enclosing(lines: Sequence[_Line]) -> list[_Ring]:
+    """Return the closed lines that open lines make together."""
+    points = [line.points for line in lines]
+    if not points:
+        return []
+    if are_tangled(points, _CROSSINGS_MAX):
+        raise broken(f"its open lines cross each other more than {_CROSSINGS_MAX} times")
+    bent = [line.points for line in lines if line.is_bent]
+    rings = enclosing_rings(points, _GAP_M)
+    return [_Ring(ring, any(_overlap(ring, line) for line in bent)) for ring in rings]
+
+
+def _overlap(one: FloatArray, other: FloatArray) -> bool:
+    """Return whether the boxes about two lines overlap."""
+    return bool(np.all(one.min(axis=0) <= other.max(axis=0)) and np.all(other.min(axis=0) <= one.max(axis=0)))
+
+
+def _whole(rings: list[_Ring], mirrors: Sequence[MirrorLine], unit_m: float) -> list[_Ring]:
+    """Return the rings, the largest first, with half pieces made whole."""
+    found = list(rings[_UNFOLDED_MAX:])
+    for ring in rings[:_UNFOLDED_MAX]:
+        folds = (fold_edge(ring.points, mirror, unit_m) for mirror in mirrors[:_UNFOLDED_MAX])
+        fold = next((line for line in folds if line is not None), None)
+        points = None if fold is None else unfolded(ring.points, fold)
+        found.append(ring if points is None else _Ring(points, ring.is_bent, fold))
+    found = _sorted(found)
+    while (pair := joined([_cornered(ring.points)[0] for ring in found[:_PAIRED_MAX]])) is not None:
+        one, other, points = pair
+        both = _Ring(points, found[one].is_bent or found[other].is_bent, is_joined=True)
+        found = _sorted([both, *(ring for number, ring in enumerate(found) if number not in (one, other))])
     return found
 
 
-def _continued(line: _Line, lines: Sequence[_Line], meeting: dict[tuple[int, int], list[int]], left: set[int]) -> _Line:
-    """Return a line with all lines that follow it unambiguously; remove those from `left`."""
-    parts = [line.points]
-    is_bent = line.is_bent
-    while len(there := meeting[_place(parts[-1][-1])]) == 2:
-        following = next((number for number in there if number in left), None)
-        if following is None:
-            break
-        left.remove(following)
-        more = lines[following].points
-        is_bent = is_bent or lines[following].is_bent
-        parts.append(more[1:] if _place(more[0]) == _place(parts[-1][-1]) else more[-2::-1])
-    return _Line(np.concatenate(parts), is_bent)
-
-
-def _place(point: FloatArray) -> tuple[int, int]:
-    return (round(float(point[0]) / _JOIN_M), round(float(point[1]) / _JOIN_M))
+def _sorted(rings: Iterable[_Ring]) -> list[_Ring]:
+    return sorted((ring for ring in rings if ring.size_m2 >= AREA_MIN_M2), key=lambda ring: -ring.size_m2)
 
 
 def _spaced(line: FloatArray) -> FloatArray:

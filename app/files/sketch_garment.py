@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 
 from app.files.crease_reading import Creases, ReadCreases, read_creases
+from app.files.graded_sizes import Graded, graded_sketch
+from app.files.halves import mirrored_line, whole_line
 from app.files.import_errors import ImportedFileError, UnitsNeededError
 from app.files.outline import TOLERANCE_M, FoundOutline, find_outline
 from app.files.seam_allowance import Allowance, Line
@@ -38,6 +40,9 @@ ODD_SIZES_M = (0.05, 4.0)
 KEPT_FIELDS = ("name", "areal_density_kg_m2", "grip_radius_m", "placement")
 """Fields of a garment file that an exported drawing keeps besides its lines."""
 
+_MIRRORED = ", mirrored"
+"""What is added to the name of a fold line for its mirror image on the other half of a piece."""
+
 _NAME_MAX = 63
 """Longest garment name (characters)."""
 
@@ -52,6 +57,7 @@ class SketchedGarment:
         creases: the cloth on which its fold lines were read; None if it makes no difference.
         sizes: the size that it would have in other units.
         allowance: its seam allowance, and whether it was taken along; None if the drawing tells of none.
+        graded: the graded sizes of the drawing, and which was taken; None if it has one size.
     """
 
     garment: Garment
@@ -59,6 +65,7 @@ class SketchedGarment:
     creases: Creases | None
     sizes: Sizes
     allowance: Allowance | None = None
+    graded: Graded | None = None
 
 
 def garment_of(
@@ -68,6 +75,7 @@ def garment_of(
     scale: float,
     creases: Creases | None = None,
     line: Line | None = None,
+    size: str | None = None,
 ) -> SketchedGarment:
     """Return the garment that a drawing shows.
 
@@ -78,12 +86,14 @@ def garment_of(
         scale: the factor by which to enlarge everything.
         creases: the cloth on which its fold lines are drawn; None for the reading that makes more of them legal.
         line: which line is the outline where the drawing has a cut line and a seam line; None for the seam line.
+        size: the graded size to take; None for the drawing's sample size, or the middle one.
 
     Raises:
         UnitsNeededError: neither the file nor the caller gives the unit, or the one in the file is impossible.
-        ImportedFileError: there is no outline, or it is too large.
+        ImportedFileError: there is no outline, it is too large, or there is no such size.
         GarmentError: the outline is not valid for a garment.
     """
+    sketch, graded = graded_sketch(sketch, size)
     unit_m = UNITS_M[units] if units is not None else sketch.unit_m
     if unit_m is None:
         raise UnitsNeededError(Message.plain(sketch.why_no_unit), sizes_by_unit(sketch, scale))
@@ -96,11 +106,12 @@ def garment_of(
     with np.errstate(all="ignore"):
         extent = extent_of(sketch) * unit_m
     require_size(extent, SHEET_MAX_M, "the drawing")
-    found = find_outline(sketch.curves, unit_m, line or "seam")
+    found = find_outline(sketch, unit_m, line or "seam")
     require_size(found.points, LARGEST_M, "the outline")
     origin = found.points.min(axis=0) if sketch.kept is None else np.zeros(2)
     title = " ".join((sketch.title or name).split())[:TITLE_MAX] or name
-    notes = [*_outline_notes(found, units, unit_m), *map(Message.plain, sketch.notes)]
+    notes = [*_piece_notes(sketch, found, graded), *_outline_notes(found, units, unit_m)]
+    notes += map(Message.plain, sketch.notes)
     drawn = {
         "name": plain_name(title),
         "title": title,
@@ -108,9 +119,9 @@ def garment_of(
         "folds": list(_folds(sketch, found, unit_m, origin, notes)),
     }
     garment, read = _read(_garment(drawn, sketch.kept or {}, notes), creases, notes)
-    size = tuple((found.points.max(axis=0) - found.points.min(axis=0)).tolist())
-    sizes = {name: (size[0] * each / unit_m * scale, size[1] * each / unit_m * scale) for name, each in UNITS_M.items()}
-    return SketchedGarment(garment, tuple(notes), read, sizes, found.allowance)
+    wide, tall = (found.points.max(axis=0) - found.points.min(axis=0)).tolist()
+    sizes = {name: (wide * each / unit_m * scale, tall * each / unit_m * scale) for name, each in UNITS_M.items()}
+    return SketchedGarment(garment, tuple(notes), read, sizes, found.allowance, graded)
 
 
 def _read(garment: Garment, creases: Creases | None, notes: list[Message]) -> tuple[Garment, Creases | None]:
@@ -181,18 +192,45 @@ def _folds(
         notes.append(Message("short_lines", text, {"shorter_m": EDGE_MIN_M, "lines": count}))
     if len(long) > FOLDS_MAX:
         notes.append(Message.plain(f"There are {len(long)} fold lines; the first {FOLDS_MAX} were taken."))
-    for number, line in enumerate(long[:FOLDS_MAX]):
-        points = line.curve.flattened(TOLERANCE_M / unit_m) * unit_m - origin
+    for number, line in enumerate(long[: FOLDS_MAX if found.fold is None else FOLDS_MAX // 2]):
+        points = line.curve.flattened(TOLERANCE_M / unit_m) * unit_m
         name = (line.name or f"fold {number + 1}")[:TITLE_MAX]
-        start, end = points[0].tolist(), points[-1].tolist()
-        if Segment(tuple(start), tuple(end)).distances(points).max() > EDGE_MIN_M:
+        ends = points[[0, -1]]
+        if Segment(*map(tuple, ends.tolist())).distances(points).max() > EDGE_MIN_M:
             text = f"The line {name!r} is not straight; the fold goes straight from its start to its end."
             notes.append(Message.plain(text))
         kind = line.kind
         if kind == "red" and number == 0:
             kind = "blue"
             notes.append(Message.plain(f"The line {name!r} is red, but no fold comes before it, so it was made blue."))
-        yield {"name": name, "kind": kind, "start": start, "end": end, "grip_radius_m": line.grip_radius_m}
+        for half, (start, end) in enumerate(_on_both_halves(ends, found.fold)):
+            called = name if not half else f"{name[: TITLE_MAX - len(_MIRRORED)]}{_MIRRORED}"
+            written = {"name": called, "kind": kind, "start": (start - origin).tolist(), "end": (end - origin).tolist()}
+            yield {**written, "grip_radius_m": line.grip_radius_m}
+
+
+def _on_both_halves(ends: FloatArray, fold: Segment | None) -> list[FloatArray]:
+    """Return a line's ends, and on a piece that was unfolded those of its other half, each shape (2, 2)."""
+    if fold is None:
+        return [ends]
+    if (whole := whole_line(ends, fold)) is not None:
+        return [whole]
+    image = mirrored_line(ends, fold)
+    return [ends] if image is None else [ends, image]
+
+
+def _piece_notes(sketch: Sketch, found: FoundOutline, graded: Graded | None) -> Iterator[Message]:
+    if graded is not None:
+        listed = ", ".join(graded.sizes)
+        text = f"The drawing has the sizes {listed}; size {graded.size} was taken."
+        yield Message("graded_sizes", text, {"size": graded.size, "sizes": list(graded.sizes)})
+    if found.fold is not None:
+        yield Message("piece_unfolded", "The piece is cut on the fold; it was mirrored over its fold line.")
+    elif found.is_joined:
+        yield Message("halves_joined", "Two halves that mirror each other were joined.")
+    elif sketch.says_fold and not found.has_unfolded:
+        text = "The drawing says that a piece is cut on the fold, but not along which edge; it was taken as drawn."
+        yield Message("fold_unknown", text)
 
 
 def _outline_notes(found: FoundOutline, units: str | None, unit_m: float) -> Iterator[Message]:

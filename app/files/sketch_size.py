@@ -50,7 +50,7 @@ def sizes_by_unit(sketch: Sketch, scale: float) -> Sizes:
         span = float((extent.max(axis=0) - extent.min(axis=0)).max()) or 1.0
     if not math.isfinite(span):
         raise ImportedFileError("file", "its numbers are too large")
-    outlined = find_outline(sketch.curves, 1.0 / span).points * span
+    outlined = find_outline(sketch, 1.0 / span).points * span
     width, height = (outlined.max(axis=0) - outlined.min(axis=0)) * scale
     return {unit: (float(width) * unit_m, float(height) * unit_m) for unit, unit_m in UNITS_M.items()}
 
@@ -70,7 +70,7 @@ def require_size(points: FloatArray, most_m: float, what: str) -> None:
 
 def extent_of(sketch: Sketch) -> FloatArray:
     """Return points that span the drawing, shape (n, 2), in its own unit; raises `ImportedFileError` if it is empty."""
-    curves = (*sketch.curves, *(fold.curve for fold in sketch.folds))
+    curves = (*sketch.curves, *(c for more in sketch.faint for c in more), *(fold.curve for fold in sketch.folds))
     if not curves:
         raise ImportedFileError("file", "there is nothing drawn in it")
     return np.concatenate([curve.extent for curve in curves])

@@ -2,8 +2,8 @@
 
 import math
 import re
-from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 
@@ -26,6 +26,17 @@ _IN_M = {
     "q": 0.25e-3,
 }
 """Lengths of the physical units of CSS (m)."""
+
+Sides: TypeAlias = tuple[float, float]
+"""Width and height of the viewport that percentages are of, in user units."""
+
+_DEFAULT_SIDES: Sides = (300.0, 150.0)
+"""Width and height of a sheet that says nothing of its size, as CSS has it (px)."""
+
+_UPRIGHT = frozenset({"y", "y1", "y2", "cy", "ry", "height"})
+"""The lengths whose percentages are of the height."""
+
+_SIDES = ("width", "height")
 
 _LONGEST = 100
 """Longest text that is parsed as a length (characters)."""
@@ -51,12 +62,12 @@ class Sheet:
     Attributes:
         unit_m: the length of its unit (m); None if the file does not say.
         stretch: factors on the unit along x and y if the sheet is not drawn to one scale; usually 1.
-        view_box: the visible part; None if the file does not say.
+        view_box: the visible part; the whole sheet if the file does not say.
     """
 
     unit_m: float | None
     stretch: tuple[float, float]
-    view_box: ViewBox | None
+    view_box: ViewBox
 
 
 def sheet_of(root: Element) -> Sheet:
@@ -68,7 +79,9 @@ def sheet_of(root: Element) -> Sheet:
     box = _view_box(root)
     width_m, height_m = (_physical_m(root.attributes.get(name, "")) for name in ("width", "height"))
     if box is None:
-        return Sheet(None if width_m is None and height_m is None else _PX_M, (1.0, 1.0), None)
+        width, height = (_plain(root.attributes.get(name, "")) for name in _SIDES)
+        whole = ViewBox(0.0, 0.0, width or _DEFAULT_SIDES[0], height or _DEFAULT_SIDES[1])
+        return Sheet(None if width_m is None and height_m is None else _PX_M, (1.0, 1.0), whole)
     scales = [
         size_m / units
         for size_m, units in ((width_m, box.width), (height_m, box.height))
@@ -82,20 +95,29 @@ def sheet_of(root: Element) -> Sheet:
     return Sheet(max(scales) if "slice" in fitting else min(scales), (1.0, 1.0), box)
 
 
-def user_units(element: Element, name: str, default: float = 0.0) -> float:
-    """Return a length attribute in user units; convert physical lengths as px.
+def user_units(element: Element, name: str, sides: Sides, default: float = 0.0) -> float:
+    """Return a length attribute in user units; convert physical lengths as px, percentages by the viewport's sides.
 
     Raises:
-        ImportedFileError: it is a percentage, or not a length.
+        ImportedFileError: it is not a length.
     """
     text = element.attributes.get(name)
     if text is None or text.strip() == "auto":
         return default
     found = _length(text)
     unit = found[2].lower() if found else ""
-    if found is None or unit not in ("", "px", *_IN_M):
+    if found is None or unit not in ("", "px", "%", *_IN_M):
         raise broken(f"line {element.line}: {name}={text[:40]!r} is no length that can be read")
+    if unit == "%":
+        return finite(float(found[1]) / 100.0 * _whole(name, sides), element)
     return finite(float(found[1]) * (_IN_M[unit] / _PX_M if unit in _IN_M else 1.0), element)
+
+
+def _whole(name: str, sides: Sides) -> float:
+    """Return the length that percentages of an attribute are of."""
+    if name == "r":
+        return math.hypot(*sides) / math.sqrt(2.0)
+    return sides[1] if name in _UPRIGHT else sides[0]
 
 
 def finite(value: float, element: Element) -> float:
@@ -112,23 +134,28 @@ def numbers_in(text: str, element: Element) -> list[float]:
     return [finite(float(number), element) for number in _NUMBER.findall(text)]
 
 
-def viewport(element: Element) -> FloatArray:
-    """Return the transform that a nested `svg` or `symbol` applies to its content, shape (3, 3)."""
-    place: Mapping[str, float] = {name: user_units(element, name) for name in ("x", "y")}
+def viewport(element: Element, sides: Sides) -> tuple[FloatArray, Sides]:
+    """Return the transform that a nested `svg` or `symbol` applies to its content, shape (3, 3), and its own sides."""
+    x, y = (user_units(element, name, sides) for name in ("x", "y"))
     box = _view_box(element)
-    width, height = (_plain(element, name) for name in ("width", "height"))
-    matrix = np.array([[1.0, 0.0, place["x"]], [0.0, 1.0, place["y"]], [0.0, 0.0, 1.0]])
-    if box is None or width is None or height is None:
-        return matrix
+    width, height = (user_units(element, name, sides, side) for name, side in zip(_SIDES, sides, strict=True))
+    matrix = np.array([[1.0, 0.0, x], [0.0, 1.0, y], [0.0, 0.0, 1.0]])
+    if box is None or min(width, height) <= 0.0:
+        return matrix, (width, height)
     scale = min(width / box.width, height / box.height)
     dx, dy = (width - scale * box.width) / 2, (height - scale * box.height) / 2
     fitted = np.array([[scale, 0.0, dx - scale * box.x], [0.0, scale, dy - scale * box.y], [0.0, 0.0, 1.0]])
-    return np.asarray(matrix @ fitted)
+    return np.asarray(matrix @ fitted), (box.width, box.height)
 
 
-def _plain(element: Element, name: str) -> float | None:
-    text = element.attributes.get(name, "")
-    return None if not text or "%" in text else user_units(element, name) or None
+def _plain(text: str) -> float | None:
+    """Return a length in user units; None for a percentage, for zero and for anything that is not a length."""
+    found = _length(text)
+    unit = found[2].lower() if found else "%"
+    if found is None or unit not in ("", "px", *_IN_M):
+        return None
+    value = float(found[1]) * (_IN_M[unit] / _PX_M if unit in _IN_M else 1.0)
+    return value if 0.0 < value < math.inf else None
 
 
 def _physical_m(text: str) -> float | None:

@@ -1,16 +1,18 @@
 """Lists the visible shapes of an SVG drawing, with groups, transforms and references resolved."""
 
 import math
+import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from svgpathtools.parser import parse_transform
 
 from app.files.import_errors import broken
 from app.files.markup import Element
-from app.files.svg_lengths import numbers_in, user_units, viewport
-from app.files.svg_style import StyleSheet, is_hidden, is_invisible
+from app.files.svg_lengths import Sides, numbers_in, user_units, viewport
+from app.files.svg_paint import is_hidden, is_invisible
+from app.files.svg_style import StyleSheet
 from planner.geometry.pose import FloatArray
 
 SHAPES_MAX, VISITS_MAX, CHARACTERS_MAX = 5_000, 20_000, 8_000_000
@@ -20,6 +22,8 @@ _GROUPS = frozenset({"svg", "g", "a", "switch"})
 
 _REFERENCES_DEEP = 20
 """Largest nesting depth of `use` references."""
+
+_URL = re.compile(r"url\(\s*['\"]?#([^'\")]+)['\"]?\s*\)")
 
 _QUARTERS = ((1, 1), (-1, 1), (-1, -1), (1, -1))
 
@@ -33,21 +37,27 @@ class Shape:
         data: its outline as path data.
         matrix: the transform from its coordinates to the drawing's, shape (3, 3).
         style: its style properties.
+        clips: the areas to which it is clipped, each as the shapes that make it up.
     """
 
     element: Element
     data: str
     matrix: FloatArray
     style: Mapping[str, str]
+    clips: tuple[tuple["Shape", ...], ...] = ()
 
 
-def shapes_of(root: Element) -> Iterator[Shape]:
-    """Yield all visible shapes, in drawing order.
+def shapes_of(root: Element, sides: Sides) -> Iterator[Shape]:
+    """Yield all shapes that are not hidden, in drawing order.
+
+    Args:
+        root: the root of the drawing.
+        sides: width and height of its sheet, in its own units.
 
     Raises:
         ImportedFileError: a transform, a length or a reference is invalid, or there are too many shapes.
     """
-    for count, shape in enumerate(_Drawn(root).shapes()):
+    for count, shape in enumerate(_Drawn(root).shapes(sides)):
         if count >= SHAPES_MAX:
             raise broken(f"there are more than {SHAPES_MAX} shapes in it")
         yield shape
@@ -60,64 +70,105 @@ class _Drawn:
         self._by_id = {element.attributes.get("id"): element for element in root.walk()}
         self._visited = self._read = 0
 
-    def shapes(self) -> Iterator[Shape]:
+    def shapes(self, sides: Sides) -> Iterator[Shape]:
         style = self._sheet.style(self._root, {})
+        if is_hidden(style):
+            return
         for child in self._root.children:
-            yield from self._within(child, np.eye(3), style, 0)
+            yield from self._within(child, _Around(np.eye(3), style, sides))
 
-    def _within(self, element: Element, outer: FloatArray, around: Mapping[str, str], deep: int) -> Iterator[Shape]:
-        """Yield the shapes that an element draws within a transform and a style, `deep` references down."""
+    def _within(self, element: Element, around: "_Around") -> Iterator[Shape]:
+        """Yield the shapes that an element draws within what is around it."""
         self._visited += 1
         self._read += sum(len(value) for value in element.attributes.values())
         if self._visited > VISITS_MAX or self._read > CHARACTERS_MAX:
             raise broken(f"line {element.line}: its references draw too much, more than {VISITS_MAX} elements")
-        style = self._sheet.style(element, around)
+        style = self._sheet.style(element, around.style)
         if is_hidden(style):
             return
-        matrix = outer @ _transform(element)
+        here = replace(around, matrix=around.matrix @ _transform(element), style=style)
+        here = self._clipped(here, style.get("clip-path", ""))
         if element.tag in _GROUPS:
-            inner = matrix @ viewport(element) if element.tag == "svg" else matrix
+            inner = here.in_viewport(element) if element.tag == "svg" else here
             for child in element.children:
-                yield from self._within(child, inner, style, deep)
+                yield from self._within(child, inner)
         elif element.tag == "use":
-            yield from self._referred(element, matrix, style, deep)
+            yield from self._referred(element, here)
         elif not is_invisible(style):
-            data = path_data(element)
+            data = path_data(element, here.sides)
             if data:
-                yield Shape(element, data, matrix, style)
+                yield Shape(element, data, here.matrix, style, here.clips)
 
-    def _referred(self, use: Element, matrix: FloatArray, style: Mapping[str, str], deep: int) -> Iterator[Shape]:
+    def _clipped(self, here: "_Around", clip_path: str) -> "_Around":
+        """Return what is around an element's content, clipped; a clip that is relative to a box is not read."""
+        found = _URL.search(clip_path)
+        clip = None if found is None else self._by_id.get(found[1])
+        if clip is None or clip.tag != "clipPath" or clip.attributes.get("clipPathUnits") == "objectBoundingBox":
+            return here
+        if here.deep >= _REFERENCES_DEEP:
+            raise broken(f"line {clip.line}: references go more than {_REFERENCES_DEEP} deep")
+        style = self._sheet.style(clip, {})
+        inner = _Around(here.matrix @ _transform(clip), style, here.sides, here.deep + 1)
+        shapes = tuple(shape for child in clip.children for shape in self._within(child, inner))
+        return replace(here, clips=(*here.clips, shapes)) if shapes else here
+
+    def _referred(self, use: Element, here: "_Around") -> Iterator[Shape]:
         address = use.attributes.get("href", "")
         target = self._by_id.get(address[1:]) if address.startswith("#") else None
         if target is None:
             raise broken(f"line {use.line}: it refers to {address[:60]!r}, which is not in this file")
-        if deep >= _REFERENCES_DEEP:
+        if here.deep >= _REFERENCES_DEEP:
             raise broken(f"line {use.line}: references go more than {_REFERENCES_DEEP} deep")
-        placed = matrix @ _translation(user_units(use, "x"), user_units(use, "y"))
+        x, y = (user_units(use, name, here.sides) for name in ("x", "y"))
+        placed = replace(here, matrix=here.matrix @ _translation(x, y), deep=here.deep + 1)
         if target.tag == "symbol":
-            inner = placed @ viewport(target)
+            inner = placed.in_viewport(target)
             for child in target.children:
-                yield from self._within(child, inner, style, deep + 1)
+                yield from self._within(child, inner)
         else:
-            yield from self._within(target, placed, style, deep + 1)
+            yield from self._within(target, placed)
 
 
-def path_data(element: Element) -> str:
+@dataclass(frozen=True, slots=True, eq=False)
+class _Around:
+    """What is around an element.
+
+    Attributes:
+        matrix: the transform from its coordinates to the drawing's, shape (3, 3).
+        style: the style around it.
+        sides: width and height of the viewport around it.
+        deep: the number of references that led to it.
+        clips: the areas to which it is clipped.
+    """
+
+    matrix: FloatArray
+    style: Mapping[str, str]
+    sides: Sides
+    deep: int = 0
+    clips: tuple[tuple[Shape, ...], ...] = ()
+
+    def in_viewport(self, element: Element) -> "_Around":
+        """Return what is around the content of a nested `svg` or a `symbol`."""
+        matrix, sides = viewport(element, self.sides)
+        return replace(self, matrix=self.matrix @ matrix, sides=sides)
+
+
+def path_data(element: Element, sides: Sides) -> str:
     """Return the outline of a shape as path data; empty for an element that draws none."""
     match element.tag:
         case "path":
             return element.attributes.get("d", "")
         case "line":
-            x1, y1, x2, y2 = (user_units(element, name) for name in ("x1", "y1", "x2", "y2"))
+            x1, y1, x2, y2 = (user_units(element, name, sides) for name in ("x1", "y1", "x2", "y2"))
             return f"M {x1!r} {y1!r} L {x2!r} {y2!r}"
         case "polyline" | "polygon":
             return _polygon(element)
         case "rect":
-            return _rectangle(element)
+            return _rectangle(element, sides)
         case "circle" | "ellipse":
-            radius = user_units(element, "r")
-            rx, ry = (radius, radius) if element.tag == "circle" else _radii(element)
-            cx, cy = user_units(element, "cx"), user_units(element, "cy")
+            radius = user_units(element, "r", sides)
+            rx, ry = (radius, radius) if element.tag == "circle" else _radii(element, sides)
+            cx, cy = user_units(element, "cx", sides), user_units(element, "cy", sides)
             return _rounded(cx, cy, 0.0, 0.0, rx, ry) if min(rx, ry) > 0.0 else ""
     return ""
 
@@ -129,20 +180,20 @@ def _polygon(element: Element) -> str:
     return f"M {' L '.join(points)}{closing}" if len(points) > 1 else ""
 
 
-def _rectangle(element: Element) -> str:
-    x, y, width, height = (user_units(element, name) for name in ("x", "y", "width", "height"))
+def _rectangle(element: Element, sides: Sides) -> str:
+    x, y, width, height = (user_units(element, name, sides) for name in ("x", "y", "width", "height"))
     if min(width, height) <= 0.0:
         return ""
-    rx, ry = _radii(element)
+    rx, ry = _radii(element, sides)
     rx, ry = min(rx, width / 2), min(ry, height / 2)
     if min(rx, ry) <= 0.0:
         return f"M {x!r} {y!r} H {x + width!r} V {y + height!r} H {x!r} Z"
     return _rounded(x + width / 2, y + height / 2, width / 2 - rx, height / 2 - ry, rx, ry)
 
 
-def _radii(element: Element) -> tuple[float, float]:
+def _radii(element: Element, sides: Sides) -> tuple[float, float]:
     """Return the radii along x and y; a missing radius equals the other."""
-    rx, ry = user_units(element, "rx", math.nan), user_units(element, "ry", math.nan)
+    rx, ry = user_units(element, "rx", sides, math.nan), user_units(element, "ry", sides, math.nan)
     rx, ry = (ry if math.isnan(rx) else rx), (rx if math.isnan(ry) else ry)
     return (0.0, 0.0) if math.isnan(rx) else (rx, ry)
 

@@ -2,20 +2,26 @@
 
 import json
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any, TypeAlias
 
 import numpy as np
 from svgpathtools import Arc, CubicBezier, Line, QuadraticBezier, parse_path
 
-from app.files.curve import SvgCurve
-from app.files.fold_colour import css_rgb, kind_of
+from app.files.curve import Curve, DrawnCurve, SvgCurve
+from app.files.fold_colour import kind_of
 from app.files.import_errors import broken
 from app.files.markup import Element, read_markup
-from app.files.sketch import FoldLine, Sketch
-from app.files.svg_lengths import Sheet, sheet_of
+from app.files.outline import area
+from app.files.piece_labels import says_on_fold, size_in
+from app.files.sketch import DrawnLine, FoldLine, MirrorLine, Role, Sketch
+from app.files.svg_lengths import Sheet, Sides, sheet_of
+from app.files.svg_paint import WHITE_MIN, colour_of, is_filled, is_stroked, is_white
 from app.files.svg_shapes import Shape, shapes_of
 from planner.errors import FieldError
+from planner.geometry.arrangement import clipped, is_clipped_away
 from planner.geometry.pose import FloatArray
 from planner.strict_model import LARGEST_M
 
@@ -31,6 +37,14 @@ SEGMENTS_MAX = 20_000
 _BAD = (ArithmeticError, AssertionError, AttributeError, LookupError, TypeError, ValueError, UserWarning)
 """Exceptions that svgpathtools raises on invalid path data; its warning is about arcs without a radius."""
 
+_FARTHEST = 1e12
+"""Largest coordinate of a curve, in units of the drawing."""
+
+_COARSE, _PAGE_SLACK = 1e-3, 0.005
+"""Precision with which areas are compared, and by how much the page may differ from the sheet, as shares of it."""
+
+_NAMED = frozenset({"g", "path", "polygon", "polyline", "rect", "use", "svg"})
+
 _COMMAND = re.compile(r"[A-Za-z]")
 _Segment: TypeAlias = Line | QuadraticBezier | CubicBezier | Arc
 
@@ -44,24 +58,181 @@ def read_svg(data: bytes) -> Sketch:
     root = read_markup(data)
     if root.tag != "svg":
         raise broken(f"it begins with <{root.tag[:40]}>, not with <svg>")
-    sheet = sheet_of(root)
-    curves: list[SvgCurve] = []
-    folds: list[FoldLine] = []
-    others = segments = 0
-    for shape in shapes_of(root):
-        kind = kind_of(css_rgb(shape.style.get("stroke", "")))
-        for curve, is_closed in _curves(shape, _upwards(sheet)):
-            segments += len(curve.segments)
-            if segments > SEGMENTS_MAX:
-                raise broken(f"line {shape.element.line}: there are more than {SEGMENTS_MAX} segments in it")
-            if kind is None or is_closed:
-                curves.append(curve)
-                others += not is_closed
+    reading = _Reading(root, sheet_of(root))
+    for shape in shapes_of(root, reading.sides):
+        reading.add(shape)
+    return reading.sketch()
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Area:
+    """A closed line.
+
+    Attributes:
+        line: the line, with its size.
+        has_edge: whether a line is drawn along its edge, in a colour that shows on paper.
+        is_white: whether nothing of it shows on white paper.
+        covers_sheet: whether it is a rectangle as large as the sheet, or larger.
+    """
+
+    line: DrawnLine
+    has_edge: bool
+    is_white: bool
+    covers_sheet: bool
+
+
+class _Reading:
+    """Reads the shapes of a drawing, one after the other."""
+
+    def __init__(self, root: Element, sheet: Sheet) -> None:
+        self._root, self._sheet = root, sheet
+        self._kept = _kept(root)
+        self._texts = [e for e in root.walk() if e.tag in ("text", "textPath") and says_on_fold(e.whole_text())]
+        self._on_fold = {e.attributes.get("href", "")[1:] for text in self._texts for e in text.walk()} - {""}
+        self._sizes: dict[Element, str | None] = {}
+        self._says_on_fold: dict[Element, bool] = {}
+        self._areas: list[_Area] = []
+        self._lines: list[DrawnLine] = []
+        self._segments = self._others = 0
+
+    @property
+    def sides(self) -> Sides:
+        """Width and height of the sheet in its own units."""
+        return self._sheet.view_box.width, self._sheet.view_box.height
+
+    def add(self, shape: Shape) -> None:
+        """Take the lines of a shape that can be seen."""
+        has_stroke, has_area = is_stroked(shape.style), is_filled(shape.style)
+        size = self._size_of(shape.element)
+        clips = [self._rings(clip) for clip in shape.clips]
+        for curve, is_closed in self._curves(shape):
+            if not (has_stroke or has_area) or (not is_closed and is_clipped_away(self._coarse(curve), clips)):
+                continue
+            if is_closed:
+                for part in self._left_of(curve, clips):
+                    self._areas.append(self._area(shape, part, size, has_stroke=has_stroke, has_area=has_area))
             else:
-                folds.append(FoldLine(kind, curve, _name(shape.element), _grip_radius(shape.element)))
-    why = "its width and height have no unit such as mm or in"
-    notes = (_others(others),) if others else ()
-    return Sketch(tuple(curves), tuple(folds), sheet.unit_m, why, root.child_text("title"), _kept(root), notes)
+                self._add_open(shape, curve, size, has_stroke=has_stroke)
+
+    def _add_open(self, shape: Shape, curve: SvgCurve, size: str | None, *, has_stroke: bool) -> None:
+        if self._kept is None and self._is_on_fold(shape):
+            self._lines.append(DrawnLine("mirror", MirrorLine(curve, is_beside=True), size))
+            return
+        kind = kind_of(colour_of(shape.style.get("stroke", ""), shape.style))
+        if has_stroke and kind is not None:
+            fold = FoldLine(kind, curve, _name(shape.element), _grip_radius(shape.element))
+            self._lines.append(DrawnLine("fold", fold, size))
+            return
+        self._others += 1
+        self._lines.append(DrawnLine("outline", curve, size))
+        if not has_stroke and len(curve.segments) > 1:  # its area is painted as if it were closed
+            closing = Line(curve.segments[-1].end, curve.segments[0].start)
+            self._lines.append(DrawnLine("white", SvgCurve((*curve.segments, closing), curve.matrix), size))
+
+    def _area(self, shape: Shape, curve: Curve, size: str | None, *, has_stroke: bool, has_area: bool) -> _Area:
+        edge = colour_of(shape.style.get("stroke", ""), shape.style) if has_stroke else None
+        has_edge = has_stroke and (edge is None or min(edge) < WHITE_MIN)
+        is_area_white = not has_area or is_white(shape.style)
+        line = DrawnLine("outline", curve, size)
+        return _Area(line, has_edge, not has_edge and is_area_white, self._is_page(curve))
+
+    def sketch(self) -> Sketch:
+        """Return the drawing."""
+        why = "its width and height have no unit such as mm or in"
+        notes = (_others(self._others),) if self._others else ()
+        sketch = Sketch(
+            (),
+            (),
+            self._sheet.unit_m,
+            why,
+            self._root.child_text("title"),
+            self._kept,
+            notes,
+            says_fold=self._kept is None and (bool(self._texts) or self._names_fold()),
+        )
+        return sketch.with_lines([*self._closed(), *self._lines])
+
+    def _closed(self) -> Iterator[DrawnLine]:
+        """Yield the closed lines, each with its role.
+
+        A rectangle without an edge as large as the sheet is the page, unless it is dark and nothing else has an edge or
+        is white upon it. On a dark page what is white can be seen.
+        """
+        is_page_dark = False
+        others = [one for one in self._areas if not (one.covers_sheet and not one.has_edge)]
+        for one in self._areas:
+            is_page = one.covers_sheet and not one.has_edge
+            if is_page and not one.is_white:
+                is_page_dark = True
+                is_page = any(other.has_edge or other.is_white for other in others)
+            role: Role = "page" if is_page else "white" if one.is_white and not is_page_dark else "outline"
+            yield replace(one.line, role=role)
+
+    def _names_fold(self) -> bool:
+        """Return whether a closed shape or a group is named as cut on the fold."""
+        return any(says_on_fold(label) for e in self._root.walk() if e.tag in _NAMED for label in labels_of(e))
+
+    def _is_on_fold(self, shape: Shape) -> bool:
+        """Return whether an open line says that it is a fold line: by its names, its markers, or a text on it."""
+        element = shape.element
+        if element not in self._says_on_fold:
+            said = [element.attributes.get(name, "") for name in ("class", "marker-start", "marker-end")]
+            said += [shape.style.get(name, "") for name in ("marker-start", "marker-end")]
+            is_named = any(map(says_on_fold, (*labels_of(element), *said)))
+            self._says_on_fold[element] = is_named or element.attributes.get("id") in self._on_fold
+        return self._says_on_fold[element]
+
+    def _size_of(self, element: Element) -> str | None:
+        """Return the size that an element or a group around it is labelled with."""
+        if element not in self._sizes:
+            said = next((size for label in labels_of(element) if (size := size_in(label)) is not None), None)
+            outer = element.parent
+            self._sizes[element] = said or (None if outer is None else self._size_of(outer))
+        return self._sizes[element]
+
+    def _curves(self, shape: Shape) -> Iterator[tuple[SvgCurve, bool]]:
+        for curve, is_closed in _curves(shape, _upwards(self._sheet)):
+            self._segments += len(curve.segments)
+            if self._segments > SEGMENTS_MAX:
+                raise broken(f"line {shape.element.line}: there are more than {SEGMENTS_MAX} segments in it")
+            yield curve, is_closed
+
+    def _coarse(self, curve: Curve) -> FloatArray:
+        """Return points on a curve that are precise to a thousandth of the sheet, in its own units."""
+        return curve.flattened(_COARSE * max(self.sides))
+
+    def _rings(self, clip: tuple[Shape, ...]) -> list[FloatArray]:
+        rings = [self._coarse(curve) for shape in clip for curve, _ in self._curves(shape)]
+        return [ring for ring in rings if len(ring) > 2]
+
+    def _left_of(self, curve: SvgCurve, clips: Sequence[Sequence[FloatArray]]) -> list[Curve]:
+        """Return what is left of a closed line within clips."""
+        ring = self._coarse(curve)[:-1]
+        parts = clipped(ring, clips) if clips and len(ring) > 2 else None
+        if parts is None:
+            return [curve]
+        closed = [np.concatenate([part, part[:1]]) for part in parts]
+        return [DrawnCurve(points, partial(_same, points), curve.is_bent) for points in closed]
+
+    def _is_page(self, curve: Curve) -> bool:
+        points, box = self._coarse(curve), self._sheet.view_box
+        corners = np.array([[box.x, box.y, 1.0], [box.x + box.width, box.y + box.height, 1.0]])
+        sheet = np.sort((corners @ _upwards(self._sheet).T)[:, :2], axis=0)
+        low, high = points.min(axis=0), points.max(axis=0)
+        slack = _PAGE_SLACK * np.ptp(sheet, axis=0)
+        is_wide = bool(np.all(low <= sheet[0] + slack) and np.all(high >= sheet[1] - slack))
+        return is_wide and abs(area(points[:-1])) >= (1.0 - _PAGE_SLACK) * float(np.prod(high - low))
+
+
+def _same(points: FloatArray, _: float) -> FloatArray:
+    return points
+
+
+def labels_of(element: Element) -> list[str]:
+    """Return the names that an element has: its label, title and id, and classes that name a size."""
+    named = [element.attributes.get(name, "") for name in ("label", "id", "data-name", "name")]
+    classes = [name for name in element.attributes.get("class", "").split() if "size" in name.lower()]
+    return [label for label in (element.child_text("title") or "", *named, *classes) if label]
 
 
 def _others(count: int) -> str:
@@ -86,7 +257,7 @@ def _curves(shape: Shape, upwards: FloatArray) -> Iterator[tuple[SvgCurve, bool]
         raise _unread(shape, str(error) or "an arc leads nowhere") from None
     for segments in _subpaths(list(path)):
         curve = SvgCurve(tuple(segments), upwards @ shape.matrix)
-        if not np.all(np.isfinite(curve.extent)):
+        if not np.all(np.abs(curve.extent) <= _FARTHEST):
             raise _unread(shape, "a number in it is too large")
         yield curve, segments[0].start == segments[-1].end
 

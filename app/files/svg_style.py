@@ -1,56 +1,53 @@
-"""Resolves the style of SVG elements: presentation attributes, style sheets, `style` and inheritance.
-
-Of style sheets it understands the selectors that drawing programs write: a name, a class, an id, and combinations.
-"""
+"""Resolves the style of SVG elements: presentation attributes, style sheets, `style` and inheritance."""
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from typing import TypeAlias
 
 from app.files.import_errors import broken
 from app.files.markup import Element
+from app.files.svg_selectors import Selector, read_selector
 
-INHERITED = ("stroke", "color", "visibility")
+INHERITED = ("stroke", "fill", "stroke-width", "stroke-opacity", "fill-opacity", "color", "visibility")
 """The properties used here that an element passes on to its content."""
 
-_OWN = ("display",)
+_OWN = ("display", "opacity", "clip-path")
 RULES_MAX = 300
 """Largest number of style rules: every rule is matched against every element."""
 
-_SIMPLE = re.compile(r"(?P<tag>[a-zA-Z][\w-]*|\*)?(?P<more>(?:[.#][\w-]+)*)")
-_PART = re.compile(r"[.#][\w-]+")
+_IMPORTANT = re.compile(r"!\s*important", re.IGNORECASE)
+
+Properties: TypeAlias = dict[str, str]
+
+
+@dataclass(frozen=True, slots=True)
+class Declared:
+    """Style properties.
+
+    Attributes:
+        plain: by name.
+        important: those marked ``!important``, which win over all others.
+    """
+
+    plain: Properties
+    important: Properties
 
 
 @dataclass(frozen=True, slots=True)
 class Rule:
-    """A rule of a style sheet.
+    """A rule of a style sheet: a selector, and the style properties that it sets."""
 
-    Attributes:
-        tag: the element name that it requires; None for any.
-        marks: the classes (with a dot) and ids (with a hash) that it requires.
-        properties: the style properties that it sets.
-    """
-
-    tag: str | None
-    marks: frozenset[str]
-    properties: Mapping[str, str]
-
-    @property
-    def weight(self) -> tuple[int, int, int]:
-        """The specificity: numbers of ids, classes and names; the larger wins."""
-        ids = sum(mark.startswith("#") for mark in self.marks)
-        return (ids, len(self.marks) - ids, int(self.tag is not None))
-
-    def is_for(self, element: Element, marks: frozenset[str]) -> bool:
-        """Return whether the rule applies to an element with these classes and id."""
-        return self.tag in (None, element.tag) and self.marks <= marks
+    selector: Selector
+    declared: Declared
 
 
-@dataclass(frozen=True, slots=True)
 class StyleSheet:
     """All rules of a document, in order of increasing specificity."""
 
-    rules: tuple[Rule, ...]
+    def __init__(self, rules: Iterable[Rule]) -> None:
+        self._rules = sorted(rules, key=lambda rule: rule.selector.weight)
+        self._matched: dict[Element, tuple[Rule, ...]] = {}
 
     @staticmethod
     def of(root: Element) -> "StyleSheet":
@@ -59,36 +56,42 @@ class StyleSheet:
         rules = [rule for sheet in sheets for rule in _rules(_without_comments(sheet))]
         if len(rules) > RULES_MAX:
             raise broken(f"there are more than {RULES_MAX} rules in its style sheets")
-        return StyleSheet(tuple(sorted(rules, key=lambda rule: rule.weight)))
+        return StyleSheet(rules)
 
-    def style(self, element: Element, outer: Mapping[str, str]) -> dict[str, str]:
+    def style(self, element: Element, outer: Mapping[str, str]) -> Properties:
         """Return the style of an element within an outer style."""
         found = {name: outer[name] for name in INHERITED if name in outer}
         found |= {name: element.attributes[name] for name in (*INHERITED, *_OWN) if name in element.attributes}
-        marks = _marks(element)
-        for rule in self.rules:
-            if rule.is_for(element, marks):
-                found |= rule.properties
-        found |= declared(element.attributes.get("style", ""))
+        rules, own = self._rules_for(element), declared(element.attributes.get("style", ""))
+        for said in (*(rule.declared.plain for rule in rules), own.plain):
+            found |= said
+        for said in (*(rule.declared.important for rule in rules), own.important):
+            found |= said
         return {name: outer.get(name, "") if value == "inherit" else value for name, value in found.items()}
 
+    def _rules_for(self, element: Element) -> tuple[Rule, ...]:
+        """Return the rules for an element; by where it stands, and not by where a reference draws it."""
+        found = self._matched.get(element)
+        if found is None:
+            found = self._matched[element] = tuple(rule for rule in self._rules if rule.selector.is_for(element))
+        return found
 
-def declared(text: str) -> dict[str, str]:
+
+def declared(text: str) -> Declared:
     """Return the properties in a list such as ``stroke: #00f; stroke-width: 2``."""
-    pairs = (part.partition(":") for part in text.split(";"))
-    return {
-        name.strip().lower(): value.replace("!important", "").strip().lower() for name, colon, value in pairs if colon
-    }
+    plain: Properties = {}
+    important: Properties = {}
+    for part in text.split(";"):
+        name, colon, value = part.partition(":")
+        if colon:
+            bare, count = _IMPORTANT.subn("", value)
+            (important if count else plain)[name.strip().lower()] = _value(bare)
+    return Declared(plain, important)
 
 
-def is_hidden(style: Mapping[str, str]) -> bool:
-    """Return whether an element and its content are not displayed."""
-    return style.get("display") == "none"
-
-
-def is_invisible(style: Mapping[str, str]) -> bool:
-    """Return whether an element is invisible; its content may be visible."""
-    return style.get("visibility") in ("hidden", "collapse")
+def _value(text: str) -> str:
+    """Return a value in small letters, but as it is if it refers to an id."""
+    return text.strip() if "(#" in text or "('#" in text or '("#' in text else text.strip().lower()
 
 
 def _rules(sheet: str) -> list[Rule]:
@@ -96,24 +99,18 @@ def _rules(sheet: str) -> list[Rule]:
     found = []
     for part in sheet.split("}"):
         before, _, body = part.rpartition("{")
-        for selector in before.rpartition("{")[2].split(","):
-            simple = _SIMPLE.fullmatch(selector.strip())
-            if simple is not None and simple.group():
-                tag = simple["tag"]
-                marks = frozenset(_PART.findall(simple["more"]))
-                found.append(Rule(None if tag == "*" else tag, marks, declared(body)))
+        for text in before.rpartition("{")[2].rpartition(";")[2].split(","):
+            selector = read_selector(text)
+            if selector is not None:
+                found.append(Rule(selector, declared(body)))
     return found
 
 
 def _without_comments(sheet: str) -> str:
     kept, at = [], 0
+    sheet = sheet.replace("<!--", " ").replace("-->", " ")
     while (start := sheet.find("/*", at)) >= 0:
         kept.append(sheet[at:start])
         end = sheet.find("*/", start + 2)
         at = end + 2 if end >= 0 else len(sheet)
     return " ".join([*kept, sheet[at:]])
-
-
-def _marks(element: Element) -> frozenset[str]:
-    classes = {f".{name}" for name in element.attributes.get("class", "").split()}
-    return frozenset(classes | {f"#{element.attributes.get('id', '')}"})

@@ -7,7 +7,7 @@ import { openDialog, OFFLINE, sentenceOf } from "./dialog.js";
 import { inWords } from "../messages/in_words.js";
 import { goToNew } from "./documents.js";
 import { askLength, askSize } from "./import_size.js";
-import { counted, note, onWhichCloth, sizeOf, whichLine } from "./import_told.js";
+import { counted, note, onWhichCloth, sizeOf, whichLine, whichSize } from "./import_told.js";
 import { likeness } from "./likeness.js";
 import { picture } from "./picture.js";
 import { takeRobot } from "./take_robot.js";
@@ -69,7 +69,7 @@ function ask(store, body, problem = "") {
 
 /**
  * What is to be said beside the file to read it; without it the file says so itself.
- * @typedef {{units?: string, scale?: number, creases?: Creases, measured?: string, like?: string, line?: "seam"|"cut"}} How
+ * @typedef {{units?: string, scale?: number, creases?: Creases, measured?: string, like?: string, line?: "seam"|"cut", size?: string}} How
  */
 
 /** @param {Store} store @param {HTMLElement} body @param {File} file @param {How} how */
@@ -116,7 +116,7 @@ const asked = (store, body, file, how, why) => ({
  * @param {How} how
  * @param {Imported} imported
  */
-function found(store, body, file, how, { format, garment, notes, says, creases, sizes, seen, allowance }) {
+function found(store, body, file, how, { format, garment, notes, says, creases, sizes, seen, allowance, graded }) {
   const said = element("p", "dialog-problem");
   const arcs = DRAWINGS.has(format);
   const here = button("main-button", () => open(store, body, file, garment, arcs), say("import.open_here"));
@@ -141,6 +141,7 @@ function found(store, body, file, how, { format, garment, notes, says, creases, 
     ...(seen ? [likeness(how.like, (like) => read(store, body, file, { ...how, like }))] : []),
     ...(creases ? [onWhichCloth(creases, (chosen) => read(store, body, file, { ...how, creases: chosen }))] : []),
     ...(allowance ? [whichLine(allowance, (line) => read(store, body, file, { ...how, line }))] : []),
+    ...(graded ? [whichSize(graded, (size) => read(store, body, file, { ...how, size }))] : []),
     ...replaces(store),
     said,
     element("div", "dialog-buttons", ...verbs, anew, here),

@@ -40,6 +40,14 @@ export const whichLine = ({ line, width_m: width }, onChoice) =>
   );
 
 /**
+ * Which of the sizes of a pattern that is graded.
+ * @param {NonNullable<Imported["graded"]>} graded
+ * @param {(size: string) => void} onChoice
+ */
+export const whichSize = ({ size, sizes }, onChoice) =>
+  choices("size", say("import.size_is"), Object.fromEntries(sizes.map((one) => [one, one])), size, onChoice);
+
+/**
  * One of several, as radio buttons.
  * @template {string} T
  * @param {string} name

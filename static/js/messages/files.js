@@ -19,6 +19,15 @@ export const files = (inWords) => ({
   curves_replaced: ({ corners, off_m: off }) => say("message.curves_replaced", { corners, off: length(off) }),
   seam_allowance: ({ line, width_m: width }) =>
     say(line === "cut" ? "message.seam_allowance.cut" : "message.seam_allowance.seam", { width: length(width) }),
+  graded_sizes: ({ size: taken, sizes }) => say("message.graded_sizes", { size: taken, sizes: sizes.join(", ") }),
+  piece_unfolded: () => say("message.piece_unfolded"),
+  halves_joined: () => say("message.halves_joined"),
+  fold_unknown: () => say("message.fold_unknown"),
+  no_sizes: () => say("message.no_sizes"),
+  no_such_size: ({ size: wanted, sizes }) => say("message.no_such_size", { size: wanted, sizes: sizes.join(", ") }),
+  pattern_specification: ({ panels }) => say("message.pattern_specification", { panels }),
+  fold_file: () => say("message.fold_file"),
+  robot_card_file: () => say("message.robot_card_file"),
   corners_left_out: ({ corners, off_m: off }) => say("message.corners_left_out", { corners, off: length(off) }),
   unit_taken: ({ unit_m: one, is_said: isSaid, size: sides }) =>
     say(isSaid ? "message.unit_taken.said" : "message.unit_taken", { one: length(one), size: size(sides) }),

@@ -174,6 +174,44 @@ def test_loose_lines_and_arcs_that_meet_make_the_outline():
     assert read(made).garment.pattern.area == pytest.approx(0.04 + np.pi * 0.01, rel=0.01)
 
 
+@pytest.mark.parametrize(
+    "more",
+    [
+        [(0, 0, 600, 0)],
+        [(600, 0, 0, 0), (0, 400, 0, 0), (600, 400, 600, 0)],
+        [(0, 0, 600, 400)],
+        [(0, 0.4, 600, 0.3)],
+        [(300, -5, 300, 405), (100, 0, 500, 0)],
+    ],
+    ids=[
+        "twice",
+        "three of four twice",
+        "a line between two corners",
+        "twice, nearly",
+        "a centre line that overshoots",
+    ],
+)
+def test_edges_drawn_twice_and_lines_across_leave_the_outline_whole(more: list[tuple[float, float, float, float]]):
+    made = drawing()
+    sides = [(0, 0, 600, 0), (600, 0.9, 600, 400), (600, 400, 0, 400), (0, 400, 0, 0)]
+    for x1, y1, x2, y2 in (*sides, *more):
+        made.modelspace().add_line((x1, y1), (x2, y2))
+    made.modelspace().add_line((300, 0), (300, 400), dxfattribs={"color": 5})
+    found = read(made)
+    assert len(found.garment.outline) == 4
+    assert found.garment.pattern.area == pytest.approx(0.24, rel=3e-3)
+    assert [kind for kind, *_ in lines(found)] == ["blue"]
+
+
+def test_lines_that_cross_too_often_are_refused():
+    made = drawing()
+    for number in range(400):
+        made.modelspace().add_line((number, 0), (400 - number, 400))
+        made.modelspace().add_line((0, number), (400, 400 - number))
+    with pytest.raises(ImportedFileError, match="cross each other more than 20000 times"):
+        read(made)
+
+
 def test_what_is_on_a_layer_that_is_off_is_not_there():
     made = drawing()
     made.layers.add("notes", color=5).off()

@@ -209,6 +209,40 @@ async def test_the_cloth_that_fold_lines_are_read_on_can_be_chosen(client: httpx
     assert_problem(await imported(client, flat, filename="towel.svg", creases="damp"), 422)
 
 
+async def test_the_size_of_a_graded_pattern_can_be_chosen(client: httpx.AsyncClient) -> None:
+    rects = "".join(
+        f'<g id="{size}"><rect x="{-by}" y="{-by}" width="{40 + 2 * by}" height="{30 + 2 * by}" stroke="black"/></g>'
+        for by, size in enumerate(("S", "M", "L"))
+    )
+    head = '<svg xmlns="http://www.w3.org/2000/svg" width="50cm" height="40cm" viewBox="-5 -5 50 40">'
+    data = f"{head}{rects}</svg>".encode()
+    answer = (await imported(client, data, filename="back.svg")).json()
+    assert answer["graded"] == {"size": "M", "sizes": ["S", "M", "L"]}
+    assert {"code": "graded_sizes", "size": "M", "sizes": ["S", "M", "L"]} in answer["says"]
+    small = (await imported(client, data, filename="back.svg", size="S")).json()
+    assert small["sizes"]["cm"] == pytest.approx([0.4, 0.3])
+    problem = assert_problem(await imported(client, data, filename="back.svg", size="XXL"), 422)
+    assert problem["errors"][0]["field"] == "size"
+    assert "S, M, L" in problem["errors"][0]["message"]
+    assert problem["errors"][0]["says"]["sizes"] == ["S", "M", "L"]
+
+
+@pytest.mark.parametrize(
+    ("content", "code", "told"),
+    [
+        ({"pattern": {"panels": {"front": {}, "back": {}}}, "parameters": {}}, "pattern_specification", "GarmentCode"),
+        ({"file_spec": 1.2, "vertices_coords": [], "edges_vertices": []}, "fold_file", "FOLD"),
+        ({"pleat_robot": 1, "name": "bench"}, "robot_card_file", "robot"),
+    ],
+)
+async def test_a_json_file_of_another_kind_is_said_to_be_that(
+    client: httpx.AsyncClient, content: dict[str, Any], code: str, told: str
+) -> None:
+    problem = assert_problem(await imported(client, json.dumps(content).encode(), filename="a.json"), 422)
+    (error,) = problem["errors"]
+    assert error["field"] == "file" and told in error["message"] and error["says"]["code"] == code
+
+
 async def test_without_a_plan_there_is_its_reason_but_no_table_and_no_recording(client: httpx.AsyncClient) -> None:
     # Far beside the table.
     document_id = await planned(client, placement={"x_m": 5.0, "y_m": 0.0, "yaw_rad": 0.0})

@@ -20,6 +20,14 @@ transform="rotate(10) scale(1 -1) skewX(3) matrix(1 0 0 1 2 3)"/></g></defs><use
 <line x1="0" y1="10" x2="60" y2="10" style="stroke:hsl(240,100%,50%)"/>
 <svg x="2" y="3" width="10" height="10" viewBox="0 0 5 5"><circle r="2"/></svg></svg>"""
 
+HALVES_OF_SVG = b"""<svg xmlns="http://www.w3.org/2000/svg" width="60cm" height="40cm" viewBox="0 0 60 40">
+<style>#S path, g > .a[id] {stroke: color(display-p3 0 0 0.2)}</style><rect width="100%" height="100%" fill="#fff"/>
+<clipPath id="c"><rect x="1" width="30" height="40"/></clipPath><g id="S" clip-path="url(#c)"><path id="h"
+fill="none" d="M 20 5 h 15 v 20 h -15 z"/><use href="#h" transform="translate(40 0) scale(-1 1)"/></g>
+<g id="M"><path d="M 20 4 h 16 v 22 h -16"/><path class="cutonfold" stroke="#000" d="M 20 6 h 1 v 18 h -1"/></g>
+<path stroke="#000" d="M 40 5 H 55"/><path stroke="#000" d="M 55 5.1 V 30 H 40"/><path stroke="#000" d="M 40 30.1 V 5"/>
+</svg>"""
+
 
 def all_of_dxf() -> bytes:
     made = drawing()
@@ -34,9 +42,22 @@ def all_of_dxf() -> bytes:
     return saved(made)
 
 
+def half_of_dxf() -> bytes:
+    made = drawing()
+    for size, by in (("S", 0), ("M", 10)):
+        block = made.blocks.new(f"FRONT_{size}")
+        corners = [(0, 0), (300 + by, 0), (300 + by, 500), (0, 500)]
+        for start, end in zip(corners, corners[1:] + corners[:1], strict=True):
+            block.add_line(start, end, dxfattribs={"layer": "1"})
+        block.add_line((0, 0), (0, 500), dxfattribs={"layer": "6"})
+        block.add_text(f"SIZE: {size}", dxfattribs={"layer": "1"})
+        made.modelspace().add_blockref(block.name, (100, 50))
+    return saved(made)
+
+
 BASES = {
-    "a.svg": [svg_drawing(load_garment("t-shirt")).encode(), ALL_OF_SVG],
-    "a.dxf": [all_of_dxf()],
+    "a.svg": [svg_drawing(load_garment("t-shirt")).encode(), ALL_OF_SVG, HALVES_OF_SVG],
+    "a.dxf": [all_of_dxf(), half_of_dxf()],
 }
 NUMBER = re.compile(rb"-?\d+\.?\d*")
 ODD = (

@@ -1,0 +1,191 @@
+"""What of an SVG drawing is seen: an outline is a line or an area that shows on the paper, and not the paper."""
+
+import numpy as np
+import pytest
+
+from app.files.import_errors import ImportedFileError
+from app.files.import_file import Imported, import_file
+
+PIECE = '<polygon points="5,5 45,5 45,35 5,35" fill="none" stroke="#222222"/>'
+FOLD = '<line x1="25" y1="5" x2="25" y2="35" stroke="#0000ff"/>'
+
+
+def svg(*shapes: str, more: str = "", size: str = 'width="50cm" height="40cm" viewBox="0 0 50 40"') -> bytes:
+    return f'<svg xmlns="http://www.w3.org/2000/svg" {size} {more}>{"".join(shapes)}</svg>'.encode()
+
+
+def read(*shapes: str, more: str = "") -> Imported:
+    return import_file("piece.svg", svg(*shapes, more=more))
+
+
+def sides(imported: Imported) -> tuple[float, float]:
+    width, height = np.ptp(np.array(imported.garment.outline), axis=0).tolist()
+    return (round(width, 6), round(height, 6))
+
+
+@pytest.mark.parametrize(
+    "page",
+    [
+        '<rect width="100%" height="100%" fill="#ffffff"/>',
+        '<rect width="50" height="40" fill="white"/>',
+        '<rect x="0" y="0" width="50" height="40" style="fill: #f8f8f8; stroke: none"/>',
+        '<rect x="-10%" y="-10%" width="120%" height="120%" fill="white"/>',
+        '<path d="M 25 40 L 0 40 L 0 0 L 50 0 L 50 40 Z" fill="rgb(255, 255, 255)"/>',
+        '<g fill="#fff"><g><rect width="50" height="40"/></g></g>',
+        '<style>.page { fill: color(display-p3 1 1 1) }</style><rect class="page" width="100%" height="100%"/>',
+        '<rect width="50" height="40" fill="#dde7ee"/>',
+        '<rect width="50" height="40" fill="white" stroke="white"/>',
+        '<rect width="25" height="40" fill="white"/><rect x="25" width="25" height="40" fill="white"/>',
+    ],
+    ids=range(10),
+)
+def test_the_page_is_no_outline(page: str):
+    found = read(page, PIECE, FOLD)
+    assert sides(found) == (0.4, 0.3)
+    assert [fold.kind for fold in found.garment.folds] == ["blue"]
+    assert not any("does not fit" in note.text for note in found.notes)
+
+
+def test_a_page_without_a_view_box_is_as_large_as_the_sheet():
+    rect = (
+        '<rect width="100%" height="100%" fill="white"/><rect x="10" y="10" width="300" height="200" stroke="black"/>'
+    )
+    found = import_file("piece.svg", svg(rect, size='width="10cm" height="10cm"'), "mm")
+    assert sides(found) == (0.3, 0.2)
+
+
+def test_what_fills_its_sheet_is_the_outline_if_there_is_no_other():
+    assert sides(read('<rect width="100%" height="100%" fill="white"/>')) == (0.5, 0.4)
+    assert sides(
+        read('<rect width="50" height="40" stroke="black"/>', '<circle cx="9" cy="9" r="3" stroke="red"/>')
+    ) == (
+        0.5,
+        0.4,
+    )
+
+
+def test_white_cloth_is_seen_on_a_dark_page():
+    page = '<rect width="100%" height="100%" fill="#333"/>'
+    assert sides(read(page, '<rect x="5" y="5" width="30" height="20" fill="white"/>')) == (0.3, 0.2)
+
+
+@pytest.mark.parametrize(
+    "attributes",
+    [
+        'fill="none" stroke="none"',
+        'fill="none"',
+        'style="fill: none; stroke: none"',
+        'opacity="0"',
+        'style="opacity: 0.0"',
+        'fill="transparent"',
+        'fill="rgba(0, 0, 0, 0)"',
+        'fill="#0000"',
+        'fill="rgb(0 0 0 / 0%)" stroke="#ff000000"',
+        'fill="none" stroke="black" stroke-width="0"',
+        'fill="none" stroke="black" stroke-opacity="0"',
+        'fill-opacity="0"',
+        'display="none"',
+        'style="visibility: hidden"',
+        'class="BoundingBox"',
+        'fill="white"',
+        'clip-path="url(#aside)"',
+    ],
+)
+def test_what_cannot_be_seen_is_no_outline(attributes: str):
+    style = "<style>.BoundingBox { stroke: none; fill: none }</style>"
+    clip = '<clipPath id="aside"><rect x="60" y="0" width="9" height="9"/></clipPath>'
+    box = f'<rect {attributes} x="2" y="2" width="46" height="36"/>'
+    found = read(style, clip, f"<g>{box}</g>", PIECE, FOLD)
+    assert sides(found) == (0.4, 0.3)
+    assert not any("other closed line" in note.text for note in found.notes if attributes != 'fill="white"')
+
+
+def test_a_group_that_cannot_be_seen_hides_its_lines():
+    hidden = '<g opacity="0"><rect x="1" y="1" width="48" height="38" stroke="black"/></g>'
+    fold = '<g style="stroke-opacity: 0"><line x1="15" y1="5" x2="15" y2="35" stroke="blue"/></g>'
+    found = read(hidden, fold, PIECE)
+    assert sides(found) == (0.4, 0.3) and found.garment.folds == ()
+
+
+def test_an_outline_ends_where_it_is_clipped():
+    clip = '<clipPath id="c"><rect x="10" y="5" width="20" height="100"/></clipPath>'
+    found = read(clip, f'<g clip-path="url(#c)">{PIECE}</g>')
+    assert sides(found) == (0.2, 0.3)
+    # As Figma exports a frame: the clip is the page, and changes nothing.
+    page = '<defs><clipPath id="p"><rect width="50" height="40" fill="white"/></clipPath></defs>'
+    assert sides(read(page, f'<g clip-path="url(#p)">{PIECE}</g>')) == (0.4, 0.3)
+
+
+def test_a_drawing_with_nothing_to_be_seen_is_refused():
+    with pytest.raises(ImportedFileError, match="nothing drawn"):
+        read('<rect x="5" y="5" width="30" height="20" fill="none"/>')
+
+
+def test_percentages_are_of_the_viewport_around_them():
+    # 80 % of 50 by 75 % of 40; then half of a nested drawing that is 20 by 10 and drawn twice as large.
+    assert sides(read('<rect x="10%" y="10%" width="80%" height="75%"/>')) == (0.4, 0.3)
+    nested = '<svg x="5" y="5" width="40" height="20" viewBox="0 0 20 10"><rect width="50%" height="50%"/></svg>'
+    assert sides(read(nested)) == (0.2, 0.1)
+    line = '<line x1="50%" y1="12.5%" x2="50%" y2="87.5%" stroke="blue"/>'
+    fold = read(PIECE, line).garment.folds[0]
+    assert np.allclose([fold.start, fold.end], [(0.2, 0.3), (0.2, 0.0)])
+    circle = read('<circle cx="50%" cy="50%" r="10%"/>')
+    assert sides(circle)[0] == pytest.approx(0.2 * np.hypot(0.5, 0.4) / np.sqrt(2.0), abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    "sheet",
+    [
+        "#folds path { stroke: #0000ff } #outline path { stroke: #000; fill: none }",
+        "#folds > path { stroke: blue }",
+        "svg g.late path { stroke: navy }",
+        "g g path { stroke: #00f } #outline path { stroke: black }",
+        "svg > g > .late { stroke: lightskyblue } #folds * { stroke: royalblue }",
+        "path[id=middle] { stroke: color(display-p3 0 0 1) }",
+        'path[data-kind^="fo"] { stroke: color(display-p3 0.0000 0.0000 1.0000 / 1) }',
+        ":root .late path { stroke: hwb(240 0% 0%) }",
+        "#folds path { stroke: blue !important } .late path#middle { stroke: black }",
+        "@media screen { #folds path { stroke: blue } }",
+        "#folds { color: blue } #folds path { stroke: currentColor }",
+        "path:hover { stroke: red } #folds path:first-child { stroke: red } #folds path { stroke: #00F }",
+    ],
+    ids=range(12),
+)
+def test_style_sheets_reach_lines_through_what_is_around_them(sheet: str):
+    outline = '<g id="outline"><path d="M5 5H45V35H5Z"/></g>'
+    folds = '<g id="folds" class="late"><g class="late"><path id="middle" data-kind="fold" d="M25 5V35"/></g></g>'
+    flat = folds.replace('<g class="late">', "", 1).replace("</g></g>", "</g>")
+    found = read(f"<style>{sheet}</style>", outline, folds if "g g path" in sheet else flat)
+    assert [fold.kind for fold in found.garment.folds] == ["blue"]
+    assert sides(found) == (0.4, 0.3)
+
+
+def test_a_selector_asks_for_all_of_its_steps():
+    sheet = "<style>#folds .a > path { stroke: blue } g { stroke: none; fill: none }</style>"
+    near = '<g id="folds"><g class="a"><path d="M25 5V35"/></g><g class="a"><g><path d="M15 5V35"/></g></g></g>'
+    far = '<g class="a"><path d="M35 5V35"/></g>'
+    found = read(sheet, PIECE, near, far)
+    assert [fold.start[0] for fold in found.garment.folds] == pytest.approx([0.2])
+
+
+@pytest.mark.parametrize(
+    ("paint", "kind"),
+    [
+        ("lightskyblue", "blue"),
+        ("slateblue", "blue"),
+        ("salmon", "red"),
+        ("MAROON", "red"),
+        ("color(srgb 0.1 0.2 0.9)", "blue"),
+        ("color(display-p3 1 0 0)", "red"),
+        ("rgb(0 0 255 / 50%)", "blue"),
+        ("#00f icc-color(cmyk, 1, 1, 0, 0)", "blue"),
+        ("hwb(0 10% 10%)", "red"),
+        ("forestgreen", None),
+        ("color(xyz 0.1 0.2 0.9)", None),
+        ("url(#gradient)", None),
+    ],
+)
+def test_a_line_is_a_fold_by_its_colour_however_that_is_written(paint: str, kind: str | None):
+    drawn = f'<path d="M 15 5 V 35" style="stroke: {paint}" fill="none"/>'
+    kinds = [fold.kind for fold in read(PIECE, FOLD, drawn).garment.folds]
+    assert kinds == (["blue"] if kind is None else ["blue", kind])
