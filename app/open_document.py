@@ -15,6 +15,7 @@ from app.shown_robot import shown_robot
 from app.store.plan_store import PlanStore
 from app.ui.editor.desk import Desk
 from app.ui.stage import Stage
+from app.visitors_view import VisitorsView
 
 
 class OpenDocument:
@@ -25,6 +26,7 @@ class OpenDocument:
         document: the document.
         opened_by: the client that had it opened, as `CLIENT` says.
         texts: what its pages are sent.
+        visitors: the document as those see it who have a link to it.
     """
 
     def __init__(self, document_id: str, document: Document, pool: JobPool, plans: PlanStore) -> None:
@@ -33,9 +35,11 @@ class OpenDocument:
         self.document = document
         self.opened_by = CLIENT.get()
         self.texts = SharedTexts()
+        self.visitors = VisitorsView(document)
         self._replanner = Replanner(document, pool, plans)
         self._lock = threading.Lock()
         self._shown: tuple[Stage, Player] | None = None
+        self._shown_to_visitors: tuple[Stage, Player] | None = None
         self._users = 0
         self._used_s = time.monotonic()
         self._goodbyes: list[Callable[[], None]] = []
@@ -49,6 +53,15 @@ class OpenDocument:
                 desk = Desk(self.document, stage.server, stage.opening)
                 self._shown = (stage, Player(self.document, stage, desk))
             return self._shown[0]
+
+    def show_to_visitors(self) -> Stage:
+        """Return the stage of those who have a link, on which nothing can be edited; the first call builds it."""
+        with self._lock:
+            if self._shown_to_visitors is None:
+                drawing = self.document.state.drawing
+                stage = Stage(shown_robot(drawing.robot), drawing.scene)
+                self._shown_to_visitors = (stage, Player(self.visitors, stage))
+            return self._shown_to_visitors[0]
 
     @property
     def unused_s(self) -> float:
@@ -85,10 +98,10 @@ class OpenDocument:
     def close(self) -> None:
         """Close the document, its planner, its player and its stage."""
         with self._lock:
-            shown, self._shown = self._shown, None
+            shown = [one for one in (self._shown, self._shown_to_visitors) if one is not None]
+            self._shown = self._shown_to_visitors = None
         self.document.end()
         self._replanner.close()
-        if shown is not None:
-            stage, player = shown
+        for stage, player in shown:
             player.close()
             stage.close()

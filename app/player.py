@@ -11,6 +11,7 @@ from app.shown_robot import shown_robot
 from app.ui.editor.desk import Desk
 from app.ui.lying_cloth import lying_cloth
 from app.ui.stage import Stage
+from app.visitors_view import VisitorsView
 from planner.cloth.garment import Garment
 from planner.geometry.pose import Pose2
 from planner.task.plan import Plan
@@ -46,11 +47,11 @@ class Player:
     It also handles the requests of the stage's visitors, before it draws.
     """
 
-    def __init__(self, document: Document, stage: Stage, desk: Desk | None = None) -> None:
+    def __init__(self, document: Document | VisitorsView, stage: Stage, desk: Desk | None = None) -> None:
         """Start showing at once; `close` ends it.
 
         Args:
-            document: the document.
+            document: the document, or the view of it that visitors have.
             stage: the stage.
             desk: the requests of those who edit on the stage.
         """

@@ -41,6 +41,7 @@ from app.api.prefix import BelowPrefix
 from app.api.problems import Problem, install_problems
 from app.api.shared import Shared
 from app.api.token_only import TokenOnly
+from app.api.whole_requests import WholeRequests
 from app.job_kinds.kinds import KINDS
 from app.job_kinds.studies import take_studies_over
 from app.server.request_id import RequestIds
@@ -90,6 +91,7 @@ def create_app(settings: Settings, token: AccessToken | None = None) -> FastAPI:
     app.add_middleware(HeadAsGet)
     app.add_middleware(OwnNamesOnly, settings=settings)
     app.add_middleware(BelowPrefix, prefix=settings.root_path)
+    app.add_middleware(WholeRequests)
     app.add_middleware(RequestIds)
     return app
 

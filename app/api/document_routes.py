@@ -25,7 +25,7 @@ from app.api.document_changes import opened_document
 from app.api.document_messages import CreaseRequest, NewDocument
 from app.api.live_messages import document_message, playback_message
 from app.api.messages import AnyCommand, Command
-from app.api.shared import require_look
+from app.api.shared import is_shared, play
 from app.api.waiting import quick_answer
 from app.drawing.arcs import with_arcs
 from app.drawing.blank import blank_drawing
@@ -102,8 +102,10 @@ async def remove_document(request: Request, document_id: str) -> Response:
 )
 async def post_playback(request: Request, document_id: str, command: CommandBody) -> JSONResponse:
     """Carry out a command as on the websocket: play, pause, seek, speed, theme, choose."""
-    require_look(request.scope, command)
     opened = await opened_document(request, document_id)
+    if is_shared(request.scope):
+        play(command, opened.visitors)
+        return JSONResponse(playback_message(opened.visitors.state, opened.visitors.t_s))
     await run_in_threadpool(obey, command, workspace_of(request), opened.document)
     return JSONResponse(playback_message(opened.document.state, opened.document.t_s))
 

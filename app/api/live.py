@@ -16,7 +16,7 @@ from starlette.websockets import WebSocketDisconnect
 from app.api.body import parsed
 from app.api.commands import command_of, obey
 from app.api.live_messages import problem_message
-from app.api.shared import require_look, until_revoked
+from app.api.shared import is_shared, play, until_revoked
 from app.api.told import Telling
 from app.api.waiting import waking
 from app.jobs.limits import TooManyError
@@ -62,12 +62,13 @@ async def live(websocket: WebSocket, document_id: str) -> None:
 
 async def _tell(websocket: WebSocket, opened: OpenDocument) -> None:
     changed = asyncio.Event()
-    unsubscribe = opened.document.subscribe(waking(changed))
-    telling = Telling(opened)
+    played = opened.visitors if is_shared(websocket.scope) else opened.document
+    unsubscribe = played.subscribe(waking(changed))
+    telling = Telling(opened, played)
     try:
         while True:
             changed.clear()
-            state = opened.document.state
+            state = played.state
             for text in await run_in_threadpool(telling.news, state):
                 await websocket.send_text(text)
             timeout_s = _TICK_S if state.playback.is_playing else None
@@ -85,8 +86,10 @@ async def _listen(websocket: WebSocket, workspace: Workspace, opened: OpenDocume
             text = await websocket.receive_text()
             try:
                 command = command_of(parsed(text))
-                require_look(websocket.scope, command)
-                await run_in_threadpool(obey, command, workspace, opened.document)
+                if is_shared(websocket.scope):
+                    play(command, opened.visitors)
+                else:
+                    await run_in_threadpool(obey, command, workspace, opened.document)
             except FoldingError as error:
                 await websocket.send_json(problem_message(error))
 

@@ -14,14 +14,19 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 from app.api.messages import Command, Pause, Play, Seek, SetSpeed
 from app.api.problems import LookOnlyError, ProblemResponse, folding_problem
 from app.store.share_repository import ShareRepository
+from app.visitors_view import VisitorsView
 from planner.errors import FoldingError
+from planner.robots.described_robot import shipped_robots
 
 _TOKEN = "pleat.shared"
 """The key of the scope under which a request by a link has the link's token."""
 
 _LINK = re.compile(r"(/s/([A-Za-z0-9_-]{8,80}))(/.*)")
-_FOR_ALL = re.compile(r"/static/.*|/api/(health|scene|robots(/[a-z0-9-]+)?|plans/[0-9a-f]{32}(/(pictures|timeline))?)")
+_FOR_ALL = re.compile(r"/static/.*|/api/(health|scene|plans/[0-9a-f]{32}(/(pictures|timeline))?)")
 """Paths that every link may read besides its document's; nobody can guess the ids of plans."""
+
+_ROBOT, _EARLIER = "/api/robots/", "versions"
+"""Where robots' cards are, of which visitors are shown those that are shipped, and a document's earlier drawings."""
 
 _NOT_FOUND, _FORBIDDEN, _POLICY_VIOLATION = 404, 403, 1008
 _LOOK_EVERY_S = 5.0
@@ -65,10 +70,19 @@ def is_shared(scope: Scope) -> bool:
     return _TOKEN in scope
 
 
-def require_look(scope: Scope, command: Command) -> None:
-    """Raise `LookOnlyError` for a command by a link that does more than play."""
-    if is_shared(scope) and not isinstance(command, (Play, Pause, Seek, SetSpeed)):
-        raise LookOnlyError
+def play(command: Command, visitors: VisitorsView) -> None:
+    """Carry out a command by a link, for visitors alone; raise `LookOnlyError` if it does more than play."""
+    match command:
+        case Play():
+            visitors.play()
+        case Pause():
+            visitors.pause()
+        case Seek(t_s=t_s):
+            visitors.seek(t_s)
+        case SetSpeed(speed=speed):
+            visitors.set_speed(speed)
+        case _:
+            raise LookOnlyError
 
 
 async def until_revoked(websocket: WebSocket, shares: ShareRepository) -> None:
@@ -85,4 +99,7 @@ def _allows(document_id: str, method: str, path: str) -> bool:
         return path == f"{document}/playback"
     stage = f"/viser/{document_id}"
     is_of_document = path in (f"/d/{document_id}", document, stage) or path.startswith((f"{document}/", f"{stage}/"))
-    return method in ("GET", "HEAD") and (is_of_document or _FOR_ALL.fullmatch(path) is not None)
+    if path.startswith(f"{document}/{_EARLIER}"):
+        return False
+    is_shipped = path.startswith(_ROBOT) and path.removeprefix(_ROBOT) in shipped_robots()
+    return method in ("GET", "HEAD") and (is_of_document or is_shipped or _FOR_ALL.fullmatch(path) is not None)

@@ -34,7 +34,7 @@ _NOT_FOUND = 4404
 async def read_stage_page(request: Request, name: str) -> Response:
     """Return the page that shows a stage."""
     await run_in_threadpool(workspace_of(request).opened, name)
-    return HTMLResponse(stage_page(), headers={"cache-control": "no-cache"})
+    return HTMLResponse(stage_page(is_seated=not is_shared(request.scope)), headers={"cache-control": "no-cache"})
 
 
 @router.get("/{name}")
@@ -67,7 +67,8 @@ async def _connect(websocket: WebSocket, name: str, *, is_by_software: bool) -> 
         await websocket.close(_NOT_FOUND)
         return
     with opened.in_use(), contextlib.suppress(OSError, WebSocketException, WebSocketDisconnect):
-        stage = await run_in_threadpool(opened.show)
+        show = opened.show_to_visitors if is_shared(websocket.scope) else opened.show
+        stage = await run_in_threadpool(show)
         async with _dial(stage, websocket.scope["subprotocols"]) as inner:
             await websocket.accept(subprotocol=inner.subprotocol)
             with stage.drawn_by_software() if is_by_software else contextlib.nullcontext():

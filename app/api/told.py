@@ -3,8 +3,10 @@
 import json
 
 from app.api.live_messages import document_message, plan_message, playback_message
+from app.document import Document
 from app.document_state import DocumentState
 from app.open_document import OpenDocument
+from app.visitors_view import VisitorsView
 
 
 def document_text(opened: OpenDocument, state: DocumentState) -> str:
@@ -21,9 +23,10 @@ def plan_text(opened: OpenDocument, state: DocumentState) -> str:
 class Telling:
     """The state that one page has been sent."""
 
-    def __init__(self, opened: OpenDocument) -> None:
-        """Begin with nothing sent."""
+    def __init__(self, opened: OpenDocument, played: Document | VisitorsView) -> None:
+        """Begin with nothing sent; `played` is the document, or the view of it that the page is of."""
         self._opened = opened
+        self._played = played
         self._document: object = None
         self._plan: object = None
         self._playback: object = None
@@ -39,7 +42,7 @@ class Telling:
             told.append(plan_text(self._opened, state))
         playback = (state.playback, state.shown)
         if playback != self._playback or state.playback.is_playing:
-            told.append(json.dumps(playback_message(state, self._opened.document.t_s)))
+            told.append(json.dumps(playback_message(state, self._played.t_s)))
         self._document, self._plan, self._playback = document, plan, playback
         return told
 

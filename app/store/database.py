@@ -15,13 +15,14 @@ from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
 
-from sqlalchemy import Engine, make_url, text
+from sqlalchemy import Engine, make_url, select, text
 from sqlalchemy.exc import ArgumentError, DBAPIError
 from sqlalchemy.orm import Session
 
 from app.store.database_error import database_error
 from app.store.engines import IS_SYNCED, IS_WRITING, copied_engine, postgresql_engine, sqlite_engine
 from app.store.presence import Presence
+from app.store.schema import Table
 from app.store.storage_error import ForbiddenStorageError, StorageError, storing
 from planner.errors import FoldingError
 
@@ -140,10 +141,15 @@ class Database:
         return 0 if self._presence is None else self._presence.number
 
     def problem(self) -> str | None:
-        """Return why the database does not answer; None if it does."""
+        """Return why the database cannot be read and written; None if it can.
+
+        Every table is looked at, and a row is written over with what it is.
+        """
         try:
-            with self.reading("the database does not answer") as session:
-                session.execute(text("SELECT 1"))
+            with self.writing("the database does not answer", is_synced=False, is_lasting=False) as session:
+                for table in Table.metadata.sorted_tables:
+                    session.execute(select(*table.primary_key).limit(1))
+                session.execute(text("UPDATE alembic_version SET version_num = version_num"))
         except FoldingError as error:
             return str(error)
         return None

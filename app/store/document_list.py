@@ -8,7 +8,7 @@ from sqlalchemy.orm import Session
 
 from app.store.document_errors import BrokenDocumentError, NewerDocumentError
 from app.store.document_keeper import FORMAT
-from app.store.document_reader import in_short
+from app.store.document_reader import DAMAGES, in_short
 from app.store.picture import Picture
 from app.store.schema import DocumentRow, StepRow
 
@@ -61,13 +61,17 @@ def read_page(session: Session, after: tuple[str, str] | None, count: int) -> Do
 
 
 def _entry(row: DocumentRow, drawing: str | None) -> DocumentEntry:
-    if row.format > FORMAT or (row.problem is not None and row.format):
-        return DocumentEntry(row.id, changed_at=row.changed_at, problem=str(NewerDocumentError(row.id, row.format)))
+    """Return what is listed of a row; whatever is wrong with it is its problem and no other document's."""
+    changed_at = row.changed_at if isinstance(row.changed_at, str) else ""
     try:
+        if row.format > FORMAT or (row.problem is not None and row.format):
+            return DocumentEntry(row.id, changed_at=changed_at, problem=str(NewerDocumentError(row.id, row.format)))
         if row.problem is not None or drawing is None:
             raise ValueError(row.problem or "its drawing is missing")
+        if not all(isinstance(text, str) for text in (row.title, row.name, row.changed_at)):
+            raise ValueError("its row is damaged")
         picture = Picture.of(from_json(drawing))
-    except ValueError as error:
+    except DAMAGES as error:
         problem = str(BrokenDocumentError(row.id, in_short(error)))
-        return DocumentEntry(row.id, changed_at=row.changed_at, problem=problem)
-    return DocumentEntry(row.id, row.title, row.name, row.changed_at, picture=picture)
+        return DocumentEntry(row.id, changed_at=changed_at, problem=problem)
+    return DocumentEntry(row.id, row.title, row.name, changed_at, picture=picture)

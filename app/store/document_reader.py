@@ -24,6 +24,10 @@ from planner.task.world_state import WorldState
 _WORLD_STATE = JsonForm(WorldState)
 
 
+DAMAGES = (ArithmeticError, AttributeError, LookupError, RecursionError, TypeError, ValueError)
+"""What is raised by a row whose values are not what this program writes."""
+
+
 @dataclass(frozen=True, slots=True)
 class ReadDocument:
     """A document as saved; a gesture in progress counts as a step.
@@ -75,7 +79,7 @@ def read_document(session: Session, document_id: str) -> ReadDocument:
         sheets = tuple(Sheet(label, _drawing(step.drawing)) for label, step in zip(labels, steps, strict=True))
         tape = Tape(sheets, row.now - row.first)
         version, draft = _resumed(row, tape)
-    except ValueError as error:
+    except DAMAGES as error:
         raise BrokenDocumentError(document_id, in_short(error)) from None
     return ReadDocument(version, draft, Kept(tape, row.first, row.revision), _start(row))
 
@@ -90,11 +94,11 @@ def read_versions(session: Session, document_id: str) -> tuple[KeptVersion, ...]
             KeptVersion(step.label if step.number > row.first else "", step.changed_at, from_json(step.drawing))
             for step in steps
         )
-    except ValueError as error:
+    except DAMAGES as error:
         raise BrokenDocumentError(document_id, in_short(error)) from None
 
 
-def in_short(error: ValueError) -> str:
+def in_short(error: Exception) -> str:
     """Return the first fault, without its context."""
     return str(first_error(error, RequestError)) if isinstance(error, ValidationError) else str(error)
 
@@ -103,6 +107,8 @@ def _readable(session: Session, document_id: str) -> DocumentRow:
     row = session.get(DocumentRow, document_id)
     if row is None:
         raise UnknownDocumentError(document_id)
+    if not isinstance(row.format, int):
+        raise BrokenDocumentError(document_id, f"its format is {row.format!r}")
     if row.format > FORMAT or (row.problem is not None and row.format):
         raise NewerDocumentError(document_id, row.format)
     if row.problem is not None:

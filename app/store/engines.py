@@ -4,10 +4,11 @@ SQLite would begin a transaction as a reader and refuse it the change if another
 So sessions say at the start whether they write, and writers wait for each other then.
 """
 
+import os
 import shutil
 import sqlite3
 import tempfile
-from contextlib import closing
+from contextlib import closing, suppress
 from pathlib import Path
 from typing import Any
 
@@ -23,12 +24,17 @@ _BUSY_S = 5.0
 _CONNECTIONS, _MORE_CONNECTIONS = 8, 32
 """Number of connections that are kept, and of further ones at busy times."""
 
+_PRIVATE = 0o600
+
 _CONNECT_S = 5
 """Time to wait for a database server (s)."""
 
 
 def sqlite_engine(path: Path) -> Engine:
-    """Return the engine of an SQLite file."""
+    """Return the engine of an SQLite file, which only its owner can read; SQLite would leave that to the umask."""
+    os.close(os.open(path, os.O_CREAT | os.O_RDONLY, _PRIVATE))
+    with suppress(OSError):  # it is another user's
+        path.chmod(_PRIVATE)
     engine = create_engine(
         f"sqlite:///{path}",
         connect_args={"timeout": _BUSY_S},
@@ -72,10 +78,16 @@ def postgresql_engine(url: URL) -> Engine:
     return engine
 
 
+def _text(stored: bytes) -> str:
+    """Return a text; the driver would refuse all rows of an answer for one with bytes that are no UTF-8."""
+    return stored.decode("utf-8", "replace")
+
+
 def _set_up_for_sqlite(engine: Engine, *pragmas: str) -> Engine:
     @event.listens_for(engine, "connect")
     def connect(connection: sqlite3.Connection, _: Any) -> None:  # noqa: ANN401
         connection.isolation_level = None  # the driver begins no transactions of its own
+        connection.text_factory = _text
         for pragma in pragmas:
             connection.execute(f"PRAGMA {pragma}")
 

@@ -1,5 +1,6 @@
 """Thumbnails of drawings, outline and fold lines, for lists of documents and versions."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Literal
@@ -37,10 +38,10 @@ class Picture:
         try:
             outline = ring_of(tuple(_corner(corner) for corner in drawing["outline"])).points
             folds = tuple(
-                PictureFold(fold["kind"], _point(fold["start"]["point"]), _point(fold["end"]["point"]))
+                PictureFold(_kind(fold["kind"]), _point(fold["start"]["point"]), _point(fold["end"]["point"]))
                 for fold in drawing["folds"]
             )
-        except (AttributeError, KeyError, TypeError, ValueError):
+        except (ArithmeticError, AttributeError, KeyError, TypeError, ValueError):
             return Picture()
         return Picture(outline, folds)
 
@@ -50,6 +51,14 @@ def _corner(corner: Mapping[str, Any]) -> Corner:
     return Corner("", _point(corner["point"]), Curve(curve["along"], curve["across"]) if curve else None)
 
 
+def _kind(kind: Any) -> Literal["blue", "red"]:  # noqa: ANN401
+    if kind not in ("blue", "red"):
+        raise ValueError(kind)
+    return "red" if kind == "red" else "blue"
+
+
 def _point(pair: Any) -> Point2:  # noqa: ANN401
-    x, y = pair
-    return (float(x), float(y))
+    x, y = (float(number) for number in pair)
+    if not (math.isfinite(x) and math.isfinite(y)):
+        raise ValueError(pair)
+    return (x, y)

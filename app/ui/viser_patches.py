@@ -52,9 +52,9 @@ PHONE_WIDTH = "(max-width: 36em)"
 
 _HIDE = (
     b"<style>#root * { visibility: hidden }"
-    b"#root canvas, #root canvas ~ div, #root canvas ~ div *, "
-    b"#root [data-dock-root], #root [data-dock-root] * { visibility: visible }</style>"
+    b"#root canvas, #root canvas ~ div, #root canvas ~ div * { visibility: visible }</style>"
 )
+_PANELS = b"<style>#root [data-dock-root], #root [data-dock-root] * { visibility: visible }</style>"
 _GROUND = (
     b"<style>body { background: #fafaf8 !important }"
     b' [data-mantine-color-scheme="dark"] body { background: #16181c !important }</style>'
@@ -80,6 +80,14 @@ _LABELS = b"""<script>{
     };
   }
 }</script>"""
+_UNSEATED = f"""<script>{{
+  const watch = new MutationObserver(() => {{
+    if (!document.querySelector("#root canvas")) return;
+    watch.disconnect();
+    parent.postMessage("{SEATED}", location.origin);
+  }});
+  watch.observe(document.documentElement, {{ childList: true, subtree: true }});
+}}</script>""".encode()
 _SEATED = f"""<script>{{
   const labels = {json.dumps([say(language, PANEL) for language in LANGUAGES])};
   const isSeated = () => [...document.querySelectorAll("#root *")].some(
@@ -130,8 +138,14 @@ def _guarded(hook: _Hook, secret: str) -> _Hook:
     return answer
 
 
-@functools.lru_cache(maxsize=1)
-def stage_page() -> bytes:
-    """Return the page that shows a stage: viser's page with our additions."""
-    styled = VISER_PAGE.read_bytes().replace(b"</head>", _HIDE + _GROUND + b"</head>", 1)
-    return styled.replace(b"<head>", b"<head>" + _NARROW + _LABELS + _SEATED, 1)
+@functools.lru_cache(maxsize=2)
+def stage_page(*, is_seated: bool = True) -> bytes:
+    """Return the page that shows a stage: viser's page with our additions.
+
+    Args:
+        is_seated: whether its visitor has a panel; one by a link has none, and viser's own has no place there.
+    """
+    styles = _HIDE + _GROUND + (_PANELS if is_seated else b"")
+    scripts = _NARROW + _LABELS + (_SEATED if is_seated else _UNSEATED)
+    styled = VISER_PAGE.read_bytes().replace(b"</head>", styles + b"</head>", 1)
+    return styled.replace(b"<head>", b"<head>" + scripts, 1)

@@ -5,6 +5,7 @@
 
 import { byId } from "./dom.js";
 import { word } from "./messages/names.js";
+import { isViewOnly } from "./view_only.js";
 
 /** @import { RobotEntry } from "pleat" */
 
@@ -22,6 +23,7 @@ export function mountRobots(store) {
     select.disabled = !store.isLive || !robots.length;
   };
   const load = async () => {
+    if (isViewOnly) return;
     const answer = await fetch("../api/robots").catch(() => null);
     if (!answer?.ok) return;
     robots = await answer.json();
@@ -60,6 +62,7 @@ export function ownStations(robot, then) {
 
 /** @param {string} robot @returns {Promise<string[]|null>} */
 async function askStations(robot) {
+  if (isViewOnly) return null;
   const answer = await fetch(`../api/robots/${encodeURIComponent(robot)}`).catch(() => null);
   if (!answer?.ok) return null;
   const { scene } = await answer.json();

@@ -7,7 +7,6 @@ import { svg } from "./board/sheet.js";
 import { byId, element } from "./dom.js";
 import { say } from "./language/say.js";
 import { StageViews } from "./stage_views.js";
-import { isViewOnly } from "./view_only.js";
 
 /** What the frame says when it is ready, see app/api/stage_routes.py. */
 const SEATED = "pleat-seated";
@@ -49,7 +48,6 @@ export function mountStage(store, onKey) {
   };
   frame.addEventListener("load", () => {
     frame.contentDocument?.addEventListener("keydown", onKey);
-    if (isViewOnly) cover.hidden = true; // one who may only look has no seat
   });
   let wasLost = false;
   store.addEventListener("connection", () => {

@@ -1,3 +1,5 @@
+import sqlite3
+from contextlib import closing
 from pathlib import Path
 
 import httpx
@@ -55,6 +57,27 @@ async def test_health_says_what_is_well_and_what_is_not(client: httpx.AsyncClien
     well = (await client.get("/api/health")).json()
     assert well["status"] == "ok" and "version" in well and "problem" not in well
     assert well["checks"] == {"disk": "ok", "database": "ok", "workers": "ok"}
+
+
+@pytest.mark.parametrize("table", ["documents", "document_steps", "shares", "plans", "jobs"])
+async def test_health_tells_a_table_that_is_missing(client: httpx.AsyncClient, tmp_path: Path, table: str) -> None:
+    assert (await client.get("/api/health")).json()["status"] == "ok"
+    with closing(sqlite3.connect(tmp_path / "pleat.db")) as other:
+        other.execute(f"DROP TABLE {table}")
+    ill = (await client.get("/api/health")).json()
+    assert ill["status"] == "degraded" and f"no such table: {table}" in ill["checks"]["database"]
+
+
+async def test_health_tells_a_database_that_was_removed_or_takes_no_change(
+    client: httpx.AsyncClient, tmp_path: Path
+) -> None:
+    assert (await client.get("/api/health")).json()["status"] == "ok"
+    with closing(sqlite3.connect(tmp_path / "pleat.db")) as other:
+        other.execute("CREATE TRIGGER no BEFORE UPDATE ON alembic_version BEGIN SELECT RAISE(ABORT, 'full'); END")
+    assert "full" in (await client.get("/api/health")).json()["checks"]["database"]
+    for path in tmp_path.glob("pleat.db*"):
+        path.unlink()
+    assert "removed" in (await client.get("/api/health")).json()["checks"]["database"]
 
 
 async def test_health_tells_a_database_that_is_none(client: httpx.AsyncClient, tmp_path: Path) -> None:

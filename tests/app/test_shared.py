@@ -40,7 +40,7 @@ async def test_with_a_link_the_document_can_be_seen_and_played_and_not_changed(c
     path = f"/api/documents/{state['id']}"
     link = await link_to(client, state["id"])
     assert (await client.get(f"{link}{path}")).json() == state
-    for seen in ("/d/" + state["id"], "/static/js/main.js", "/api/scene", f"{path}/versions", f"{path}/steps"):
+    for seen in ("/d/" + state["id"], "/static/js/main.js", "/api/scene", "/api/robots/pr2", f"{path}/steps"):
         assert (await client.get(f"{link}{seen}")).status_code == 200, seen
     assert (await client.post(f"{link}{path}/playback", json={"do": "seek", "t_s": 1.0})).status_code == 200
     refused: list[tuple[str, str, Any]] = [
@@ -54,6 +54,9 @@ async def test_with_a_link_the_document_can_be_seen_and_played_and_not_changed(c
         ("POST", "/api/plans", {"garment": "scarf"}),
         ("GET", "/api/documents", {}),
         ("GET", "/api/jobs", {}),
+        ("GET", f"{path}/versions", {}),
+        ("GET", "/api/robots", {}),
+        ("GET", "/api/robots/bench", {}),
         ("GET", "/", {}),
         ("GET", "/metrics", {}),
     ]
@@ -63,6 +66,27 @@ async def test_with_a_link_the_document_can_be_seen_and_played_and_not_changed(c
     for asked in (f"/api/documents/{other['id']}", f"/d/{other['id']}", f"{path}{other['id']}"):
         assert_problem(await client.get(f"{link}{asked}"), 403)
     assert (await client.get(path)).json() == state
+
+
+async def test_visitors_play_by_a_clock_of_their_own(client: httpx.AsyncClient) -> None:
+    state = await created(client, folds=[{"name": "", "kind": "blue", "start": [0.4, 0.15], "end": [0.0, 0.15]}])
+    path = f"/api/documents/{state['id']}"
+    link = await link_to(client, state["id"])
+    app = client._transport.app  # type: ignore[attr-defined]
+    owner, visitor = Listener(app, f"{path}/live"), Listener(app, f"{link}{path}/live")
+    await owner.until("plan", status="solved")
+    duration_s = (await visitor.until("plan", status="solved"))["plan"]["cost_s"]
+    sought = await client.post(f"{link}{path}/playback", json={"do": "seek", "t_s": 3.0})
+    assert sought.json()["t_s"] == 3.0 and sought.json()["duration_s"] == duration_s
+    visitor.say({"do": "speed", "speed": 2.0})
+    assert (await visitor.until("playback", speed=2.0))["t_s"] == 3.0
+    visitor.say({"do": "play"})
+    await visitor.until("playback", playing=True)
+    now = (await client.post(f"{path}/playback", json={"do": "pause"})).json()
+    assert (now["t_s"], now["playing"], now["speed"]) == (0.0, False, 1.0)
+    await client.post(f"{path}/playback", json={"do": "seek", "t_s": 1.0})
+    assert (await client.post(f"{link}{path}/playback", json={"do": "pause"})).json()["t_s"] >= 3.0
+    await owner.until("playback", t_s=1.0)
 
 
 async def test_a_page_by_a_link_follows_until_that_is_taken_back_and_its_commands_only_play(

@@ -11,6 +11,7 @@ import { percent } from "../messages/lengths.js";
 import { word } from "../messages/names.js";
 import { openDialog } from "./dialog.js";
 import { fetched } from "./fetched.js";
+import { isViewOnly } from "../view_only.js";
 
 /** @import { Job } from "pleat" */
 
@@ -28,6 +29,7 @@ const WORDS = {
 
 /** Show the button only where there are jobs. @param {HTMLElement} opener */
 export async function offerJobs(opener) {
+  if (isViewOnly) return;
   try {
     const { jobs } = await fetched(`${JOBS}?limit=1`);
     opener.hidden = !jobs.length;

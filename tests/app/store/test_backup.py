@@ -1,4 +1,5 @@
 import io
+import os
 import tarfile
 import threading
 from pathlib import Path
@@ -74,6 +75,23 @@ def test_a_restored_folder_has_documents_garments_and_jobs_while_the_server_work
             with pytest.raises(UsedDatabaseError):
                 restore(target / f"{number}.tar.gz", DataFolder(target / "once-more"), into)
             assert not (target / "once-more").exists()
+
+
+def test_only_their_owner_can_read_a_database_a_backup_and_what_is_restored(tmp_path: Path) -> None:
+    before = os.umask(0o022)
+    try:
+        database = Database(tmp_path / "data" / "pleat.db")
+        assert database.problem() is None
+        back_up(DataFolder(tmp_path / "data"), tmp_path / "a.tar.gz")
+        database.close()
+        restore(tmp_path / "a.tar.gz", DataFolder(tmp_path / "again"))
+        again = Database(tmp_path / "again" / "pleat.db")
+        assert again.problem() is None
+        again.close()
+    finally:
+        os.umask(before)
+    for path in (tmp_path / "a.tar.gz", *tmp_path.glob("*/pleat.db*")):
+        assert path.stat().st_mode & 0o777 == 0o600, path
 
 
 def test_nothing_is_restored_over_something(tmp_path: Path) -> None:

@@ -1,6 +1,9 @@
 """Documents in the database: what is kept is what was there, whatever happens to the server."""
 
-from dataclasses import replace
+import json
+import sqlite3
+from contextlib import closing, suppress
+from dataclasses import asdict, replace
 from pathlib import Path
 
 import pytest
@@ -148,6 +151,40 @@ def test_the_pages_have_all_documents_once_the_one_changed_last_first(
     assert sorted(entry.id for entry in shown) == sorted(ids)
     assert [entry.changed_at for entry in shown] == sorted((entry.changed_at for entry in shown), reverse=True)
     assert all(entry.picture is not None and len(entry.picture.outline) == 4 for entry in shown)
+
+
+@pytest.mark.parametrize(
+    ("table", "column", "value"),
+    [
+        ("documents", "format", "x"),
+        ("documents", "title", b"\xff\xfe"),
+        ("documents", "changed_at", b"\x00"),
+        ("documents", "first", "none"),
+        ("document_steps", "drawing", "[1e999"),
+        ("document_steps", "drawing", '{"outline": [{"point": [1e999, NaN]}], "folds": []}'),
+        ("document_steps", "drawing", b"\xff"),
+        ("document_steps", "number", "x"),
+    ],
+)
+def test_a_damaged_row_is_told_of_and_hides_no_other_document(
+    tmp_path: Path, table: str, column: str, value: object
+) -> None:
+    database = Database(tmp_path / "pleat.db")
+    repository = DocumentRepository(database)
+    bad, good = kept_document(repository)[0], kept_document(repository)[0]
+    with closing(sqlite3.connect(tmp_path / "pleat.db")) as other:
+        key = "id" if table == "documents" else "document_id"
+        other.execute("PRAGMA ignore_check_constraints = ON")
+        other.execute(f"UPDATE {table} SET {column} = CAST(? AS TEXT) WHERE {key} = ?", (value, bad))
+        other.commit()
+    found = {entry.id: entry for entry in entries(repository)}
+    assert found.keys() == {bad, good} and found[good].problem is None
+    json.dumps([asdict(entry) for entry in found.values()], allow_nan=False)
+    assert good in repository.recent()
+    repository.kept(good)
+    with suppress(BrokenDocumentError):
+        repository.kept(bad)
+    database.close()
 
 
 def test_the_list_has_the_one_changed_last_first(repository: DocumentRepository) -> None:
