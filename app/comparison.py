@@ -11,6 +11,7 @@ from planner.explain.suggestions import suggestions
 from planner.planning.robot_task import task_for
 from planner.plans import make_plan
 from planner.task.plan import Plan
+from planner.task.reason import Code
 from planner.task.task import Limits, Task
 
 
@@ -31,12 +32,20 @@ class Comparison:
     margin_m: float | None
     help: Suggestion | None
 
+    @property
+    def is_cut_short(self) -> bool:
+        """Whether the limits ended the search, or the trials of why there is no plan, before all was tried."""
+        plan = self.plan
+        has_cause = any(reason.is_tried and reason.code is not Code.WAITS_FOR_FOLD for reason in plan.reasons)
+        return plan.statistics.is_cut_short or not (plan.is_solved or has_cause)
+
     def to_dict(self) -> dict[str, Any]:
         """Return the comparison as JSON, without the plan's steps."""
         plan = self.plan
         return {
             "robot": self.robot,
             "status": plan.status,
+            "is_cut_short": self.is_cut_short,
             "cost_s": plan.cost_s,
             "bound_s": plan.statistics.bound_s,
             "margin_m": self.margin_m,

@@ -16,6 +16,7 @@ from planner.robots.card_file import CardFile
 from planner.robots.table_reach import TableReach
 from planner.task.plan import Plan
 from planner.task.plan_step import PlanStep
+from planner.task.reason import Code
 from planner.words.catalogue import sentence
 
 _POINTS_SHOWN = 4
@@ -106,7 +107,12 @@ def comparison_table(found: Sequence[Comparison]) -> Table:
     table.add_column("why not, and what it would take")
     for one in found:
         folds, plan = one.plan.garment.folds, one.plan
-        told = [sentence(reason.says, folds, reason.fold) for reason in plan.reasons[:1]]
+        causes = sorted(plan.reasons, key=lambda reason: reason.code is Code.WAITS_FOR_FOLD)
+        told = [sentence(reason.says, folds, reason.fold) for reason in causes[:1]]
+        if one.is_cut_short and not plan.is_solved:
+            told.append(
+                f"the time limit of {plan.task.limits.time_limit_s:g} s, or as much work, ran out before more was tried"
+            )
         told += [] if one.help is None else [f"{sentence(one.help.says, folds)}: {one.help.cost_s:.1f} s"]
         cost = "" if plan.cost_s is None else f"{plan.cost_s:.2f}"
         margin = "" if one.margin_m is None else f"{1000.0 * one.margin_m:.0f}"

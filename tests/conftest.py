@@ -2,7 +2,6 @@
 
 import gc
 import os
-import time
 from collections import Counter
 from collections.abc import Generator, Iterator
 from functools import cache
@@ -12,7 +11,6 @@ from typing import Any
 import pytest
 from hypothesis import HealthCheck, settings
 
-from planner.planning import budget
 from tests.laws.law import LONG, TRIED
 
 BROWSER_TESTS = Path(__file__).parent / "browser"
@@ -94,14 +92,6 @@ def pytest_terminal_summary(terminalreporter: Any) -> None:
         held, failed = outcomes["passed"], outcomes["failed"]
         terminalreporter.write_sep("-", "laws")
         terminalreporter.write_line(f"{cases}: {held} laws held, {failed} failed")
-
-
-@pytest.fixture(scope="session", autouse=True)
-def searches_timed_by_their_own_work() -> Iterator[None]:
-    """Let the deadlines of searches in this process count its own time: beside busy tests the clock runs on."""
-    with pytest.MonkeyPatch.context() as patched:
-        patched.setattr(budget, "clock_s", time.process_time)
-        yield
 
 
 @pytest.fixture(scope="session")

@@ -27,6 +27,7 @@ from app.jobs.job_pool import Job, ShouldStop
 from app.store.plan_store import UnknownPlanError
 from app.workspace import Workspace
 from planner.geometry.pose import Pose2
+from planner.planning.budget import longest_wait_s
 from planner.task.plan import Plan
 
 router = APIRouter(prefix="/api", tags=["suggestions"], route_class=DescribedRoute)
@@ -118,8 +119,10 @@ class SuggestionSearch:
         if known is not None and replace(known.task, limits=task.limits) != task:
             known = None
 
+        longest_s = longest_wait_s(self._limit.limit_s) - self._limit.limit_s + _GRACE_S
+
         def is_unwanted() -> bool:
-            return should_stop() or (self._begun.done() and self._limit.is_over_by(_GRACE_S))
+            return should_stop() or (self._begun.done() and self._limit.is_over_by(longest_s))
 
         try:
             with within_request():

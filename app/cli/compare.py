@@ -28,7 +28,7 @@ def compare(
     robots: Annotated[
         str | None, typer.Option(metavar="A,B,C", help="The robots: names, or files of cards.", show_default="all")
     ] = None,
-    time_limit_s: Annotated[float, typer.Option(help="How long to search for each (s).")] = 10.0,
+    time_limit_s: Annotated[float, typer.Option(help="Processor time for the search for each (s).")] = 10.0,
     json_to: JsonOption = None,
     data: DataOption = None,
 ) -> None:

@@ -54,7 +54,9 @@ def plan(
     scene: Annotated[Path | None, typer.Option(help="A scene file.")] = None,
     start: Annotated[str | None, typer.Option(help="The station where the robot starts.", show_default="front")] = None,
     heuristic: Annotated[HeuristicName | None, typer.Option(help="Search heuristic.", show_default="arm_time")] = None,
-    time_limit_s: Annotated[float | None, typer.Option(help="How long to search (s).", show_default="10")] = None,
+    time_limit_s: Annotated[
+        float | None, typer.Option(help="Processor time for the search (s).", show_default="10")
+    ] = None,
     robot: Annotated[
         str | None, typer.Option(help="The robot: its name, or the file of its card.", show_default=DEFAULT_ROBOT)
     ] = None,

@@ -79,7 +79,7 @@ def answered(cell: Cell, make_plan: MakePlan, *, keep_plan: bool = False) -> Ans
         return failed(cell, cell.error or "")
     try:
         plan = make_plan(cell.task)
-        planned_s, margins = time.perf_counter() - began_s, _margins(plan)
+        planned_s, margins = time.process_time() - cpu_s, _margins(plan)
         if cell.has_comfort_margin and plan.is_solved:
             margins[COMFORT_MARGIN] = comfort_margin_m(cell.task, make_plan)
         held = rehearsed(plan, cell.rehearsal) if cell.rehearsal is not None and plan.is_solved else {}
@@ -125,13 +125,16 @@ def _margins(plan: Plan) -> dict[str, Any]:
     }
 
 
-def _row(plan: Plan, wall_s: float) -> dict[str, Any]:
-    """Return the row of a plan; of all that is short, it tells the least, for that is what to mend first."""
+def _row(plan: Plan, cpu_s: float) -> dict[str, Any]:
+    """Return the row of a plan found in some processor time (s).
+
+    Of all that is short, it tells the least, for that is what to mend first.
+    """
     short = [reason.short_by_m for reason in plan.reasons if reason.short_by_m is not None]
     comfort = [reason.comfort_m for reason in plan.reasons if reason.comfort_m is not None]
     folds = sorted({reason.fold for reason in plan.reasons if reason.fold is not None})
     limit_s = plan.task.limits.time_limit_s
-    is_late = plan.statistics.is_cut_short and wall_s >= limit_s
+    is_late = plan.statistics.is_cut_short and cpu_s >= limit_s
     return {
         **dict.fromkeys(RESULT_COLUMNS),
         **_lying(plan.task),

@@ -23,6 +23,7 @@ from app.studies.answer import Answer, MakePlan, answered, failed
 from app.studies.cell import Cell
 from app.studies.workers import planner
 from planner.errors import FoldingError
+from planner.planning.budget import longest_wait_s
 from planner.robots.own_robots import robots_folder, use_robots_folder
 
 IN_HAND = 2
@@ -34,9 +35,8 @@ TRIES = 2
 DEATHS_MAX = 20
 """Deaths of workers in a row, without an answer between them, after which the study ends."""
 
-_GRACE = 2.0
 _GRACE_S = 30.0
-"""A worker is ended after this many times the cell's time limit, and so much more."""
+"""A worker is ended so long after its search should have ended by the clock on the wall (s)."""
 
 _RUN_S = 1200.0
 """Further time for each run of a rehearsal (s); one takes 0.5 to 5 minutes of a core (measured)."""
@@ -102,7 +102,7 @@ class _Worker:
         if cell is None or cell.task is None:
             return False
         runs = 0 if cell.rehearsal is None else cell.rehearsal.runs
-        longest_s = _GRACE * cell.task.limits.time_limit_s + _GRACE_S + _RUN_S * runs
+        longest_s = longest_wait_s(cell.task.limits.time_limit_s) + _GRACE_S + _RUN_S * runs
         return time.monotonic() - self.began_s > longest_s
 
     def end(self) -> int | None:

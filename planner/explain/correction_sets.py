@@ -56,7 +56,7 @@ def corrected(base: Relaxed, met: Trial, ask: Ask, is_enough: Callable[[], bool]
         sets = corrections.sets(met, mine)
         number = 1 + max((-1 if reason.set is None else reason.set for reason in found), default=-1)
         found += [replace(reason, set=number + n) for n, members in enumerate(sets) for reason in members]
-        if not (sets or corrections.is_but_touching):
+        if not sets and (corrections.is_cut_short or not corrections.is_but_touching):
             found += untried(mine)
     return tuple(found) or untried(measured)
 
@@ -76,6 +76,7 @@ class _Corrections:
 
     Attributes:
         is_but_touching: whether all places are in reach, so that only what the arms touch stands in the way.
+        is_cut_short: whether the trials ended before all causes were tried.
     """
 
     def __init__(self, base: Relaxed, fold: int | None, trials: Trials) -> None:
@@ -88,19 +89,22 @@ class _Corrections:
         self._amounts = LeastAmounts(trials, self._folds)
         self._joint = JointCorrections(base, fold, self._folds, trials)
         self.is_but_touching = False
+        self.is_cut_short = False
         self._gives = "plan" if len(tuple(wanted)) == len(everything) else "fold"
 
     def sets(self, met: Trial, measured: tuple[Reason, ...]) -> list[tuple[Reason, ...]]:
         """Return sets of causes, each of which is enough; empty where none was found."""
         found: list[tuple[Member, ...]] = []
         own = list(candidates(met.context, measured, self._fold))
-        with suppress(SpentError):
+        try:
             if met.has_collided:
                 self.is_but_touching = self._trials.trial(self._base, self._folds, with_arms=False).is_possible
             for candidate in own:
                 found += self._enough(candidate)
             if not (found or self.is_but_touching):
                 found += self._joint.together(self._base, (), own)
+        except SpentError:
+            self.is_cut_short = True
         found.sort(key=self._repair)
         return [self._told(members) for members in found] or [(told,) for told in self._at_rest(own)]
 

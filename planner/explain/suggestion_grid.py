@@ -37,10 +37,13 @@ class Room:
         """Whether the garment is larger than the table."""
         return any(high < low - LENGTH_M for low, high in zip(self.low, self.high, strict=True))
 
-    def holds(self, dx_m: float, dy_m: float) -> bool:
-        """Return whether the garment lies wholly on the table after this move."""
+    def hangs_no_more(self, dx_m: float, dy_m: float) -> bool:
+        """Return whether after this move the garment hangs over no edge by more than where it lies now, or not at all.
+
+        One that is longer than the table may move as far as it hangs over the same edges.
+        """
         moves = zip(self.low, (dx_m, dy_m), self.high, strict=True)
-        return all(low - LENGTH_M <= by <= high + LENGTH_M for low, by, high in moves)
+        return all(min(low, high, 0.0) - LENGTH_M <= by <= max(low, high, 0.0) + LENGTH_M for low, by, high in moves)
 
     @property
     def nearest(self) -> Point2:

@@ -1,18 +1,24 @@
 """Suggest another place on the table, the nearest first, also turned, and finally the best place seen.
 
+Places of a grid on which the garment lies wholly are tried. The move to one that gives a plan is then made as short as
+it can be with a plan as good; on the way the garment may hang over an edge, but no further than where it lies now.
+
 A base that does not move has no other freedom than the place of the cloth. There more places are tried, and drags by
 the arms, which are much more work, only where folds alone give no plan at any of them.
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 
+from planner.explain.suggestion import Suggestion
 from planner.explain.suggestion_grid import Room, turned_in_place
-from planner.explain.suggestion_trial import Narrowing, Proof, Search, SuggestionTrial, narrowed
+from planner.explain.suggestion_trial import AS_QUICK_S, Proof, Search, SuggestionTrial, smallest
 from planner.geometry.pose import Pose2
 from planner.message import Message
 from planner.robots.load_robot import load_robot
+from planner.task.plan import Plan
 from planner.task.task import Task
 from planner.words.catalogue import worded
 
@@ -22,7 +28,7 @@ STEP_M = 0.1
 FINE_STEP_M = 0.05
 """The same for a base that does not move, where the grid has no place that gives a plan (m)."""
 
-NARROWED_TO_M = 0.05
+NARROWED_TO_M = 0.01
 """The resolution of the nearest place (m)."""
 
 TURN_AS_M = 0.3
@@ -44,6 +50,10 @@ class _Place:
     @property
     def size(self) -> float:
         return self.distance_m + (TURN_AS_M if self.quarters else 0.0)
+
+    def without(self, part: "_Place", share: float) -> "_Place":
+        """Return the place with a share of a part of its move left out."""
+        return replace(self, dx_m=self.dx_m - share * part.dx_m, dy_m=self.dy_m - share * part.dy_m)
 
     @property
     def says(self) -> Message:
@@ -69,11 +79,13 @@ def placements(task: Task, known_cost_s: float | None) -> Search:
         if proof is None:
             continue
         if to_beat is None:
-            nearest = yield from _nearer(task, place, proof, by_folds_alone=by_folds_alone)
+            nearest = yield from _nearer(task, place, proof, math.inf)
+            yield nearest.suggestion
             to_beat = nearest.cost_s
-        best = proof if best is None or proof.cost_s < best.cost_s else best
-    if best is not None and to_beat is not None and best.is_worth_more_than(to_beat):
-        yield best.suggestion
+        best = (place, proof) if best is None or proof.cost_s < best[1].cost_s - AS_QUICK_S else best
+    if best is not None and to_beat is not None and best[1].is_worth_more_than(to_beat):
+        nearest = yield from _nearer(task, *best, best[1].cost_s + AS_QUICK_S)
+        yield nearest.suggestion
 
 
 def _tried(task: Task) -> Iterator[tuple[_Place, bool, bool]]:
@@ -87,18 +99,35 @@ def _tried(task: Task) -> Iterator[tuple[_Place, bool, bool]]:
     yield from ((place, True, False) for place in more)
 
 
-def _nearer(task: Task, place: _Place, proof: Proof, *, by_folds_alone: bool) -> Narrowing:
-    """Look for the nearest place in the same direction that works."""
-    far_m = place.distance_m
-    room = _room(task, place.quarters)
+def _nearer(
+    task: Task, place: _Place, proof: Proof, most_s: float
+) -> Generator[SuggestionTrial | Suggestion, Plan | None, Proof]:
+    """Look for the shortest move in the same direction with a plan that costs at most `most_s` (s), then along x and y.
 
-    def at(distance_m: float) -> SuggestionTrial | None:
-        share = distance_m / far_m
-        nearer = replace(place, dx_m=share * place.dx_m, dy_m=share * place.dy_m)
-        return _trial(task, nearer, by_folds_alone=by_folds_alone) if room.holds(nearer.dx_m, nearer.dy_m) else None
+    A move that does not turn the garment is at least one step long.
+    """
+    for along_x, along_y in ((True, True), (True, False), (False, True)):
+        part = _Place(0, along_x * place.dx_m, along_y * place.dy_m)
+        is_whole = part.distance_m == place.distance_m
+        if part.distance_m < NARROWED_TO_M or (is_whole and along_x != along_y):
+            continue
+        fails_at = part.distance_m - NARROWED_TO_M * round(part.distance_m / NARROWED_TO_M)
+        if place.quarters or not is_whole:
+            fails_at -= NARROWED_TO_M  # not to move it in this direction at all may do
+        at = partial(_shortened, task, place, part, proof.trial.by_folds_alone)
+        amount_m, proof = yield from smallest(at, fails_at, part.distance_m, proof, NARROWED_TO_M, most_s)
+        place = place.without(part, 1.0 - amount_m / part.distance_m)
+    return proof
 
-    start_m = far_m - NARROWED_TO_M * round(far_m / NARROWED_TO_M)
-    return narrowed(at, start_m, far_m, proof, NARROWED_TO_M)
+
+def _shortened(
+    task: Task, place: _Place, part: _Place, by_folds_alone: bool, distance_m: float
+) -> SuggestionTrial | None:
+    """Return the trial of a place with a part of its move made so long (m); None where more would hang over an edge."""
+    nearer = place.without(part, 1.0 - distance_m / part.distance_m)
+    if not _room(task, nearer.quarters).hangs_no_more(nearer.dx_m, nearer.dy_m):
+        return None
+    return _trial(task, nearer, by_folds_alone=by_folds_alone)
 
 
 def _trial(task: Task, place: _Place, *, by_folds_alone: bool) -> SuggestionTrial:

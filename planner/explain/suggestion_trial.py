@@ -5,6 +5,7 @@ found one. So a search is written as if it had unlimited time, while the caller 
 When time is up, the caller sends None instead of a plan: the search may yield what it still has, and returns.
 """
 
+import math
 from collections.abc import Callable, Generator, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, NamedTuple, TypeAlias
@@ -13,6 +14,9 @@ from planner.explain.suggestion import Suggestion
 from planner.message import Message
 from planner.task.plan import Plan
 from planner.task.task import Task
+
+AS_QUICK_S = 0.1
+"""A plan that takes so much longer is as quick (s)."""
 
 WORTH_TELLING_S = 1.0
 """Least saving of a second suggestion of a kind, or of a suggestion where there is a plan already (s)."""
@@ -64,8 +68,8 @@ class Proof(NamedTuple):
 Search: TypeAlias = Generator[SuggestionTrial | Suggestion, Plan | None, None]
 """The search of one kind of suggestion: yields trials and suggestions, is sent the plans of trials."""
 
-Narrowing: TypeAlias = Generator[SuggestionTrial | Suggestion, Plan | None, Proof]
-"""A part of a search that returns the best proof it found."""
+Smallest: TypeAlias = Generator[SuggestionTrial | Suggestion, Plan | None, tuple[float, Proof]]
+"""A part of a search that returns the smallest amount of a change that was seen to work, and its proof."""
 
 
 def each_cheaper(trials: Iterable[SuggestionTrial]) -> Search:
@@ -83,8 +87,8 @@ def each_cheaper(trials: Iterable[SuggestionTrial]) -> Search:
 
 def narrowed(
     trial_at: Callable[[float], SuggestionTrial | None], fails_at: float, works_at: float, proof: Proof, step: float
-) -> Narrowing:
-    """Suggest a change that works; then look for a smaller one by bisection, and suggest that.
+) -> Search:
+    """Suggest the smallest change that gives a plan; then, where it is slower, the smallest with a plan as quick.
 
     Args:
         trial_at: makes the trial of a change by some amount; None where there is none, which counts as failing.
@@ -92,18 +96,31 @@ def narrowed(
         works_at: an amount that does.
         proof: the proof that it does.
         step: the resolution of the result; amounts in between are `fails_at` plus whole multiples of it.
-
-    Returns:
-        The proof of the smallest amount that was seen to work.
     """
-    yield proof.suggestion
-    first = proof
+    amount, least = yield from smallest(trial_at, fails_at, works_at, proof, step)
+    yield least.suggestion
+    if proof.is_worth_more_than(least.cost_s):
+        _, quick = yield from smallest(trial_at, amount, works_at, proof, step, proof.cost_s + AS_QUICK_S)
+        yield quick.suggestion
+
+
+def smallest(
+    trial_at: Callable[[float], SuggestionTrial | None],
+    fails_at: float,
+    works_at: float,
+    proof: Proof,
+    step: float,
+    most_s: float = math.inf,
+) -> Smallest:
+    """Look for the smallest change with a plan that costs at most `most_s` (s), by bisection; arguments as above."""
     low, high = 0, round((works_at - fails_at) / step)
+    found = works_at, proof
     while high - low > 1:
         middle = (low + high) // 2
         trial = trial_at(fails_at + middle * step)
         better = None if trial is None else Proof.of(trial, (yield trial))
-        low, high, proof = (middle, high, proof) if better is None else (low, middle, better)
-    if proof is not first:
-        yield proof.suggestion
-    return proof
+        if better is None or better.cost_s > most_s:
+            low = middle
+        else:
+            high, found = middle, (fails_at + middle * step, better)
+    return found

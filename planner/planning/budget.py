@@ -2,7 +2,9 @@
 
 How much a machine does in a second depends on the machine and its load. So that the same request has the same answer
 everywhere, a search usually ends by the work it has done. The work is counted and weighted by its measured duration;
-its unit is a second of the machine on which that was measured. The clock is only the upper limit.
+its unit is a second of the machine on which that was measured. Time is only the upper limit, and it is the processor
+time of the process that searches: beside other programs a search takes longer, and finds the same. So that whoever
+waits gets an answer all the same, the clock on the wall ends it too, much later (`WALL_FACTOR`).
 """
 
 import math
@@ -24,8 +26,14 @@ _FEW_FOLDS = 4
 """Folds up to which a look costs `_LOOK_S`; with more folds it costs more, in proportion."""
 
 
-clock_s = time.perf_counter
-"""The clock of every deadline (s)."""
+clock_s = time.process_time
+"""The clock of every time limit: the processor time of this process (s)."""
+
+wall_clock_s = time.perf_counter
+"""The clock that guards against a process that hardly gets a processor, or waits for something (s)."""
+
+WALL_FACTOR, WALL_LEAST_S = 10.0, 5.0
+"""The time by the clock on the wall after which a search ends: so many times its time limit, and this much more (s)."""
 
 _GRACE_S = 0.15
 """Time that a step may take after the deadline before it is cut short (s): callers allow half a second in all."""
@@ -35,20 +43,48 @@ class OutOfTimeError(Exception):
     """No time was left to validate steps, or no more work was allowed."""
 
 
+def longest_wait_s(time_limit_s: float) -> float:
+    """Return after how long by the clock on the wall a search with a time limit has ended (s)."""
+    return WALL_FACTOR * time_limit_s + WALL_LEAST_S
+
+
+@dataclass(frozen=True, slots=True)
+class Deadline:
+    """When the time of a search is up: by its own processor time, or much later by the clock on the wall.
+
+    Attributes:
+        own_s: by `clock_s` (s).
+        wall_s: by `wall_clock_s` (s).
+    """
+
+    own_s: float
+    wall_s: float
+
+    @staticmethod
+    def after(time_limit_s: float) -> "Deadline":
+        """Return the deadline of a search that starts now."""
+        return Deadline(clock_s() + time_limit_s, wall_clock_s() + longest_wait_s(time_limit_s))
+
+    @property
+    def left_s(self) -> float:
+        """The time that is left (s); negative once it is up."""
+        return min(self.own_s - clock_s(), self.wall_s - wall_clock_s())
+
+
 @dataclass(slots=True)
 class Budget:
     """The work and the time that a search has left.
 
     Attributes:
         work_limit_s: the work allowed, in seconds of the machine on which it was measured.
-        deadline_s: when the time is up, by `clock_s` (s).
+        deadline: when the time is up.
         should_stop: polled as well; true ends the search.
         looks: the number of states, and of deferred successors, looked at.
         beside_s: the work done under separate budgets (s).
     """
 
     work_limit_s: float
-    deadline_s: float
+    deadline: Deadline
     should_stop: Callable[[], bool]
     looks: int = 0
     beside_s: float = 0.0
@@ -59,11 +95,11 @@ class Budget:
     def of(work_limit_s: float | None, time_limit_s: float, should_stop: Callable[[], bool] | None = None) -> "Budget":
         """Return a budget whose time starts now; without a work limit it allows as much work as time."""
         work_s = time_limit_s if work_limit_s is None else work_limit_s
-        return Budget(work_s, clock_s() + time_limit_s, should_stop or (lambda: False))
+        return Budget(work_s, Deadline.after(time_limit_s), should_stop or (lambda: False))
 
     def part(self, work_s: float) -> "Budget":
         """Return a budget for a part of the work, with the deadline of the whole."""
-        return Budget(work_s, self.deadline_s, self.should_stop)
+        return Budget(work_s, self.deadline, self.should_stop)
 
     def watch(self, problem: Problem) -> Problem:
         """Start to count the reach queries and joint paths of a problem; return the problem."""
@@ -73,8 +109,8 @@ class Budget:
 
     def limit(self, patience: Patience) -> None:
         """Let a patience end with the time; it knows nothing of the problems watched, whose contexts know it."""
-        patience.is_over = partial(_is_past, self.deadline_s, self.should_stop)
-        patience.is_long_over = partial(_is_past, self.deadline_s + _GRACE_S, self.should_stop)
+        patience.is_over = partial(_is_past, self.deadline, self.should_stop)
+        patience.is_long_over = partial(_is_past, self.deadline, self.should_stop, _GRACE_S)
 
     @property
     def spent_s(self) -> float:
@@ -110,14 +146,14 @@ class Budget:
     @property
     def is_late(self) -> bool:
         """Whether the time is up, whatever work is left, or the search was told to stop."""
-        return _is_past(self.deadline_s, self.should_stop)
+        return _is_past(self.deadline, self.should_stop)
 
     @property
     def left_s(self) -> float:
         """The time that is left, whatever work is (s); negative once it is up."""
-        return self.deadline_s - clock_s()
+        return self.deadline.left_s
 
 
-def _is_past(deadline_s: float, should_stop: Callable[[], bool]) -> bool:
-    """Return whether a deadline (by `clock_s`, s) is past, or the search was told to stop."""
-    return clock_s() > deadline_s or should_stop()
+def _is_past(deadline: Deadline, should_stop: Callable[[], bool], grace_s: float = 0.0) -> bool:
+    """Return whether a deadline is past by some grace (s), or the search was told to stop."""
+    return deadline.left_s < -grace_s or should_stop()

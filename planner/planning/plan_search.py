@@ -147,7 +147,7 @@ class PlanSearch(PathSearch):
         if work_s <= 0.0 or not self._is_in_doubt:
             return 0.0
         self._others.append(problem)
-        budget = Budget(0.0, self._budget.deadline_s, self._budget.should_stop)
+        budget = self._budget.part(0.0)
         search = PathSearch(problem, self._heuristic, budget, self._max_expanded, self._known)
         begun_s = budget.spent_s
         budget.work_limit_s = begun_s + work_s

@@ -31,7 +31,8 @@ class Limits:
     Attributes:
         comfort_radius_m: a point counts as reachable only if a circle of this radius round it is (m).
         heuristic: the lower bound on the remaining time: "arm_time" or "zero".
-        time_limit_s: the time for the search (s).
+        time_limit_s: the processor time for the search (s); by the clock on the wall it ends after ten times that and
+            5 s more.
         work_limit_s: the work for the search, in seconds of a present-day machine; None for as much as the time limit.
             If work ends the search before time does, the task has the same answer on every machine.
         max_expanded: the most states that the search may expand.

@@ -1,5 +1,6 @@
 import math
 import time
+from contextlib import suppress
 from dataclasses import replace
 from typing import Any
 
@@ -17,12 +18,14 @@ from planner.explain.suggestion_map import placement_map
 from planner.explain.suggestion_order import orders
 from planner.explain.suggestion_station import stations
 from planner.explain.suggestion_together import together
-from planner.explain.suggestion_trial import Search, SuggestionTrial
+from planner.explain.suggestion_trial import Proof, Search, SuggestionTrial, narrowed
 from planner.explain.suggestions import Suggestions, suggestions
 from planner.geometry.pose import Pose2
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 from planner.geometry.table import Table
+from planner.message import Message
+from planner.task.plan import Plan
 from tests.builders import fold, garment, rectangle_points
 from tests.planning.provoked import FRONT, planned_with
 from tests.replay.planned import planned
@@ -71,6 +74,40 @@ def test_every_suggestion_is_proven_by_its_change_and_there_are_three_of_a_kind_
         assert len([s for s in found if s.kind == kind]) <= 3
     for one in found:
         assert planned_with(one.change, cloth, FRONT_ONLY).cost_s == pytest.approx(one.cost_s, abs=1e-9)
+
+
+def test_a_garment_that_slips_off_the_edge_is_told_to_be_moved_no_further_than_it_must():
+    # Of a strip 1 m long .49 m hang over the near edge; with a friction of .7 no more than .4118 m may.
+    line = fold((0.0, 0.75), (0.2, 0.75))
+    strip = garment(rectangle_points(0.2, 1.0), line, placement=Pose2(-1.29, 0.1, -math.pi / 2))
+    task = Task.of(strip, Scene(friction=0.7), work_limit_s=10.0, time_limit_s=60.0)
+    search = suggestions(task)
+    found = next(one for one in search if one.kind == "placement")
+    assert found.size == pytest.approx(0.08, abs=1e-6)
+    assert "8 cm away from the robot" in found.message
+
+
+def test_the_smallest_change_with_a_plan_is_suggested_and_the_smallest_with_one_as_quick():
+    trial = SuggestionTrial("size", Message.plain("by"), {}, 0.0, asked(towel()))
+    solved = make_plan(towel())
+    costs = {4: 20.0, 3: 20.0, 2: 30.0}
+
+    def at(amount: float) -> SuggestionTrial:
+        return replace(trial, size=round(amount))
+
+    def plan_of(size: float) -> Plan:
+        cost_s = costs.get(round(size))
+        last = replace(solved.steps[-1], start_s=0.0, duration_s=cost_s or 0.0)
+        return replace(solved, status="infeasible" if cost_s is None else "solved", steps=(last,))
+
+    proof = Proof(at(4), plan_of(4), 20.0)
+    search, told, sent = narrowed(at, 0.0, 4.0, proof, 1.0), [], None
+    with suppress(StopIteration):
+        while True:
+            wish = search.send(sent)
+            sent = plan_of(wish.size) if isinstance(wish, SuggestionTrial) else None
+            told += [] if isinstance(wish, SuggestionTrial) else [(wish.size, wish.cost_s)]
+    assert told == [(2, 30.0), (3, 20.0)]
 
 
 @pytest.mark.long

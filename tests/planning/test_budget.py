@@ -6,7 +6,7 @@ import time
 import pytest
 
 from planner import Plan, Task, find_plan, load_garment, make_plan
-from planner.planning import plan_search
+from planner.planning import budget, plan_search
 from planner.planning.budget import Budget
 from planner.planning.found_plan import FoundPlan
 from planner.planning.problem import Problem
@@ -51,6 +51,33 @@ def test_and_falls_back_on_the_same_plan_at_the_same_time(monkeypatch: pytest.Mo
 def test_the_clock_ends_a_search_that_has_work_left():
     answer = make_plan(load_garment("t-shirt"), work_limit_s=60.0, time_limit_s=0.01)
     assert answer.status == "budget_exceeded"
+
+
+def test_time_in_which_the_process_has_no_processor_does_not_count():
+    """Another program, or whatever else stalls the thread, takes ten times the limit."""
+    task = Task.of(load_garment("tie"), work_limit_s=0.5 * SEARCH_S, time_limit_s=0.3)
+    make_plan(task)  # kernels are loaded
+    began_s, waits = time.perf_counter(), iter((3.0,))
+
+    def stalled() -> bool:
+        time.sleep(next(waits, 0.0))
+        return False
+
+    answer = make_plan(task, should_stop=stalled)
+    assert time.perf_counter() - began_s > 3.0
+    assert answer.statistics.ways == make_plan(task).statistics.ways > 0
+
+
+def test_whoever_waits_gets_an_answer_from_a_search_that_stalls_for_ever(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(budget, "WALL_FACTOR", 1.0)
+    monkeypatch.setattr(budget, "WALL_LEAST_S", 0.2)
+    task = Task.of(load_garment("t-shirt"), work_limit_s=60.0, time_limit_s=10.0)
+
+    def stalled() -> bool:
+        time.sleep(0.5)
+        return False
+
+    assert make_plan(task, should_stop=stalled).status == "budget_exceeded"
 
 
 def test_more_work_is_looked_at_more_ways():
