@@ -1,9 +1,11 @@
 """A robot as its card and its URDF describe it, ready for planning."""
 
 import threading
+from typing import TypeAlias
 
 import numpy as np
 
+from planner.geometry.pose import FloatArray
 from planner.geometry.table import Table
 from planner.robots.armed_robot import ArmedRobot
 from planner.robots.collision.collisions import Collisions
@@ -13,11 +15,15 @@ from planner.robots.described_robot import DescribedRobot
 from planner.robots.edge_grip import HandShape
 from planner.robots.mapped_arm import ALL_ROUND, MappedArm, all_arms
 from planner.robots.mapped_comfort import ARM_LABELS, MappedArms, mapped_arms, rooted
-from planner.robots.mapped_reach import MappedReach
+from planner.robots.mapped_reach import Heights, MappedReach
 from planner.robots.openings import OPENING_M
+from planner.robots.posture_layers import covered_heights
 from planner.robots.queried_arms import QueriedArms
 from planner.robots.reach_maps import Progress
 from planner.robots.shared_maps import shared_maps
+
+_Mapped: TypeAlias = tuple[MappedArms, Heights, tuple[MappedArm, ...]]
+"""Arms for the compiled queries, the heights that their maps cover, and each arm alone."""
 
 
 class CardRobot(ArmedRobot):
@@ -28,7 +34,7 @@ class CardRobot(ArmedRobot):
         super().__init__(robot_card(described))
         self._described = described
         self._mapping = threading.Lock()
-        self._mapped: tuple[MappedArms, tuple[MappedArm, ...]] | None = None
+        self._mapped: _Mapped | None = None
 
     def reach(
         self, torso_m: float, comfort_m: float, *, is_passing: bool = False, minds_body: bool = True
@@ -45,11 +51,21 @@ class CardRobot(ArmedRobot):
         names = tuple(arm.name for arm in self._card.arms)
         ask = np.arange(1, len(ALL_ROUND) + 1)
         labels = tuple(ARM_LABELS * number + ask for number in range(len(names)))
-        numbers = rooted(self._prepared()[0], [arm.shoulder(float(torso_m)) for arm in self._arms])
-        asked = QueriedArms(names, self._arms, numbers, ALL_ROUND, labels)
         joints = tuple(arm.joint_names for arm in self._card.arms)
         lengths = tuple(arm.length_m for arm in self._arms)
-        return MappedReach(asked, numbers, joints, lengths, float(torso_m), float(comfort_m), memories)
+
+        def covering(arm: int, seen: FloatArray) -> tuple[MappedArms, Heights]:
+            self._arms[arm].cover(seen, float(torso_m))
+            return self._seen(float(torso_m))
+
+        numbers, heights = self._seen(float(torso_m))
+        asked = QueriedArms(names, self._arms, numbers, ALL_ROUND, labels)
+        return MappedReach(asked, heights, covering, joints, lengths, float(torso_m), float(comfort_m), memories)
+
+    def _seen(self, torso_m: float) -> tuple[MappedArms, Heights]:
+        """Return the arms for the compiled queries with the lift raised, and the heights that their maps cover."""
+        asked, heights, each = self._prepared()
+        return rooted(asked, [arm.shoulder(torso_m) for arm in each]), heights
 
     def forget_reach(self) -> None:
         """Drop the memories of where the arms reach and how, so that benchmarks measure their computation."""
@@ -67,17 +83,15 @@ class CardRobot(ArmedRobot):
         Args:
             progress: is told how far the maps are that must be built (0 to 1).
         """
-        return self._prepared(progress)[1]
+        return self._prepared(progress)[2]
 
-    def _prepared(self, progress: Progress | None = None) -> tuple[MappedArms, tuple[MappedArm, ...]]:
+    def _prepared(self, progress: Progress | None = None) -> _Mapped:
         """Return the arms for the compiled queries, and each alone: they share their maps, some 20 MB an arm."""
         with self._mapping:
             if self._mapped is None:
-                arms = all_arms(self._described, progress)
-                maps = [arm.known for arm in arms]
-                asked = mapped_arms([arm.chain for arm in arms], maps)
-                shared = zip(arms, shared_maps(asked, maps), strict=True)
-                self._mapped = asked, tuple(arm.with_map(known) for arm, known in shared)
+                self._mapped = _sharing(all_arms(self._described, progress))
+            elif any(arm.known.postures is not self._mapped[0].postures for arm in self._mapped[2]):
+                self._mapped = _sharing(self._mapped[2])
             return self._mapped
 
     @property
@@ -93,3 +107,12 @@ class CardRobot(ArmedRobot):
     def _hand_shape(self, arm: int) -> HandShape:
         chain = self._described.arms[arm].chain
         return HandShape.of(described_parts(self._described), arm, chain.tool_offset, chain.tool_rotation)
+
+
+def _sharing(arms: tuple[MappedArm, ...]) -> _Mapped:
+    """Return arms for the compiled queries, and the arms, which use parts of what these hold as their maps."""
+    maps = [arm.known for arm in arms]
+    asked = mapped_arms([arm.chain for arm in arms], maps)
+    for arm, known, shared in zip(arms, maps, shared_maps(asked, maps), strict=True):
+        arm.take(known, shared)
+    return asked, tuple(covered_heights(known.grid) for known in maps), arms

@@ -147,6 +147,7 @@ class ComfortReach:
         """
         if count > _MOST_STANDOFFS:
             raise ValueError(f"{count} standoffs do not fit into a mask of {_MOST_STANDOFFS} bits")
+        self._cover(arm, points)
         started, full = thread_time(), (1 << count) - 1
         masks = standoff_masks(
             self._asked.numbers,
@@ -178,6 +179,8 @@ class ComfortReach:
             approaches: for each hand indices into `approaches`, best first.
             step_m: the distance between standoffs (m).
         """
+        for arm, path in zip(arms, paths, strict=True):
+            self._cover(arm, path)
         labels = np.zeros((len(arms), max(len(allowed) for allowed in approaches)), dtype=np.int64)
         places = np.empty(paths.shape, dtype=np.int64)
         for hand, (arm, allowed) in enumerate(zip(arms, approaches, strict=True)):
@@ -202,6 +205,9 @@ class ComfortReach:
         )
         return FollowingPaths(task, self._add_time)
 
+    def _cover(self, arm: int, points: FloatArray) -> None:
+        """Make sure that what an arm computes with covers points of the base frame (m), shape (n, 3): it does."""
+
     def _add_time(self, time_s: float) -> None:
         self._query_time_s += time_s
 
@@ -224,6 +230,7 @@ class ComfortReach:
             step_m: the distance between standoffs (m).
             enough: the number of approaches wanted that reach every point; None: all.
         """
+        self._cover(arm, points)
         started = thread_time()
         answers = anywhere(
             self._asked.numbers,

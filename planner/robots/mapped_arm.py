@@ -1,7 +1,7 @@
 """An arm of any robot: the tool poses within its reach, and the joints for them."""
 
 import math
-from functools import partial
+import threading
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from planner.robots.described_robot import DescribedArm, DescribedRobot
 from planner.robots.hand_roll import gives_roll
 from planner.robots.newton import solve_from
 from planner.robots.posture_following import followed
+from planner.robots.posture_layers import covered_heights, covering
 from planner.robots.posture_samples import axis_samples, posture_samples
 from planner.robots.reach_map import ReachMap, reachable_poses
 from planner.robots.reach_maps import Progress, reach_map
@@ -27,7 +28,7 @@ ALL_ROUND = (
 """Directions from which a gripper may pinch, all round: fixed arms may stand on opposite sides of a table."""
 
 _BELOW_M, _ABOVE_M = 0.1, 0.8
-"""The heights below and above the table's top at which a tool may be asked to be (m)."""
+"""The heights below and above the table's top that a map covers from the first; layers are added when asked (m)."""
 
 _WIDE_RAD = 2 * math.tau - 0.01
 """A joint with this range may wind up along a chain: wherever it began, some whole turns bring it within its limits."""
@@ -41,13 +42,14 @@ joints turn farther for a centimetre.
 class MappedArm:
     """An arm with the reach map. Its answers do not change, so all users may share one instance.
 
+    The map grows by layers when something above or below it is asked, which changes no answer.
+
     Poses are of the tool, x along the approach axis, in the base frame (m). How high the lift is raised is given with
     each question.
     """
 
     def __init__(self, arm: DescribedArm, known: ReachMap) -> None:
         """Take the arm and its map."""
-        self._described = arm
         self._chain = arm.chain
         self._root = arm.root
         self._is_endless = arm.is_endless
@@ -55,8 +57,8 @@ class MappedArm:
         is_wide = arm.chain.turns & (arm.chain.high - arm.chain.low >= _WIDE_RAD)
         self.periods: FloatArray = np.where(arm.is_endless | is_wide, math.tau, 0.0)
         self._gives_roll_alone = gives_roll_alone(arm.chain)
-        sampled = axis_samples if self._gives_roll_alone else posture_samples
-        self._memory = SampleMemory(partial(sampled, self._chain, self._known, self.periods))
+        self._building = threading.Lock()
+        self._memory = SampleMemory(self._sampled)
 
     @property
     def chain(self) -> Chain:
@@ -65,12 +67,34 @@ class MappedArm:
 
     @property
     def known(self) -> ReachMap:
-        """The reach map."""
+        """The reach map, as far as it was asked."""
         return self._known
 
-    def with_map(self, known: ReachMap) -> "MappedArm":
-        """Return the arm with the same map at another place in memory."""
-        return MappedArm(self._described, known)
+    def take(self, known: ReachMap, same: ReachMap) -> None:
+        """Use the same map at another place in memory, unless it has grown since."""
+        with self._building:
+            if self._known is known:
+                self._known = same
+
+    def cover(self, points: FloatArray, torso_m: float) -> None:
+        """Have the map cover points that are seen from the root (m), shape (..., 3): builds layers, in seconds each.
+
+        What is below the floor needs no map.
+        """
+        if not points.size:
+            return
+        floor_m = -float(self.shoulder(torso_m)[2])
+        lowest_m, highest_m = max(float(points[..., 2].min()), floor_m), float(points[..., 2].max())
+        low_m, high_m = covered_heights(self._known.grid)
+        if lowest_m < low_m or highest_m > high_m:
+            with self._building:
+                self._known = covering(self._chain, self._known, (lowest_m, highest_m))
+
+    def _sampled(self, points: FloatArray, rotations: FloatArray, floor: float) -> tuple[FloatArray, FloatArray]:
+        """Return samples of the joints at poses seen from the root, those of the axis where the last joint rolls it."""
+        sampled = axis_samples if self._gives_roll_alone else posture_samples
+        found: tuple[FloatArray, FloatArray] = sampled(self._chain, self._known, self.periods, points, rotations, floor)
+        return found
 
     @property
     def length_m(self) -> float:
@@ -108,6 +132,7 @@ class MappedArm:
     ) -> tuple[BoolArray, FloatArray]:
         """Return which tool poses the arm can take, see `can_reach`, and joints for each, shape (n, joints)."""
         points = np.ascontiguousarray(positions - self.shoulder(torso_m))
+        self.cover(points, torso_m)
         return reachable_poses(self._chain, self._known, points, np.ascontiguousarray(rotations))
 
     def joints_near(
@@ -140,6 +165,7 @@ class MappedArm:
         shoulder = self.shoulder(torso_m)
         points, axes = np.ascontiguousarray(positions - shoulder), np.array(rotations, order="C")
         floor = floor_m - float(shoulder[2])
+        self.cover(points, torso_m)
         if not self._gives_roll_alone:
             return self._memory.samples(points, axes, floor)
         of_axes = self._memory.samples(points, unrolled(axes), floor)
@@ -209,7 +235,7 @@ def _part(progress: Progress | None, number: int, count: int) -> Progress | None
 
 
 def heights(robot: DescribedRobot, arm: DescribedArm) -> tuple[float, float]:
-    """Return the lowest and the highest point that a robot's arm is asked for, seen from its root (m)."""
+    """Return the lowest and the highest point that a robot's arm is mostly asked for, seen from its root (m)."""
     table_m = robot.card.scene.table.height_m - float(arm.root[2])
     low, high = robot.lift_limits_m
     return table_m - high - _BELOW_M, table_m - low + _ABOVE_M

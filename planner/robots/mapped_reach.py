@@ -2,6 +2,8 @@
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
+from typing import TypeAlias, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +16,12 @@ from planner.robots.mapped_shortfall import joint_at_limit, nearest_place, wides
 from planner.robots.queried_arms import QueriedArms
 from planner.robots.shortfall import DIRECTIONS, FURTHEST_M, SIDEWAYS, as_point, homewards
 from planner.robots.shortfall_reach import ShortfallReach
+
+Heights: TypeAlias = tuple[tuple[float, float], ...]
+"""The lowest and the highest point of each arm's map, seen from its root (m)."""
+
+Covering: TypeAlias = Callable[[int, FloatArray], tuple[MappedArms, Heights]]
+"""Has an arm's map cover points that are seen from its root; returns all arms with their maps, and these' heights."""
 
 _QUERIES_MAX = 50_000
 """Queries after which a shortfall is told as far as it is known: some tenths of a second."""
@@ -28,7 +36,8 @@ class MappedReach(ShortfallReach):
     def __init__(
         self,
         asked: QueriedArms,
-        arms: MappedArms,
+        heights: Heights,
+        covering: Covering,
         joint_names: tuple[tuple[str, ...], ...],
         lengths_m: tuple[float, ...],
         torso_m: float,
@@ -38,8 +47,9 @@ class MappedReach(ShortfallReach):
         """Start with nothing asked.
 
         Args:
-            asked: the arms.
-            arms: the same arms with their maps.
+            asked: the arms, with maps.
+            heights: those that their maps cover.
+            covering: has an arm's map cover more.
             joint_names: the joints of each arm.
             lengths_m: how far from its root each arm may reach (m).
             torso_m: how far the lift is raised (m).
@@ -47,9 +57,32 @@ class MappedReach(ShortfallReach):
             memories: what earlier plans have learned; None: nothing.
         """
         super().__init__(asked, torso_m, comfort_m, memories=memories)
-        self._arms = arms
+        self._heights = heights
+        self._covering = covering
         self._joint_names = joint_names
         self._lengths_m = lengths_m
+
+    def _arms(self) -> MappedArms:
+        """Return the arms with their maps."""
+        return cast(MappedArms, self._asked.numbers)
+
+    def _cover(self, arm: int, points: FloatArray) -> None:
+        if not points.size:
+            return
+        seen = points - self._shoulders[arm]
+        low_m, high_m = self._heights[arm]
+        if seen[..., 2].min() < low_m or seen[..., 2].max() > high_m:
+            numbers, self._heights = self._covering(arm, seen)
+            self._asked = replace(self._asked, numbers=numbers)
+
+    def _searched_m(self, arm: int, seen: FloatArray, furthest_m: float) -> float:
+        """Return how far points were displaced in every direction in which the arm's map or its length ends (m)."""
+        searched_m = furthest_m
+        for x, y, z in seen:
+            for end_m in self._heights[arm]:
+                if math.hypot(x, y, end_m) < self._lengths_m[arm]:
+                    searched_m = min(searched_m, abs(end_m - z))
+        return searched_m
 
     def at_least_short(
         self, arm: int, ways: FloatArray, _approaches: NDArray[np.int64], count: int, step_m: float
@@ -74,21 +107,21 @@ class MappedReach(ShortfallReach):
         furthest = min(at_most_m, FURTHEST_M)
         most = _QUERIES_LATE_MAX if is_over() else _QUERIES_MAX
         short_by_m, seen_from, approach, direction, queries = nearest_place(
-            self._arms, labels, seen, DIRECTIONS, self._comfort_m, furthest, most
+            self._arms(), labels, seen, DIRECTIONS, self._comfort_m, furthest, most
         )
         is_at_least = seen_from < 0
         if is_at_least:
             distances = np.linalg.norm(seen, axis=1)
             seen_from, approach = int(distances.argmin()), 0
-            searched = furthest if queries < most else 0.0
+            searched = self._searched_m(arm, seen, furthest) if queries < most else 0.0
             short_by_m = max(float(distances.min()) - self._lengths_m[arm], searched)
         point = seen[seen_from]
         towards = homewards(point) if is_at_least else DIRECTIONS[direction]
         cause, comfort_m = "too_far" if is_at_least else _cause(point, towards, short_by_m), None
-        widest_m, widest_from, _ = widest_circle(self._arms, labels, seen, self._comfort_m)
+        widest_m, widest_from, _ = widest_circle(self._arms(), labels, seen, self._comfort_m)
         if widest_from >= 0:
             cause, comfort_m = "comfort_only", widest_m
-        joint = joint_at_limit(self._arms, int(labels[approach]), point)
+        joint = joint_at_limit(self._arms(), int(labels[approach]), point)
         name = None if joint < 0 else self._joint_names[arm][joint]
         chosen = int(approaches[approach])
         found = Shortfall(cause, name, short_by_m, is_at_least, as_point(towards), chosen, seen_from, comfort_m)

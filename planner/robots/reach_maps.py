@@ -3,6 +3,8 @@
 import contextlib
 import os
 import tempfile
+import threading
+import time
 from collections.abc import Callable, Sequence
 from hashlib import blake2b
 from pathlib import Path
@@ -44,6 +46,8 @@ _FORMAT = 5
 _KEPT_MAX = 64
 """Maps that stay in the cache: of all shipped robots several times, and of robots whose cards were varied."""
 
+_spent = threading.local()
+
 Progress = Callable[[float], None]
 """Is told now and then what share of the work is done, roughly (0 to 1)."""
 
@@ -66,17 +70,29 @@ def reach_map(
         progress: is told how far the work is.
         directory: the cache directory; None: the platform's own.
     """
-    grid = grid_of(chain, approaches, heights_m)
+    return kept_map(chain, grid_of(chain, approaches, heights_m), progress, directory)
+
+
+def kept_map(chain: Chain, grid: Grid, progress: Progress | None = None, directory: Path | None = None) -> ReachMap:
+    """Return an arm's map of some cells, read from the cache or built and kept; see `reach_map`."""
     path = (directory or user_cache_path("pleat")) / "postures" / f"{_digest(chain, grid)}.npz"
     try:
         with path.open("rb") as file, np.load(file, allow_pickle=False) as arrays:
             found = ReachMap(grid, arrays["starts"], arrays["postures"])
     except (OSError, ValueError, KeyError, EOFError, BadZipFile):
+        begun = time.thread_time()
         found = build_map(chain, grid, progress)
+        _spent.building_s = building_time_s() + time.thread_time() - begun
         with contextlib.suppress(OSError):
             _write(path, found)
     with contextlib.suppress(OSError):
         use(path, _KEPT_MAX)
+    return found
+
+
+def building_time_s() -> float:
+    """Return the processor time that the current thread has spent on building maps (s): limits of searches leave it out."""
+    found: float = getattr(_spent, "building_s", 0.0)
     return found
 
 

@@ -7,10 +7,12 @@ import pytest
 
 from planner.robots import posture_maps
 from planner.robots.chain import tool_poses
-from planner.robots.described_robot import read_robot
+from planner.robots.described_robot import DescribedArm, read_robot
 from planner.robots.load_robot import load_robot
 from planner.robots.mapped_arm import ALL_ROUND, MappedArm, heights, mapped_arm
-from planner.robots.reach_maps import reach_map
+from planner.robots.posture_layers import covered_heights, covering
+from planner.robots.reach_map import ReachMap
+from planner.robots.reach_maps import grid_of, reach_map
 from tests.robots.model import pin_pose
 
 TORSO_M = 0.29
@@ -93,6 +95,39 @@ def test_a_short_arm_reaches_what_random_joints_reach():
     found = arm.can_reach(points[is_asked] + robot.arms[0].root, rotations[is_asked])
     assert len(found) > 20_000
     assert found.mean() >= 0.998
+
+
+def test_what_is_asked_above_or_below_a_map_is_looked_for_in_layers_of_it(cache, poses, monkeypatch):
+    monkeypatch.setattr(posture_maps, "user_cache_path", lambda _: cache)
+    arm, reference = mapped(cache), load_robot("pr2")
+    before = arm.can_reach(*poses, TORSO_M)
+    low_m, high_m = covered_heights(arm.known.grid)
+    for below_m in (0.1, -0.1 - (HIGH_M - LOW_M)):
+        moved = poses[0] - [0.0, 0.0, below_m]
+        found, true = arm.can_reach(moved, poses[1], TORSO_M), reference.can_reach(0, moved, poses[1], TORSO_M)
+        assert true.sum() > 100
+        assert (found & ~true).sum() <= 0.005 * true.sum()
+        assert (found & true).sum() >= 0.99 * true.sum()
+    deeper_m, higher_m = covered_heights(arm.known.grid)
+    assert deeper_m < low_m - 0.1
+    assert higher_m > high_m + 0.1
+    np.testing.assert_array_equal(arm.can_reach(*poses, TORSO_M), before)
+
+
+def unknown(arm: DescribedArm, heights_m: tuple[float, float]) -> ReachMap:
+    """Return a map of heights without postures."""
+    grid = grid_of(arm.chain, ALL_ROUND, heights_m)
+    starts = np.zeros(int(np.prod(grid.counts)) * len(ALL_ROUND) + 1, dtype=np.int32)
+    return ReachMap(grid, starts, np.zeros((0, len(arm.chain.low)), dtype=np.int8))
+
+
+def test_no_layer_is_built_below_the_floor_or_beyond_the_arms_length(monkeypatch):
+    monkeypatch.setattr("planner.robots.posture_layers.kept_map", lambda *_: pytest.fail("a layer was built"))
+    described = read_robot("pr2").arms[0]
+    floor_m = -float(described.root[2]) - TORSO_M
+    to_floor, everywhere = unknown(described, (floor_m, 0.2)), unknown(described, (-9.0, 9.0))
+    MappedArm(described, to_floor).cover(np.array([[0.5, 0.0, floor_m - 0.5], [0.5, 0.0, 0.1]]), TORSO_M)
+    assert covering(described.chain, everywhere, (-9.0, 9.0)) is everywhere
 
 
 @pytest.mark.long
