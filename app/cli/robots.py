@@ -7,12 +7,10 @@ import typer
 from rich.progress import Progress
 
 from app.cli.program import STANDARD_OUTPUT, DataOption, JsonOption, blaming, cli, errors, output, write_json
-from app.robot_warnings import robot_warnings
+from app.robot_warnings import warnings_of
 from app.tables import robot_check_table, robots_table
 from planner.robots.described_robot import read_robot, robot_entry
 from planner.robots.known_robots import robot_cards
-from planner.robots.load_robot import load_robot
-from planner.robots.station_room import stations_in_table
 from planner.robots.table_reach import table_reach
 from planner.robots.tool_point import tool_points
 
@@ -37,22 +35,21 @@ def check(
 ) -> None:
     """Check that a card is complete, that what it names is there, and how much of its table it reaches.
 
-    Where a tool point is not between the fingertips, or a station is in the table, it warns. The first time it looks
+    It first warns of what is allowed but probably not meant: a part in another unit, arms in one
+    place, a tool point off the fingertips, a station in the table or turned away from it. The first time it then looks
     where the arms can go, which takes up to half a minute an arm.
     """
     with blaming(card):
         found = read_robot(card)
-        points = tool_points(found)
-        of_card = found.card.scene
-        at_table = load_robot(card).collisions(of_card.table, of_card.torso_m)
-        stations = stations_in_table(of_card.stations, at_table)
+        points, warnings = tool_points(found), warnings_of(found)
+    told_on = errors if json_to == STANDARD_OUTPUT else output
+    for warning in warnings:
+        told_on.print(f"Warning: {warning['message']}.", markup=False, soft_wrap=True)
     with Progress(console=errors, transient=True) as progress:
         task = progress.add_task("Looking where the arms can go", total=1.0)
         reach = table_reach(found, lambda share: progress.update(task, completed=share))
     reached = {"arms": reach.arms, "any_arm": reach.any_arm, "two_arms": reach.two_arms}
-    told = {"tool_points": [asdict(point) for point in points], "warnings": robot_warnings(points, stations)}
+    told = {"tool_points": [asdict(point) for point in points], "warnings": warnings}
     write_json({"name": found.card.name, "title": found.card.title, "table_reached": reached, **told}, json_to)
     if json_to != STANDARD_OUTPUT:
         output.print(robot_check_table(found.card, reach))
-        for warning in told["warnings"]:
-            output.print(f"Warning: {warning['message']}.", markup=False, soft_wrap=True)

@@ -64,9 +64,6 @@ class ArmFile:
         for name, given in (("home", self.home), ("speeds", self.speeds), ("accelerations", self.accelerations)):
             if given is not None and len(given) != count:
                 raise RobotError(name, f"has {len(given)} numbers for {count} joints")
-        for number, name in enumerate(self.lifting):
-            if name not in self.joints:
-                raise RobotError(f"lifting[{number}]", f"{name!r} is no joint of this arm")
 
 
 @dataclass(frozen=True, slots=True)

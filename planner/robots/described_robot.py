@@ -183,6 +183,9 @@ def _arm(model: pin.Model, card: CardFile, arm: ArmFile) -> DescribedArm:
             raise RobotError(f"home[{number}]", f"{q} is outside of the limits {low:g} and {high:g} of {name!r}")
         if arm.speeds is None and not 0.0 < model.velocityLimit[joint.idx_v] < np.inf:
             raise RobotError("speeds", f"the URDF gives joint {name!r} no speed, so the card must")
+    for number, name in enumerate(arm.lifting):  # once the joints are known to be there: either list may be wrong
+        if name not in arm.joints:
+            raise RobotError(f"lifting[{number}]", f"{name!r} is no joint of this arm")
     moving_joint(model, arm.gripper.drive.joint, "gripper.drive.joint")
     named = [frame for frame in model.frames if frame.name == arm.tool.link]
     if not named:

@@ -4,6 +4,7 @@ from io import BytesIO
 from pathlib import Path
 
 import trimesh
+from trimesh.units import unit_conversion
 
 _STL_HEAD, _STL_TRIANGLE = 84, 50
 """Bytes before the triangles of a binary STL file, the last four of which are their number, and of each triangle."""
@@ -16,6 +17,9 @@ class MeshError(ValueError):
 def read_mesh_file(path: Path) -> trimesh.Trimesh:
     """Return the mesh in a file, its parts where their scene has them, without triangles that have no area.
 
+    A COLLADA file's lengths are brought to metres by the unit that it declares. Which axis it calls up does not count:
+    URDFs are made for programs that take its axes as they are.
+
     Raises:
         MeshError: the file is no mesh of the format by whose name it ends.
         OSError: it cannot be read.
@@ -25,7 +29,12 @@ def read_mesh_file(path: Path) -> trimesh.Trimesh:
         raise MeshError(f"{path.name} declares a document type, which could declare entities")
     try:
         # Given as bytes it has no folder, so that trimesh has nowhere to look for what it names.
-        mesh = trimesh.load_mesh(BytesIO(data), file_type=path.suffix[1:].lower(), process=False)
+        kind = path.suffix[1:].lower()
+        scene = trimesh.load_scene(BytesIO(data), file_type=kind, process=False)
+        mesh = scene.to_mesh()
+        units = next((part.units for part in scene.geometry.values()), None)
+        if kind == "dae" and units is not None:
+            mesh.apply_scale(unit_conversion(units, "meters"))
         mesh.update_faces(mesh.area_faces != 0.0)
     except Exception as error:  # readers of broken files raise whatever comes of it
         raise MeshError(f"{path.name} is no {path.suffix[1:].upper()} file: {type(error).__name__}") from None

@@ -91,7 +91,7 @@ def kept_map(chain: Chain, grid: Grid, progress: Progress | None = None, directo
 
 
 def building_time_s() -> float:
-    """Return the processor time that the current thread has spent on building maps (s): limits of searches leave it out."""
+    """Return the processor time that this thread spent on building maps (s); limits of searches leave it out."""
     found: float = getattr(_spent, "building_s", 0.0)
     return found
 

@@ -14,9 +14,9 @@ from planner.robots.collision.link_shapes import LinkShape, link_shapes
 from planner.robots.collision.rigid_groups import Carrier, Skeleton
 from planner.robots.described_robot import DescribedArm, DescribedRobot
 
-BEYOND_OFF_M, BEFORE_OFF_M, BESIDE_OFF_M = 0.02, 0.015, 0.005
-"""Distances of the fingertips from a tool point from which a card is worth a look (m): beyond it, where they would be
-in the table top that tools pass by 2 cm; before it, where they hold no cloth; beside it.
+BEYOND_OFF_M, BEFORE_OFF_M, BESIDE_OFF_M = 0.012, 0.015, 0.005
+"""Distances of the fingertips from a tool point from which a card is worth a look (m): beyond it, where less than 8 mm
+are left between them and the table top, which tools pass by 2 cm; before it, where they hold no cloth; beside it.
 """
 
 _TIP_M = 0.02

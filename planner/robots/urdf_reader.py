@@ -69,6 +69,11 @@ def read_urdf(source: Source, field: str) -> Element:
         raise RobotError(field, f"{source.path.name} is no XML: {error}") from None
     except _RefusedError as error:
         raise RobotError(field, f"{source.path.name} {error}") from None
+    if (macro := _unexpanded(robot)) is not None:
+        said = (
+            f"is xacro that was not expanded ({shortened(macro)}): write a URDF with 'xacro {source.path.name} > FILE'"
+        )
+        raise RobotError(field, f"{source.path.name} {said}, and name that file")
     if robot.tag != "robot":
         raise RobotError(field, f"{source.path.name} is no URDF: its root is <{robot.tag}>")
     for part in (*robot.iter("link"), *robot.iter("joint")):
@@ -77,6 +82,23 @@ def read_urdf(source: Source, field: str) -> Element:
     for link in robot.findall("link"):
         make_shapes(link, source, field)
     return robot
+
+
+_HARMLESS = ("xacro:arg", "xacro:property")
+"""Elements of xacro that change nothing by themselves; some makers' URDFs still have them."""
+
+
+def _unexpanded(robot: Element) -> str | None:
+    """Return the first of a URDF that only the program xacro understands: an element, or a text; None without any."""
+    for element in robot.iter():
+        if element.tag in _HARMLESS:
+            continue
+        if element.tag.startswith("xacro:"):
+            return f"<{element.tag}>"
+        found = next((text for text in element.attrib.values() if "${" in text or "$(" in text), None)
+        if found is not None:
+            return found
+    return None
 
 
 class _RefusedError(Exception):

@@ -96,3 +96,23 @@ def test_a_missing_shape_for_collisions_is_left_out_where_the_link_is_seen(tmp_p
     found = read(tmp_path, ARM.format(mesh="body.stl", lower=-1).replace("</visual>", more))
     assert found.find("link/collision") is None
     assert found.find("link/visual") is not None
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        '<robot name="arm" xmlns:xacro="x"><link name="${prefix}body"/></robot>',
+        '<robot name="arm"><xacro:include filename="parts.xacro"/><xacro:arm name="left"/></robot>',
+        ARM.format(mesh="$(find arm)/body.stl", lower=-1),
+    ],
+)
+def test_xacro_that_was_not_expanded_is_called_so(tmp_path, text):
+    with pytest.raises(RobotError, match=r"arm\.urdf is xacro that was not expanded"):
+        read(tmp_path, text)
+
+
+def test_what_xacro_leaves_behind_is_no_xacro(tmp_path):
+    text = ARM.format(mesh="body.stl", lower=-1).replace(
+        '<robot name="arm">', '<robot name="arm" xmlns:xacro="x"><xacro:arg name="prefix" default="$(arg side)"/>'
+    )
+    assert read(tmp_path, text).find("link").get("name") == "body"

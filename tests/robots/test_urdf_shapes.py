@@ -1,5 +1,7 @@
 """The shapes of links: what is refused, left out, or brought into a form that every parser knows."""
 
+import re
+
 import pytest
 import trimesh
 
@@ -62,6 +64,19 @@ def test_packages_may_be_named_with_three_slashes(tmp_path):
 def test_a_mesh_is_read_in_the_common_formats(tmp_path, kind):
     trimesh.creation.box((0.2, 0.4, 0.6)).export(tmp_path / f"box.{kind}")
     assert read_mesh_file(tmp_path / f"box.{kind}").extents.tolist() == pytest.approx([0.2, 0.4, 0.6], abs=1e-6)
+
+
+@pytest.mark.parametrize(("unit", "in_m"), [("0.01", 0.01), ("0.0254", 0.0254), ("0.001", 0.001), ("1", 1.0)])
+@pytest.mark.parametrize("up", ["Y_UP", "Z_UP"])
+def test_the_unit_of_a_collada_file_counts_and_its_upward_axis_does_not(tmp_path, unit, in_m, up):
+    trimesh.creation.box((0.2, 0.4, 0.6)).export(tmp_path / "box.dae")
+    text = (tmp_path / "box.dae").read_text()
+    asset = f'<asset><unit name="other" meter="{unit}"/><up_axis>{up}</up_axis></asset>'
+    changed = re.sub(r"<asset>.*?</asset>", asset, text, flags=re.DOTALL)
+    assert asset in changed
+    (tmp_path / "box.dae").write_text(changed)
+    expected = [0.2 * in_m, 0.4 * in_m, 0.6 * in_m]
+    assert read_mesh_file(tmp_path / "box.dae").extents.tolist() == pytest.approx(expected, rel=1e-5)
 
 
 def test_no_file_that_a_mesh_names_is_opened(tmp_path):

@@ -1,0 +1,82 @@
+"""What of a card is allowed but probably not meant."""
+
+import json
+import math
+from pathlib import Path
+
+import pytest
+import trimesh
+
+from planner.robots.card_doubts import ArmsCrossed, ArmsTogether, OddPart, StationFacesAway, card_doubts
+from planner.robots.described_robot import DescribedRobot, read_described, read_robot, shipped_path, shipped_robots
+
+
+def changed(folder: Path, change, name: str = "panda-pair") -> DescribedRobot:
+    card = json.loads(shipped_path(name).read_text())
+    change(card)
+    (folder / "mine.json").write_text(json.dumps(card))
+    return read_described(folder / "mine.json")
+
+
+@pytest.mark.parametrize("name", ["panda-pair", "ur5e-single"])
+def test_a_shipped_card_leaves_no_doubt(name: str):
+    assert name in shipped_robots()
+    assert card_doubts(read_robot(name)) == ()
+
+
+def test_arms_that_are_mounted_in_one_place_are_told(tmp_path: Path):
+    def change(card):
+        card["mounts"][1] = card["mounts"][0] | {"name": card["mounts"][1]["name"]}
+
+    assert card_doubts(changed(tmp_path, change)) == (ArmsTogether(("left", "right"), 0.0),)
+
+
+def test_arms_that_are_not_named_from_left_to_right_are_told(tmp_path: Path):
+    def change(card):
+        for mount in card["mounts"]:
+            mount["y_m"] *= -1.0
+
+    assert card_doubts(changed(tmp_path, change)) == (ArmsCrossed(("left", "right"), pytest.approx(0.7)),)
+
+
+@pytest.mark.parametrize("yaw_rad", [math.pi, -2.0, 1.8])
+def test_a_base_that_turns_its_back_on_the_table_is_told(tmp_path: Path, yaw_rad: float):
+    def change(card):
+        card["scene"]["stations"]["edge"]["yaw_rad"] = yaw_rad
+
+    assert card_doubts(changed(tmp_path, change)) == (StationFacesAway("edge", pytest.approx(abs(yaw_rad))),)
+
+
+ARM = """<robot name="arm">
+  <link name="base"><collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision></link>
+  <link name="forearm"><collision><geometry><mesh filename="forearm.stl" scale="{scale}"/></geometry></collision></link>
+  <link name="finger"><collision><geometry><box size="0.01 0.01 0.05"/></geometry></collision></link>
+  <joint name="elbow" type="revolute"><parent link="base"/><child link="forearm"/><origin xyz="0 0 0.3"/>
+    <axis xyz="0 1 0"/><limit lower="-2" upper="2" velocity="1" effort="1"/></joint>
+  <joint name="grip" type="prismatic"><parent link="forearm"/><child link="finger"/><origin xyz="0 0 0.4"/>
+    <axis xyz="1 0 0"/><limit lower="0" upper="0.04" velocity="1" effort="1"/></joint>
+</robot>"""
+
+
+@pytest.mark.parametrize(("scale", "size_m"), [("1 1 1", 360.0), ("0.1 0.1 0.1", 36.0), ("0.000001 " * 3, 0.00036)])
+def test_a_part_in_another_unit_is_told_with_its_size(tmp_path: Path, scale: str, size_m: float):
+    assert card_doubts(bench(tmp_path, scale)) == (
+        OddPart("forearm", pytest.approx(size_m), pytest.approx(0.4, abs=0.2)),
+    )
+
+
+def test_a_part_in_its_own_unit_is_not(tmp_path: Path):
+    assert card_doubts(bench(tmp_path, "0.001 0.001 0.001")) == ()
+
+
+def bench(folder: Path, scale: str) -> DescribedRobot:
+    trimesh.creation.box((60.0, 60.0, 360.0)).export(folder / "forearm.stl")
+    (folder / "arm.urdf").write_text(ARM.format(scale=scale.strip()))
+    card = json.loads(shipped_path("ur5e-single").read_text())
+    [arm] = card["arms"]
+    arm |= {"joints": ["elbow"], "home": [0.0], "speeds": None, "accelerations": None, "lifting": []}
+    arm["tool"] = {"link": "forearm", "offset_m": [0.0, 0.0, 0.45], "approach": [0, 0, 1], "closing": [1, 0, 0]}
+    arm["gripper"]["drive"] = {"kind": "linear", "joint": "grip", "closed": 0.0, "opened": 0.04}
+    card |= {"urdf": {"path": "arm.urdf"}, "mounts": [{"z_m": 0.75}], "tools": [], "resting": {}}
+    (folder / "mine.json").write_text(json.dumps(card))
+    return read_described(folder / "mine.json")
