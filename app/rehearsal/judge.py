@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from app.rehearsal.planned_cloth import planned_positions
+from app.rehearsal.planned_cloth import crease_distances, planned_positions
 from app.rehearsal.world import Truth
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.isometry import Isometry
@@ -20,6 +20,9 @@ _MM = 1000.0
 
 GAP_M = 0.002
 """The height of a layer above the one below (m)."""
+
+BESIDE_CREASE_M = 0.03
+"""How far from a planned crease cloth may face either way (m): a crease that slides rolls over what is beside it."""
 
 _UPRIGHT_M2 = 1e-8
 """Twice the area of a triangle's shadow up to which it counts as upright and covers nothing (m^2)."""
@@ -37,11 +40,15 @@ class Gate:
             overlap's meaning depends on the size: 93 % is 3 mm all round a folded tie, and 7 mm round a scarf.
         mean_mm: the mean error of the points of the cloth at most (mm).
         p95_mm: the error that 95 % of the points keep within (mm).
+        wrong_face_m2: the area of cloth away from the planned creases that faces the wrong way, at most (m^2): that of
+            a corner doubled back with legs of 6.3 cm. Like the other limits it is the same for every size: 5 % of the
+            points, which may be anywhere, are a flap of 50 cm2 of a small towel and of 300 cm2 of a large one.
     """
 
     outline_mm: float = 5.0
     mean_mm: float = 15.0
     p95_mm: float = 40.0
+    wrong_face_m2: float = 0.002
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,6 +64,8 @@ class StepVerdict:
         p95_mm: the error that 95 % of them keep within (mm).
         slid_mm: how far the cloth's middle is from where it should be (mm).
         turned_rad: how far the cloth has turned as a whole (rad).
+        wrong_face_m2: the area of cloth further than `BESIDE_CREASE_M` from the planned creases that faces the wrong
+            way (m^2).
         empty: the arms that found no cloth.
         held: whether it meets the gate.
         of_plan: the index of the step of the plan as it was at first that leaves the cloth folded alike; None where
@@ -70,6 +79,7 @@ class StepVerdict:
     p95_mm: float
     slid_mm: float
     turned_rad: float
+    wrong_face_m2: float = 0.0
     empty: tuple[str, ...] = field(default=())
     held: bool = True
     of_plan: int | None = None
@@ -137,8 +147,47 @@ def judged(
     either = covered.area + seen.area - shared
     outline = _MM * (either - shared) / covered.outline_length
     mean, p95 = float(errors.mean()), float(np.quantile(errors, 0.95))
+    wrong_m2 = wrong_face_area(planned, places, truth.triangles, truth.pattern, sequence, state.done)
     held = outline <= gate.outline_mm and mean <= gate.mean_mm and p95 <= gate.p95_mm and not empty
-    return StepVerdict(step, shared / either, outline, mean, p95, _MM * slide.slid_m, slide.turned_rad, empty, held)
+    return StepVerdict(
+        step,
+        shared / either,
+        outline,
+        mean,
+        p95,
+        _MM * slide.slid_m,
+        slide.turned_rad,
+        wrong_m2,
+        empty,
+        held and wrong_m2 <= gate.wrong_face_m2,
+    )
+
+
+def wrong_face_area(
+    planned: FloatArray,
+    found: FloatArray,
+    triangles: NDArray[np.int64],
+    pattern: FloatArray,
+    sequence: FoldSequence,
+    done: int,
+) -> float:
+    """Return the area of cloth away from creases that faces the wrong way (m^2).
+
+    Each triangle counts by its shadow along the direction in which it should face, so that cloth that stands upright
+    counts for nothing.
+
+    Args:
+        planned: the points where they should be, shape (n, 3), m.
+        found: the points where they are, what they slid as a whole taken off, shape (n, 3), m.
+        triangles: the triangles between them, shape (m, 3).
+        pattern: the points in the pattern's frame, shape (n, 2), m.
+        sequence: the garment's folds.
+        done: the folds done, as a bit mask.
+    """
+    away = triangles[crease_distances(sequence, pattern[triangles].mean(axis=1), done) > BESIDE_CREASE_M]
+    should, does = _areas(planned, away), _areas(found, away)
+    facing = should / np.maximum(np.linalg.norm(should, axis=1, keepdims=True), _UPRIGHT_M2)
+    return float(np.maximum(0.0, -(facing * does).sum(axis=1)).sum())
 
 
 def silhouette(points: FloatArray, triangles: NDArray[np.int64]) -> Region:
@@ -151,6 +200,12 @@ def silhouette(points: FloatArray, triangles: NDArray[np.int64]) -> Region:
     (ax, ay), (bx, by) = (corners[:, i].T - corners[:, 0].T for i in (1, 2))
     lying = corners[np.abs(ax * by - ay * bx) > _UPRIGHT_M2]
     return Region.union(Region.polygon(triangle) for triangle in lying)
+
+
+def _areas(points: FloatArray, triangles: NDArray[np.int64]) -> FloatArray:
+    """Return each triangle's area times its normal, shape (m, 3), m^2."""
+    first, second = (points[triangles[:, i]] - points[triangles[:, 0]] for i in (1, 2))
+    return np.asarray(np.cross(first, second) / 2.0)
 
 
 def _carried(placement: Pose2, carried: Isometry) -> Pose2:

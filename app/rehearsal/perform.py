@@ -3,7 +3,8 @@
 Before hands close the stack's outline is fitted to what is seen. Grips follow the cloth as far as the comfort radius
 goes; beyond that, the rest is planned again from what is there. A hand that finds no cloth tries again round its grip,
 and holds the cloth beside it for as long as it holds on. Where it is not known where the stack lies, the arms withdraw
-for another look; where that does not help, one step is made as planned, and a run that stays blind ends.
+for another look; where that does not help, one step is made as planned, and a run that stays blind ends. So does one in
+which a fold has left another outline than planned, on a second look too; after the last step it is looked for as well.
 """
 
 import math
@@ -128,7 +129,8 @@ class Performer:
             number += 1
             self._made += 1
             self.progress(number / len(motions))
-        return self._ended("")
+        sees_end = self.replan is not None and len(motions) > 0
+        return self._ended(self._watch.at_end(self.plan, self.plan.steps[-1], self._made) if sees_end else "")
 
     def _ended(self, reason: str) -> Performance:
         pictures, cloths = tuple(self._watch.pictures), tuple(self._cloths)

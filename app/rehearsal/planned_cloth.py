@@ -1,12 +1,18 @@
 """The positions of the cloth's points after a set of folds, as planned."""
 
+from collections.abc import Iterator
+
 import numpy as np
 from numpy.typing import NDArray
 
+from planner.cloth.layer import Layer
 from planner.folds.fold_sequence import FoldSequence
-from planner.geometry.pose import FloatArray, Pose2
+from planner.geometry.pose import FloatArray, Point2, Pose2
+from planner.geometry.region import Region
+from planner.geometry.segment import Segment
 from planner.geometry.table import Table
 from planner.geometry.table_top import TableTop
+from planner.geometry.tolerance import LENGTH_M
 
 
 def planned_positions(
@@ -35,3 +41,31 @@ def layer_numbers(sequence: FoldSequence, pattern: FloatArray, done: int) -> NDA
     """Return the layer to which each point belongs, 0 at the bottom, shape (n,)."""
     layers = sequence.cloth(done).layers
     return np.asarray(np.argmin([layer.pattern_piece.distances_to(pattern) for layer in layers], axis=0))
+
+
+def creases(layer: Layer, pattern: Region) -> Iterator[Segment]:
+    """Yield the edges of a layer at which its cloth goes on in another one, pattern's frame."""
+    ring = layer.pattern_piece.whole_ring
+    for start, end in zip(ring, np.roll(ring, -1, axis=0), strict=True):
+        if pattern.boundary_distance(_point((start + end) / 2.0)) > LENGTH_M:
+            yield Segment(_point(start), _point(end))
+
+
+def crease_distances(sequence: FoldSequence, pattern: FloatArray, done: int) -> FloatArray:
+    """Return how far each point is from the nearest crease, pattern's frame, shape (n,), m; inf without creases.
+
+    Args:
+        sequence: the garment's folds.
+        pattern: the points in the pattern's frame, shape (n, 2), m.
+        done: the folds done, as a bit mask.
+    """
+    whole = sequence.garment.pattern
+    nearest = np.full(len(pattern), np.inf)
+    for layer in sequence.cloth(done).layers:
+        for crease in creases(layer, whole):
+            nearest = np.minimum(nearest, crease.distances(pattern))
+    return nearest
+
+
+def _point(row: FloatArray) -> Point2:
+    return float(row[0]), float(row[1])

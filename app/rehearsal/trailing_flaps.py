@@ -12,6 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from app.rehearsal.planned_cloth import creases
 from app.rehearsal.world import GripMotion, StepMotion, way_done
 from planner.cloth.layer import Layer
 from planner.folds.fold_sequence import FoldSequence
@@ -103,10 +104,8 @@ def _reach_m(beside: FloatArray, way: FloatArray, radius_m: float) -> float:
 
 def _creases(layer: Layer, pattern: Region) -> Iterator[Segment]:
     """Yield the edges of a layer at which its cloth goes on in another one, article frame."""
-    ring = layer.pattern_piece.whole_ring
-    for start, end in zip(ring, np.roll(ring, -1, axis=0), strict=True):
-        if pattern.boundary_distance(_point((start + end) / 2.0)) > LENGTH_M:
-            yield Segment(layer.isometry.apply_point(_point(start)), layer.isometry.apply_point(_point(end)))
+    for crease in creases(layer, pattern):
+        yield Segment(layer.isometry.apply_point(crease.start), layer.isometry.apply_point(crease.end))
 
 
 def _is_at_side(crease: Segment, line: Segment, moving: Region) -> bool:

@@ -1,4 +1,9 @@
-"""Look at a run: before hands close, from arms that are out of the way if need be, at hands, and after drags."""
+"""Look at a run: before hands close, from arms out of the way if need be, at hands, after drags and at the end.
+
+Cloth that a fold has left elsewhere than it should be has another outline than the folded stack. So a look after a fold
+to which that outline does not fit is made again with the arms out of the way, and if it does not fit then the run ends:
+cloth that has been folded otherwise than planned is no state from which there is a plan.
+"""
 
 import math
 from collections.abc import Callable
@@ -21,6 +26,9 @@ from planner.task.world_state import WorldState
 BLIND_MAX = 1
 """Steps in a row that are made as planned though it is not known where the cloth lies."""
 
+FOLDED_SHARE = 0.9
+"""The share of the outline seen that lies within 1 cm of a folded stack's; with less a fold counts as failed."""
+
 _WITHDRAW_S = 3.0
 
 
@@ -36,6 +44,7 @@ class Watch:
         stack: the stack as it was seen before the hands close; None where that was not to be made out.
         blind: the steps in a row before which it was not to be made out.
         pictures: those looked at.
+        has_folded: whether a fold has been made.
     """
 
     world: World
@@ -45,6 +54,7 @@ class Watch:
     stack: SeenStack | None = None
     blind: int = 0
     pictures: list[Picture] = field(default_factory=list)
+    has_folded: bool = False
 
     @cached_property
     def eyes(self) -> Eyes:
@@ -62,15 +72,12 @@ class Watch:
             step: its step.
             made: how many steps have been made.
         """
-        sight, self.stack = self.look(plan, step.before, made), None
+        sight, self.stack = self._clear_look(plan, step, step.before, made), None
         if sight is None:
             return step.before.placement, ""
         expected = self.eyes.expected
-        if self.posture is not None and (sight.unknown is not None or are_edges_hidden(step, sight.stack)):
-            self.posture = self.eyes.withdrawn(self.posture)
-            self.world.perform(StepMotion(made, WITHDRAW, _WITHDRAW_S, ends=self.posture))
-            clear = self.look(plan, step.before, made, is_clear=True)
-            sight = sight if clear is None or (clear.unknown is not None and sight.unknown is None) else clear
+        if self._is_failed(sight):
+            return step.before.placement, self._failed(sight, f"before step {made}")
         if sight.fit is not None and (sight.is_estimate or expected is not None):
             self.blind, self.stack = 0, sight.stack
             return sight.fit.placement, ""
@@ -80,6 +87,43 @@ class Watch:
         if self.blind <= BLIND_MAX or sight.unknown is None:
             return lies, ""
         return lies, f"before step {made} the cloth is not to be made out: {sight.unknown.text}"
+
+    def at_end(self, plan: Plan, step: PlanStep, made: int) -> str:
+        """Return why a run has failed whose last step is made, as seen; "" if it has not, or nothing is seen.
+
+        Args:
+            plan: the plan.
+            step: its last step.
+            made: how many steps have been made.
+        """
+        sight = self._clear_look(plan, step, step.after, made) if self.has_folded else None
+        return self._failed(sight, "after the last step") if sight is not None and self._is_failed(sight) else ""
+
+    def _clear_look(self, plan: Plan, step: PlanStep, ought: WorldState, made: int) -> Sight | None:
+        """Look, and again with the arms out of the way where that does not tell how the cloth lies."""
+        sight = self.look(plan, ought, made)
+        if sight is None or self.posture is None:
+            return sight
+        is_hidden = ought is step.before and are_edges_hidden(step, sight.stack)
+        if sight.unknown is None and not is_hidden and not self._is_failed(sight):
+            return sight
+        self.posture = self.eyes.withdrawn(self.posture)
+        self.world.perform(StepMotion(made, WITHDRAW, _WITHDRAW_S, ends=self.posture))
+        clear = self.look(plan, ought, made, is_clear=True)
+        return sight if clear is None or (clear.unknown is not None and sight.unknown is None) else clear
+
+    def _is_failed(self, sight: Sight) -> bool:
+        """Return whether a fold of this run has left the cloth with another outline than it should have."""
+        return self.has_folded and sight.fit is not None and sight.fit.share_on_outline < FOLDED_SHARE
+
+    def _failed(self, sight: Sight, when: str) -> str:
+        assert sight.fit is not None
+        share = sight.fit.share_on_outline
+        self.decide("fold_failed", ("share_on_outline", share))
+        return (
+            f"{when} only {share:.0%} of the cloth's outline is where the folded stack's should be "
+            f"({FOLDED_SHARE:.0%} needed): the last fold has failed; see the picture"
+        )
 
     def look(self, plan: Plan, ought: WorldState, made: int, *, is_clear: bool = False) -> Sight | None:
         """Look once for a stack as it ought to lie, and note what was seen; None where the world shows nothing."""
@@ -118,4 +162,5 @@ class Watch:
     def after(self, motion: StepMotion) -> None:
         """Note a step that was made."""
         self.posture = motion.ends
+        self.has_folded |= motion.is_fold
         self.eyes.after(motion)

@@ -10,7 +10,7 @@ from tests.app.rehearsal.towel import towel_plan
 
 
 class FlatCloth:
-    """A towel that lies flat somewhere, and notes what it is asked for."""
+    """A towel that lies flat somewhere, notes what it is asked for, and is out of sight once it is folded."""
 
     def __init__(self, dx_m: float, dy_m: float) -> None:
         plan = towel_plan()
@@ -27,8 +27,8 @@ class FlatCloth:
         self.asked.append(motion)
         return Performed({grip.arm: True for grip in motion.grips})
 
-    def truth(self) -> Truth:
-        return self._truth
+    def truth(self) -> Truth | None:
+        return None if any(motion.is_fold for motion in self.asked) else self._truth
 
 
 def home(plan: Plan | None = None) -> Posture:

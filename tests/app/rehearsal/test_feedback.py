@@ -33,14 +33,16 @@ from tests.app.rehearsal.towel import towel_plan
 
 
 class NotedWorld:
-    """Cloth that lies somewhere, flat, and hands that miss as often as told."""
+    """Cloth that lies somewhere, flat, out of sight once it is folded, and hands that miss as often as told."""
 
-    def __init__(self, outline: FloatArray, misses: int = 0) -> None:
+    def __init__(self, outline: FloatArray, misses: int = 0, *, shows_folded: bool = False) -> None:
         self.asked: list[StepMotion] = []
-        self._outline, self._misses = outline, misses
+        self._outline, self._misses, self._shows_folded = outline, misses, shows_folded
 
     def observe(self) -> Observation:
-        return Observation(outline=self._outline)
+        has_folded = len(self.asked) > self._misses and any(motion.is_fold for motion in self.asked)
+        is_folded = has_folded and not self._shows_folded
+        return Observation() if is_folded else Observation(outline=self._outline)
 
     def perform(self, motion: StepMotion) -> Performed:
         self.asked.append(motion)
@@ -297,7 +299,7 @@ def test_hands_that_hold_on_go_on_from_where_a_drag_has_stopped_short():
 def test_what_is_seen_while_a_drag_has_stopped_short_is_seen_from_where_the_base_really_stands():
     plan = make_plan(Task.of(load_garment("tie")))
     lies = np.array([[0.0, 0.0], [0.3, 0.1]])
-    world = NotedWorld(lies)
+    world = NotedWorld(lies, shows_folded=True)
     noisy = NoisyWorld(world, Noise(undershoot=0.2), 3, plan.task)
     drag, fold = step_motions(plan)[:2]
     noisy.perform(drag)

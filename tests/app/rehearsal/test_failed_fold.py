@@ -1,0 +1,98 @@
+"""A fold that has left the cloth otherwise than planned: it is looked for again, and ends the run."""
+
+import numpy as np
+import pytest
+
+from app.rehearsal.camera_world import CameraWorld
+from app.rehearsal.judge import Gate
+from app.rehearsal.perform import Performance, Performer
+from app.rehearsal.planned_cloth import planned_positions
+from app.rehearsal.watch import FOLDED_SHARE
+from app.rehearsal.world import WITHDRAW, Observation, Performed, StepMotion, Truth
+from planner import Plan, Task, load_garment, make_plan
+from planner.geometry.pose import FloatArray
+from planner.geometry.ring import evenly_along
+from planner.geometry.woven_mesh import woven_mesh
+from tests.app.rehearsal.flat_cloth import FlatCloth, home, no_plan
+from tests.app.rehearsal.towel import towel_plan
+
+
+class FoldedCloth(FlatCloth):
+    """A towel that is folded by its plan's one fold, up to a part of its upper layer that stays behind."""
+
+    def __init__(self, left_behind_m: float) -> None:
+        super().__init__(0.0, 0.0)
+        plan = towel_plan()
+        pattern, triangles = woven_mesh(plan.garment.pattern, 0.02, 1)
+        state = plan.steps[-1].after
+        there = planned_positions(plan.sequence, pattern, state.done, state.placement, plan.scene.table, 0.002)
+        flat = np.column_stack([state.placement.to_outer(pattern), np.full(len(pattern), 0.001)])
+        stays = (pattern[:, 0] < left_behind_m)[:, None]
+        self._folded = Truth(pattern, np.where(stays, flat, there), triangles)
+
+    def truth(self) -> Truth:
+        return self._folded if any(motion.is_fold for motion in self.asked) else self._truth
+
+
+def performed(left_behind_m: float) -> tuple[FoldedCloth, Performance]:
+    cloth = FoldedCloth(left_behind_m)
+    world = CameraWorld(cloth, towel_plan().task, home(), 3)
+    return cloth, Performer(towel_plan(), world, Gate(), no_plan).performed()
+
+
+def test_a_fold_that_left_a_quarter_of_the_edge_behind_is_looked_at_again_and_ends_the_run_with_its_picture():
+    cloth, done = performed(0.1)
+    assert "after the last step" in done.reason and "fold has failed" in done.reason
+    assert [picture.is_clear for picture in done.pictures] == [False, False, True]
+    assert cloth.asked[-1].kind == WITHDRAW
+    decision = done.decisions[-1]
+    assert decision.code == "fold_failed"
+    assert dict(decision.numbers)["share_on_outline"] < FOLDED_SHARE
+
+
+def test_a_fold_as_planned_is_looked_at_once_and_is_done():
+    cloth, done = performed(0.0)
+    assert not done.reason
+    assert [picture.is_clear for picture in done.pictures] == [False, False]
+    assert cloth.asked[-1].is_fold
+
+
+class OutlineWorld:
+    """A table of which only the cloth's outline is seen, the first one until a fold, and then the next."""
+
+    def __init__(self, outlines: tuple[FloatArray, FloatArray]) -> None:
+        self.asked: list[StepMotion] = []
+        self._outlines = outlines
+
+    def observe(self) -> Observation:
+        return Observation(outline=self._outlines[any(motion.is_fold for motion in self.asked)])
+
+    def perform(self, motion: StepMotion) -> Performed:
+        self.asked.append(motion)
+        return Performed({grip.arm: True for grip in motion.grips})
+
+    def truth(self) -> None:
+        return
+
+
+def outlines(plan: Plan, after: int) -> tuple[FloatArray, FloatArray]:
+    """Return the outline at the start, and that after a step of the plan."""
+    lies = plan.steps[after].after
+    ring = plan.sequence.cloth(lies.done).silhouette.ring
+    flat = plan.task.start.placement.to_outer(evenly_along(plan.garment.pattern.ring, 0.01))
+    return flat, lies.placement.to_outer(evenly_along(ring, 0.01))
+
+
+@pytest.mark.parametrize("is_failed", [True, False])
+def test_no_step_is_made_after_a_fold_that_is_seen_to_have_failed(*, is_failed: bool):
+    plan = make_plan(Task.of(load_garment("jeans")))
+    first = next(number for number, step in enumerate(plan.steps) if step.fold is not None)
+    flat, folded = outlines(plan, first)
+    world = OutlineWorld((flat, flat if is_failed else folded))
+    done = Performer(plan, world, Gate(), lambda _: plan).performed()
+    folds = [motion for motion in world.asked if motion.is_fold]
+    if is_failed:
+        assert len(folds) == 1 and done.decisions[-1].code == "fold_failed"
+        assert f"before step {first + 1}" in done.reason
+    else:
+        assert len(folds) > 1
