@@ -8,14 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.camera.camera import Camera
+from app.camera.light_links import light_links
 from app.camera.posture import Posture
-from app.ui.robot_model import Link, Pose3, load_robot_model
+from app.ui.robot_model import Link, Pose3
 from app.ui.rotation import to_matrix, yaw
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.robots.card import RobotCard
-
-_POINTS = 400
-"""Vertices of a part that its hull is made of at most."""
 
 _WRIST_JOINTS = 2
 """The last joints of an arm, which carry its hand."""
@@ -72,7 +70,7 @@ class RobotShape:
 def robot_shape(card: RobotCard, floor_z_m: float) -> RobotShape:
     """Return the shape of a robot on a floor (m, negative); the same one until its URDF changes."""
     wrists = {arm.joint_names[-_WRIST_JOINTS]: arm.name for arm in card.arms}
-    return RobotShape(load_robot_model(card.urdf_path, card.package_dir), floor_z_m, wrists)
+    return RobotShape(light_links(card.urdf_path, card.package_dir), floor_z_m, wrists)
 
 
 def rising(parts: list[FloatArray], camera: Camera) -> list[FloatArray]:
@@ -102,9 +100,7 @@ def _hull(pixels: FloatArray) -> NDArray[np.int32]:
 
 
 def _homogeneous(vertices: FloatArray) -> FloatArray:
-    some = vertices[:: max(1, len(vertices) // _POINTS)]
-    ends = vertices[np.unique(np.concatenate([vertices.argmin(axis=0), vertices.argmax(axis=0)]))]
-    return np.column_stack([np.vstack([some, ends]), np.ones(len(some) + len(ends))])
+    return np.column_stack([vertices, np.ones(len(vertices))])
 
 
 def _matrix(pose: Pose3) -> FloatArray:

@@ -1,0 +1,120 @@
+"""A robot's links with a few points of each mesh: read once, and kept in the user's cache.
+
+A camera sees hulls, for which some hundred points of a part are enough. To read and to lighten whole meshes takes a
+process up to 8 s (a pair of SO-101), those kept take some milliseconds.
+"""
+
+import contextlib
+import re
+from dataclasses import replace
+from functools import cache
+from hashlib import blake2b
+from json import dumps, loads
+from pathlib import Path
+from typing import Any
+from zipfile import BadZipFile
+
+import numpy as np
+from platformdirs import user_cache_path
+
+from app.ui import robot_mesh, robot_model
+from app.ui.robot_model import Link, Pose3, Visual, load_robot_model
+from planner.geometry.pose import FloatArray
+from planner.robots import mesh_file
+from planner.robots.collision.shape_files import write_arrays
+from planner.user_cache import use
+
+_POINTS = 400
+"""Vertices of a part that are kept at most, besides those furthest out along each axis."""
+
+_KEPT_MAX = 32
+"""The robots that stay in the cache."""
+
+_MADE_BY = (robot_mesh, robot_model, mesh_file)
+"""The modules that meshes are read by: another version of them reads anew."""
+
+
+def light_links(urdf_path: Path, package_dir: Path, directory: Path | None = None) -> tuple[Link, ...]:
+    """Return all links of a robot, parents before children, whose visuals are points without triangles.
+
+    A cache that cannot be read is made again; a cache that cannot be written is ignored.
+
+    Args:
+        urdf_path: the URDF.
+        package_dir: the folder that ``package://`` in its mesh paths stands for.
+        directory: the cache directory; None: the platform's own.
+    """
+    path = (directory or user_cache_path("pleat")) / "links" / f"{_digest(urdf_path, package_dir)}.npz"
+    try:
+        with path.open("rb") as file, np.load(file, allow_pickle=False) as arrays:
+            found = _read(arrays["links"].tobytes(), arrays["points"], arrays["counts"])
+    except (OSError, ValueError, KeyError, EOFError, BadZipFile):
+        found = tuple(_light(link) for link in load_robot_model(urdf_path, package_dir))
+        with contextlib.suppress(OSError):
+            write_arrays(path, _arrays(found))
+    with contextlib.suppress(OSError):
+        use(path, _KEPT_MAX)
+    return found
+
+
+def _light(link: Link) -> Link:
+    visuals = (Visual(one.pose, _some(one.vertices), np.empty((0, 3), np.int64)) for one in link.visuals)
+    return replace(link, visuals=tuple(visuals))
+
+
+def _some(vertices: FloatArray) -> FloatArray:
+    """Return some of a part's vertices, those at its ends among them, shape (n, 3), m."""
+    ends = vertices[np.unique(np.concatenate([vertices.argmin(axis=0), vertices.argmax(axis=0)]))]
+    return np.vstack([vertices[:: max(1, len(vertices) // _POINTS)], ends])
+
+
+def _arrays(links: tuple[Link, ...]) -> dict[str, Any]:
+    visuals = [one for link in links for one in link.visuals]
+    return {
+        "links": np.frombuffer(dumps([_told(link) for link in links]).encode(), np.uint8),
+        "points": np.vstack([np.empty((0, 3)), *(one.vertices for one in visuals)]),
+        "counts": np.array([len(one.vertices) for one in visuals], np.int64),
+    }
+
+
+def _told(link: Link) -> dict[str, Any]:
+    told = {name: getattr(link, name) for name in Link.__slots__}
+    poses = {"origin": _pose_told(link.origin), "visuals": [_pose_told(one.pose) for one in link.visuals]}
+    return told | poses | {"axis": link.axis.tolist()}
+
+
+def _pose_told(pose: Pose3) -> list[float]:
+    return [float(number) for number in (*pose.position, *pose.wxyz)]
+
+
+def _read(told: bytes, points: FloatArray, counts: FloatArray) -> tuple[Link, ...]:
+    parts = iter(np.split(points, np.cumsum(counts)[:-1]) if len(counts) else [])
+    return tuple(_link(one, parts) for one in loads(told))
+
+
+def _link(told: dict[str, Any], parts: Any) -> Link:  # noqa: ANN401
+    poses = [_pose(numbers) for numbers in told["visuals"]]
+    visuals = tuple(Visual(pose, next(parts), np.empty((0, 3), np.int64)) for pose in poses)
+    return Link(**told | {"origin": _pose(told["origin"]), "axis": np.array(told["axis"]), "visuals": visuals})
+
+
+def _pose(numbers: list[float]) -> Pose3:
+    x, y, z, *wxyz = numbers
+    w, i, j, k = wxyz
+    return Pose3((x, y, z), (w, i, j, k))
+
+
+def _digest(urdf_path: Path, package_dir: Path) -> str:
+    """Return a digest of what the links depend on: the URDF, its meshes, and how they are read."""
+    urdf = urdf_path.read_bytes()
+    digest = blake2b(f"{_POINTS} {_code()}".encode() + urdf, digest_size=12)
+    for name in sorted(set(re.findall(rb'filename\s*=\s*["\']([^"\']+)', urdf))):
+        path = package_dir / name.decode(errors="replace").removeprefix("package://")
+        with contextlib.suppress(OSError, ValueError):
+            digest.update(blake2b(path.read_bytes()).digest())
+    return digest.hexdigest()
+
+
+@cache
+def _code() -> str:
+    return " ".join(blake2b(Path(one.__file__ or "").read_bytes()).hexdigest() for one in _MADE_BY)
