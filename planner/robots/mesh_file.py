@@ -31,7 +31,7 @@ def read_mesh_file(path: Path) -> trimesh.Trimesh:
         # Given as bytes it has no folder, so that trimesh has nowhere to look for what it names.
         kind = path.suffix[1:].lower()
         scene = trimesh.load_scene(BytesIO(data), file_type=kind, process=False)
-        mesh = scene.to_mesh()
+        mesh: trimesh.Trimesh = scene.to_mesh()
         units = next((part.units for part in scene.geometry.values()), None)
         if kind == "dae" and units is not None:
             mesh.apply_scale(unit_conversion(units, "meters"))
