@@ -56,9 +56,15 @@ def allowance_m(cut: FloatArray, inner: FloatArray) -> float | None:
 
 
 def seam_line(rings: Sequence[FloatArray]) -> tuple[int, float] | None:
-    """Return which of the rings, the largest first, is the seam line of the first, and its allowance (m); or None."""
+    """Return which of the rings, the largest first, is the seam line of the first, and its allowance (m); or None.
+
+    None too if that ring has another one inside it as evenly: three lines inside each other are graded sizes.
+    """
     widths = ((number, allowance_m(rings[0], ring)) for number, ring in enumerate(rings[1:], start=1))
-    return next(((number, width) for number, width in widths if width is not None), None)
+    found = next(((number, width) for number, width in widths if width is not None), None)
+    if found is None or any(allowance_m(rings[found[0]], ring) is not None for ring in rings[found[0] + 1 :]):
+        return None
+    return found
 
 
 def _along(ring: FloatArray) -> FloatArray:

@@ -135,6 +135,16 @@ def test_a_cut_line_and_a_seam_line_are_still_told_from_each_other():
     assert sides(found) == (0.58, 0.78)
 
 
+def test_three_lines_inside_each_other_without_names_have_no_seam_line():
+    rects = "".join(
+        f'<rect x="{5 - by}" y="{5 - by}" width="{50 + 2 * by}" height="{70 + 2 * by}"/>' for by in range(3)
+    )
+    head = '<svg xmlns="http://www.w3.org/2000/svg" width="90cm" height="90cm" viewBox="0 0 90 90">'
+    found = import_file("back.svg", f'{head}<g fill="none" stroke="black">{rects}</g></svg>'.encode())
+    assert found.allowance is None and sides(found) == (0.54, 0.74)
+    assert any("2 other closed lines" in note.text for note in found.notes)
+
+
 @pytest.mark.parametrize(
     ("label", "size"),
     [
