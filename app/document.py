@@ -167,6 +167,10 @@ class Document:
         prepared = None if share is None else round(share, 2)
         self._watched.change(lambda state: state if state.prepared == prepared else replace(state, prepared=prepared))
 
+    def compile(self, *, is_compiling: bool) -> None:
+        """Store whether the planner is being compiled, at its first use."""
+        self._watched.change(lambda state: replace(state, is_compiling=is_compiling))
+
     def stop_planning(self) -> None:
         """Stop waiting for an answer to this version, or for a better one."""
         self._watched.change(lambda state: state.stopped(STOPPED))

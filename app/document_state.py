@@ -33,6 +33,7 @@ class DocumentState:
         start: the world state from which to plan; None for the state before all folds, as drawn.
         failure: why this version has no answer.
         prepared: while the robot's arms are mapped before its first plan, how far that is (0 to 1); None otherwise.
+        is_compiling: whether the planner is being compiled before the first plan.
         is_thorough: whether a user has requested more search than usual for this version.
         playback: the playback.
         is_dark: whether the background is dark; the last page to set it decides for all.
@@ -53,6 +54,7 @@ class DocumentState:
     start: WorldState | None = None
     failure: str | None = None
     prepared: float | None = None
+    is_compiling: bool = False
     is_thorough: bool = False
     playback: Playback = Playback()
     is_dark: bool = False

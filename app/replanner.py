@@ -19,6 +19,7 @@ from app.jobs.job_pool import Job, JobPool, ShouldStop
 from app.live_search import LiveSearch
 from app.store.plan_store import PlanStore
 from planner.errors import FoldingError, SceneError
+from planner.planning.warm_up import compile_kernels, must_compile
 from planner.robots.load_robot import prepare_robot, robot_card_file
 from planner.task.plan import Plan
 
@@ -169,7 +170,13 @@ class Replanner:
             self._search.find_quickest(begun, work_s, show, is_unwanted)
 
     def _prepare(self, robot: str) -> None:
-        """Map the robot's arms if nobody has yet, and tell how far that is."""
+        """Compile the kernels and map the robot's arms if nobody has yet, and tell that, and how far it is."""
+        if must_compile(robot):
+            self._document.compile(is_compiling=True)
+            try:
+                compile_kernels(robot)
+            finally:
+                self._document.compile(is_compiling=False)
         try:
             prepare_robot(robot, self._document.prepare)
         finally:

@@ -8,6 +8,7 @@ all their sources.
 import hashlib
 import os
 import re
+from contextlib import suppress
 from pathlib import Path
 
 from platformdirs import user_cache_path
@@ -35,6 +36,24 @@ def use_kernel_cache() -> None:
     except OSError:
         return  # nowhere to keep them: Numba finds a place of its own, or compiles each time
     os.environ["NUMBA_CACHE_DIR"] = str(folder)
+
+
+def are_kernels_kept(kind: str) -> bool:
+    """Return whether all kernels of a kind have been compiled into the cache in use."""
+    folder = os.environ.get("NUMBA_CACHE_DIR")
+    return folder is not None and (Path(folder) / _mark(kind)).exists()
+
+
+def note_kernels_kept(kind: str) -> None:
+    """Note in the cache in use that all kernels of a kind have been compiled into it."""
+    folder = os.environ.get("NUMBA_CACHE_DIR")
+    if folder is not None:
+        with suppress(OSError):  # one that cannot be written keeps no kernels either
+            (Path(folder) / _mark(kind)).touch()
+
+
+def _mark(kind: str) -> str:
+    return f"compiled-{kind}"
 
 
 def _digest(package: Path) -> str:

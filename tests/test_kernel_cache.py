@@ -69,3 +69,21 @@ def test_without_a_place_to_keep_them_numba_looks_for_one(package: Path, monkeyp
     (package.parent / "cache").write_text("a file where a folder should be")
     kernel_cache.use_kernel_cache()
     assert "NUMBA_CACHE_DIR" not in os.environ
+
+
+def test_kernels_are_to_be_compiled_until_all_of_a_kind_are_in_the_folder_in_use(
+    package: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    used(monkeypatch)
+    assert not kernel_cache.are_kernels_kept("mapped")
+    kernel_cache.note_kernels_kept("mapped")
+    assert kernel_cache.are_kernels_kept("mapped") and not kernel_cache.are_kernels_kept("closed-form")
+    (package / "units.py").write_text("STEP = 3\n")
+    used(monkeypatch)
+    assert not kernel_cache.are_kernels_kept("mapped")
+
+
+def test_where_nothing_is_kept_kernels_are_compiled_anew(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
+    kernel_cache.note_kernels_kept("mapped")
+    assert not kernel_cache.are_kernels_kept("mapped")

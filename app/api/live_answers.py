@@ -62,6 +62,7 @@ class PlanMessage(BaseModel):
     text: str
     plan: PlanOnShow | None
     prepared: float | None
+    is_compiling: bool
     may_look_longer: bool
     start: WorldState | None
     before: PlanBefore | None

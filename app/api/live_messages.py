@@ -51,6 +51,7 @@ def plan_message(state: DocumentState) -> dict[str, Any]:
         "text": status_text(state),
         "plan": _answer(state, state.answer) if is_shown and state.answer is not None else None,
         "prepared": state.prepared,
+        "is_compiling": state.is_compiling,
         "may_look_longer": state.may_look_longer,
         "start": None if state.start is None else state.start.to_dict(),
         "before": None if state.before is None else _figures(state.before),

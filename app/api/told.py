@@ -50,4 +50,4 @@ class Telling:
 def _plan_key(state: DocumentState) -> object:
     """Return what the message about a state's plan is made of."""
     answers = (state.answer, state.before, state.checks, state.failure)
-    return (state.version, *answers, state.start, state.prepared, state.is_thorough)
+    return (state.version, *answers, state.start, state.prepared, state.is_compiling, state.is_thorough)

@@ -14,6 +14,7 @@ from app.cli.program import (
     failure,
     garment_of,
     output,
+    tell_of_compiling,
     write_json,
 )
 from app.comparison import compared
@@ -40,6 +41,7 @@ def compare(
     if not all(names):
         raise failure("--robots: has an empty name")
     source = garment_of(garment)
+    tell_of_compiling(*names)
     with blaming(garment):
         found = list(compared(source, names, Limits(time_limit_s=time_limit_s)))
     write_json([one.to_dict() for one in found], json_to)

@@ -21,6 +21,7 @@ from app.cli.program import (
     load_source,
     output,
     refusing,
+    tell_of_compiling,
     write_json,
 )
 from app.tables import plan_table, suggestion_table
@@ -92,6 +93,7 @@ def plan(
     elif after_step is not None:
         raise failure("--after-step: needs --from")
     with blaming(garment):
+        tell_of_compiling(task.robot)
         answer = make_plan(task)
     write_json(answer.answer(), json_to)
     if out is not None:

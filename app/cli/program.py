@@ -14,9 +14,11 @@ from rich.console import Console
 
 from planner.cloth.garment import Garment
 from planner.errors import FieldError, FoldingError, RequestError
+from planner.planning.warm_up import must_compile
 from planner.robots.own_robots import ROBOTS, use_robots_folder
 from planner.task.plan import Plan
 from planner.task.plan_files import load
+from planner.task.task import DEFAULT_ROBOT
 
 BAD_INPUT, NO_PLAN, OUT_OF_BUDGET = 2, 3, 4
 STANDARD_OUTPUT = "-"
@@ -98,6 +100,12 @@ def refusing(target: object) -> Iterator[None]:
         yield
     except OSError as error:
         raise failure(f"{target}: {error.strerror}") from None
+
+
+def tell_of_compiling(*robots: str) -> None:
+    """Say on standard error that the planner is compiled first, where it is: nothing else is seen for a minute."""
+    if any(must_compile(robot) for robot in robots or (DEFAULT_ROBOT,)):
+        errors.print("Compiling the planner (first use): about a minute...")
 
 
 @contextmanager

@@ -18,6 +18,7 @@ from app.cli.program import (
     errors,
     load_source,
     output,
+    tell_of_compiling,
     write_json,
 )
 from app.rehearsal.rehearse import RehearsalOptions, rehearse
@@ -63,6 +64,8 @@ def rehearse_command(
         found = load_source(source)
         if isinstance(found, Plan) and robot not in (None, found.task.robot):
             raise RequestError("robot", f"the plan is one for {found.task.robot}")
+        if not isinstance(found, Plan):
+            tell_of_compiling(robot or DEFAULT_ROBOT)
         plan = found if isinstance(found, Plan) else make_plan(task_for(found, robot=robot or DEFAULT_ROBOT))
         if not plan.is_solved:
             errors.print(f"{source}: the plan is {plan.status}, so there is nothing to rehearse")

@@ -6,7 +6,7 @@ from typing import Annotated, Any
 import typer
 from pydantic import ValidationError
 
-from app.cli.program import DatabaseOption, cli, failure, output
+from app.cli.program import DatabaseOption, cli, failure, output, tell_of_compiling
 from app.settings import Settings
 from planner.errors import FoldingError, RequestError
 from planner.strict_model import first_error
@@ -63,9 +63,11 @@ def serve(
 
 
 def _announce(url: str, token: str | None) -> None:
-    """Print where the server is; a new token is printed this one time."""
+    """Print where the server is, and whether the planner is compiled first; a new token is printed this one time."""
     if token is None:
         output.print(f"Pleat is on {url} (Ctrl-C stops it)")
+        tell_of_compiling()
         return
     output.print(f"Pleat is on {url}/?token={token} (Ctrl-C stops it)", soft_wrap=True)
     output.print("It asks for this token, which is not shown again; --new-token makes another.")
+    tell_of_compiling()

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from planner.cloth.garment import Garment
 from planner.geometry.pose import BoolArray, FloatArray, Point3, Pose2
+from planner.kernel_cache import are_kernels_kept, note_kernels_kept
 from planner.motion.timeline import Timeline
 from planner.planning.budget import Budget
 from planner.planning.driving_bound import DrivingBound
@@ -17,7 +18,7 @@ from planner.planning.plan_search import PlanSearch
 from planner.planning.problem import Problem
 from planner.planning.robot_task import default_scene, task_for
 from planner.primitives.base_legs import legs, travel
-from planner.robots.load_robot import compile_samples
+from planner.robots.load_robot import compile_samples, needs_maps
 from planner.robots.tool_path import ToolPath
 from planner.task.task import DEFAULT_ROBOT
 
@@ -60,9 +61,26 @@ stay: with Python's 700 a tenth of a plan's time goes into looking at them.
 """
 
 
+_used: set[str] = set()
+"""The robots whose kernels this process has."""
+
+
 def compile_kernels(name: str = DEFAULT_ROBOT) -> None:
     """Compile the kernels for a robot, or load them from the cache, once per process; planning calls it too."""
     _use_kernels(name)
+    if name not in _used:
+        _used.add(name)
+        note_kernels_kept(_kind(name))
+
+
+def must_compile(name: str = DEFAULT_ROBOT) -> bool:
+    """Return whether kernels for a robot have to be compiled first, which takes a minute: at the first use of sources."""
+    return name not in _used and not are_kernels_kept(_kind(name))
+
+
+def _kind(name: str) -> str:
+    """Return which kernels a robot uses: those of a closed form, or those of maps."""
+    return "mapped" if needs_maps(name) else "closed-form"
 
 
 @cache

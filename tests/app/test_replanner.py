@@ -296,3 +296,15 @@ def test_a_robot_whose_arms_must_be_mapped_first_is_told_with_how_far_that_is(
     assert shares == [0.25, 0.75]
     assert told[-1] is None
     assert desk.document.state.answer is not None and desk.document.state.answer.version == 2
+
+
+def test_that_the_planner_is_compiled_first_is_told_until_it_is(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
+    desk.rest()
+    told: list[bool] = []
+    monkeypatch.setattr("app.replanner.must_compile", lambda _: True)
+    monkeypatch.setattr("app.replanner.compile_kernels", lambda _: None)
+    desk.document.subscribe(lambda: told.append(plan_message(desk.document.state)["is_compiling"]))
+    desk.document.edit(Edit("Move", moved(20)))
+    desk.rest()
+    assert True in told and told[-1] is False
+    assert desk.document.state.answer is not None and desk.document.state.answer.version == 2

@@ -246,3 +246,42 @@ def test_while_a_robots_arms_are_mapped_that_is_told_and_a_fixed_base_has_no_lan
     expect(page.get_by_role("status").filter(has_text=told)).to_be_visible()
     expect(page.locator(".lane-name").filter(has_text="Left arm")).to_be_visible()
     expect(page.locator(".lane-name").filter(has_text="Base")).to_be_hidden()
+
+
+def compiling(page: WebSocketRoute) -> None:
+    """Fake a server that compiles the planner before it plans, and is never done."""
+    server = page.connect_to_server()
+
+    def tell(text: str) -> None:
+        message = json.loads(text)
+        if message["kind"] == "plan":
+            message |= {"status": "planning", "is_compiling": True}
+        page.send(json.dumps(message))
+
+    server.on_message(tell)
+
+
+def test_while_the_planner_is_compiled_that_is_told(page: Page, new_sheet: Callable[[Garment], Sheet]) -> None:
+    page.route_web_socket("**/live", compiling)
+    page.goto(new_sheet(napkin()).page_url)
+    expect(page.get_by_role("status").filter(has_text="Compiling the planner (first use)")).to_be_visible()
+
+
+TOLD = """async (reasons) => {
+  const { reasonWithPlace } = await import("/static/js/board/draw_reason.js");
+  const { toldReason } = await import("/static/js/messages/reasons.js");
+  const plan = { reasons, is_stale: false };
+  return [toldReason(reasons)?.short_by_m, reasonWithPlace({ plan: { plan, status: "infeasible" } })?.short_by_m];
+}"""
+
+
+@pytest.mark.parametrize(("first", "shown"), [([0.3, 0.1, 0.8], 0.412), (None, None)])
+def test_the_board_shows_the_shortfall_of_the_reason_that_the_status_tells(
+    page: Page, designer: Served, first: list[float] | None, shown: float | None
+) -> None:
+    page.goto(f"{designer.url}/static/icon.svg")
+    reasons = [
+        {"message": "out of reach", "point": first, "short_by_m": 0.412},
+        {"message": "out of reach", "point": [0.2, 0.0, 0.8], "short_by_m": 0.1},
+    ]
+    assert page.evaluate(TOLD, reasons) == [0.412, shown]

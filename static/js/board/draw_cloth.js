@@ -12,6 +12,7 @@ import { path } from "./sheet.js";
 export function drawCloth(board) {
   const { played } = board;
   if (board.isPlaying && played) return layers(board.view, played.layers);
+  if (board.isStoppedMidway && played) return [drawn(board), ...layers(board.view, played.layers)];
   return board.isSpread ? spread(board) : stacked(board);
 }
 
@@ -37,11 +38,17 @@ function spread({ view, drawing }) {
   ];
 }
 
+/** The outline as it is drawn, below cloth that lies otherwise. @param {Pick<Board, "view"|"drawing">} board */
+function drawn({ view, drawing }) {
+  const d = path(ringOf(drawing).map((point) => view.toPx(point)));
+  return { key: "before", tag: "path", class: "cloth-before", d };
+}
+
 /** @param {Board} board @returns {Items} */
 function stacked({ view, drawing, layers, shown }) {
   /** @param {Point[]} points */
   const ring = (points) => path(points.map((point) => view.toPx(point)));
-  const before = { key: "before", tag: "path", class: "cloth-before", d: ring(ringOf(drawing)) };
+  const before = drawn({ view, drawing });
   if (!layers)
     return [before, { key: "whole", tag: "path", class: "cloth is-front", d: shown.silhouette.map(ring).join("") }];
   const stack = layers.flatMap(({ polygon, face, moved }, index) => [

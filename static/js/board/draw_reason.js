@@ -11,6 +11,7 @@ import { crossAt } from "./draw_findings.js";
 import { minus, plus, times, toInner } from "./geometry.js";
 import { path } from "./sheet.js";
 import { length } from "./units.js";
+import { toldReason } from "../messages/reasons.js";
 import { armLetter } from "../messages/arms.js";
 import { word } from "../messages/names.js";
 
@@ -39,14 +40,16 @@ const WHOSE = /** @type {const} */ ({
 /** @typedef {Reason & {point: Point3}} Placed */
 
 /**
- * The first reason that has a place, as long as it is one for what is drawn.
+ * The reason that the status tells, if it has a place, as long as it is one for what is drawn: another one's numbers
+ * would contradict it.
  * @param {import("../store.js").Store} store
  * @returns {Placed|null}
  */
 export function reasonWithPlace({ plan: message }) {
   const { plan, status } = message ?? {};
   if (!plan || plan.is_stale || status === "solved" || status === "planning") return null;
-  return plan.reasons.find(/** @returns {reason is Placed} */ (reason) => reason.point !== null) ?? null;
+  const reason = toldReason(plan.reasons);
+  return reason && reason.point !== null ? /** @type {Placed} */ (reason) : null;
 }
 
 /** @param {Board} board @returns {Items} */

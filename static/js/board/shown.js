@@ -73,6 +73,13 @@ export class Shown {
     return this.played !== null && Boolean(this.store.playback?.playing) && !this.isPlacing;
   }
 
+  /** Whether time is stopped within a step: the board shows the cloth of then, below what can be edited. */
+  get isStoppedMidway() {
+    const { playback, plan } = this.store;
+    const isMidway = (playback?.t_s ?? 0) > 0 && (playback?.t_s ?? 0) < (plan?.plan?.cost_s ?? 0);
+    return this.played !== null && isMidway && !playback?.playing && this.isSpread && !this.isPlacing && !this.draft;
+  }
+
   /** The tool in hand; none while the board is being built. @returns {Tool|null} */
   get toolInHand() {
     return null;

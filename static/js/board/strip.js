@@ -57,8 +57,12 @@ export class Strip {
     const done = board.drawing.folds[board.step - 1];
     const told = { step: board.step, name: translated(done?.name ?? "") };
     const after = say(told.name ? "strip.after_fold" : "strip.after", told);
+    const steps = store.plan?.plan?.primitives.length ?? 0;
+    const inStep = Math.min((board.pictures?.current ?? 0) + 1, steps);
     this.moment.textContent = board.isPlacing
       ? say("strip.on_table")
+      : board.isPlaying || board.isStoppedMidway
+      ? say("strip.in_step", { step: inStep, last: steps })
       : board.isSpread
         ? say("strip.spread_out")
         : after;

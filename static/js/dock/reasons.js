@@ -5,7 +5,7 @@ import { say } from "../language/say.js";
 import { inWords } from "../messages/in_words.js";
 import { enough, length } from "../messages/lengths.js";
 import { called, place, word } from "../messages/names.js";
-import { causeInWords, SMALL_M } from "../messages/reasons.js";
+import { causeInWords, SMALL_M, toldReason } from "../messages/reasons.js";
 import { capital, foldName, seconds } from "./words.js";
 
 /** @import { DocumentState, Drawing, DrawingProblem, PlanMessage, Reason, Says } from "pleat" */
@@ -78,7 +78,7 @@ export function explanation(message, state) {
 const ways = (message) => say("why.ways", { count: message.plan?.statistics?.ways ?? 0 });
 
 /** @param {PlanMessage} message */
-const firstReason = (message) => (message.plan?.reasons ?? []).find((reason) => reason.message);
+const firstReason = (message) => toldReason(message.plan?.reasons ?? []);
 
 /** What the server says, as a sentence. @param {PlanMessage} message */
 const told = (message) =>

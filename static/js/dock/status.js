@@ -54,6 +54,7 @@ function told(store, planning, rehearsal) {
   if (store.queue.isHeld && isLive) return [say("status.not_sent"), "lost"];
   if (!isLive) return plan ? [say("status.lost"), "lost"] : [say("status.connecting"), "planning"];
   if (!plan || !state) return [null, ""];
+  if (planning.isGoingOn && plan.is_compiling) return [say("status.compiling"), "planning"];
   if (planning.isGoingOn && plan.prepared !== null) {
     return [say("status.learning", { share: percent(plan.prepared) }), "planning"];
   }

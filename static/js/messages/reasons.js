@@ -237,3 +237,6 @@ function slips({ hanging_m2: hanging, lying_m2: lying, friction, needed_friction
 
 /** A friction that will do. @param {number} friction */
 const roundedUp = (friction) => hundredths(Math.ceil(100 * friction - 1e-6) / 100);
+
+/** The reason that is told first, in words and on the board. @template {{message: string}} R @param {R[]} reasons */
+export const toldReason = (reasons) => reasons.find((reason) => reason.message);
