@@ -34,7 +34,7 @@ MAY_SEE: Mapping[str, frozenset[str]] = {
     "planner.task": GROUND | {"planner.geometry", "planner.cloth", "planner.folds"},
     "planner.primitives": GROUND | {f"planner.{r}" for r in ("geometry", "words", "cloth", "folds", "task")},
     "planner.motion": BELOW_MOTION,
-    "planner.planning": BELOW_MOTION | {"planner.motion", "planner.search"},
+    "planner.planning": BELOW_MOTION | {"planner.kernel_cache", "planner.motion", "planner.search"},
     "planner.explain": BELOW_MOTION | {"planner.motion", "planner.search", "planner.planning"},
     "planner.plans": BELOW_MOTION | {"planner.motion", "planner.planning", "planner.explain"},
 }

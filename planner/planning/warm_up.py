@@ -74,7 +74,7 @@ def compile_kernels(name: str = DEFAULT_ROBOT) -> None:
 
 
 def must_compile(name: str = DEFAULT_ROBOT) -> bool:
-    """Return whether kernels for a robot have to be compiled first, which takes a minute: at the first use of sources."""
+    """Return whether kernels for a robot have to be compiled first, which takes a minute."""
     return name not in _used and not are_kernels_kept(_kind(name))
 
 
