@@ -13,6 +13,7 @@ from app.files.seam_allowance import Line
 from app.jobs.apart import Tell
 from app.jobs.bounded import bounded, one_at_a_time
 from app.jobs.job_kind import Progress
+from app.robot_warnings import warnings_of
 from app.store.packed_plan import PackedPlan
 from app.store.storage_error import storing
 from planner import make_plan
@@ -25,6 +26,7 @@ from planner.robots.card_file import CardFile
 from planner.robots.collision.described_parts import described_parts
 from planner.robots.collision.link_shapes import require_shown
 from planner.robots.described_robot import DescribedRobot, read_card
+from planner.robots.described_robot import read_robot as read_known
 from planner.robots.known_robots import robot_names
 from planner.robots.own_robots import CARD
 from planner.task.plan import Plan
@@ -155,6 +157,11 @@ def read_archive(folder: Path) -> tuple[Path, CardFile]:
         unpacked.mkdir()
         data = (folder / _ARRIVED).read_bytes()
     return unpacked, read_robot(lambda _: None, unpacked, data)
+
+
+def robot_warnings(_: Tell, name: str) -> list[dict[str, Any]]:
+    """Return the warnings about the card of a robot that is known by its name."""
+    return warnings_of(read_known(name))
 
 
 def read_robot(_: Tell, folder: Path, given: bytes | CardFile) -> CardFile:

@@ -90,6 +90,21 @@ async def read_robot_card(name: AnyName) -> JSONResponse:
     return JSONResponse(card.to_dict())
 
 
+@router.get("/{name}/warnings", response_model=list[dict[str, Any]], responses=problems(404, 422, 503))
+async def read_robot_warnings(request: Request, name: AnyName) -> list[dict[str, Any]]:
+    """Return what of a robot's card is allowed but probably not meant, before its arms are mapped.
+
+    Each has `code`, `message` and numbers: `part_too_large`, `part_too_small`, `arms_together`, `arms_crossed`,
+    `station_faces_away`, `station_in_table`, `tool_off_tips`.
+    """
+    await run_in_threadpool(card_of, name)
+
+    def warned(should_stop: ShouldStop) -> list[dict[str, Any]]:
+        return run_apart(searches.robot_warnings, should_stop, ignore, name)
+
+    return await answer_of(request, workspace_of(request).lanes.files, warned)
+
+
 @router.put(
     "/{name}",
     responses={200: {"model": CardFile}, 201: {"model": CardFile}, **problems(403, 409, 413, 422, 503, 507)},

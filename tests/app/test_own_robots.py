@@ -251,3 +251,22 @@ async def test_a_job_whose_archive_is_none_says_why_and_leaves_nothing(
     assert stopped.json()["status"] in ("cancelled", "running")
     assert (await ended(client, begun.headers["location"]))["status"] == "cancelled"
     assert list((tmp_path / "robots").iterdir()) == []
+
+
+async def test_what_is_probably_not_meant_is_told_with_codes_before_any_map_is_built(
+    client: httpx.AsyncClient,
+) -> None:
+    files = robot_files()
+    card = json.loads(files["robot.json"])
+    [(station, pose)] = card["scene"]["stations"].items()
+    pose["yaw_rad"] = 3.0
+    first, second = card["mounts"]
+    card["mounts"][1] = first | {"name": second["name"]}
+    assert (await client.post(IMPORTS, content=archive(files | {"robot.json": json.dumps(card)}))).status_code == 201
+    answer = await client.get("/api/robots/bench/warnings")
+    assert answer.status_code == 200
+    told = {warning["code"]: warning for warning in answer.json()}
+    assert {"arms_together", "station_faces_away"} <= told.keys()
+    assert told["arms_together"]["arms"] == ["left", "right"] and told["arms_together"]["apart_m"] == 0.0
+    assert told["station_faces_away"]["station"] == station
+    assert (await client.get("/api/robots/nobody/warnings")).status_code == 404

@@ -1,10 +1,14 @@
 /** A robot of one's own, a zip archive of `robot.json`, its URDF and its meshes: it is saved, and folds from then on. */
 
 import { say } from "../language/say.js";
+import { warningInWords } from "../messages/robot_warnings.js";
 import { notice } from "../notices.js";
 import { OFFLINE, sentenceOf } from "./dialog.js";
 
 /** @import { RobotEntry } from "pleat" */
+
+/** How long a warning is shown (ms): there may be several. */
+const WARNING_MS = 30_000;
 
 /**
  * @param {import("../store.js").Store} store
@@ -20,6 +24,14 @@ export async function takeRobot(store, file) {
   dispatchEvent(new Event("robots"));
   const isNew = answer.status === 201;
   notice(isNew ? say("robots.taken", { title }) : say("robots.replaced", { title }));
+  void warn(name);
   await store.putRobot(name);
   return "";
+}
+
+/** Say what of a robot's card is probably not meant. @param {string} name */
+async function warn(name) {
+  const answer = await fetch(`../api/robots/${name}/warnings`).catch(() => null);
+  const warnings = answer?.ok ? /** @type {import("../messages/robot_warnings.js").Warning[]} */ (await answer.json()) : [];
+  for (const said of warnings.flatMap(warningInWords)) notice(said, WARNING_MS);
 }
