@@ -6,7 +6,7 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
-from planner import Plan, make_plan
+from planner import Plan, load_garment, make_plan
 from planner.motion.timeline import Timeline
 from planner.planning.plan_check import require_replay
 from planner.robots.described_robot import read_robot
@@ -32,6 +32,17 @@ def test_a_plan_reads_back_and_replays(plan: Plan):
     again = Plan.from_dict(json.loads(json.dumps(plan.to_dict())))
     assert again == plan
     require_replay(again)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("article", ["tie", "scarf"])
+@pytest.mark.parametrize("robot", ["ur5e-pair", "panda-pair", "baxter"])
+def test_cloth_that_hangs_far_over_the_edge_of_the_table_is_folded(robot: str, article: str):
+    hanging = make_plan(load_garment(article), robot=robot, time_limit_s=60.0)
+    assert hanging.is_solved, hanging.reasons
+    table_m = hanging.scene.table.height_m
+    assert min(grip.pick[2] for step in hanging.steps for grip in step.grips) < table_m - 0.1
+    require_replay(hanging)
 
 
 def test_samples_have_every_actuated_joint_of_the_urdf_within_its_limits(plan: Plan):
