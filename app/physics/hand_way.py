@@ -6,14 +6,12 @@ from functools import cached_property
 
 import numpy as np
 
+from app.physics.fingers import Box, FingerSize, around
 from app.physics.held_cloth import HeldCloth
 from app.physics.pinch import fingertip
 from app.rehearsal.world import GripMotion, way_done
 from planner.geometry.pose import FloatArray
 from planner.geometry.table_top import TableTop
-
-UNDER_M = 0.01
-"""The thickness of the finger under cloth that is held (m)."""
 
 _STILL_M = 1e-3
 """The way on the ground below which a hand is taken to turn nothing over (m)."""
@@ -28,6 +26,7 @@ class HandWay:
         held: the cloth between its fingers at the start.
         is_fold: whether that is turned over on the way.
         top: the table's top, beside which cloth hangs.
+        under_m: the thickness of the finger under the cloth (m).
         rise_m: how much higher than its path the hand ends (m).
     """
 
@@ -35,16 +34,18 @@ class HandWay:
     held: HeldCloth
     is_fold: bool
     top: TableTop
+    under_m: float = 0.01
     rise_m: float = 0.0
 
     def landing_on(self, height_m: float) -> "HandWay":
         """Return the way on which the lowest cloth in the hand ends at a height or above it (m).
 
-        The path knows no thickness: it would press the cloth into the stack on which it comes to lie. A hand that holds
-        on keeps a finger under the cloth; without that, edges that met were hooked, and the stack was lifted too.
+        The path knows no thickness: it would press the cloth into the stack on which it comes to lie. A hand whose
+        fingers are one over the other has one under the cloth, and so has any that holds on: without that, edges that
+        met were hooked, and the stack was lifted too.
         """
         end_s = self.grip.times_s[-1]
-        height_m += 0.0 if self.grip.opens else UNDER_M
+        height_m += 0.0 if self.grip.opens and self.grip.heading_rad is None else self.under_m
         lowest = fingertip(self.grip.at(end_s))[2] + self.held_at(end_s).lowest_m
         return replace(self, rise_m=max(0.0, height_m - float(lowest)))
 
@@ -60,6 +61,16 @@ class HandWay:
     def at(self, t_s: float) -> dict[int, FloatArray]:
         """Return the place of each vertex held at a time since the step's start (s), shape (3,), m."""
         return self.held_at(t_s).at(fingertip(self.grip.at(t_s)))
+
+    def fingers_at(self, t_s: float, size: FingerSize, open_m: float = 0.0) -> list[Box]:
+        """Return where the fingers are at a time since the step's start (s), `open_m` from closed; none if unknown."""
+        held = self.held_at(t_s)
+        if self.grip.heading_rad is None or held.hangs:
+            return []
+        roll_rad = self.grip.turned_at(t_s) if self.is_fold and self._ahead is not None else 0.0
+        way = np.zeros(2) if self._ahead is None else self._ahead
+        closing = np.array([*(math.sin(roll_rad) * way), math.cos(roll_rad)])
+        return around(fingertip(self.grip.at(t_s)) + held.between, closing, self.grip.heading_rad, size, open_m)
 
     @cached_property
     def _ahead(self) -> FloatArray | None:

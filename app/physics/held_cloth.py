@@ -57,11 +57,16 @@ class HeldCloth:
             share: how much of it is done, from 0 to 1.
         """
         heights = (self.between + self.beside)[:, 2]
-        layers = 1 + int((np.diff(np.sort(heights)) > thickness_m / 2.0).sum())
         open_m = max(float(np.ptp(heights)), thickness_m)
-        scale = np.array([1.0, 1.0, 1.0 - share * (1.0 - min(1.0, (layers - 1) * thickness_m / open_m))])
+        pressed_m = self.stack_m(thickness_m) - thickness_m
+        scale = np.array([1.0, 1.0, 1.0 - share * (1.0 - min(1.0, pressed_m / open_m))])
         lift = np.array([0.0, 0.0, float(heights.min()) * (1.0 - scale[2])])
         return replace(self, between=self.between * scale + lift, beside=self.beside * scale)
+
+    def stack_m(self, thickness_m: float) -> float:
+        """Return the height of its layers when they lie on one another, for the thickness of one (m)."""
+        heights = np.sort((self.between + self.beside)[:, 2])
+        return thickness_m * (1 + int((np.diff(heights) > thickness_m / 2.0).sum()))
 
     def turned(self, way: FloatArray, hand_rad: float, cloth_rad: float) -> "HeldCloth":
         """Return the cloth when the hand, and the cloth that hangs from it, have turned over on their way.

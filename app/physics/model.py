@@ -13,12 +13,14 @@ would.
 
 import itertools
 import math
+from collections.abc import Sequence
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
 from app.physics.fabric import Fabric, Resolution
+from app.physics.fingers import FingerSize
 from planner.geometry.pose import FloatArray
 from planner.geometry.table import Table
 
@@ -28,8 +30,11 @@ SOCKETS = 64
 _TABLE_M = 0.05
 """The thickness of the table's top (m)."""
 
-_CLOTH, _BOARD = 2, 1
-"""Contact classes of triangles and of the table; a vertex touches both, but not the triangles it is a corner of."""
+_CLOTH, _BOARD, _FINGER = 2, 1, 4
+"""Contact classes of triangles, table and fingers; a vertex touches all, but not the triangles it is a corner of."""
+
+FREE, IN_HAND = _BOARD | _FINGER, _BOARD
+"""What a vertex touches besides triangles: one in a hand is between its fingers."""
 
 _STIFF = 'solref="0.01 1" solimp="0.99 0.99 0.001"'
 _STIFFER = 'solref="0.01 1" solimp="0.99 0.9995 0.0007"'
@@ -67,6 +72,7 @@ def model_xml(
     fabric: Fabric,
     resolution: Resolution,
     table: Table | None,
+    fingers: Sequence[FingerSize] = (),
 ) -> str:
     """Return the model as MJCF.
 
@@ -77,12 +83,13 @@ def model_xml(
         fabric: the cloth.
         resolution: the time step and the solver's effort.
         table: the table; None for none.
+        fingers: the size of each hand's two fingers.
     """
     ball, contact = 0.5 * fabric.layer_m, _contact(fabric)
     masses = fabric.density_kg_m2 * vertex_areas(rest, triangles)
     vertices = "".join(
         f'<body name="v{i}" pos="{x:.9g} {y:.9g} {z:.9g}">{_joints(mass * fabric.drag_per_s)}'
-        f'<geom type="sphere" size="{ball}" mass="{mass:.9g}" contype="{_CLOTH}" conaffinity="{_BOARD}" condim="3" '
+        f'<geom type="sphere" size="{ball}" mass="{mass:.9g}" contype="{_CLOTH}" conaffinity="{FREE}" condim="3" '
         f'friction="{fabric.friction} 0 0" {contact}/><site name="p{i}"/></body>'
         for i, ((x, y, z), mass) in enumerate(zip(rest.tolist(), masses.tolist(), strict=True))
     )
@@ -98,7 +105,7 @@ def model_xml(
 <option timestep="{resolution.step_s}" integrator="discrete" solver="CG" iterations="{resolution.iterations}"
  tolerance="{resolution.tolerance}" cone="elliptic" impratio="10"/>
 <size memory="400M"/>
-<worldbody>{"" if table is None else _board(table, fabric, resolution)}{vertices}{sockets}</worldbody>
+<worldbody>{"" if table is None else _board(table, fabric, resolution)}{vertices}{sockets}{_boxes(fingers)}</worldbody>
 <deformable><flex name="cloth" dim="2" radius="{ball}" body="{" ".join(f"v{i}" for i in range(len(rest)))}"
  element="{" ".join(map(str, triangles.ravel().tolist()))}">
 <contact contype="0" conaffinity="{_CLOTH}" condim="3" friction="{fabric.self_friction} 0 0" {contact} priority="1"
@@ -206,6 +213,17 @@ def _board(table: Table, fabric: Fabric, resolution: Resolution) -> str:
         shapes += [(_CLOTH, f'type="sphere" size="{radius}" pos="{_numbers(place)}"') for place in places]
     touch = f'conaffinity="0" condim="3" friction="{fabric.friction} 0 0" {_contact(fabric)} priority="2"'
     return "".join(f'<geom {shape} contype="{contype}" {touch}/>' for contype, shape in shapes)
+
+
+def _boxes(fingers: Sequence[FingerSize]) -> str:
+    """Return two bodies for each hand, without friction, out of the way."""
+    touch = f'contype="{_FINGER}" conaffinity="0" condim="1" priority="3" {_STIFF}'
+    return "".join(
+        f'<body name="f{hand}_{finger}" mocap="true" pos="0 0 -9"><geom type="box" '
+        f'size="{size.length_m / 2.0} {size.width_m / 2.0} {size.thickness_m / 2.0}" {touch}/></body>'
+        for hand, size in enumerate(fingers)
+        for finger in range(2)
+    )
 
 
 def _box(x: float, y: float, z: float, at_z: float) -> str:

@@ -1,13 +1,15 @@
 """A world simulated in MuJoCo: the article as a flex on a table, grips that move its vertices."""
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 
 import numpy as np
 
 from app.physics.fabric import Fabric, Resolution
+from app.physics.fingers import DRAWN_M_S, Box, FingerSize, lowest
 from app.physics.hand_way import HandWay, ahead
 from app.physics.held_cloth import HeldCloth
-from app.physics.pinch import clamped, fingertip, pinched
+from app.physics.pinch import OPENING_M, PAD_M, clamped, fingertip, pinched
 from app.physics.simulation import ClothSimulation
 from app.rehearsal.planned_cloth import planned_positions
 from app.rehearsal.world import GripMotion, Observation, Performed, StepMotion, Truth
@@ -15,6 +17,7 @@ from planner.folds.fold_sequence import replayed
 from planner.geometry.pose import Pose2
 from planner.geometry.table_top import TableTop
 from planner.geometry.woven_mesh import woven_mesh
+from planner.robots.load_robot import robot_card_file
 from planner.task.task import Task
 
 _REST_M_S = 0.005
@@ -68,11 +71,17 @@ class PhysicsWorld:
         self._thickness_m = fabric.layer_m
         ball = fabric.layer_m / 2.0
         rest = np.column_stack([lies.to_outer(self._pattern), np.full(len(self._pattern), ball)])
-        self.simulation = ClothSimulation(rest, self._pattern, triangles, fabric, resolution, task.scene.table)
+        arms = robot_card_file(task.robot).arms
+        self._fingers = {arm.name: FingerSize.of(arm.gripper) for arm in arms}
+        self._hands = {arm.name: number for number, arm in enumerate(arms)}
+        sizes, table = list(self._fingers.values()), task.scene.table
+        self.simulation = ClothSimulation(rest, self._pattern, triangles, fabric, resolution, table, sizes)
         self._grips: dict[str, HeldCloth] = {}
+        self._under: dict[str, list[Box]] = {}
+        self._leaving: dict[str, tuple[Box, float]] = {}
         if task.start.done or not self._top.covers(rest):
             sequence = replayed(task.garment)
-            table, gap_m = task.scene.table, fabric.layer_m
+            gap_m = fabric.layer_m
             self.simulation.put(planned_positions(sequence, self._pattern, task.start.done, lies, table, gap_m))
             self._settle()
 
@@ -109,22 +118,40 @@ class PhysicsWorld:
         found = pinched(now, triangles, tool, self._top, self._clear_m)
         found = found if way is None else clamped(found, now, triangles, tip, way)
         taken = {vertex: point for vertex, point in found.items() if vertex not in self.simulation.held}
-        if taken:
-            hangs = not self._top.covers(tool[None])
-            self._grips[grip.arm] = held = HeldCloth.of(taken, now, tip, hangs=hangs)
-            self.simulation.hold(held.at(tip))
-        return bool(taken)
+        if not taken:
+            return False
+        hangs = not self._top.covers(tool[None])
+        held = HeldCloth.of(taken, now, tip, hangs=hangs)
+        if held.stack_m(self._thickness_m) > self._fingers[grip.arm].stack_max_m:
+            return False  # too much is between the fingers to be held: it slips out of them
+        self._grips[grip.arm] = held
+        self.simulation.hold(held.at(tip))
+        return True
 
     def _press(self, grips: Mapping[str, GripMotion]) -> None:
-        """Press the layers between fingers that have just closed on one another, where they lie on the table."""
-        tools = {arm: grip.at(grip.times_s[0]) for arm, grip in grips.items()}
-        opened = {arm: self._grips[arm] for arm, tool in tools.items() if self._top.covers(tool[None])}
+        """Press the layers between fingers that have just closed on one another, where they lie on the table.
+
+        The finger under them lifts them by its thickness.
+        """
+        opened = {
+            arm: self._grips[arm] for arm, grip in grips.items() if self._top.covers(grip.at(grip.times_s[0])[None])
+        }
         count = round(_CLOSING_S / self.simulation.step_s) if opened else 0
         for number in range(count):
+            share = (number + 1) / count
             for arm, cloth in opened.items():
-                self._grips[arm] = pressed = cloth.pressed(self._thickness_m, (number + 1) / count)
-                self.simulation.hold(pressed.at(fingertip(tools[arm])))
+                grip, size = grips[arm], self._fingers[arm]
+                lift_m = 0.0 if grip.heading_rad is None else share * size.thickness_m
+                self._grips[arm] = pressed = cloth.pressed(self._thickness_m, share).raised(lift_m)
+                way = HandWay(grip, pressed, is_fold=False, top=self._top)
+                self.simulation.hold(way.at(grip.times_s[0]))
+                self._put_fingers(arm, way.fingers_at(grip.times_s[0], size, (1.0 - share) * OPENING_M))
             self._step()
+
+    def _put_fingers(self, arm: str, boxes: list[Box]) -> None:
+        self._under[arm] = boxes
+        self._leaving.pop(arm, None)
+        self.simulation.put_fingers(self._hands[arm], boxes)
 
     def _follow(self, motion: StepMotion) -> None:
         """Move the hands along their paths; each opens at the end of its own, if it opens at all."""
@@ -136,13 +163,14 @@ class PhysicsWorld:
             for way in ways:
                 if way.grip.arm in self._grips:
                     self.simulation.hold(way.at(now_s))
+                    self._put_fingers(way.grip.arm, way.fingers_at(now_s, self._fingers[way.grip.arm]))
             self._let_go({grip.arm for grip in grips if grip.opens and grip.times_s[-1] <= now_s})
             self._step()
         self._grips |= {way.grip.arm: way.held_at(last_s) for way in ways if way.grip.arm in self._grips}
 
     def _way(self, grip: GripMotion, is_fold: bool) -> HandWay:
         """Return the way of a hand and the cloth in it; in a fold that comes to lie on what is there already."""
-        way, positions = HandWay(grip, self._grips[grip.arm], is_fold, self._top), self.simulation.positions
+        way, positions = self._new_way(grip, is_fold), self.simulation.positions
         if not is_fold:
             return way
         apart = np.linalg.norm(positions[:, :2] - np.array(grip.points[-1][:2]), axis=1)
@@ -150,9 +178,25 @@ class PhysicsWorld:
         below = positions[apart <= self.resolution.edge_m, 2]
         return way.landing_on(float(below.max()) + self._thickness_m) if len(below) else way
 
+    def _new_way(self, grip: GripMotion, is_fold: bool) -> HandWay:
+        return HandWay(grip, self._grips[grip.arm], is_fold, self._top, self._fingers[grip.arm].thickness_m)
+
     def _let_go(self, arms: set[str]) -> None:
+        """Open hands; the upper finger is out of the way then, the one under the cloth is drawn out."""
         for arm in arms & self._grips.keys():
             self.simulation.release(frozenset(self._grips.pop(arm).vertices))
+            boxes = self._under.pop(arm, [])
+            if boxes:
+                self._leaving[arm] = lowest(boxes), self._fingers[arm].length_m + PAD_M
+
+    def _draw_back(self) -> None:
+        """Draw fingers of open hands back by as much as they go in a time step, and away once they are out."""
+        for arm, (box, left_m) in list(self._leaving.items()):
+            way_m = DRAWN_M_S * self.simulation.step_s
+            self._leaving[arm] = replace(box, middle=box.middle - way_m * box.axes[:, 0]), left_m - way_m
+            if left_m <= way_m:
+                del self._leaving[arm]
+            self.simulation.put_fingers(self._hands[arm], [self._leaving[arm][0]] if arm in self._leaving else [])
 
     def _settle(self) -> None:
         """Let what was let go come to rest; what rests already is not simulated."""
@@ -160,12 +204,13 @@ class PhysicsWorld:
         self.simulation.solve_to(self.resolution.rest_tolerance)
         while left and rested_s < _RESTED_S:
             self._step()
-            is_at_rest = float(self.simulation.speeds.max()) < _REST_M_S
+            is_at_rest = not self._leaving and float(self.simulation.speeds.max()) < _REST_M_S
             rested_s = rested_s + self.simulation.step_s if is_at_rest else 0.0
             left -= 1
         self.simulation.solve_to(self.resolution.tolerance)
 
     def _step(self) -> None:
+        self._draw_back()
         self.simulation.step()
         self.elapsed_s += self.simulation.step_s
         self._tick()

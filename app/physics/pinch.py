@@ -17,7 +17,7 @@ PAD_M = 0.011
 FINGER_M = 0.022
 """Distance beside the tool's point within which the fingers find an edge of cloth (m)."""
 
-_OPENING_M = 0.03
+OPENING_M = 0.03
 """Distance above and below the middle of the fingers within which cloth is pinched (m)."""
 
 _ALIKE_M = 0.003
@@ -58,7 +58,7 @@ def pinched(
     weights = nearest_weights(corners[..., :flat], tip[:flat])
     points = (weights[..., None] * corners).sum(axis=1)
     gaps = np.linalg.norm(points[:, :flat] - tip[:flat], axis=1)
-    gaps[np.abs(corners[..., 2] - tip[2]).min(axis=1) > _OPENING_M + limit * is_beside] = np.inf
+    gaps[np.abs(corners[..., 2] - tip[2]).min(axis=1) > OPENING_M + limit * is_beside] = np.inf
     reach = PAD_M if gaps.min() <= PAD_M else gaps.min() + _ALIKE_M
     if gaps.min() > limit:
         return {}

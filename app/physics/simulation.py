@@ -1,13 +1,14 @@
 """Cloth in MuJoCo: vertices that can be held, moved and let go, and time that passes."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
 from app.physics.fabric import Fabric, Resolution
-from app.physics.model import SOCKETS, compiled, model_xml
+from app.physics.fingers import Box, FingerSize
+from app.physics.model import FREE, IN_HAND, SOCKETS, compiled, model_xml
 from app.physics.weave import Weave
 from planner.geometry.pose import FloatArray
 from planner.geometry.table import Table
@@ -24,6 +25,7 @@ class ClothSimulation:
         fabric: Fabric,
         resolution: Resolution,
         table: Table | None = None,
+        fingers: Sequence[FingerSize] = (),
     ) -> None:
         """Build the model, the cloth in its flat shape.
 
@@ -34,14 +36,16 @@ class ClothSimulation:
             fabric: the cloth.
             resolution: the time step and the solver's effort.
             table: the table; None for none.
+            fingers: the size of each hand's two fingers.
         """
         self.triangles = triangles
         self.step_s = resolution.step_s
         self._rest = rest
-        self._model = compiled(model_xml(rest, pattern, triangles, fabric, resolution, table))
+        self._model = compiled(model_xml(rest, pattern, triangles, fabric, resolution, table, fingers))
         self._weave = Weave.of(pattern, triangles, fabric, resolution.edge_m)
         self._data = mujoco.MjData(self._model)
         self._vertex_bodies = np.array([self._model.body(f"v{i}").id for i in range(len(rest))])
+        self._vertex_geoms = self._model.body_geomadr[self._vertex_bodies]
         self._held: dict[int, int] = {}
         mujoco.mj_forward(self._model, self._data)
 
@@ -79,12 +83,22 @@ class ClothSimulation:
                 self._held[vertex] = socket
                 self._model.eq_obj2id[socket] = self._vertex_bodies[vertex]
                 self._data.eq_active[socket] = 1
+                self._model.geom_conaffinity[self._vertex_geoms[vertex]] = IN_HAND
             self._data.mocap_pos[socket] = place
 
     def release(self, vertices: frozenset[int]) -> None:
         """Let vertices go."""
         for vertex in vertices:
             self._data.eq_active[self._held.pop(vertex)] = 0
+            self._model.geom_conaffinity[self._vertex_geoms[vertex]] = FREE
+
+    def put_fingers(self, hand: int, boxes: Sequence[Box]) -> None:
+        """Put the fingers of a hand somewhere, those not named out of the way."""
+        for finger in range(2):
+            body = self._model.body(f"f{hand}_{finger}").mocapid[0]
+            self._data.mocap_pos[body] = boxes[finger].middle if finger < len(boxes) else (0.0, 0.0, -9.0)
+            if finger < len(boxes):
+                mujoco.mju_mat2Quat(self._data.mocap_quat[body], np.ascontiguousarray(boxes[finger].axes).ravel())
 
     def solve_to(self, tolerance: float) -> None:
         """Set the improvement at which the solvers stop from now on (see `Resolution`)."""

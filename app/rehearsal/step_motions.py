@@ -1,6 +1,7 @@
 """Read the motions of the hands that hold cloth off a plan's trajectory, step by step, for any robot."""
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,6 +14,9 @@ from planner.task.phase import Hand
 from planner.task.plan import Plan
 from planner.task.plan_step import PlanStep
 from planner.task.trajectory import Segment, Trajectory
+
+_SIDE_BY_SIDE_RAD = math.radians(59.0)
+"""The pitch from which on fingers close along the table (see `planner.robots.edge_grip`), 60 degrees, with a margin."""
 
 
 def step_motions(plan: Plan) -> tuple[StepMotion, ...]:
@@ -30,7 +34,9 @@ def step_motions(plan: Plan) -> tuple[StepMotion, ...]:
     for number, step in enumerate(plan.steps):
         after = set(closed[number + 1]) if number + 1 < len(plan.steps) and step.details.get("holds") else set()
         grips = tuple(
-            GripMotion(arm, path.times_s, path.points, arm not in held, arm not in after, path.turned_rad)
+            GripMotion(
+                arm, path.times_s, path.points, arm not in held, arm not in after, path.turned_rad, path.heading_rad
+            )
             for arm, path in closed[number].items()
         )
         last = path.of_step(number)[-1]
@@ -52,11 +58,15 @@ def _driven(step: PlanStep) -> Pose2 | None:
 
 @dataclass(frozen=True, slots=True)
 class _Path:
-    """The path of a tool that holds cloth: times since the step's start (s), points (m), and how far it has rolled."""
+    """The path of a tool that holds cloth: times since the step's start (s), points (m), and how far it has rolled.
+
+    The direction in which its fingers point is None where they are side by side.
+    """
 
     times_s: tuple[float, ...]
     points: tuple[Point3, ...]
     turned_rad: tuple[float, ...]
+    heading_rad: float | None
 
 
 def _closed(path: Trajectory, step: int) -> dict[str, _Path]:
@@ -68,8 +78,20 @@ def _closed(path: Trajectory, step: int) -> dict[str, _Path]:
         if rows:
             times, points, turned = zip(*_rising(rows), strict=True)
             began = segments[0].start_s
-            found[gripper.arm] = _Path(tuple(t - began for t in times), points, turned if any(turned) else ())
+            found[gripper.arm] = _Path(
+                tuple(t - began for t in times), points, turned if any(turned) else (), _heading(segments, number)
+            )
     return found
+
+
+def _heading(segments: Sequence[Segment], number: int) -> float | None:
+    """Return the direction in which the fingers of an arm point as they hold cloth, table frame (rad)."""
+    for segment in segments:
+        hand = segment.phase.hands[number]
+        if hand is not None and hand.is_closed and not hand.is_reaching:
+            is_flat = hand.approach.pitch_rad < _SIDE_BY_SIDE_RAD
+            return hand.approach.heading_rad + segment.phase.base[0].yaw_rad if is_flat else None
+    return None
 
 
 _Row = tuple[float, Point3, float]

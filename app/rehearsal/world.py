@@ -24,6 +24,8 @@ class GripMotion:
         closes: whether the fingers close on the cloth at the first point; if not, they hold it already.
         opens: whether they open at the last point; if not, they hold on for the next step.
         turned_rad: how far the hand has rolled over with the cloth at each point (rad); empty: it does not roll.
+        heading_rad: the direction in which its fingers point, horizontal, table frame, while one is under the cloth and
+            one over it (rad); None where they are side by side, or nobody has said.
     """
 
     arm: str
@@ -32,6 +34,7 @@ class GripMotion:
     closes: bool = True
     opens: bool = True
     turned_rad: tuple[float, ...] = ()
+    heading_rad: float | None = None
 
     def at(self, t_s: float) -> FloatArray:
         """Return the tool's position at a time since the step's start (s), shape (3,), m."""

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.physics.hand_way import UNDER_M, HandWay
+from app.physics.hand_way import HandWay
 from app.physics.held_cloth import HeldCloth
 from app.physics.pinch import clamped, fingertip, nearest_weights, pinched
 from app.rehearsal.world import GripMotion
@@ -92,7 +92,7 @@ def test_fingers_close_a_loop_and_leave_layers_that_lie_on_one_another_as_they_a
 
 def test_a_hand_that_holds_on_keeps_a_finger_between_its_cloth_and_the_stack():
     way = HandWay(replace(fold(), opens=False), held((0.0, 0.0, 0.001), (0.0, 0.0, 0.0)), is_fold=True, top=TOP)
-    assert way.landing_on(0.009).at(2.0)[7][2] == pytest.approx(0.009 + UNDER_M)
+    assert way.landing_on(0.009).at(2.0)[7][2] == pytest.approx(0.009 + way.under_m)
 
 
 def test_a_vertex_is_held_as_far_beside_the_fingers_as_it_is():
@@ -176,3 +176,15 @@ def test_at_a_crease_fingers_hold_a_vertex_beside_it_in_each_of_the_two_sheets()
 def test_the_weights_of_a_triangle_are_those_of_its_nearest_point(point: tuple[float, ...], wanted: tuple[float, ...]):
     triangle = np.array([[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]])
     assert nearest_weights(triangle, np.array(point))[0] == pytest.approx(wanted)
+
+
+def test_layers_between_fingers_are_as_high_as_they_are_many():
+    layers = HeldCloth((1, 2, 3), np.array([[0.0, 0.0, z] for z in (0.001, 0.003, 0.015)]), np.zeros((3, 3)))
+    assert layers.stack_m(0.002) == pytest.approx(0.006)
+    beside = HeldCloth((1, 2), np.array([[0.0, 0.0, 0.001]] * 2), np.array([[0.0] * 3, [0.01, 0.0, 0.0005]]))
+    assert beside.stack_m(0.002) == pytest.approx(0.002)
+
+
+def test_a_hand_with_a_finger_under_its_cloth_lays_it_down_as_much_higher():
+    way = HandWay(replace(fold(), heading_rad=0.0), held((0.0, 0.0, 0.001), (0.0, 0.0, 0.0)), True, TOP, 0.012)
+    assert way.landing_on(0.009).at(2.0)[7][2] == pytest.approx(0.009 + 0.012)
