@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from contextlib import nullcontext
 from functools import partial
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -36,7 +37,7 @@ from bench.reach_boundary import distance_m
 from bench.reach_queries import FURTHEST_M, any_poses, pinches
 from bench.reach_truth import DenseReach
 from bench.rehearsal import ARTICLES as REHEARSED
-from bench.rehearsal import Rehearsed, row_of
+from bench.rehearsal import HELD_OUT, HELD_OUT_IN, Rehearsed, held_out, row_of
 from bench.report import Report, Row
 from bench.robot_plans import LONGEST_M, robot_plans, shrunk
 from bench.round_a_box import BOX_M, motions_of, round_a_box
@@ -46,7 +47,8 @@ from bench.studies import study_row
 from bench.two_at_once import two_at_once
 from bench.whole_plans import whole_plans
 from bench.yes_and_no import yes_and_no
-from planner import fold_dag, load_garment, make_plan
+from planner import fold_dag, load_garment, make_plan, shipped_garment_names
+from planner.folds.fold_sequence import replayed
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Pose2
 from planner.planning.robot_task import default_scene
@@ -346,6 +348,26 @@ def test_every_article_that_is_rehearsed_can_be_named(monkeypatch: pytest.Monkey
     everything, *each = asked
     assert set(REHEARSED) <= set(everything)
     assert each == [[article] for article in REHEARSED]
+
+
+def test_garments_that_no_setting_was_chosen_by_are_not_shipped_and_can_be_folded():
+    assert not set(HELD_OUT) & set(shipped_garment_names())
+    assert sorted(path.stem for path in HELD_OUT_IN.glob("*.json")) == sorted(HELD_OUT)
+    for name in HELD_OUT:
+        garment = load_garment(HELD_OUT_IN / f"{name}.json")
+        assert garment.name == name
+        replayed(garment)  # raises where a fold is not possible
+
+
+def test_runs_of_the_garments_that_no_setting_was_chosen_by_are_counted_together(monkeypatch: pytest.MonkeyPatch):
+    def made(article: str) -> Rehearsed:
+        return Rehearsed(article, "real", True, RehearsalResult((Run(0, ()), Run(1, (), reason="stopped"))))
+
+    monkeypatch.setattr("bench.rehearsal.rehearsed_held_out", made)
+    monkeypatch.setattr("bench.rehearsal.ProcessPoolExecutor", lambda *_, **__: nullcontext(SimpleNamespace(map=map)))
+    rows = held_out([], 1).rows
+    assert [row.data["article"] for row in rows] == [*HELD_OUT, "all"]
+    assert (rows[-1].data["held"], rows[-1].data["of"]) == (6, 12)
 
 
 def test_a_rehearsal_tells_its_steps_the_first_lost_and_how_often_it_held():
