@@ -15,7 +15,7 @@ FIRM = 0.8
 """The fraction of its radius within which a grip holds firmly, also beside its place: of .127 m, 10.2 cm.
 
 Of plans that take equally long those are preferred that hold within 7/8 of it (`planner.cloth.grips`); corners 10.5 cm
-from a hand that was a few millimetres beside its place folded under (docs/rehearsal-causes.md).
+from a hand that was a few millimetres beside its place folded under (docs/rehearsal.md).
 """
 
 

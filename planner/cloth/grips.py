@@ -30,7 +30,7 @@ from planner.geometry.tolerance import LENGTH_M, grid_key
 FIRM = 0.875
 """The fraction of the radius within which a grip holds firmly: of .127 m, 11.1 cm.
 
-In simulated folds (docs/rehearsal-causes.md) corners up to 10.5 cm from a grip came along, at 10.5 cm not in every
+In simulated folds (docs/rehearsal.md) corners up to 10.5 cm from a grip came along, at 10.5 cm not in every
 run, from 12.4 cm on they folded under.
 """
 

@@ -3,7 +3,7 @@
 The theorem looks at the convex hull. A slit that opens sideways parts a tongue from the cloth ahead of it, and the hull
 hides its tip: a leg of trousers behind the other one. Cloth is pulled but not pushed, so only a short tongue follows
 its root; a long one stays where friction holds it, and turns about its root. In simulated drags
-(docs/rehearsal-causes.md) the jeans' leg, 4.8 times as long as wide, stayed behind by 11 to 13 cm; tongues up to
+(docs/rehearsal.md) the jeans' leg, 4.8 times as long as wide, stayed behind by 11 to 13 cm; tongues up to
 1.3 times as long as wide are what the other shipped articles have.
 """
 

@@ -37,7 +37,7 @@ def folding(line: Segment, *grips: Point2) -> StepMotion:
     path = FoldPath(line, float(line.left_distances(np.array(grips)).max()), top, top)
     points = path.tool_paths(np.array(grips), np.linspace(0.0, 2.0, 11))
     times = tuple(np.linspace(0.0, DURATION_S, 11).tolist())
-    hands = (GripMotion(f"arm {i}", times, tuple(map(tuple, one.tolist()))) for i, one in enumerate(points))
+    hands = (GripMotion(("left", "right")[i], times, tuple(map(tuple, one.tolist()))) for i, one in enumerate(points))
     return StepMotion(0, "fold", DURATION_S, tuple(hands))
 
 

@@ -41,7 +41,7 @@ def half_by(*points: Point2) -> PlanStep:
     """Return the step in which the cloth, its side folded in, is folded in half by hands at some points."""
     before = TASK.start
     after = WorldState((0, 1), before.placement, before.base)
-    holdings = tuple(Holding(f"arm {i}", point, (point,)) for i, point in enumerate(points))
+    holdings = tuple(Holding(("left", "right")[i], point, (point,)) for i, point in enumerate(points))
     return PlanStep("fold", 0.0, DURATION_S, {"fold": 1}, before.base, (), before, after, holdings)
 
 
@@ -54,7 +54,7 @@ def motion_of(step: PlanStep) -> StepMotion:
     path = FoldPath(on_table, float(on_table.left_distances(grips).max()), top, top)
     points = path.tool_paths(grips, np.linspace(0.0, 2.0, 11))
     times_s = tuple(np.linspace(0.0, DURATION_S, 11).tolist())
-    hands = (GripMotion(f"arm {i}", times_s, tuple(map(tuple, one.tolist()))) for i, one in enumerate(points))
+    hands = (GripMotion(("left", "right")[i], times_s, tuple(map(tuple, one.tolist()))) for i, one in enumerate(points))
     return StepMotion(0, "fold", DURATION_S, tuple(hands))
 
 
@@ -67,7 +67,7 @@ def inwards_m(made: StepMotion, planned: StepMotion, way: Point2) -> list[float]
 def test_a_flap_hangs_beside_the_hand_at_its_crease_and_not_beside_the_other():
     found = flaps_beside(half_by(CREASED, OPEN), SEQUENCE, Isometry())
     ways = TASK.start.placement.to_outer(np.array([(0.0, 0.0), (-1.0, 0.0)]))
-    assert found == {"arm 0": pytest.approx(tuple(ways[1] - ways[0]))}
+    assert found == {"left": pytest.approx(tuple(ways[1] - ways[0]))}
 
 
 def test_no_flap_hangs_open_that_another_hand_holds_too():
@@ -89,7 +89,7 @@ def test_a_hand_beside_a_flap_begins_and_ends_as_planned_and_is_inwards_while_it
     step = half_by(CREASED, OPEN)
     planned, flaps = motion_of(step), flaps_beside(step, SEQUENCE, Isometry())
     made = trailing(planned, planned, flaps, Isometry(), RADIUS_M)
-    apart = inwards_m(made, planned, flaps["arm 0"])
+    apart = inwards_m(made, planned, flaps["left"])
     assert apart[0] == apart[-1] == pytest.approx(0.0, abs=1e-9)
     assert max(apart) == pytest.approx(INWARDS_M)
     assert made.grips[1] == planned.grips[1]
@@ -99,7 +99,7 @@ def test_a_hand_beside_a_flap_begins_and_ends_as_planned_and_is_inwards_while_it
 def test_hands_go_inwards_no_further_than_is_in_reach(shift_m: float):
     step = half_by(CREASED, OPEN)
     flaps = flaps_beside(step, SEQUENCE, Isometry())
-    (x, y), planned = flaps["arm 0"], motion_of(step)
+    (x, y), planned = flaps["left"], motion_of(step)
     carried = Isometry.rotation(0.0, shift_m * x, shift_m * y)  # it lies that far inwards of where it should
     apart = inwards_m(trailing(planned, planned, flaps, carried, RADIUS_M), planned, (x, y))
     assert max(apart) == pytest.approx(max(0.0, RADIUS_M - shift_m), abs=1e-6)
