@@ -108,6 +108,7 @@ class Problem:
             *limits,
             start,
             is_fixed=context.is_fixed,
+            is_firm=context.is_firm,
             base_acceleration_m_s2=context.base_acceleration_m_s2,
         )
         return Problem(changed, fresh, machine, TransferPlanner(fresh, machine))
@@ -133,6 +134,11 @@ class Problem:
         fresh = replace(self.anew().context, start=replace(self.start, held=(), dragged=0))
         return Problem(self.task, fresh, self.robot, TransferPlanner(fresh, self.robot))
 
+    def firm(self) -> "Problem":
+        """Return this problem for hands that hold firmly wherever they can, with nothing computed yet."""
+        fresh = replace(self.anew().context, is_firm=True)
+        return Problem(self.task, fresh, self.robot, TransferPlanner(fresh, self.robot))
+
     def without_arm_drags(self) -> "Problem":
         """Return this problem for arms that do not drag, with nothing computed yet."""
         fresh = replace(self.anew().context, is_fixed=False)
@@ -151,7 +157,12 @@ class Problem:
         context = self.context
         limits = (context.circle_m, context.behind_max_m, context.grips_apart_m)
         given = (context.sequence, context.scene, reach, context.placement, *limits, context.start)
-        fresh = Context(*given, is_fixed=context.is_fixed, base_acceleration_m_s2=context.base_acceleration_m_s2)
+        fresh = Context(
+            *given,
+            is_fixed=context.is_fixed,
+            is_firm=context.is_firm,
+            base_acceleration_m_s2=context.base_acceleration_m_s2,
+        )
         return Problem(self.task, fresh, self.robot, TransferPlanner(fresh, self.robot))
 
     @staticmethod

@@ -13,6 +13,7 @@ from typing import TypeVar, cast
 import numpy as np
 
 from planner.cloth.g_state import TableInArticle, Unrest, unrest
+from planner.cloth.grips import Cover, GripCovers
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.pose import FloatArray, Point2, Pose2
 from planner.geometry.shortfall import never
@@ -77,6 +78,7 @@ class Context:
         obstacles: why primitives were not possible, collected for the reasons.
         patience: the limit of the time that somebody waits for the answer.
         is_fixed: whether the base cannot drive at all: then there is one station and no standoff.
+        is_firm: whether hands hold firmly wherever they can.
         base_acceleration_m_s2: the base's top acceleration.
     """
 
@@ -91,6 +93,7 @@ class Context:
     obstacles: Obstacles = field(default_factory=Obstacles)
     patience: Patience = field(default_factory=Patience)
     is_fixed: bool = False
+    is_firm: bool = False
     base_acceleration_m_s2: float = ACCELERATION_M_S2
     _bases: dict[tuple[int, float], Pose2] = field(default_factory=dict)
     _kept: dict[Callable[["Context"], object], object] = field(default_factory=dict)
@@ -115,6 +118,10 @@ class Context:
         """The cache of answers about the cloth, shared with other contexts in which it is the same."""
         scene = self.scene
         return cloth_memory(self.sequence.garment, self.placement, scene.table, scene.friction, scene.support_angle_rad)
+
+    def allowed(self, covers: GripCovers) -> tuple[Cover, ...]:
+        """Return the sets of grips that hands may take of those that hold some cloth."""
+        return covers.firm if self.is_firm else covers.every
 
     @cached_property
     def standoffs(self) -> int:

@@ -5,6 +5,7 @@ import random
 
 import numpy as np
 import pytest
+import shapely
 
 from planner.cloth.must_hold import must_hold
 from planner.geometry.isometry import Isometry
@@ -118,9 +119,10 @@ def test_random_polygons_agree_with_looking_for_cloth_above_each_vertex(support_
     rng = random.Random(6)
     for _ in range(60):
         region = Region.polygon(star(rng, 9))
-        if not region.shape.is_valid:
+        around = flat.corners(shapely.convex_hull(region.shape))
+        if not region.shape.is_valid or any(flat.is_hardly_a_corner(*corner) for corner in around):
             continue
-        looked = flat.must_hold(Region.polygon(region.shapes[0]).shape, UP, [], math.radians(support_deg))
+        looked = flat.must_hold(region.shape, UP, [], math.radians(support_deg))
         assert held(region, support_deg=support_deg) == {(round(x, 4), round(y, 4)) for x, y in looked}
 
 
