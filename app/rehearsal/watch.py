@@ -110,7 +110,10 @@ class Watch:
         self.posture = self.eyes.withdrawn(self.posture)
         self.world.perform(StepMotion(made, WITHDRAW, _WITHDRAW_S, ends=self.posture))
         clear = self.look(plan, ought, made, is_clear=True)
-        return sight if clear is None or (clear.unknown is not None and sight.unknown is None) else clear
+        if clear is None or (clear.unknown is not None and sight.unknown is None):
+            return sight
+        # One of the two looks is mistaken then: a stack as planned is not seen by chance.
+        return sight if sight.is_estimate and self._is_failed(clear) and not self._is_failed(sight) else clear
 
     def _is_failed(self, sight: Sight) -> bool:
         """Return whether a fold of this run has left the cloth with another outline than it should have."""

@@ -7,8 +7,10 @@ from app.rehearsal.camera_world import CameraWorld
 from app.rehearsal.judge import Gate
 from app.rehearsal.perform import Performance, Performer
 from app.rehearsal.planned_cloth import planned_positions
-from app.rehearsal.watch import FOLDED_SHARE
+from app.rehearsal.watch import FOLDED_SHARE, Watch
 from app.rehearsal.world import WITHDRAW, Observation, Performed, StepMotion, Truth
+from app.vision.look_at_stack import Sight
+from app.vision.stack_fit import StackFit
 from planner import Plan, Task, load_garment, make_plan
 from planner.geometry.pose import FloatArray
 from planner.geometry.ring import evenly_along
@@ -96,3 +98,18 @@ def test_no_step_is_made_after_a_fold_that_is_seen_to_have_failed(*, is_failed: 
         assert f"before step {first + 1}" in done.reason
     else:
         assert len(folds) > 1
+
+
+@pytest.mark.parametrize("shares", [(1.0, 0.79), (0.79, 1.0)])
+def test_a_fold_that_one_of_two_looks_sees_as_planned_has_not_failed(
+    shares: tuple[float, float], monkeypatch: pytest.MonkeyPatch
+):
+    # In the first case it was looked at again for an edge that an arm had hidden.
+    plan = towel_plan()
+    (step,) = plan.steps
+    fits = (StackFit(step.before.placement, 0.001, 0.001, share, 1.0) for share in shares)
+    sights = [Sight(fit, np.empty((0, 2)), np.empty((0, 2)), None) for fit in fits]
+    watch = Watch(OutlineWorld((np.empty((0, 2)),) * 2), plan.task, lambda *_: None, home(), has_folded=True)
+    monkeypatch.setattr(watch, "look", lambda *_, is_clear=False: sights[is_clear])
+    monkeypatch.setattr("app.rehearsal.watch.are_edges_hidden", lambda *_: True)
+    assert watch.before(plan, step, 1) == (step.before.placement, "")

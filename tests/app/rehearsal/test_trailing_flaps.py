@@ -106,7 +106,7 @@ def test_hands_go_inwards_no_further_than_is_in_reach(shift_m: float):
 
 
 def test_a_flap_that_trails_behind_its_crease_does_not_land_open():
-    # On the planned path its crease stands up on the flap's free edge, and falls out of the stack by 3 cm.
+    # On the planned path its crease stands up on the flap's free edge, and falls out of the stack by 2 cm.
     step = half_by(CREASED, OPEN)
     planned = motion_of(step)
     made = trailing(planned, planned, flaps_beside(step, SEQUENCE, Isometry()), Isometry(), RADIUS_M)
@@ -116,5 +116,4 @@ def test_a_flap_that_trails_behind_its_crease_does_not_land_open():
         world.perform(motion)
         return judged(world.truth(), 0, SEQUENCE, step.after, Isometry(), TASK.scene.table, Gate(), ()).outline_mm
 
-    assert outline_mm(planned) > 4.0
-    assert outline_mm(made) < 2.5
+    assert outline_mm(made) < 2.5 < outline_mm(planned)
