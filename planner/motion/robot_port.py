@@ -30,6 +30,10 @@ class Collisions(Together, Hashable, Protocol):
     Bases are poses of the table frame: one for all, or x (m), y (m), yaw (rad) of each, shape (n, 3).
     """
 
+    def free(self, bases: Pose2 | FloatArray, joints: FloatArray) -> BoolArray:
+        """Return at which configurations nothing touches, shape (n,)."""
+        ...
+
     def are_all_free(self, bases: Pose2 | FloatArray, joints: FloatArray) -> bool:
         """Return whether none of some configurations touches anything."""
         ...
