@@ -1,14 +1,14 @@
-"""Tongues of cloth that a drag leaves behind, though Theorem 2 does not ask for their vertices.
+"""Trailing strips: parts of cloth that a drag leaves behind, though Theorem 2 does not ask for their vertices.
 
-The theorem looks at the convex hull. A slit that opens sideways parts a tongue from the cloth ahead of it, and the hull
-hides its tip: a leg of trousers behind the other one. Cloth is pulled along straight lines within it, and not pushed;
-the tip is pulled only round the end of the slit, a reflex corner, by what comes in at the tongue's root. Lines that
-lead there from the rear side of the tip make an angle with the drag whose tangent is the tongue's length by its width.
-Beyond 45 degrees they pull more across the drag than along it, so that the tongue turns about its root and its tip
-stays where friction holds it. So the tip of a tongue that is longer than wide must be held as well.
+The theorem looks at the convex hull. A slit that opens sideways parts such a strip from the cloth ahead of it, and the
+hull hides its tip: a leg of trousers behind the other one. Cloth is pulled along straight lines within it, and not
+pushed; the tip is pulled only round the end of the slit, a reflex corner, by what comes in at the strip's root. Lines
+that lead there from the rear side of the tip make an angle with the drag whose tangent is the strip's length by its
+width. Beyond 45 degrees they pull more across the drag than along it, so that the strip turns about its root and its
+tip stays where friction holds it. So the tip of a strip that is longer than wide must be held as well.
 
-In simulated drags the jeans' leg, 4.8 times as long as wide, stayed behind by 11 to 13 cm, and a romper's leg, 1.4 times
-as long as wide, stayed behind too; sleeves .9 times as long as wide came along.
+In simulated drags the jeans' leg, 4.8 times as long as wide, stayed behind by 11 to 13 cm, and a romper's leg, 1.4
+times as long as wide, stayed behind too; sleeves .9 times as long as wide came along.
 """
 
 import math
@@ -21,11 +21,11 @@ from planner.geometry.segment import Segment
 from planner.geometry.tolerance import LENGTH_M
 
 LONG = 1.0
-"""A tongue that is longer than that times its width must be held."""
+"""A trailing strip that is longer than that times its width must be held."""
 
 
-def tongue_tips(piece: Region, up: Point2) -> FloatArray:
-    """Return the leading corners at the tips of the tongues that a drag would leave behind, shape (n, 2), m.
+def strip_tips(piece: Region, up: Point2) -> FloatArray:
+    """Return the leading corners at the tips of the trailing strips that a drag would leave behind, shape (n, 2), m.
 
     Args:
         piece: the cloth that is dragged.

@@ -149,7 +149,7 @@ class MotionValidator:
         return None
 
     def _sooner(self, plan_segments: tuple[PlanSegment, ...]) -> tuple[PlanSegment, ...]:
-        """Return segments with other ways for those to which hands come late, or for those before, where that is quicker.
+        """Return segments with quicker ways in place of those to which hands come late, or of those before.
 
         A transfer is chosen by how long it takes itself. How soon hands come to the next one depends on where they are.
         """
