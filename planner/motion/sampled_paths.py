@@ -115,7 +115,8 @@ class SampledPaths:
             if first == last:
                 continue
             ends = np.column_stack([np.interp(cuts, lengths, column) for column in way.T])
-            if np.array_equal(ends[1], self._led(*ends)):
+            led = self._led(*ends)
+            if led is not None and np.array_equal(ends[1], led):
                 way = np.concatenate([way[:first], ends, way[last:]])
         return way
 
