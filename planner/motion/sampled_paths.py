@@ -12,7 +12,7 @@ import numpy as np
 
 from planner.geometry.pose import BoolArray, FloatArray
 
-TESTED_MAX = 8_000
+TESTED_MAX = 4_000
 """The most configurations tested for one path, those for its shortcuts apart."""
 
 _SHORTCUT_TESTED_MAX = 5_000

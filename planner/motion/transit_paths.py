@@ -52,6 +52,7 @@ class _WayKey:
     key: tuple[bytes, ...]
     base: Pose2
     cloth: LyingCloth
+    samples: bool
     start: FloatArray = field(compare=False)
     goal: FloatArray = field(compare=False)
     spared: Spared = field(compare=False)
@@ -121,7 +122,14 @@ class TransitPaths:
         return np.asarray(joints + 2.0 * np.pi * np.where(is_far, np.round(away / (2.0 * np.pi)), 0.0))
 
     def way(
-        self, base: Pose2, start: FloatArray, goal: FloatArray, cloth: LyingCloth, spared: Spared
+        self,
+        base: Pose2,
+        start: FloatArray,
+        goal: FloatArray,
+        cloth: LyingCloth,
+        spared: Spared,
+        *,
+        samples: bool = True,
     ) -> FloatArray | None:
         """Return a path between two configurations while the base stands.
 
@@ -131,13 +139,14 @@ class TransitPaths:
             goal: the same; its continuous joints may be turns away.
             cloth: the cloth on the table meanwhile.
             spared: how far hands may go low over it at both ends.
+            samples: whether paths are sampled where no line and no detour is free, which takes half a second in vain.
 
         Returns:
             Configurations from start to goal, shape (n, joints), between which straight lines are free; None if no way
             was found. It is cached and must not be changed.
         """
         key = (start.tobytes(), goal.tobytes(), *(length.tobytes() for length in spared))
-        return self._searched(_WayKey(key, base, cloth, start, goal, spared))
+        return self._searched(_WayKey(key, base, cloth, samples, start, goal, spared))
 
     def _search(self, wanted: _WayKey) -> FloatArray | None:
         start, cloth, spared = wanted.start, wanted.cloth, wanted.spared
@@ -145,7 +154,8 @@ class TransitPaths:
         straight, known = np.array([start, goal]), _Lines(wanted.base, self._collisions)
         if self._is_free(known, straight, cloth, spared):
             return straight
-        ways = chain(self._roundabout(start, goal), self._sampled(wanted.base, start, goal, cloth, spared))
+        by_samples = self._sampled(wanted.base, start, goal, cloth, spared) if wanted.samples else ()
+        ways = chain(self._roundabout(start, goal), by_samples)
         return next((way for way in ways if self._is_free(known, way, cloth, spared)), None)
 
     def _sampled(

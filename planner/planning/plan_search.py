@@ -34,6 +34,9 @@ MORE_COMFORT_SHARE, NARROWER_SHARE = 2.0, 0.5
 WORTH_SHOWING_S = 0.1
 """Least time by which a plan found meanwhile is quicker than the one shown before (s)."""
 
+APART_SHARE, APART_LEAST_S = 2.0, 0.5
+"""Work on the task whose arms stay apart, as a share of earlier work, and the least of it (s)."""
+
 WORTH_THOROUGH = 0.01
 """Share of its cost by which a plan must be above its lower bound so that more tries are made for a quicker one."""
 
@@ -152,7 +155,7 @@ class PlanSearch(PathSearch):
             left_s -= self._try_tighter(problem, left_s)
 
     def _try_with_arms_apart(self) -> None:
-        """Look once for a plan with hands only where there is room beside the other arm at home, for half of the work.
+        """Look once for a plan with hands only where there is room beside the other arm at home, with limited work.
 
         Where a way was rejected, mostly the arms were in each other's way. Such a plan is found soon and limits what
         else is worth a try.
@@ -161,8 +164,7 @@ class PlanSearch(PathSearch):
             return
         self._has_tried_apart = True
         for problem in with_arms_apart(self._problem):
-            left_s = self._budget.work_limit_s - self._budget.spent_s
-            self._budget.beside_s += self._try_tighter(problem, 0.5 * left_s)
+            self._budget.beside_s += self._try_tighter(problem, max(APART_LEAST_S, APART_SHARE * self._budget.spent_s))
 
     def _try_tighter(self, problem: Problem, work_s: float) -> float:
         """Look for a quicker plan in a restricted task with limited work (s); return the work done (s).

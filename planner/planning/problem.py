@@ -10,6 +10,7 @@ from planner.folds.fold_cloth import fold_cloth
 from planner.folds.fold_sequence import FoldSequence, replayed
 from planner.geometry.pose import Pose2
 from planner.geometry.tolerance import LENGTH_M, nearest_whole
+from planner.motion.known_transfers import KnownTransfers
 from planner.motion.robot_port import RobotPort
 from planner.motion.transfer_planner import TransferPlanner
 from planner.primitives.cloth_memory import cloth_memory
@@ -113,7 +114,8 @@ class Problem:
             is_firm=context.is_firm,
             base_acceleration_m_s2=context.base_acceleration_m_s2,
         )
-        return Problem(changed, fresh, machine, TransferPlanner(fresh, machine))
+        known = KnownTransfers(sampling=self.maker.known.sampling)
+        return Problem(changed, fresh, machine, TransferPlanner(fresh, machine, known))
 
     def restricted(
         self, scene: Scene | None = None, comfort_m: float | None = None, *, minds_arms: bool = False
