@@ -62,13 +62,14 @@ def read_page(session: Session, after: tuple[str, str] | None, count: int) -> Do
 
 def _entry(row: DocumentRow, drawing: str | None) -> DocumentEntry:
     """Return what is listed of a row; whatever is wrong with it is its problem and no other document's."""
-    changed_at = row.changed_at if isinstance(row.changed_at, str) else ""
+    texts: tuple[object, ...] = (row.title, row.name, row.changed_at)  # whatever the database holds
+    changed_at = row.changed_at if isinstance(texts[-1], str) else ""
     try:
         if row.format > FORMAT or (row.problem is not None and row.format):
             return DocumentEntry(row.id, changed_at=changed_at, problem=str(NewerDocumentError(row.id, row.format)))
         if row.problem is not None or drawing is None:
             raise ValueError(row.problem or "its drawing is missing")
-        if not all(isinstance(text, str) for text in (row.title, row.name, row.changed_at)):
+        if not all(isinstance(text, str) for text in texts):
             raise ValueError("its row is damaged")
         picture = Picture.of(from_json(drawing))
     except DAMAGES as error:

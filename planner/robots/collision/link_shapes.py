@@ -87,8 +87,8 @@ def _shapes(model: pin.Model, link: Element, meshes: "_Meshes") -> Iterator[Link
             continue
         placement = frame.placement * _origin(element.find("origin"))
         with _blaming(name, geometry[0]):
-            shape, points, triangles = _read(geometry[0], meshes)
-            corners: FloatArray = hull_corners(points) @ placement.rotation.T + placement.translation
+            shape, hull, triangles = _read(geometry[0], meshes)
+            corners: FloatArray = hull @ placement.rotation.T + placement.translation
         yield LinkShape(name, frame.parentJoint, shape, placement, corners, triangles)
 
 
@@ -119,7 +119,7 @@ def _numbers(text: str) -> FloatArray:
 
 
 _Shape = tuple[coal.CollisionGeometry, FloatArray, NDArray[np.int64] | None]
-"""A shape, points whose hull contains it, and of a mesh its triangles."""
+"""A shape, the corners of a convex hull that contains it, and of a mesh its triangles."""
 
 
 def _read(element: Element, meshes: "_Meshes") -> _Shape:
@@ -128,16 +128,16 @@ def _read(element: Element, meshes: "_Meshes") -> _Shape:
         return meshes.shape(*_named(element))
     if element.tag == "box":
         size = _numbers(element.get("size", ""))
-        return coal.Box(*size), np.array([*product((-0.5, 0.5), repeat=3)]) * size, None
+        return coal.Box(*size), hull_corners(np.array([*product((-0.5, 0.5), repeat=3)]) * size), None
     if element.tag not in ("sphere", "cylinder"):
         raise RobotError("urdf", f"unsupported shape {element.tag!r}; use box, sphere, cylinder or mesh")
     (radius,) = _numbers(element.get("radius", ""))
     if element.tag == "sphere":
-        return coal.Sphere(radius), radius * _ball(), None
+        return coal.Sphere(radius), hull_corners(radius * _ball()), None
     (length,) = _numbers(element.get("length", ""))
     ring = radius * _circle()
     ends = [np.column_stack([ring, np.full(_ROUND, side * length / 2)]) for side in (-1, 1)]
-    return coal.Cylinder(radius, length), np.vstack(ends), None
+    return coal.Cylinder(radius, length), hull_corners(np.vstack(ends)), None
 
 
 def _circle() -> FloatArray:
@@ -168,7 +168,7 @@ class _Meshes:
         self._left = TRIANGLES_MAX
 
     def shape(self, path: Path, scale: tuple[float, ...]) -> _Shape:
-        """Return a mesh for coal, its vertices and its triangles; raise as `read` does."""
+        """Return a mesh for coal, its hull's corners and its triangles; raise as `read` does."""
         if (path, scale) not in self._made:
             vertices, triangles = self.read(path, scale)
             mesh = coal.BVHModelOBBRSS()
@@ -176,7 +176,7 @@ class _Meshes:
             mesh.addVertices(vertices)
             mesh.addTriangles(triangles)
             mesh.endModel()
-            self._made[path, scale] = mesh, vertices, triangles
+            self._made[path, scale] = mesh, hull_corners(vertices), triangles
         return self._made[path, scale]
 
     def read(self, path: Path, scale: tuple[float, ...]) -> tuple[FloatArray, NDArray[np.int64]]:
@@ -221,4 +221,14 @@ class _Meshes:
 @lru_cache(maxsize=64)
 def _read_once(path: Path, _: int) -> tuple[FloatArray, NDArray[np.int64]]:
     mesh = read_mesh_file(path)
-    return np.array(mesh.vertices, dtype=float), np.array(mesh.faces, dtype=np.int64)
+    return _without_repeats(np.array(mesh.vertices, dtype=float), np.array(mesh.faces, dtype=np.int64))
+
+
+def _without_repeats(vertices: FloatArray, triangles: NDArray[np.int64]) -> tuple[FloatArray, NDArray[np.int64]]:
+    """Return a mesh with each of its triangles once: trees of equal boxes and hulls of equal points take minutes."""
+    _, place = np.unique(vertices, axis=0, return_inverse=True)
+    _, first = np.unique(np.sort(place.reshape(-1)[triangles], axis=1), axis=0, return_index=True)
+    if len(first) == len(triangles):
+        return vertices, triangles
+    used, numbers = np.unique(triangles[np.sort(first)], return_inverse=True)
+    return vertices[used], numbers.reshape(-1, 3)
