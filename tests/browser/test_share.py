@@ -17,6 +17,8 @@ def test_the_page_of_a_link_plays_and_has_nothing_that_changes_the_document(page
     link = page.get_by_role("textbox", name="Link")
     expect(link).to_have_value(re.compile(r"^http://.*/s/[\w-]+/d/\w+$"))
     address = link.input_value()
+    refused: list[str] = []
+    page.on("response", lambda answer: answer.status < 400 or refused.append(answer.url))
     page.goto(address)
     expect(page.locator(".fold-row")).to_have_count(2)
     expect(page.get_by_text("View only")).to_be_visible()
@@ -24,6 +26,11 @@ def test_the_page_of_a_link_plays_and_has_nothing_that_changes_the_document(page
         expect(page.get_by_role("button", name=name, exact=True)).to_have_count(0)
     expect(page.locator("#rail")).to_have_count(0)
     expect(page.get_by_role("button", name="Export", exact=True)).to_be_visible()
+    stage = page.frame_locator("#stage")
+    expect(stage.locator("#root canvas").first).to_be_visible()
+    expect(page.locator(".stage-cover")).to_be_hidden()
+    expect(stage.locator("[data-dock-root]").first).to_be_hidden()
+    assert not refused, refused
     before = sheet.state
     page.mouse.click(300, 300)
     page.keyboard.press("Delete")

@@ -4,6 +4,7 @@ import json
 from pathlib import Path
 
 import numpy as np
+import pinocchio as pin
 import pytest
 
 from planner.errors import RobotError
@@ -11,7 +12,7 @@ from planner.geometry.pose import FloatArray, Pose2
 from planner.robots.collision import part_source
 from planner.robots.collision.collisions import Collisions
 from planner.robots.collision.described_parts import described_parts
-from planner.robots.collision.link_shapes import require_shown
+from planner.robots.collision.link_shapes import link_shapes, require_shown
 from planner.robots.described_robot import DescribedRobot, read_robot, shipped_robots
 from tests.replay.described_hulls import Hulls
 from tests.sweep import sweep
@@ -255,6 +256,17 @@ def test_a_mesh_of_more_triangles_than_may_be_is_refused_by_its_name(tmp_path, m
             continue
         with pytest.raises(RobotError, match=r"link 'port_rod': the mesh 'rod.obj' has 5 triangles"):
             described_parts(robot, folder)
+
+
+def test_a_triangle_that_a_mesh_repeats_is_one_of_its_shape(tmp_path):
+    faces = ["f 1 3 2", "f 1 2 4", "f 1 4 3", "f 2 3 4", "f 4 2 3", "f 6 5 7"]
+    corners = ["v 0 0 0", "v .1 0 0", "v 0 .1 0", "v 0 0 .1", "v 0 0 0", "v .1 0 0", "v 0 .1 0"]
+    (tmp_path / "rod.obj").write_text("\n".join([*corners, *faces]))
+    link = f'<link name="rod"><visual><geometry><mesh filename="{tmp_path}/rod.obj"/></geometry></visual></link>'
+    urdf = f'<robot name="r">{link}</robot>'
+    [shape] = link_shapes(pin.buildModelFromXML(urdf), urdf)
+    assert shape.triangles.tolist() == [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+    assert shape.geometry.num_vertices == len(shape.corners) == 4
 
 
 @pytest.mark.parametrize(

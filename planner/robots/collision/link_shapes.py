@@ -194,12 +194,12 @@ class _Meshes:
         try:
             if (known := triangle_count(path)) is not None:
                 self._count(path, known)
-            corners, triangles = _read_once(path, path.stat().st_mtime_ns)
+            count, corners, triangles = _read_once(path, path.stat().st_mtime_ns)
         except (MeshError, OSError) as error:
             said = error.strerror if isinstance(error, OSError) else error
             raise RobotError("urdf", f"the mesh {path.name!r} cannot be read: {said}") from None
         if known is None:
-            self._count(path, len(triangles))
+            self._count(path, count)
         if 0.0 in scale:
             raise ValueError(scale)
         vertices: FloatArray = corners * np.array(scale)
@@ -219,9 +219,11 @@ class _Meshes:
 
 
 @lru_cache(maxsize=64)
-def _read_once(path: Path, _: int) -> tuple[FloatArray, NDArray[np.int64]]:
+def _read_once(path: Path, _: int) -> tuple[int, FloatArray, NDArray[np.int64]]:
+    """Return how many triangles a file has, and the vertices and triangles of its mesh, each triangle once."""
     mesh = read_mesh_file(path)
-    return _without_repeats(np.array(mesh.vertices, dtype=float), np.array(mesh.faces, dtype=np.int64))
+    vertices, triangles = np.array(mesh.vertices, dtype=float), np.array(mesh.faces, dtype=np.int64)
+    return len(triangles), *_without_repeats(vertices, triangles)
 
 
 def _without_repeats(vertices: FloatArray, triangles: NDArray[np.int64]) -> tuple[FloatArray, NDArray[np.int64]]:
