@@ -3,9 +3,10 @@
 import re
 from collections.abc import Callable
 
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Browser, Page, expect
 
-from tests.browser.conftest import Garment, Sheet
+from tests.app.conftest import REST
+from tests.browser.conftest import Garment, Sheet, new_stage_page
 
 NewSheet = Callable[[Garment], Sheet]
 
@@ -17,8 +18,6 @@ def test_the_page_of_a_link_plays_and_has_nothing_that_changes_the_document(page
     link = page.get_by_role("textbox", name="Link")
     expect(link).to_have_value(re.compile(r"^http://.*/s/[\w-]+/d/\w+$"))
     address = link.input_value()
-    refused: list[str] = []
-    page.on("response", lambda answer: answer.status < 400 or refused.append(answer.url))
     page.goto(address)
     expect(page.locator(".fold-row")).to_have_count(2)
     expect(page.get_by_text("View only")).to_be_visible()
@@ -26,13 +25,29 @@ def test_the_page_of_a_link_plays_and_has_nothing_that_changes_the_document(page
         expect(page.get_by_role("button", name=name, exact=True)).to_have_count(0)
     expect(page.locator("#rail")).to_have_count(0)
     expect(page.get_by_role("button", name="Export", exact=True)).to_be_visible()
-    stage = page.frame_locator("#stage")
-    expect(stage.locator("#root canvas").first).to_be_visible()
-    expect(page.locator(".stage-cover")).to_be_hidden()
-    expect(stage.locator("[data-dock-root]").first).to_be_hidden()
-    assert not refused, refused
     before = sheet.state
     page.mouse.click(300, 300)
     page.keyboard.press("Delete")
     page.keyboard.press("Control+z")
     assert sheet.state == before
+
+
+def test_the_3d_view_of_a_link_shows_the_robot_without_the_viewers_own_panel(
+    browser: Browser, new_sheet: NewSheet
+) -> None:
+    """Nothing that the page asks for is refused, and it can be played."""
+    sheet = new_sheet("scarf")
+    link = REST.post(f"{sheet.path}/share").raise_for_status().json()["path"]
+    page = new_stage_page(browser)
+    refused: list[str] = []
+    page.on("response", lambda answer: refused.append(answer.url) if answer.status >= 400 else None)
+    page.goto(f"{sheet.page_url.partition('/d/')[0]}{link}")
+    stage = page.frame_locator("#stage")
+    expect(stage.locator("#root canvas").first).to_be_visible()
+    expect(page.locator(".stage-cover")).to_be_hidden()
+    expect(stage.locator("[data-dock-root]").first).to_be_hidden()
+    page.get_by_role("button", name="Play", exact=True).click()
+    expect(page.get_by_role("button", name="Pause", exact=True)).to_be_visible()
+
+    page.close()
+    assert refused == []
