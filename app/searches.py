@@ -176,6 +176,8 @@ def read_robot(_: Tell, folder: Path, given: bytes | CardFile) -> CardFile:
             unpack_robot(given, folder)
         card = read_card(folder / CARD)
     robot = DescribedRobot.of(card, folder)
+    with storing("the robots' folder could not be made"):
+        folder.parent.mkdir(parents=True, exist_ok=True)
     try:
         with one_at_a_time(folder.parent), bounded(READING_BYTES_MAX, READING_CPU_S):
             require_shown(robot.urdf)
