@@ -13,12 +13,12 @@ from tests.browser.conftest import Garment, Sheet
 from tests.browser.napkin import napkin
 from tests.browser.status_pill import expect_planned
 
-ASSUMED = ["grip 50 cm", "friction 1.5", "comfort 1 cm"]
+ASSUMED = ["grip 50 cm", "friction 1.5", "reach margin 1 cm"]
 
 
 @pytest.fixture
 def assumed(page: Page, new_sheet: Callable[[Garment], Sheet]) -> Sheet:
-    """Return a napkin with a wide grip in two of its folds, a rougher table, and a smaller comfort radius."""
+    """Return a napkin with a wide grip in two of its folds, a rougher table, and a smaller reach margin."""
     sheet = new_sheet(napkin())
 
     def assume(drawing: dict[str, Any]) -> None:

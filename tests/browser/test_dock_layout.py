@@ -110,7 +110,7 @@ def test_on_a_phone_the_large_stage_has_play_and_help_speaks_of_fingers_first(ph
     phone.get_by_role("button", name="Show the 3D view large").tap()
     expect(play).to_be_enabled(timeout=STAGE_PATIENCE_MS)
     play.tap()
-    pause = phone.get_by_role("button", name="Pause on the stage")
+    pause = phone.get_by_role("button", name="Pause in the 3D view")
     expect(pause).to_be_visible()
     pause.tap()
     expect(play).to_be_visible()

@@ -230,7 +230,7 @@ def test_when_a_search_is_cut_short_the_pill_is_brief_and_the_dock_says_how_far_
     told = page.evaluate(
         """async () => {
           const { explanation, headline } = await import("/static/js/dock/reasons.js");
-          const text = "No plan: searched 1,207 ways and found none; any takes 9 s. To look longer may help";
+          const text = "No plan: searched 1,207 candidates and found none; any takes 9 s. To look longer may help";
           const message = { status: "budget_exceeded", text, plan: { reasons: [], statistics: { ways: 1207 } } };
           const state = { drawing: { folds: [] }, problems: [] };
           return [headline(message, state), explanation(message, state)];

@@ -118,7 +118,7 @@ def test_where_a_quicker_plan_may_exist_that_is_told_with_what_any_takes(
     proven = napkin(placement={"x_m": -0.6, "y_m": -0.2, "yaw_rad": 0.0})
     page.goto(new_sheet(proven).page_url)
     numbers = page.get_by_role("region", name="Numbers")
-    expect(numbers).to_contain_text("There may be a quicker plan; none takes less than 6.5 s.")
+    expect(numbers).to_contain_text("A faster plan may exist; lower bound 6.5 s.")
     expect(numbers).to_contain_text("1,234 candidates examined.")
     longer = numbers.get_by_role("button", name="Look longer")
     longer.click()

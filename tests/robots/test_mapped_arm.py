@@ -5,7 +5,7 @@ import os
 import numpy as np
 import pytest
 
-from planner.robots import posture_maps
+from planner.robots import reach_maps
 from planner.robots.chain import tool_poses
 from planner.robots.described_robot import DescribedArm, read_robot
 from planner.robots.load_robot import load_robot
@@ -98,7 +98,7 @@ def test_a_short_arm_reaches_what_random_joints_reach():
 
 
 def test_what_is_asked_above_or_below_a_map_is_looked_for_in_layers_of_it(cache, poses, monkeypatch):
-    monkeypatch.setattr(posture_maps, "user_cache_path", lambda _: cache)
+    monkeypatch.setattr(reach_maps, "user_cache_path", lambda _: cache)
     arm, reference = mapped(cache), load_robot("pr2")
     before = arm.can_reach(*poses, TORSO_M)
     low_m, high_m = covered_heights(arm.known.grid)
@@ -139,7 +139,7 @@ def test_a_map_that_cannot_be_read_is_built_again(tmp_path, poses):
 
 
 def test_maps_that_were_not_used_lately_are_dropped(tmp_path, monkeypatch):
-    monkeypatch.setattr(posture_maps, "_KEPT_MAX", 1)
+    monkeypatch.setattr(reach_maps, "_KEPT_MAX", 1)
     old = tmp_path / "postures" / "old.npz"
     old.parent.mkdir()
     old.write_bytes(b"a map of an earlier version")

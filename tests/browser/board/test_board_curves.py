@@ -69,7 +69,7 @@ def test_with_alt_the_middle_of_an_edge_becomes_a_corner(page: Page, square: Des
 def test_a_written_bulge_bends_the_edge_outwards_and_nought_straightens_it(page: Page, square: Desk) -> None:
     Hand(page).click((0.4, 0.4))
     page.keyboard.press("c")
-    field = page.get_by_label("How far the middle of the edge")
+    field = page.get_by_label("Bulge from straight")
     expect(field).to_be_focused()
     field.fill("10")
     page.keyboard.press("Enter")
@@ -151,7 +151,7 @@ def test_a_fold_ends_anywhere_on_a_curve_and_goes_along_when_it_is_pulled(page: 
     hand.tool("Select")
     hand.click((0.35, 0.35))
     page.keyboard.press("c")
-    page.get_by_label("How far the middle of the edge").fill("-4")
+    page.get_by_label("Bulge from straight").fill("-4")
     page.keyboard.press("Enter")
     expect_step(page, "Bend edge")
     assert square.at_rest()["drawing"]["folds"][0]["start"]["point"] == pytest.approx([0.2, 0.36], abs=2e-3)

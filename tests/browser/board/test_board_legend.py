@@ -39,7 +39,7 @@ def test_there_is_no_legend_before_anything_is_switched_on_and_drawn(page: Page,
     expect(legend).to_have_count(0)
     page.evaluate("0")  # what was asked before that has been heard of by then
     asked[0].continue_()
-    expect(legend.get_by_role("listitem")).to_have_text(["Slip limit: so much may hang over that edge"])
+    expect(legend.get_by_role("listitem")).to_have_text(["Slip limit: maximum overhang over that edge"])
     chip(page, "Slip limit").click()
     expect(legend).to_have_count(0)
 
@@ -72,7 +72,7 @@ def test_the_ways_of_base_and_hands_are_named_when_there_are_any(page: Page, leg
     for name in ("Hand paths", "Base path"):
         chip(page, name).click()
     expect(page.locator(".layer-over .hand-path.is-now").first).to_be_attached()
-    for words in ("The base at this moment", "Where it stands and looks", "Way of the hand L or R at this moment"):
+    for words in ("The base at this moment", "Base pose", "Current path of gripper L or R"):
         expect(legend.get_by_text(words)).to_be_visible()
     chip(page, "Hand paths").click()
     expect(legend.get_by_text("Way of the hand")).to_have_count(0)
@@ -88,8 +88,7 @@ def test_the_cost_map_is_explained_with_what_the_server_told(page: Page, legend:
     page.route("**/overlays/places", lambda route: route.fulfill(json=told))
     chip(page, "Cost map").click()
     rows = [
-        "The plan takes 41.3\N{NO-BREAK SPACE}s (strongest) to 57.8\N{NO-BREAK SPACE}s,"
-        " the cloth\N{RIGHT SINGLE QUOTATION MARK}s middle there",
+        "Plan time 41.3\N{NO-BREAK SPACE}s (strongest) to 57.8\N{NO-BREAK SPACE}s with the cloth centred here",
         "Empty: no plan from there",
         "No square: not tried yet",
     ]

@@ -30,7 +30,7 @@ def width(page: Page) -> float:
 
 
 def test_the_splitter_is_moved_by_the_arrow_keys_and_the_mouse_and_remembered(page: Page, towel: Desk) -> None:
-    splitter = page.get_by_role("separator", name="Board and stage")
+    splitter = page.get_by_role("separator", name="Board and 3D view")
     first = width(page)
     splitter.focus()
     page.keyboard.press("ArrowRight")
