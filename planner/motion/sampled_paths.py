@@ -111,7 +111,7 @@ class SampledPaths:
                 break
             lengths = np.append(0.0, np.cumsum([float(np.abs(b - a).max()) for a, b in pairwise(way)]))
             cuts = np.sort(self._rng.uniform(0.0, lengths[-1], 2))
-            first, last = (int(np.searchsorted(lengths, cut, side="right").clip(1, len(way) - 1)) for cut in cuts)
+            first, last = np.digitize(cuts, lengths).clip(1, len(way) - 1).tolist()
             if first == last:
                 continue
             ends = np.column_stack([np.interp(cuts, lengths, column) for column in way.T])

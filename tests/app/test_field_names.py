@@ -28,7 +28,7 @@ def test_a_commands_field_is_named_without_the_command(command: dict[str, Any], 
 
 
 def test_an_unknown_command_is_named_beside_those_that_there_are() -> None:
-    with pytest.raises(FieldError, match="do: expected one of 'play', 'pause'; got 'dance'"):
+    with pytest.raises(FieldError, match=r"do: expected one of 'play', 'pause', .*; got 'dance'"):
         COMMANDS.read({"do": "dance"})
 
 

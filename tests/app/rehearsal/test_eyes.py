@@ -146,7 +146,7 @@ def test_a_run_that_stays_blind_ends_with_the_reason_and_the_picture():
 def test_one_step_is_made_blindly():
     camera = CameraWorld(FlatCloth(0.0, 0.0), towel_plan().task, home(), 3).observe().camera
     grey = Observation(np.full((480, 640, 3), 128, np.uint8), camera)
-    world = ReplayWorld(grey, [Recorded(Performed(), grey) for _ in range(3)])
+    world = ReplayWorld(grey, [Recorded(Performed(), grey) for _ in range(4)])
     done = Performer(towel_plan(), world, Gate(), no_plan).performed()
     assert not done.reason
     assert [decision.code for decision in done.decisions][-1] == "corrected"

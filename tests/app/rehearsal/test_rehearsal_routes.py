@@ -35,7 +35,8 @@ async def test_the_trace_of_a_run_can_be_read_by_its_id_and_shown_on_the_stage(c
     trace, cloth = (await client.get(path)).json(), (await client.get(f"{path}/cloth")).json()
     assert_described(trace, TraceAnswer)
     assert_described(cloth, TraceClothAnswer)
-    (step,), (look,) = trace["steps"], trace["pictures"]
+    (step,), (look, after) = trace["steps"], trace["pictures"]
+    assert base64.b64decode(after["jpeg"])[:2] == b"\xff\xd8"
     assert step["of_plan"] == look["of_plan"] == 0
     assert base64.b64decode(look["jpeg"])[:2] == b"\xff\xd8"
     (points,) = cloth["steps"]
