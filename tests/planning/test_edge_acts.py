@@ -45,7 +45,7 @@ def test_hands_that_come_late_to_an_edge_hold_otherwise(monkeypatch: pytest.Monk
         rounds.append(None if plan_segments is None else duration_s(plan_segments))
         return plan_segments
 
-    monkeypatch.setattr(MotionValidator, "segments", noted)
+    monkeypatch.setattr(MotionValidator, "plan_segments", noted)
     found = found_plan(load_garment("shirt"), time_limit_s=60.0)
     assert found.plan.is_proven
     assert rounds == [pytest.approx(found.plan.cost_s)], "the first path is taken, as quick as it seemed"

@@ -84,7 +84,7 @@ class Eager:
             cost_s, _, state, before, moves = heapq.heappop(queue)
             if state.done == self._goal:
                 return cost_s
-            node = (state, before and before.carried, tuple(step.before.key for step in moves))
+            node = (state, before and before.transfer_path, tuple(step.before.key for step in moves))
             if node in closed:
                 continue
             closed.add(node)

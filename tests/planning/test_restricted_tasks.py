@@ -77,7 +77,7 @@ def test_with_a_narrower_cone_what_is_known_of_transfers_is_not_computed_again(m
 
     monkeypatch.setattr("planner.motion.transfer_planner.waypoints_of", fail)
     made = narrower.maker.validated((again,))
-    assert made is not None and made.carried is known.carried
+    assert made is not None and made.transfer_path is known.transfer_path
     assert made.steps == (again,), "its steps are those of the tighter task"
     assert narrower.maker.path_requests == 1, "but it counts"
     with pytest.raises(AssertionError, match="computed again"):

@@ -71,7 +71,7 @@ def test_the_tools_are_where_the_grips_are_when_they_take_the_cloth(plan: Plan):
                 q[model.joints[model.getJointId(name)].idx_q] = value
             pin.framesForwardKinematics(model, data, q)
             frame = data.oMf[model.getFrameId(arm.card.tool.link)]
-            tool = frame.plan_segment(np.array(arm.card.tool.offset_m))
+            tool = frame.act(np.array(arm.card.tool.offset_m))
             at = base.to_outer(tool) - np.array([0.0, 0.0, height_m])
             nearest = min(nearest, float(np.linalg.norm(at - grip.pick)))
         assert nearest < 1e-4

@@ -52,7 +52,7 @@ class Bench:
         link = pin.updateFramePlacement(self._model, self._data, self._model.getFrameId(part.tool.link))
         approach, closing = np.array(part.tool.approach), np.array(part.tool.closing)
         axes = np.column_stack([approach, closing, np.cross(approach, closing)])
-        return link.plan_segment(np.array(part.tool.offset_m)), link.rotation @ axes
+        return link.act(np.array(part.tool.offset_m)), link.rotation @ axes
 
     def require_followed(self, path: ToolPath, joints: FloatArray) -> None:
         """Require the tool at its pose everywhere, as far as the arm has joints for it, and an unbroken path."""

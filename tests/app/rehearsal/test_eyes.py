@@ -149,7 +149,7 @@ def test_one_step_is_made_blindly():
     world = ReplayWorld(grey, [Recorded(Performed(), grey) for _ in range(4)])
     done = Performer(towel_plan(), world, Gate(), no_plan).performed()
     assert not done.reason
-    assert [decision.code for decision in done.decisions][-1] == "corrected"
+    assert "corrected" in [decision.code for decision in done.decisions]  # and then it looks for the fold in vain
 
 
 def test_where_nothing_is_seen_a_stack_is_taken_where_it_was_seen_before_the_last_fold():
