@@ -66,7 +66,7 @@ def newer(file: dict[str, Any]) -> None:
     [
         (hurried, "steps[1].trajectory", "times as fast"),
         (elsewhere, "steps[1].holdings", "do not hold"),
-        (skipped, "steps[0].before", "not the state"),
+        (skipped, "steps[0].before", "differs"),
         (newer, "pleat_plan", "newer than 1"),
         (lambda file: file.update(extra=1), "extra", "not a known field"),
         (lambda file: file.update(cost_s=1.0), "cost_s", "is not what follows"),

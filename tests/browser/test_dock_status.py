@@ -123,7 +123,7 @@ def test_where_a_quicker_plan_may_exist_that_is_told_with_what_any_takes(
     longer = numbers.get_by_role("button", name="Look longer")
     longer.click()
     expect(longer).to_be_hidden()
-    expect(numbers).not_to_contain_text("There may be a quicker plan")
+    expect(numbers).not_to_contain_text("A faster plan may exist")
 
 
 def out_of_time(page: WebSocketRoute) -> None:
