@@ -2,8 +2,8 @@
 
 Both get the same pairs of configurations, the tool 45 degrees down on either side of the box, and the same question of
 whether a configuration is free: of box, table, the robot's body and its other arm. Pleat tries the straight line in
-joint space and a list of detours; OMPL plans with RRTConnect and simplifies what it finds. OMPL's own time is small
-beside that of the questions, which it puts one by one; Pleat puts those of a line together.
+joint space, a list of detours, then its own RRT-Connect; OMPL plans with RRTConnect and simplifies what it finds.
+OMPL's own time is small beside that of the questions, which it puts one by one; Pleat puts those of a line together.
 
 OMPL is an extra, pinned in ``requirements-bench.txt``.
 """

@@ -7,7 +7,9 @@ The algorithm of the paper (section 5), from top to bottom:
    DAG makes available, drags towards the robot, moves between stations.
 3. Validate the path found: look for joint paths of both arms that are free of collision. Where there are none, or they
    take longer than assumed, the search continues with the costs known by then.
-4. A validated path is the plan. If the search exhausts all states first, no plan exists, and the obstacles that it met
+4. Hands hold firmly wherever they can: every vertex within 8 cm of a grip. Only where that gives no plan is all of this
+   done again with grips that hold within the garment's own radius.
+5. A validated path is the plan. If the search exhausts all states first, no plan exists, and the obstacles that it met
    say why. To find this out sooner, a search that takes long also checks each fold alone with everything else relaxed:
    usually a single fold is to blame.
 """
@@ -91,9 +93,26 @@ def find_plan(
         RequestError: the folds do not allow the task's start, or the robot is unknown.
     """
     compile_kernels(task.robot)
-    problem, limits = Problem.of(task), task.limits
-    budget = Budget.of(limits.work_limit_s, limits.time_limit_s, should_stop)
-    explainer = Explanation() if with_reasons else None
+    problem = Problem.of(task)
+    budget = Budget.of(task.limits.work_limit_s, task.limits.time_limit_s, should_stop)
+    firmly_known = known if known is not None and known.context.is_firm else None
+    firm = _planned(problem.firm(), budget, firmly_known, like, on_found, None)
+    if firm.plan.is_solved:
+        return firm
+    # It knows where the arms reach as far as has been asked.
+    return _planned(Problem.of(task), budget, known, like, on_found, Explanation() if with_reasons else None)
+
+
+def _planned(
+    problem: Problem,
+    budget: Budget,
+    known: FoundPlan | None,
+    like: Sequence[FoundPlan],
+    on_found: Callable[[FoundPlan], None] | None,
+    explainer: Explanation | None,
+) -> FoundPlan:
+    """Return the plan for a problem, with drags by the arms and hands that let go where these help; see `find_plan`."""
+    limits = problem.task.limits
     if problem.context.is_fixed and known is None and not problem.may_let_go:
         # Drags by the arms cost two motions and save none: where folds alone give a plan, drags are not looked for.
         still = PlanSearch(
@@ -101,7 +120,7 @@ def find_plan(
         ).plan()
         if still.plan.is_solved:
             return still
-        problem = Problem.of(task)  # it knows where the arms reach as far as has been asked
+        problem = problem.anew()
     if not problem.may_let_go:
         return PlanSearch(
             problem, limits.heuristic, budget, limits.max_expanded, known, like, on_found, explainer
@@ -132,4 +151,5 @@ def quick_plan(
         RequestError: the folds do not allow the task's start, or the robot is unknown.
     """
     compile_kernels(task.robot)
-    return quickly_planned(Problem.of(task), like, should_stop or (lambda: False))
+    problem, is_over = Problem.of(task), should_stop or (lambda: False)
+    return quickly_planned(problem.firm(), like, is_over) or quickly_planned(problem, like, is_over)

@@ -39,6 +39,21 @@ def star(rng: random.Random, corners: int) -> tuple[Point2, ...]:
     return tuple((r * math.cos(a), r * math.sin(a)) for r, a in zip(reach, turns, strict=True))
 
 
+def noisy(ring: FloatArray, count: int, amplitude_m: float, rng: random.Random) -> FloatArray:
+    """Return about `count` points along a ring, each up to an amplitude (m) beside its place, as if traced."""
+    sides = np.roll(ring, -1, axis=0) - ring
+    lengths = np.hypot(*sides.T)
+    parts = [max(1, round(count * length / lengths.sum())) for length in lengths]
+    points = [
+        start + side * (number / part)
+        for start, side, part in zip(ring, sides, parts, strict=True)
+        for number in range(part)
+    ]
+    turns = [rng.uniform(0.0, math.tau) for _ in points]
+    beside = [amplitude_m * rng.random() * np.array([math.cos(turn), math.sin(turn)]) for turn in turns]
+    return np.asarray(np.array(points) + np.array(beside))
+
+
 def fold(start: Point2, end: Point2, kind: str = "blue", name: str = "a fold", radius_m: float = 0.127) -> DrawnFold:
     return DrawnFold(name, kind, start, end, radius_m)
 

@@ -7,7 +7,6 @@ for another look; where that does not help, one step is made as planned, and a r
 which a fold has left another outline than planned, on a second look too; after the last step it is looked for as well.
 """
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
@@ -28,7 +27,7 @@ from app.rehearsal.corrections import (
 from app.rehearsal.eyes import Picture
 from app.rehearsal.grasp_points import at_layered_corners, inside, inwards_at, laid_short, where_seen
 from app.rehearsal.judge import Gate, StepVerdict, judged
-from app.rehearsal.rest import is_loose, rest_tasks
+from app.rehearsal.rest import rest_task
 from app.rehearsal.result import Decision
 from app.rehearsal.step_motions import posture_at, step_motions
 from app.rehearsal.taut_way import taut
@@ -38,7 +37,6 @@ from app.rehearsal.watch import Watch
 from app.rehearsal.world import Performed, StepMotion, World
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Point2, Pose2
-from planner.geometry.tolerance import TIME_S
 from planner.task.plan import Plan
 from planner.task.plan_step import PlanStep
 from planner.task.task import Task
@@ -46,9 +44,6 @@ from planner.task.world_state import WorldState
 
 FAILURES_MAX = 3
 """Times that the rest is planned again before a run is given up."""
-
-FIRM_S = 0.5
-"""The time that firm hands may add to the rest (s): what is held loosely is lost now and then."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,9 +99,6 @@ class Performer:
                 lies, blind = self._watch.before(self.plan, step, self._made)
                 if blind:
                     return self._ended(blind)
-                if self._is_firmer(step):
-                    motions, number, carried = self._anew()
-                    continue
                 carried = carry(step.before.placement, lies)
                 shift_m = shift_of(motion, carried)
                 answer = None
@@ -190,23 +182,6 @@ class Performer:
         hands, self._hands = self._hands, {}
         return self.world.perform(aimed(made, hands))
 
-    def _is_firmer(self, step: PlanStep) -> bool:
-        """Plan the rest anew with hands that hold firmly where a step's would not, if that takes hardly longer.
-
-        It is planned from where the step was planned to begin, and corrected as that would be: from where the cloth
-        lies, a few millimetres beside, there may be none so quick within the comfort radius.
-        """
-        if not is_loose(step, self._first.task):
-            return False
-        assert self.replan is not None
-        firm = self.replan(rest_tasks(self._first.task, step.before)[0])
-        longer_s = math.inf if firm.cost_s is None else firm.cost_s + step.start_s - (self.plan.cost_s or 0.0)
-        if longer_s > FIRM_S + TIME_S:
-            return False
-        self._decide("firmer", ("longer_s", longer_s))
-        self.plan = firm
-        return True
-
     def _planned_again(self, step: PlanStep, lies: Pose2, shift_m: float) -> str:
         """Plan the rest from what is there; return why that cannot be, "" if it can."""
         self._decide("replanned", ("shift_m", shift_m))
@@ -214,11 +189,10 @@ class Performer:
             return f"step {self._made} failed after the rest was planned again {FAILURES_MAX} times"
         start = WorldState(step.before.folds_done, lies, step.before.base)
         assert self.replan is not None
-        for task in rest_tasks(self._first.task, start):
-            again = self.replan(task)
-            if again.is_solved:
-                self.plan = again
-                return ""
+        again = self.replan(rest_task(self._first.task, start))
+        if again.is_solved:
+            self.plan = again
+            return ""
         return f"from where the cloth lies before step {self._made} the plan is {again.status}"
 
     def _judge(self, motion: StepMotion, step: PlanStep, answer: Performed, carried: Isometry) -> None:

@@ -18,8 +18,7 @@ class Decision:
 
     Attributes:
         step: how many steps had been made.
-        code: "seen", "not_known", "kept_blindly", "corrected", "aimed", "firmer", "regrasped", "replanned" or
-            "fold_failed".
+        code: "seen", "not_known", "kept_blindly", "corrected", "aimed", "regrasped", "replanned" or "fold_failed".
         numbers: what it rests on, by name, in SI units.
     """
 

@@ -5,8 +5,8 @@ boundary nearest to the centre of the smallest circle round each two and each th
 covers the best is the one whose largest distance from a vertex to its grip is smallest, then the second
 largest, and so on; covers that tie are all kept, otherwise a mirrored garment would be planned differently.
 
-A grip near the end of its reach lets corners fold under. Where more grips hold every vertex firmly, within `FIRM` of
-the radius, such covers are kept too, and preferred among ways that take equally long.
+A grip near the end of its reach lets corners fold under. So the firm covers are those of the fewest grips that hold
+every vertex within `FIRM_M`. Where no cover does, they are the nearest, of however many grips.
 
 A round cloth has thousands of candidates, too many to rank all their pairs. But the largest distance decides nearly
 always, and its best value can be found alone: the smallest radius with which some pair covers all vertices. Only the
@@ -27,11 +27,11 @@ from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 from planner.geometry.tolerance import LENGTH_M, grid_key
 
-FIRM = 0.875
-"""The fraction of the radius within which a grip holds firmly: of .127 m, 11.1 cm.
+FIRM_M = 0.08
+"""The distance within which a grip holds firmly, if its radius is no less (m).
 
-In simulated folds (docs/rehearsal.md) corners up to 10.5 cm from a grip came along, at 10.5 cm not in every
-run, from 12.4 cm on they folded under.
+In simulated folds (docs/rehearsal.md) corners 10 cm from a hand folded under in some runs, and from 12.4 cm on
+in all.
 """
 
 _RANKED_AT_ONCE = 64
@@ -54,17 +54,19 @@ class GripCovers:
     Attributes:
         vertices: the vertices that must be held, frame of the cloth (m).
         covers: equally good sets of the fewest grips; empty when `at_most` grips do not suffice.
-        firmer: equally good sets of more grips that hold firmly what those do not; empty where there is none.
+        firm: equally good sets that hold firmly, or else as nearly so as any; often the same.
+        firm_m: the largest distance from a vertex to its grip that counts as firm here (m).
     """
 
     vertices: tuple[Point2, ...]
     covers: tuple[Cover, ...]
-    firmer: tuple[Cover, ...] = ()
+    firm: tuple[Cover, ...]
+    firm_m: float = FIRM_M
 
     @property
     def every(self) -> tuple[Cover, ...]:
-        """All sets of grips, the firmer first."""
-        return (*self.firmer, *self.covers)
+        """All sets of grips, the firm ones first."""
+        return self.firm if self.firm == self.covers else (*self.firm, *self.covers)
 
     @property
     def is_holdable(self) -> bool:
@@ -91,38 +93,50 @@ def grip_covers(
     """
     points = tuple((float(x), float(y)) for x, y in vertices)
     if not points:
-        return GripCovers(points, ((),))
+        return GripCovers(points, ((),), ((),))
     if _needs_more(vertices, radius_m, at_most):
-        return GripCovers(points, ())
+        return GripCovers(points, (), ())
     candidates = grip_candidates(piece, vertices, baseline)
     covers = best_covers(candidates, vertices, radius_m, at_most)
-    return GripCovers(points, covers, firmer_covers(candidates, vertices, radius_m, at_most, covers))
+    firm = firm_covers(candidates, vertices, radius_m, at_most)
+    return GripCovers(points, covers, firm, max(min(FIRM_M, radius_m), largest_m(firm, vertices)))
 
 
-def firmer_covers(
-    candidates: FloatArray, vertices: FloatArray, radius_m: float, at_most: int, covers: tuple[Cover, ...]
-) -> tuple[Cover, ...]:
-    """Return the best covers that hold firmly, of more grips than the given ones; empty where those do or none does.
+def firm_covers(candidates: FloatArray, vertices: FloatArray, radius_m: float, at_most: int) -> tuple[Cover, ...]:
+    """Return the best covers that hold all vertices within `FIRM_M`; where none does, the nearest within the radius.
 
     Args:
         candidates: points of the cloth, shape (m, 2), m.
         vertices: the vertices that must be held, shape (n, 2), m.
         radius_m: the radius within which one grip holds (m).
         at_most: the number of grippers.
-        covers: the best covers of the fewest grips.
     """
-    if not covers or not len(vertices) or len(covers[0]) == at_most:
-        return ()
-    found = best_covers(candidates, vertices, FIRM * radius_m, at_most)
-    return found if found and len(found[0]) > len(covers[0]) else ()
+    firm = best_covers(candidates, vertices, min(FIRM_M, radius_m), at_most)
+    if firm or radius_m <= FIRM_M:
+        return firm
+    nearest: tuple[Cover, ...] = ()
+    for covers in (best_covers(candidates, vertices, radius_m, count, count) for count in range(1, at_most + 1)):
+        if covers and (not nearest or largest_m(covers, vertices) < largest_m(nearest, vertices) - LENGTH_M):
+            nearest = covers
+    return nearest
 
 
-def best_covers(candidates: FloatArray, vertices: FloatArray, radius_m: float, at_most: int) -> tuple[Cover, ...]:
+def largest_m(covers: tuple[Cover, ...], vertices: FloatArray) -> float:
+    """Return the largest distance from a vertex to its grip in covers that are equally good (m); 0 without any."""
+    if not covers or not len(vertices):
+        return 0.0
+    gaps = np.array(covers[0])[:, None] - vertices
+    return float(np.hypot(*gaps.transpose(2, 0, 1)).min(axis=0).max())
+
+
+def best_covers(
+    candidates: FloatArray, vertices: FloatArray, radius_m: float, at_most: int, at_least: int = 1
+) -> tuple[Cover, ...]:
     """Return the best covers of the vertices among the given candidates, shape (m, 2), ties included."""
     distances = np.hypot(*(candidates[:, None, :] - vertices[None, :, :]).transpose(2, 0, 1))
     useful = (distances <= radius_m + LENGTH_M).any(axis=1)
     candidates, distances = candidates[useful], distances[useful]
-    for count in range(1, at_most + 1):
+    for count in range(at_least, at_most + 1):
         chosen = _covering_sets(distances, radius_m + LENGTH_M, count)
         if len(chosen):
             ranks = -np.sort(-distances[chosen].min(axis=1), axis=1)

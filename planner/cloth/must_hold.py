@@ -3,6 +3,9 @@
 Hanging cloth stays as it is when every vertex that is also a vertex of the convex hull is held, lies on
 the baseline, or has cloth straight above it. Cloth that is dragged keeps its shape under the same rule, with "up" as
 the direction of the drag; cloth that is being folded hangs from the grips, and "up" leads away from the fold line.
+
+Outlines that were traced, and curves, have many vertices; those without which the outline keeps its shape to within
+`TRACED_M` are left out first. Cloth at such a vertex sags no further than that.
 """
 
 import math
@@ -11,9 +14,10 @@ import numpy as np
 
 from planner.geometry.pose import BoolArray, FloatArray, Point2
 from planner.geometry.region import Region
-from planner.geometry.ring import after, before, feet
+from planner.geometry.ring import after, before, feet, hull_of
 from planner.geometry.segment import Segment
 from planner.geometry.tolerance import LENGTH_M
+from planner.geometry.traced import traced
 
 
 def must_hold(piece: Region, up: Point2, baseline: tuple[Segment, ...], support_angle_rad: float) -> FloatArray:
@@ -31,15 +35,22 @@ def must_hold(piece: Region, up: Point2, baseline: tuple[Segment, ...], support_
     """
     if piece.is_sliver:
         return np.empty((0, 2))
-    loose = np.concatenate([_not_supported(ring, up, baseline, support_angle_rad) for ring in piece.rings])
-    return loose[_is_on_hull(loose, piece.hull)] if len(loose) else loose
+    shapes = [_shape(ring, baseline) for ring in piece.rings]
+    loose = np.concatenate([ring[free & ~_is_supported(ring, up, support_angle_rad)] for ring, free in shapes])
+    if not len(loose):
+        return loose
+    is_whole = sum(len(ring) for ring, _ in shapes) == sum(len(ring) for ring in piece.rings)
+    hull = piece.hull if is_whole else hull_of(np.concatenate([ring for ring, _ in shapes]))
+    return loose[_is_on_hull(loose, hull)]
 
 
-def _not_supported(ring: FloatArray, up: Point2, baseline: tuple[Segment, ...], support_angle_rad: float) -> FloatArray:
-    free = ~_is_supported(ring, up, support_angle_rad)
+def _shape(ring: FloatArray, baseline: tuple[Segment, ...]) -> tuple[FloatArray, BoolArray]:
+    """Return the vertices that make a ring's shape, the baseline's among them, and which of them it does not hold."""
+    is_held = np.zeros(len(ring), dtype=bool)
     for segment in baseline:
-        free &= ~_is_on(ring, segment)
-    return ring[free]
+        is_held |= _is_on(ring, segment)
+    stays = traced(ring, is_held)
+    return ring[stays], ~is_held[stays]
 
 
 def _is_on(ring: FloatArray, segment: Segment) -> BoolArray:

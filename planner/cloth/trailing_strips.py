@@ -1,10 +1,14 @@
-"""Tongues of cloth that a drag leaves behind, though Theorem 2 does not ask for their vertices.
+"""Trailing strips: parts of cloth that a drag leaves behind, though Theorem 2 does not ask for their vertices.
 
-The theorem looks at the convex hull. A slit that opens sideways parts a tongue from the cloth ahead of it, and the hull
-hides its tip: a leg of trousers behind the other one. Cloth is pulled but not pushed, so only a short tongue follows
-its root; a long one stays where friction holds it, and turns about its root. In simulated drags
-(docs/rehearsal.md) the jeans' leg, 4.8 times as long as wide, stayed behind by 11 to 13 cm; tongues up to
-1.3 times as long as wide are what the other shipped articles have.
+The theorem looks at the convex hull. A slit that opens sideways parts such a strip from the cloth ahead of it, and the
+hull hides its tip: a leg of trousers behind the other one. Cloth is pulled along straight lines within it, and not
+pushed; the tip is pulled only round the end of the slit, a reflex corner, by what comes in at the strip's root. Lines
+that lead there from the rear side of the tip make an angle with the drag whose tangent is the strip's length by its
+width. Beyond 45 degrees they pull more across the drag than along it, so that the strip turns about its root and its
+tip stays where friction holds it. So the tip of a strip that is longer than wide must be held as well.
+
+In simulated drags the jeans' leg, 4.8 times as long as wide, stayed behind by 11 to 13 cm, and a romper's leg, 1.4
+times as long as wide, stayed behind too; sleeves .9 times as long as wide came along.
 """
 
 import math
@@ -16,28 +20,25 @@ from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 from planner.geometry.tolerance import LENGTH_M
 
-LONG = 2.0
-"""A tongue that is longer than that times its width stays behind."""
+LONG = 1.0
+"""A trailing strip that is longer than that times its width must be held."""
 
 
-def strip_left_behind(piece: Region, up: Point2) -> Point2 | None:
-    """Return the leading corner at the tip of the longest tongue that a drag leaves behind, None if there is none.
+def strip_tips(piece: Region, up: Point2) -> FloatArray:
+    """Return the leading corners at the tips of the trailing strips that a drag would leave behind, shape (n, 2), m.
 
     Args:
         piece: the cloth that is dragged.
         up: the unit vector of the drag, in the frame of the piece.
     """
     ahead, across = np.array(up), np.array([-up[1], up[0]])
-    found: list[tuple[float, Point2]] = []
+    found = []
     for slit in Region.polygon(piece.hull).difference(piece).pieces:
         tip = _trailing_end(slit.coordinates, piece.hull, ahead)
-        if tip is None:
-            continue
-        length = float(np.ptp(slit.coordinates @ across))
-        width = _width_behind(piece, slit, ahead, across)
-        if 0.0 < LONG * width < length:
-            found.append((length, (float(tip[0]), float(tip[1]))))
-    return max(found)[1] if found else None
+        width = 0.0 if tip is None else _width_behind(piece, slit, ahead, across)
+        if tip is not None and 0.0 < LONG * width < np.ptp(slit.coordinates @ across):
+            found.append(tip)
+    return np.array(found).reshape(-1, 2)
 
 
 def _trailing_end(slit: FloatArray, hull: FloatArray, ahead: FloatArray) -> FloatArray | None:

@@ -85,6 +85,23 @@ def peaks(times: FloatArray, values: FloatArray, rates: FloatArray) -> tuple[Flo
     return np.abs([before, after, between]).max(axis=0), np.abs([first, last]).max(axis=0)
 
 
+def extremes(times: FloatArray, values: FloatArray, rates: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return the least and greatest values between keyframes, of shape (n - 1, k) each; exact. See `peaks`."""
+    ends = values[:-1], values[1:]
+    if not len(rates):
+        return np.minimum(*ends), np.maximum(*ends)
+    gaps = np.diff(times)[:, None]
+    before, mean = rates[:-1], np.diff(values, axis=0) / gaps
+    bend = before + rates[1:] - 2.0 * mean
+    square, linear = 3.0 * bend, 2.0 * (mean - before - bend)
+    half = -0.5 * (linear + np.copysign(np.sqrt((linear**2 - 4.0 * square * before).clip(0.0)), linear))
+    found = [*ends]
+    for top, under in ((half, square), (before, half)):  # where the rate is 0; a share that is clipped is harmless
+        share = (top / np.where(under == 0.0, np.inf, under)).clip(0.0, 1.0)
+        found.append(_cubic(share, gaps, *ends, before, rates[1:]))
+    return np.min(found, axis=0), np.max(found, axis=0)
+
+
 def values_at(times: FloatArray, values: FloatArray, rates: FloatArray, at: FloatArray) -> FloatArray:
     """Return the values at several times, shape (k,); `times` is of shape (n,), `values` and `rates` of (n, ...)."""
     if len(times) == 1:

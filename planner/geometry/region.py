@@ -15,10 +15,11 @@ from shapely.geometry.base import BaseGeometry
 
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import BoolArray, FloatArray, Point2
-from planner.geometry.ring import corners, counter_clockwise, feet, inward_bisector
+from planner.geometry.ring import corners, counter_clockwise, feet, hull_of, inward_bisector
 from planner.geometry.segment import Segment
 from planner.geometry.shape import half_plane, polygonal, united, without_cracks
 from planner.geometry.tolerance import AREA_M2, CUT_GRID_M, GRID_M, LENGTH_M
+from planner.geometry.traced import TRACED_M, traced
 
 _EVENED_M = 5e-4
 """The largest deviation of an evened boundary, so that its curves have few corners (m)."""
@@ -177,15 +178,22 @@ class Region:
     def inward_bisector(self, point: Point2) -> Point2 | None:
         """Return the unit vector that bisects the directions leading from a boundary point into the region.
 
-        None for a point off the outer boundary.
+        Directions are those of the boundary without the noise of tracing. None for a point off the outer boundary.
         """
-        found = (inward_bisector(ring, point) for ring in self.rings)
-        return next((bisector for bisector in found if bisector is not None), None)
+        for ring, shape in zip(self.rings, self.shapes, strict=True):
+            if inward_bisector(ring, point) is not None:
+                return inward_bisector(shape, point, LENGTH_M if len(shape) == len(ring) else TRACED_M + LENGTH_M)
+        return None
+
+    @cached_property
+    def shapes(self) -> tuple[FloatArray, ...]:
+        """The corners of `rings` that make their shape, see `traced`."""
+        return tuple(ring[traced(ring)] for ring in self.rings)
 
     @cached_property
     def hull(self) -> FloatArray:
         """The corners of the convex hull, counter-clockwise, shape (n, 2), m."""
-        return corners(np.asarray(shapely.get_coordinates(shapely.convex_hull(self.shape)))[:-1])
+        return hull_of(self.coordinates)
 
     @cached_property
     def inner_point(self) -> Point2:

@@ -40,21 +40,22 @@ def before(ring: FloatArray) -> FloatArray:
     return np.concatenate([ring[-1:], ring[:-1]])
 
 
-def inward_bisector(ring: FloatArray, point: Point2) -> Point2 | None:
+def inward_bisector(ring: FloatArray, point: Point2, within_m: float = LENGTH_M) -> Point2 | None:
     """Return the unit vector that bisects the directions leading from a point on a ring of corners into it.
 
-    None for a point off the ring.
+    A point within a distance (m) of a corner is at the corner, one within that of a side on the side; None for a point
+    off the ring.
     """
     at, ends = np.array(point), after(ring)
-    is_corner = np.hypot(*(ring - at).T) <= LENGTH_M
-    gaps = np.hypot(*(feet(at[None], ring, ends)[0] - at).T)
-    is_on_side = (gaps <= LENGTH_M) & ~np.roll(is_corner, -1)
-    found = np.flatnonzero(is_corner | is_on_side)
-    if not len(found):
-        return None
-    number = int(found[0])
-    side = Segment(_point(ring[number]), _point(ends[number]))
-    return _halving(Segment(_point(ring[number - 1]), side.start), side) if is_corner[number] else side.left
+    from_corners_m = np.hypot(*(ring - at).T)
+    from_sides_m = np.hypot(*(feet(at[None], ring, ends)[0] - at).T)
+    number, side_number = int(from_corners_m.argmin()), int(from_sides_m.argmin())
+    if from_corners_m[number] <= within_m:
+        here = _point(ring[number])
+        return _halving(Segment(_point(ring[number - 1]), here), Segment(here, _point(ends[number])))
+    if from_sides_m[side_number] <= within_m:
+        return Segment(_point(ring[side_number]), _point(ends[side_number])).left
+    return None
 
 
 def feet(points: FloatArray, starts: FloatArray, ends: FloatArray) -> FloatArray:
@@ -80,6 +81,11 @@ def _halving(arriving: Segment, leaving: Segment) -> Point2:
 
 def _point(row: FloatArray) -> Point2:
     return (float(row[0]), float(row[1]))
+
+
+def hull_of(points: FloatArray) -> FloatArray:
+    """Return the corners of the convex hull of points, counter-clockwise, shape (n, 2), m."""
+    return corners(np.asarray(shapely.get_coordinates(shapely.convex_hull(shapely.multipoints(points))))[:-1])
 
 
 def evenly_along(ring: FloatArray, spacing_m: float) -> FloatArray:

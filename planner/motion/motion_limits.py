@@ -1,4 +1,4 @@
-"""The speeds and accelerations that a plan's motion keeps."""
+"""The limits that a plan's motion keeps: of joints, speeds and accelerations."""
 
 from dataclasses import dataclass
 
@@ -15,17 +15,19 @@ BASE_NAMES = ("base_x_m", "base_y_m", "base_yaw_rad")
 
 @dataclass(frozen=True)
 class MotionLimits:
-    """Top speeds and accelerations of arms, grippers and base.
+    """Limits of the arms' joints, top speeds and accelerations of arms, grippers and base.
 
     Attributes:
         names: the arms' joints, arm by arm, then the grippers' joints, then `BASE_NAMES`.
         speeds: the top speeds (rad/s, m/s), shape (names,); the base's is that of its way in any direction.
         accelerations: the top accelerations (rad/s2, m/s2), shape (names,), the base's alike.
+        ranges: the lowest and highest value of each of the arms' joints (rad, m), shape (joints, 2).
     """
 
     names: tuple[str, ...]
     speeds: FloatArray
     accelerations: FloatArray
+    ranges: FloatArray
 
     @staticmethod
     def of(card: RobotCard, scene: Scene) -> "MotionLimits":
@@ -41,4 +43,5 @@ class MotionLimits:
             (*joints, *BASE_NAMES),
             np.array([*speeds, scene.base_speed_m_s, scene.base_speed_m_s, scene.base_turn_rad_s]),
             np.array([*hard, base_hard, base_hard, TURN_ACCELERATION_RAD_S2]),
+            np.array([ends for arm in card.arms for ends in arm.limits]),
         )

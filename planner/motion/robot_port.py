@@ -30,6 +30,10 @@ class Collisions(Together, Hashable, Protocol):
     Bases are poses of the table frame: one for all, or x (m), y (m), yaw (rad) of each, shape (n, 3).
     """
 
+    def free(self, bases: Pose2 | FloatArray, joints: FloatArray) -> BoolArray:
+        """Return at which configurations nothing touches, shape (n,)."""
+        ...
+
     def are_all_free(self, bases: Pose2 | FloatArray, joints: FloatArray) -> bool:
         """Return whether none of some configurations touches anything."""
         ...
@@ -126,7 +130,20 @@ class RobotPort(PathFinder, Kinematics, Hashable, Protocol):
         """The robot's description."""
         ...
 
-    def reach(self, torso_m: float, comfort_m: float, *, is_passing: bool = False, minds_body: bool = True) -> Reach:
+    @property
+    def can_mind_arms(self) -> bool:
+        """Whether `reach` differs where the other arm is minded."""
+        ...
+
+    def reach(
+        self,
+        torso_m: float,
+        comfort_m: float,
+        *,
+        is_passing: bool = False,
+        minds_body: bool = True,
+        minds_arms: bool = False,
+    ) -> Reach:
         """Return the reach with the lift at a height, for a comfort radius (m).
 
         Args:
@@ -135,6 +152,8 @@ class RobotPort(PathFinder, Kinematics, Hashable, Protocol):
             is_passing: whether it is for a few queries only: it takes no memory from earlier plans and leaves none.
             minds_body: whether a place is out of reach where the robot's body may be in the arm's way. What that leaves
                 is told in cells of 2 cm; a path that keeps clear of the body knows better.
+            minds_arms: whether it is out of reach, too, where the other arm at home may be in the way. That arm may be
+                elsewhere, so this is for restricted tasks.
         """
         ...
 

@@ -7,7 +7,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from planner.geometry.pose import Pose2
+from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.table import Table
 from planner.geometry.tolerance import TIME_S
 from planner.motion.blocking_contacts import BlockingContacts
@@ -16,7 +16,7 @@ from planner.motion.hand_holds import edge_holds, opening_of, settling_s
 from planner.motion.joint_trajectory import finger_run_s
 from planner.motion.known_transfers import KnownTransfers
 from planner.motion.line import Line
-from planner.motion.lying_cloth import LyingCloths
+from planner.motion.lying_cloth import LyingCloth, LyingCloths
 from planner.motion.opened_collisions import OpenedCollisions
 from planner.motion.robot_port import RobotPort
 from planner.motion.search_limits import QUICK, SearchLimits
@@ -26,7 +26,7 @@ from planner.motion.transfer_path import TransferPath
 from planner.motion.transfer_path_finder import TransferPathFinder
 from planner.motion.transfer_timing import TransferLimits, TransferTiming
 from planner.motion.transit import Transit, transit_between
-from planner.motion.transit_paths import TransitPaths
+from planner.motion.transit_paths import Spared, TransitPaths
 from planner.motion.transit_planner import TransitPlanner
 from planner.motion.waypoints import Waypoints, forget_waypoints, waypoints_of
 from planner.primitives.context import Context
@@ -216,14 +216,19 @@ class TransferPlanner:
         home = self.transits.home
         is_last = steps[-1].after.done == (1 << len(self._context.sequence.folds)) - 1
         (before, after), (first, last) = transfer_path.cloths, (Pose2.of(base) for base in transfer_path.bases[[0, -1]])
-        spared = self.transits.spared
-        return (
-            before is None
-            or self.transits.way(first, home, approach.joints[0], before, spared(None, approach.joints)) is not None
-        ) and (
-            is_last
-            or self.transits.way(last, retreat.joints[-1], home, after, spared(retreat.joints, None)) is not None
+        can_come = before is None or self._has_way(
+            first, home, approach.joints[0], before, self.transits.spared(None, approach.joints)
         )
+        return can_come and (
+            is_last or self._has_way(last, retreat.joints[-1], home, after, self.transits.spared(retreat.joints, None))
+        )
+
+    def _has_way(self, base: Pose2, start: FloatArray, goal: FloatArray, cloth: LyingCloth, spared: Spared) -> bool:
+        """Return whether empty hands have a way beside a base that stands; sampled while that is worth a try."""
+        samples = self.known.sampling.is_worth_a_try
+        way = self.transits.way(base, start, goal, cloth, spared, samples=samples)
+        self.known.sampling.vain += way is None and samples
+        return way is not None
 
     def transit(self, before: Transfer | None, moves: Sequence[Step], transfer: Transfer) -> Transit | None:
         """Return how hands come from a transfer, or from home, to the next one. Cached.

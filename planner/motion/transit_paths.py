@@ -1,16 +1,18 @@
-"""Find transit paths between two configurations: straight in joint space, or by way of a few others.
+"""Find transit paths between two configurations: straight in joint space, by way of a few others, or by sampling.
 
 Empty arms are mostly well above the table, and a straight line between two configurations is free. Where it is not, the
-arms go one after the other, or by way of raised configurations.
+arms go one after the other, or by way of raised configurations. Where nothing of that is free, paths are sampled
+(`sampled_paths`).
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import lru_cache
-from itertools import pairwise, product
+from itertools import chain, pairwise, product
 
 import numpy as np
 
-from planner.geometry.pose import FloatArray, Pose2
+from planner.geometry.pose import BoolArray, FloatArray, Pose2
 from planner.geometry.ramps import ramps
 from planner.geometry.tolerance import EDGE_RAD
 from planner.motion.answer_memory import AnswerMemory
@@ -20,6 +22,7 @@ from planner.motion.opened_collisions import OpenedCollisions
 from planner.motion.pacing import needed_s
 from planner.motion.path_timing import quickest
 from planner.motion.robot_port import Collisions, RobotPort
+from planner.motion.sampled_paths import SampledPaths, sampled
 from planner.robots.joint_layout import JointLayout
 from planner.robots.openings import OPENING_M
 from planner.weakly import weakly
@@ -49,6 +52,7 @@ class _WayKey:
     key: tuple[bytes, ...]
     base: Pose2
     cloth: LyingCloth
+    samples: bool
     start: FloatArray = field(compare=False)
     goal: FloatArray = field(compare=False)
     spared: Spared = field(compare=False)
@@ -118,7 +122,14 @@ class TransitPaths:
         return np.asarray(joints + 2.0 * np.pi * np.where(is_far, np.round(away / (2.0 * np.pi)), 0.0))
 
     def way(
-        self, base: Pose2, start: FloatArray, goal: FloatArray, cloth: LyingCloth, spared: Spared
+        self,
+        base: Pose2,
+        start: FloatArray,
+        goal: FloatArray,
+        cloth: LyingCloth,
+        spared: Spared,
+        *,
+        samples: bool = True,
     ) -> FloatArray | None:
         """Return a path between two configurations while the base stands.
 
@@ -128,13 +139,14 @@ class TransitPaths:
             goal: the same; its continuous joints may be turns away.
             cloth: the cloth on the table meanwhile.
             spared: how far hands may go low over it at both ends.
+            samples: whether paths are sampled where no line and no detour is free, which takes half a second in vain.
 
         Returns:
             Configurations from start to goal, shape (n, joints), between which straight lines are free; None if no way
             was found. It is cached and must not be changed.
         """
         key = (start.tobytes(), goal.tobytes(), *(length.tobytes() for length in spared))
-        return self._searched(_WayKey(key, base, cloth, start, goal, spared))
+        return self._searched(_WayKey(key, base, cloth, samples, start, goal, spared))
 
     def _search(self, wanted: _WayKey) -> FloatArray | None:
         start, cloth, spared = wanted.start, wanted.cloth, wanted.spared
@@ -142,13 +154,48 @@ class TransitPaths:
         straight, known = np.array([start, goal]), _Lines(wanted.base, self._collisions)
         if self._is_free(known, straight, cloth, spared):
             return straight
-        return next((way for way in self._roundabout(start, goal) if self._is_free(known, way, cloth, spared)), None)
+        by_samples = self._sampled(wanted.base, start, goal, cloth, spared) if wanted.samples else ()
+        ways = chain(self._roundabout(start, goal), by_samples)
+        return next((way for way in ways if self._is_free(known, way, cloth, spared)), None)
+
+    def _sampled(
+        self, base: Pose2, start: FloatArray, goal: FloatArray, cloth: LyingCloth, spared: Spared
+    ) -> Iterator[FloatArray]:
+        """Yield paths found by sampling: of the arms that have to move, then of all arms."""
+        layout = self.layout
+        tools = [[self._tools(arm, joints[None])[0] for arm in layout.arms] for joints in (start, goal)]
+
+        def are_free(joints: FloatArray) -> BoolArray:
+            answers = self._collisions.free(base, joints)
+            for arm, span in enumerate(layout.spans):
+                if not len(asked := np.flatnonzero(answers)):
+                    break
+                # A hand has come at least as far as it is away. How far it came is asked of the whole path.
+                there = self._tools(arm, joints[asked])
+                ends = zip(spared, tools, strict=True)
+                is_near = [np.linalg.norm(there - of[arm], axis=1) < length[arm] for length, of in ends]
+                must = asked[~(is_near[0] | is_near[1])]
+                answers[must] = cloth.arm_clear(arm, base, joints[must, span])
+            return answers
+
+        middle, ends = 0.5 * (start + goal), np.sort([start, goal], axis=0)
+        bounds = np.where(np.isinf(layout.ranges.T), middle + np.array([[-np.pi], [np.pi]]), layout.ranges.T)
+        has_to_move = np.array([bool((start != goal)[span].any()) for span in layout.spans])
+        for moves in (has_to_move,) if has_to_move.all() else (has_to_move, np.ones_like(has_to_move)):
+            low, high = np.where(moves[layout.owners], bounds, ends)
+            found = SampledPaths(are_free, low, high, STEP_RAD).path(start, goal)
+            if found is not None:
+                yield found
+
+    def _tools(self, arm: int, joints: FloatArray) -> FloatArray:
+        """Return the places of an arm's tool in the base frame at some configurations, shape (n, 3), m."""
+        return self._machine.tool_places(arm, joints[:, self.layout.spans[arm]], self._torso_m)
 
     def _is_free(self, known: "_Lines", way: FloatArray, cloth: LyingCloth, spared: Spared) -> bool:
         """Return whether the straight lines of a path are free, and high enough above the cloth on the table."""
         if not all(known.is_free(start, end) for start, end in pairwise(way)):
             return False
-        base, joints = known.base, np.concatenate([_sampled(start, end) for start, end in pairwise(way)])
+        base, joints = known.base, np.concatenate([sampled(start, end, STEP_RAD) for start, end in pairwise(way)])
         return self.are_clear(cloth, np.tile([base.x_m, base.y_m, base.yaw_rad], (len(joints), 1)), joints, spared)
 
     def is_clear(self, cloth: LyingCloth, bases: FloatArray, joints: FloatArray, openings_m: FloatArray) -> bool:
@@ -217,7 +264,7 @@ class TransitPaths:
 
     def _gone_m(self, arm: int, bases: FloatArray, joints: FloatArray) -> FloatArray:
         """Return the way of an arm's tool in the table's frame up to each of some configurations, shape (n,), m."""
-        tools = self._machine.tool_places(arm, joints[:, self.layout.spans[arm]], self._torso_m)
+        tools = self._tools(arm, joints)
         cos, sin = np.cos(bases[:, 2]), np.sin(bases[:, 2])
         x = bases[:, 0] + cos * tools[:, 0] - sin * tools[:, 1]
         y = bases[:, 1] + sin * tools[:, 0] + cos * tools[:, 1]
@@ -257,14 +304,8 @@ class _Lines:
         """Return whether nothing touches all along a line."""
         key = (start.tobytes(), end.tobytes())
         if key not in self._known:
-            self._known[key] = self._collisions.are_all_free(self.base, _sampled(start, end))
+            self._known[key] = self._collisions.are_all_free(self.base, sampled(start, end, STEP_RAD))
         return self._known[key]
-
-
-def _sampled(start: FloatArray, end: FloatArray) -> FloatArray:
-    """Return the straight line between two configurations, step by step."""
-    count = max(1, int(np.ceil(np.abs(end - start).max() / STEP_RAD)))
-    return np.asarray(start + np.linspace(0.0, 1.0, count + 1)[:, None] * (end - start))
 
 
 def _staggered(

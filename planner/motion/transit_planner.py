@@ -157,7 +157,7 @@ class TransitPlanner:
         start, goal = retreat.joints[-1], approach.joints[0]
         yield np.array([start, goal])
         spared = self._transits.spared(retreat.joints, approach.joints)
-        found = self._transits.way(free.last, start, goal, free.cloth, spared)
+        found = self._transits.way(free.last, start, goal, free.cloth, spared, samples=False)
         if found is not None:
             yield found
         yield np.array([start, self._transits.unwound(self._transits.home, start), goal])

@@ -1,4 +1,4 @@
-"""Check that nothing in a plan's motion is faster than its limit, nor speeds up harder."""
+"""Check that a plan's joints stay within their limits, and nothing is faster than its limit or speeds up harder."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -7,7 +7,7 @@ from typing import TypeAlias
 import numpy as np
 
 from planner.errors import RequestError
-from planner.geometry.keyframes import peaks
+from planner.geometry.keyframes import extremes, peaks
 from planner.geometry.pose import FloatArray, wrapped_angle
 from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M
 from planner.motion.motion_limits import MotionLimits
@@ -23,19 +23,39 @@ _ROUNDING = 1.001
 
 
 def require_limits(problem: Problem, path: Trajectory) -> None:
-    """Require that joints, fingers and base keep their speeds, and their accelerations where velocities are given.
+    """Require that joints stay within their soft limits, and that joints, fingers and base keep their speeds.
+
+    They keep their accelerations too, where velocities are given.
 
     Raises:
-        RequestError: names the step, as ``steps[2].trajectory``, and says what is too fast or too hard, when, and by
-            how much.
+        RequestError: names the step, as ``steps[2].trajectory``, and says what is out of its limits, too fast or too
+            hard, when, and by how much.
     """
     limits = MotionLimits.of(problem.robot.card, problem.context.scene)
+    low_m, high_m = problem.robot.card.lift_limits_m
+    if not low_m - LENGTH_M <= path.torso_m <= high_m + LENGTH_M:
+        said = f"the lift is at {path.torso_m:g} m, it goes from {low_m:g} to {high_m:g} m"
+        raise RequestError("trajectory.torso_m", said)
+    _require_ranges(limits, path)
     for names, own, keyframes in _tracks(path, limits):
         found = _excess(names, limits.speeds[own], limits.accelerations[own], keyframes)
         if found is not None:
             t_s, what = found
             field = f"steps[{path.segment_at(t_s).step}].trajectory"
             raise RequestError(field, f"at {t_s:.2f} s {what} as its limit allows")
+
+
+def _require_ranges(limits: MotionLimits, path: Trajectory) -> None:
+    """Require that arms' joints stay within their limits, also between keyframes."""
+    arms, (low, high) = path.arms, limits.ranges.T
+    times_s, rows = np.array(arms.times_s), arms.rows
+    ends = extremes(times_s, rows, arms.rates) if len(rows) > 1 else (rows, rows)
+    beyond = np.maximum(low - ends[0], ends[1] - high)
+    row, column = np.unravel_index(beyond.argmax(), beyond.shape)
+    if beyond[row, column] > ANGLE_RAD:
+        t_s, name = float(times_s[row]), arms.names[column]
+        said = f"{name} is {beyond[row, column]:.3f} rad beyond its limits {low[column]:g} and {high[column]:g}"
+        raise RequestError(f"steps[{path.segment_at(t_s).step}].trajectory", f"at {t_s:.2f} s {said}")
 
 
 def _tracks(path: Trajectory, limits: MotionLimits) -> Iterator[tuple[tuple[str, ...], slice, Keyframes]]:

@@ -18,6 +18,7 @@ and the rest are found only once no path is left that takes no longer than the o
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import suppress
 from itertools import islice
 
 from planner.geometry.tolerance import TIME_S
@@ -70,6 +71,7 @@ class MotionValidator:
         self._search_limits = search_limits
         self._last_try = maker.path_requests + transfers_max
         self._made: dict[tuple[object, ...], Transfer | None] = {}
+        self._ways: dict[tuple[object, ...], tuple[Transfer, ...]] = {}
         self._edges = hands and EdgeActs(
             hands, maker, weakly(self._real), weakly(self._known_s), weakly(self._require_time), show
         )
@@ -134,7 +136,7 @@ class MotionValidator:
                 self._all_agree(transfers)
                 self._reject(part, seemed_s)
                 return None
-        plan_segments = linked(found, self._maker)
+        plan_segments = self._sooner(linked(found, self._maker))
         if duration_s(plan_segments) <= seemed_s + TIME_S:
             return plan_segments
         is_known = self._all_agree(transfers)
@@ -145,6 +147,48 @@ class MotionValidator:
             return plan_segments
         self.slower = plan_segments if held is None else min(plan_segments, held, key=duration_s)
         return None
+
+    def _sooner(self, plan_segments: tuple[PlanSegment, ...]) -> tuple[PlanSegment, ...]:
+        """Return segments with quicker ways in place of those to which hands come late, or of those before.
+
+        A transfer is chosen by how long it takes itself. How soon hands come to the next one depends on where they are.
+        """
+        before: int | None = None
+        for number, plan_segment in enumerate(plan_segments):
+            if plan_segment.transfer is None:
+                continue
+            for place in (number, before) if before is not None else (number,):
+                for other in (
+                    self._alternatives(plan_segments[place].steps) if plan_segments[number].late_s > TIME_S else ()
+                ):
+                    changed = PlanSegment(plan_segments[place].first, other.steps, other)
+                    tried = linked((*plan_segments[:place], changed, *plan_segments[place + 1 :]), self._maker)
+                    if duration_s(tried) < duration_s(plan_segments) - TIME_S:
+                        plan_segments = tried
+                    if plan_segments[number].late_s <= TIME_S:
+                        break
+            before = number
+        return plan_segments
+
+    def _alternatives(self, steps: tuple[Step, ...]) -> tuple[Transfer, ...]:
+        """Return the first few transfers that do as some steps do, found once; fewer if there is no time."""
+        key = tuple(step_key(step) for step in steps)
+        if key not in self._ways:
+            found: list[Transfer] = []
+            failed = 0
+            with suppress(OutOfTimeError):
+                for candidate in self._maker.candidates(self._in_time(ways_of(steps, self._search_limits))):
+                    made = self._maker.made(candidate)
+                    if made is None:
+                        failed += 1
+                    else:
+                        found.append(made)
+                    if len(found) > self._search_limits.late or failed >= (
+                        self._search_limits.together if candidate.is_together else self._search_limits.alone
+                    ):
+                        break
+            self._ways[key] = tuple(found)
+        return self._ways[key]
 
     def _real(self, steps: tuple[Step, ...]) -> Transfer | None:
         key = tuple(step_key(step) for step in steps)

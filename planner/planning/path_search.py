@@ -10,7 +10,6 @@ from typing import Any
 from planner.cloth.g_state import Unrest
 from planner.geometry.tolerance import TIME_S
 from planner.motion.edge_hands import EdgeHands
-from planner.motion.fewer_hands import with_fewer_hands
 from planner.motion.plan_segment import PlanSegment, duration_s
 from planner.motion.search_limits import QUICK, SearchLimits
 from planner.planning.budget import Budget, OutOfTimeError
@@ -149,8 +148,7 @@ class PathSearch:
         self._reached.clear()
 
     def _keep(self, plan_segments: tuple[PlanSegment, ...]) -> None:
-        """Keep segments that can be performed if they are quicker than those kept; fewer hands may make them so."""
-        plan_segments = with_fewer_hands(plan_segments, self._problem.maker, QUICK)
+        """Keep segments that can be performed if they are quicker than those kept."""
         if plan_segments and (not self._found or duration_s(plan_segments) < duration_s(self._found)):
             self._found = plan_segments
 

@@ -13,7 +13,7 @@ from planner.planning.found_plan import FoundPlan
 from planner.planning.path_search import PathSearch
 from planner.planning.problem import Problem
 from planner.planning.quick_plan import quickly_planned
-from planner.planning.restricted_tasks import with_more_comfort, with_narrower_cones
+from planner.planning.restricted_tasks import with_arms_apart, with_more_comfort, with_narrower_cones
 from planner.planning.trial import Explainer, Trial
 from planner.planning.trial_search import TrialSearch
 from planner.search.a_star import Outcome
@@ -33,6 +33,12 @@ MORE_COMFORT_SHARE, NARROWER_SHARE = 2.0, 0.5
 
 WORTH_SHOWING_S = 0.1
 """Least time by which a plan found meanwhile is quicker than the one shown before (s)."""
+
+APART_SHARE, APART_LEAST_S = 2.0, 0.5
+"""Work on the task whose arms stay apart, as a share of earlier work, and the least of it (s)."""
+
+WORTH_THOROUGH = 0.01
+"""Share of its cost by which a plan must be above its lower bound so that more tries are made for a quicker one."""
 
 REASONS_WORK_S = 4.0
 """Work of all trials of the causes for one plan (s, see `Budget`)."""
@@ -77,7 +83,7 @@ class PlanSearch(PathSearch):
         self._fall_backs = [(GREEDY_AFTER_S, False), (PATIENT_GREEDY_AFTER_S, True)]
         self._shown_s = math.inf if known is None else known.plan.cost_s or 0.0
         self._tried_s = 0.0
-        self._has_tried_less = False
+        self._has_tried_less = self._has_tried_apart = False
         self._others: list[Problem] = []
 
     def plan(self) -> FoundPlan:
@@ -110,13 +116,22 @@ class PlanSearch(PathSearch):
         """Whether something quicker than the known plan may be among the rejected steps and is worth more tries."""
         return self._validator.has_doubts and self._limit_s > (self._bound_s or 0.0)
 
+    @property
+    def _is_worth_thorough(self) -> bool:
+        """Whether there is no plan, or a quicker one may save so much that more tries are worth their work."""
+        least_s = (1.0 - WORTH_THOROUGH) * self._limit_s if self._has_plan else math.inf
+        return self._validator.has_doubts and least_s > (self._bound_s or 0.0)
+
     def _is_cut_short_trying_more(self) -> bool:
-        """Search again in restricted tasks, and with more tries if there is no plan; return whether the budget ran out.
+        """Search again in restricted tasks, and with more tries if that is worth it; return whether the budget ran out.
+
+        A few failures rule a step out, so that a plan that drives round the table is found soon. Ways that were left
+        untried may still do without.
 
         The reasons keep to the first round: they say what was in the way of the quickest ways.
         """
         self._try_with_less_room()
-        if math.isinf(self._limit_s):
+        if self._is_worth_thorough:
             first, reached = self._validator, set(self._reached)
             self._validator = self._validator_with(THOROUGH, MORE_TRANSFERS)
             self._validated_path(self._problem.start)
@@ -138,6 +153,18 @@ class PlanSearch(PathSearch):
         left_s = NARROWER_SHARE * spent_s
         for problem in with_narrower_cones(self._problem):
             left_s -= self._try_tighter(problem, left_s)
+
+    def _try_with_arms_apart(self) -> None:
+        """Look once for a plan with hands only where there is room beside the other arm at home, with limited work.
+
+        Where a way was rejected, mostly the arms were in each other's way. Such a plan is found soon and limits what
+        else is worth a try.
+        """
+        if self._has_tried_apart:
+            return
+        self._has_tried_apart = True
+        for problem in with_arms_apart(self._problem):
+            self._budget.beside_s += self._try_tighter(problem, max(APART_LEAST_S, APART_SHARE * self._budget.spent_s))
 
     def _try_tighter(self, problem: Problem, work_s: float) -> float:
         """Look for a quicker plan in a restricted task with limited work (s); return the work done (s).
@@ -186,6 +213,8 @@ class PlanSearch(PathSearch):
 
     def _begin_next_round(self) -> None:
         super()._begin_next_round()
+        if self._validator.rejected:
+            self._try_with_arms_apart()
         self._show(self._found)
         if self._found and self._budget.spent_s > LESS_ROOM_AFTER_S:
             self._try_with_less_room()

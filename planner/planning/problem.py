@@ -10,6 +10,7 @@ from planner.folds.fold_cloth import fold_cloth
 from planner.folds.fold_sequence import FoldSequence, replayed
 from planner.geometry.pose import Pose2
 from planner.geometry.tolerance import LENGTH_M, nearest_whole
+from planner.motion.known_transfers import KnownTransfers
 from planner.motion.robot_port import RobotPort
 from planner.motion.transfer_planner import TransferPlanner
 from planner.primitives.cloth_memory import cloth_memory
@@ -84,6 +85,8 @@ class Problem:
         comfort_m: float | None = None,
         behind_max_m: float | None = None,
         grips_apart_m: float | None = None,
+        *,
+        minds_arms: bool = False,
     ) -> "Problem":
         """Return this problem with some values changed, for the same robot; raises as `of` does.
 
@@ -95,8 +98,8 @@ class Problem:
         changed = moved if scene is None else moved.in_scene(_as_given(scene, task.scene))
         sequence = context.sequence if garment is None else replayed(garment)
         wanted, start = _searched(changed, sequence, machine)
-        is_alike = (wanted.torso_m, comfort) == (context.scene.torso_m, context.reach.comfort_m)
-        reach = context.reach if is_alike else machine.reach(wanted.torso_m, comfort)
+        is_alike = (wanted.torso_m, comfort) == (context.scene.torso_m, context.reach.comfort_m) and not minds_arms
+        reach = context.reach if is_alike else machine.reach(wanted.torso_m, comfort, minds_arms=minds_arms)
         behind = context.behind_max_m if behind_max_m is None else behind_max_m
         apart = context.grips_apart_m if grips_apart_m is None else grips_apart_m
         limits = (context.circle_m, behind, apart)
@@ -108,18 +111,22 @@ class Problem:
             *limits,
             start,
             is_fixed=context.is_fixed,
+            is_firm=context.is_firm,
             base_acceleration_m_s2=context.base_acceleration_m_s2,
         )
-        return Problem(changed, fresh, machine, TransferPlanner(fresh, machine))
+        known = KnownTransfers(sampling=self.maker.known.sampling)
+        return Problem(changed, fresh, machine, TransferPlanner(fresh, machine, known))
 
-    def restricted(self, scene: Scene | None = None, comfort_m: float | None = None) -> "Problem":
-        """Return this problem with a narrower approach cone or a larger comfort radius.
+    def restricted(
+        self, scene: Scene | None = None, comfort_m: float | None = None, *, minds_arms: bool = False
+    ) -> "Problem":
+        """Return this problem with a narrower approach cone, a larger comfort radius, or arms that stay apart.
 
         There are fewer ways to do the steps. A narrower cone leaves each of them as it is, so that what is known of
-        their transfers is shared. With a larger comfort radius the base may have to drive elsewhere meanwhile.
+        their transfers is shared. With less reach the base may have to drive elsewhere meanwhile.
         """
-        changed = self.varied(scene=scene, comfort_m=comfort_m)
-        if comfort_m is not None:
+        changed = self.varied(scene=scene, comfort_m=comfort_m, minds_arms=minds_arms)
+        if comfort_m is not None or minds_arms:
             return changed
         return replace(changed, maker=TransferPlanner(changed.context, self.robot, self.maker.known))
 
@@ -131,6 +138,11 @@ class Problem:
     def let_go(self) -> "Problem":
         """Return this problem with free hands at the start and nothing computed yet."""
         fresh = replace(self.anew().context, start=replace(self.start, held=(), dragged=0))
+        return Problem(self.task, fresh, self.robot, TransferPlanner(fresh, self.robot))
+
+    def firm(self) -> "Problem":
+        """Return this problem for hands that hold firmly wherever they can, with nothing computed yet."""
+        fresh = replace(self.anew().context, is_firm=True)
         return Problem(self.task, fresh, self.robot, TransferPlanner(fresh, self.robot))
 
     def without_arm_drags(self) -> "Problem":
@@ -151,7 +163,12 @@ class Problem:
         context = self.context
         limits = (context.circle_m, context.behind_max_m, context.grips_apart_m)
         given = (context.sequence, context.scene, reach, context.placement, *limits, context.start)
-        fresh = Context(*given, is_fixed=context.is_fixed, base_acceleration_m_s2=context.base_acceleration_m_s2)
+        fresh = Context(
+            *given,
+            is_fixed=context.is_fixed,
+            is_firm=context.is_firm,
+            base_acceleration_m_s2=context.base_acceleration_m_s2,
+        )
         return Problem(self.task, fresh, self.robot, TransferPlanner(fresh, self.robot))
 
     @staticmethod

@@ -88,7 +88,7 @@ class Cases:
         towards = towards_robot(context, station)
         if hangs_ahead(context, done, offset, towards):
             return ()
-        return tuple(cover for cover in drag_covers(context, done, offset, towards).every if cover)
+        return tuple(cover for cover in context.allowed(drag_covers(context, done, offset, towards)) if cover)
 
     def _serving(self, fold: int, cover: Cover) -> Iterator[tuple[Held, ...]]:
         """Yield what the arms may hold with some grips, if these hold what a fold needs."""

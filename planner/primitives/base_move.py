@@ -93,10 +93,6 @@ class MoveStep:
         """Return nothing: the hands are empty."""
         return ()
 
-    def with_fewer_hands(self) -> Iterable["MoveStep"]:
-        """Return nothing: a move takes no hands."""
-        return ()
-
     @property
     def motion(self) -> tuple[object, ...]:
         """The key that identifies it: kind, state before and state after."""

@@ -13,6 +13,7 @@ from typing import TypeVar, cast
 import numpy as np
 
 from planner.cloth.g_state import TableInArticle, Unrest, unrest
+from planner.cloth.grips import Cover, GripCovers
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.pose import FloatArray, Point2, Pose2
 from planner.geometry.shortfall import never
@@ -38,6 +39,9 @@ STANDOFF_STEP_M = 1 / STANDOFFS_PER_M
 
 DRAGS_PER_M = 10
 """The resolution of the grid of drag distances: one every 10 cm (1/m)."""
+
+_RANK_M = 1e-4
+"""The resolution at which folds are ordered by where they are (m): another frame moves them by less."""
 
 _START = State(0, (0.0, 0.0), 0, 0)
 """The usual start: no fold done, nothing dragged, the base at the first station."""
@@ -77,6 +81,7 @@ class Context:
         obstacles: why primitives were not possible, collected for the reasons.
         patience: the limit of the time that somebody waits for the answer.
         is_fixed: whether the base cannot drive at all: then there is one station and no standoff.
+        is_firm: whether hands hold firmly wherever they can.
         base_acceleration_m_s2: the base's top acceleration.
     """
 
@@ -91,9 +96,11 @@ class Context:
     obstacles: Obstacles = field(default_factory=Obstacles)
     patience: Patience = field(default_factory=Patience)
     is_fixed: bool = False
+    is_firm: bool = False
     base_acceleration_m_s2: float = ACCELERATION_M_S2
     _bases: dict[tuple[int, float], Pose2] = field(default_factory=dict)
     _kept: dict[Callable[["Context"], object], object] = field(default_factory=dict)
+    _available: dict[int, tuple[int, ...]] = field(default_factory=dict)
     _met: set[str] = field(default_factory=set)
 
     def kept(self, kind: "Callable[[Context], T]") -> T:
@@ -104,7 +111,7 @@ class Context:
 
     def forget(self) -> None:
         """Drop everything but the obstacles: caches of a few megabytes, which later requests fill again."""
-        for kept in (self._bases, self._kept, self._met):
+        for kept in (self._bases, self._kept, self._available, self._met):
             kept.clear()
         self.cloth.trim()
         vars(self).pop("cloth", None)
@@ -116,10 +123,37 @@ class Context:
         scene = self.scene
         return cloth_memory(self.sequence.garment, self.placement, scene.table, scene.friction, scene.support_angle_rad)
 
+    def allowed(self, covers: GripCovers) -> tuple[Cover, ...]:
+        """Return the sets of grips that hands may take of those that hold some cloth."""
+        return covers.firm if self.is_firm else covers.every
+
     @cached_property
     def standoffs(self) -> int:
         """The number of standoffs on the grid."""
         return math.floor(self.scene.back_off_max_m * STANDOFFS_PER_M + LENGTH_M) + 1
+
+    def available(self, done: int) -> tuple[int, ...]:
+        """Return the folds that can come next, sorted by where they are, however they are given.
+
+        Of equally quick plans the search takes the first that it meets.
+        """
+        if done not in self._available:
+            self._available[done] = tuple(sorted(self.sequence.dag.available(done), key=self._fold_ranks.__getitem__))
+        return self._available[done]
+
+    @cached_property
+    def _fold_ranks(self) -> tuple[tuple[int, ...], ...]:
+        """The sort key of each fold: its line as the robot sees it from the first station.
+
+        Mirror images have the same keys, but for the last number.
+        """
+        keys = []
+        for fold in self.sequence.folds:
+            line = self.placement.to_outer(np.array([fold.line.start, fold.line.end]))
+            start, end = self.station_pose(0).to_inner(line)
+            (x, y), length_m = (start + end) / 2.0, float(np.linalg.norm(end - start))
+            keys.append(tuple(round(float(value) / _RANK_M) for value in (x, abs(y), length_m, y)))
+        return tuple(keys)
 
     def placed(self, offset: Point2) -> Pose2:
         """Return the article's placement after drags by `offset`."""

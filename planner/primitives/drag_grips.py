@@ -3,9 +3,12 @@
 import math
 from itertools import product
 
+import numpy as np
+
+from planner.cloth.grip_candidates import distinct_rows
 from planner.cloth.grips import GripCovers, grip_covers
 from planner.cloth.must_hold import must_hold
-from planner.cloth.trailing_strips import strip_left_behind
+from planner.cloth.trailing_strips import strip_tips
 from planner.geometry.pose import Point2
 from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M
 from planner.primitives.context import DRAGS_PER_M, Context
@@ -66,7 +69,7 @@ def hangs_ahead(context: Context, done: int, offset: Point2, towards: Point2) ->
 
 
 def drag_covers(context: Context, done: int, offset: Point2, towards: Point2) -> GripCovers:
-    """Return the grips that Theorem 2 asks for on the part that lies on the table; none where a tongue stays behind.
+    """Return the grips for what must be held of the part on the table: by Theorem 2, and the tips of trailing strips.
 
     Where that is all of it, they are the same wherever it lies, and kept.
     """
@@ -82,7 +85,5 @@ def _drag_covers(context: Context, done: int, offset: Point2, towards: Point2) -
     silhouette = context.sequence.cloth(done).silhouette
     lying = silhouette.intersection(context.table_in_article(offset).region)
     vertices = must_hold(lying, towards, (), context.scene.support_angle_rad)
-    tip = strip_left_behind(lying, towards)
-    if tip is not None:
-        return GripCovers((*((float(x), float(y)) for x, y in vertices), tip), ())
+    vertices = distinct_rows(np.concatenate([vertices, strip_tips(lying, towards)]))
     return grip_covers(lying, vertices, context.sequence.garment.grip_radius_m, len(context.reach.arm_names))

@@ -136,10 +136,6 @@ class DragStep:
         if is_able and approaches != self._chosen:
             yield replace(self, approaches=approaches)
 
-    def with_fewer_hands(self) -> Iterator["DragStep"]:
-        """Yield nothing: the other hands that drag alike are ways of their own."""
-        yield from ()
-
     def _able(self) -> list[list[int]]:
         """Return the approaches in which each hand can drag, the best first."""
         able = []

@@ -95,7 +95,7 @@ class DragWays:
         towards = towards_robot(context, state.station) if move == _STILL else along(context, move)
         if hangs_ahead(context, state.done, state.offset, towards):
             return
-        for cover in drag_covers(context, state.done, state.offset, towards).every:
+        for cover in context.allowed(drag_covers(context, state.done, state.offset, towards)):
             points = placement.to_outer(np.array(cover).reshape(-1, 2))
             if cover and nearest_pair_m(cover) >= context.grips_apart_m - LENGTH_M:
                 picks = np.column_stack([points, np.full(len(points), REST_HEIGHT_M)])

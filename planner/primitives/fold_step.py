@@ -1,6 +1,5 @@
 """A fold as a step of a plan: reach the grips, lift them over the fold line, lay them down."""
 
-import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -100,7 +99,12 @@ class FoldStep:
     def variants(self) -> Iterator["FoldStep"]:
         """Yield this step, then every other way between the same states, the quickest first."""
         yield self
-        yield from self._others(math.inf)
+        fold, end = self.way.trial.fold, self.after.standoff
+        for variant in fold_variants(self.context, self.before, fold, end):
+            if variant.first == self.first_stand and variant.way.is_like(self.way):
+                continue
+            driven = variant.steps - abs(variant.first - self.before.standoff)
+            yield replace(self, way=variant.way, first_stand=variant.first, driven=driven)
 
     @property
     def turns(self) -> Mapping[int, int]:
@@ -110,18 +114,6 @@ class FoldStep:
     def turned(self, _turns: Mapping[int, int]) -> Iterator["FoldStep"]:
         """Yield nothing: how the hands are turned decides where the base can stand."""
         yield from ()
-
-    def with_fewer_hands(self) -> Iterator["FoldStep"]:
-        """Yield the ways between the same states by fewer hands, which hold less firmly, the quickest first."""
-        yield from self._others(len(self.way.trial.arms) - 1)
-
-    def _others(self, hands_max: float) -> Iterator["FoldStep"]:
-        fold, end = self.way.trial.fold, self.after.standoff
-        for variant in fold_variants(self.context, self.before, fold, end, hands_max):
-            if variant.first == self.first_stand and variant.way.is_like(self.way):
-                continue
-            driven = variant.steps - abs(variant.first - self.before.standoff)
-            yield replace(self, way=variant.way, first_stand=variant.first, driven=driven)
 
     @cached_property
     def motion(self) -> tuple[object, ...]:

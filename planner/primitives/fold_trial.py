@@ -109,7 +109,13 @@ def _hands(context: Context, state: State, fold: int) -> tuple[Hands, ...]:
     """
     scene, reach = context.scene, context.reach
     held = (state.is_dragged, tuple([(h.arm, h.point) for h in state.held]))
-    robot = (reach.arm_names, context.kept(sides), context.station_pose(state.station), context.grips_apart_m)
+    robot = (
+        reach.arm_names,
+        context.kept(sides),
+        context.station_pose(state.station),
+        context.grips_apart_m,
+        context.is_firm,
+    )
     key, known = (fold, state.offset, held, robot, scene.edge_clear_m), context.cloth.hands
     found = known.get(key)
     if found is None:
@@ -192,7 +198,7 @@ def grips_obstacle(context: Context, state: State, fold: int) -> Obstacle | None
     covers = context.sequence.covers(fold, context.scene.support_angle_rad, arms)
     if not covers.is_holdable:
         return Obstacle(fold, Code.TOO_MANY_GRIPS, None, float(len(covers.vertices)), state)
-    apart = max(nearest_pair_m(cover) for cover in covers.covers)
+    apart = max(nearest_pair_m(cover) for cover in context.allowed(covers))
     if apart < context.grips_apart_m - LENGTH_M:
         return Obstacle(fold, Code.GRIPS_TOO_CLOSE, None, context.grips_apart_m - apart, state)
     return None
@@ -224,7 +230,7 @@ def _grips(context: Context, state: State, fold: int) -> Iterator[tuple[Cover, t
         context.obstacles.note(obstacle)
         return
     covers = context.sequence.covers(fold, context.scene.support_angle_rad, len(context.reach.arm_names))
-    for cover in covers.every:
+    for cover in context.allowed(covers):
         points = context.placed(state.offset).to_outer(np.array(cover))
         if nearest_pair_m(cover) >= context.grips_apart_m - LENGTH_M:
             for arms in assignments(context, state.station, points):
@@ -232,7 +238,7 @@ def _grips(context: Context, state: State, fold: int) -> Iterator[tuple[Cover, t
 
 
 def _held_grips(context: Context, state: State, fold: int) -> Iterator[tuple[Cover, tuple[int, ...]]]:
-    """Yield the smallest sets of held grips that hold all that must be held, and those that hold it more firmly."""
+    """Yield the sets of held grips that hold all that must be held."""
     covers = held_covers(context, fold, state.held)
     if not covers and not state.is_dragged:
         context.obstacles.note(Obstacle(fold, Code.RED_NEEDS_HOLD, None, 1.0, state))

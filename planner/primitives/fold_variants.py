@@ -4,7 +4,6 @@ The search keeps one way for each end. Once arms must not collide, only ways tha
 that tie, the grips swapped between the arms, other orientations, a path begun or ended elsewhere.
 """
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from heapq import merge
@@ -50,9 +49,7 @@ class Variant:
     rank: int
 
 
-def fold_variants(
-    context: Context, state: State, fold: int, end: int, hands_max: float = math.inf
-) -> Iterator[Variant]:
+def fold_variants(context: Context, state: State, fold: int, end: int) -> Iterator[Variant]:
     """Yield the ways to do a fold in a state and end at a standoff: by rising travel, then more hands first.
 
     Args:
@@ -60,9 +57,8 @@ def fold_variants(
         state: the state in which the fold starts.
         fold: the fold.
         end: the standoff at which the base ends.
-        hands_max: the most hands.
     """
-    trials = [trial for trial in fold_trials(context, state, fold) if len(trial.arms) <= hands_max]
+    trials = fold_trials(context, state, fold)
     yield from merge(*(_by_travel(context, state, trial, end) for trial in trials), key=_rank)
 
 

@@ -1,7 +1,7 @@
 """The g-fold: reach the grips, lift them over the fold line, lay them down (paper, sections 6 and 7)."""
 
 from collections.abc import Iterable, Iterator
-from functools import cache, partial
+from functools import partial
 
 from planner.geometry.driving import IMPOSSIBLE
 from planner.primitives.context import Context
@@ -20,13 +20,12 @@ class GFold:
     def __init__(self, context: Context) -> None:
         self._context = context
         self._queries = context.kept(FoldQueries)
-        self._available = cache(context.sequence.dag.available)
         self._follows_at_once = [context.sequence.dag.follows_at_once(fold.index) for fold in context.sequence.folds]
         self._stands = context.kept(FoldStands) if context.sequence.dag.is_loose else None
 
     def successors(self, state: State) -> Iterable[FoldStep]:
         """Return one step for each available fold and each final standoff that no other beats."""
-        folds = self._available(state.done)
+        folds = self._context.available(state.done)
         if state.is_dragged:
             folds = tuple(fold for fold in folds if not self._context.sequence.folds[fold].is_red)
         return DeferredSteps(tuple([self._later(state, fold, 0) for fold in folds]))

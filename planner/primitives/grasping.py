@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.geometry.pose import BoolArray, FloatArray, Point2, wrapped_angle
-from planner.geometry.tolerance import EDGE_RAD, LENGTH_M, SORTING_M
+from planner.geometry.tolerance import EDGE_RAD, SORTING_M
+from planner.geometry.traced import TRACED_M
 from planner.primitives.context import Context
 from planner.task.grip import Holding
 
@@ -34,12 +35,13 @@ def assignments(context: Context, station: int, points: FloatArray) -> Iterator[
         points: the grips in the table frame, shape (n, 2), m.
 
     Yields:
-        For each grip the number of its arm. Where two grips are equally far left, both assignments are yielded.
+        For each grip the number of its arm. Where two grips are equally far left, to twice what an outline may be
+            beside its shape, both assignments are yielded.
     """
     lateral = context.station_pose(station).to_inner(points)[:, 1]
     for arms in permutations(range(len(context.reach.arm_names)), len(points)):
         is_ordered = all(
-            lateral[i] >= lateral[j] - LENGTH_M
+            lateral[i] >= lateral[j] - _ABREAST_M
             for i in range(len(points))
             for j in range(len(points))
             if arms[i] < arms[j]
@@ -47,6 +49,9 @@ def assignments(context: Context, station: int, points: FloatArray) -> Iterator[
         if is_ordered:
             yield arms
 
+
+_ABREAST_M = 2.0 * TRACED_M
+"""The distance by which one of two grips is further left than the other at least (m)."""
 
 _FINER = 10
 """The number of steps of the finer grid on which places are sorted in one of the grid."""

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from planner.cloth.grips import Cover, best_covers, firmer_covers
+from planner.cloth.grips import Cover, best_covers, firm_covers
 from planner.geometry.pose import Point2
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
@@ -12,9 +12,10 @@ from planner.primitives.state import Held
 
 
 def held_covers(context: Context, fold: int, held: tuple[Held, ...]) -> tuple[tuple[Held, ...], ...]:
-    """Return the sets of grips already held that hold all that a fold needs, the firmer first; empty if none does.
+    """Return the sets of grips already held that hold all that a fold needs, the firm first; empty if none does.
 
-    Only hands on the moving part count: on the fold line, or on cloth that stays, a hand lifts nothing.
+    Where hands hold firmly, a red fold has those that hold it best: nothing else can be taken. Only hands on the
+    moving part count: on the fold line, or on cloth that stays, a hand lifts nothing.
     """
     return context.kept(_HeldCovers).of(fold, held)
 
@@ -41,12 +42,15 @@ class _HeldCovers:
     def _search(self, fold: int, held: tuple[Held, ...]) -> tuple[Cover, ...]:
         context = self._context
         arms = len(context.reach.arm_names)
-        vertices = context.sequence.covers(fold, context.scene.support_angle_rad, arms).vertices
+        known = context.sequence.covers(fold, context.scene.support_angle_rad, arms)
         points = lifted_points(context, fold, held)
-        radius = context.sequence.folds[fold].grip_radius_m
-        candidates, must = np.array(points).reshape(-1, 2), np.array(vertices)
-        covers = best_covers(candidates, must, radius, len(held))
-        return (*firmer_covers(candidates, must, radius, len(held), covers), *covers)
+        drawn = context.sequence.folds[fold]
+        candidates, must = np.array(points).reshape(-1, 2), np.array(known.vertices)
+        if context.is_firm and not drawn.is_red:
+            return best_covers(candidates, must, known.firm_m, len(held))
+        firm = firm_covers(candidates, must, drawn.grip_radius_m, len(held))
+        covers = best_covers(candidates, must, drawn.grip_radius_m, len(held))
+        return firm if context.is_firm or firm == covers else (*firm, *covers)
 
 
 def lifted_points(context: Context, fold: int, held: tuple[Held, ...]) -> list[Point2]:

@@ -131,7 +131,7 @@ class HoldingDrags:
     def _served(self, state: State, held: tuple[Held, ...]) -> tuple[int, ...]:
         """Return the folds that can be done with the grips."""
         sequence = self._context.sequence
-        blue = (fold for fold in sequence.dag.available(state.done) if not sequence.folds[fold].is_red)
+        blue = (fold for fold in self._context.available(state.done) if not sequence.folds[fold].is_red)
         return tuple(fold for fold in blue if held_covers(self._context, fold, held))
 
     def _serving(self, drag: _Drag, fold: int, least: int) -> Iterator[DragStep | Deferred[DragStep]]:

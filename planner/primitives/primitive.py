@@ -63,10 +63,6 @@ class Varied(Protocol):
         """Return this step with the hands in given approaches, if they can be and are not; at most one."""
         ...
 
-    def with_fewer_hands(self) -> "Iterable[Step]":
-        """Return the ways between the same two states by fewer hands than this step's, the quickest first."""
-        ...
-
     def begun_in(self, state: State) -> "Step":
         """Return the step begun in another state of the same situation."""
         ...

@@ -4,8 +4,7 @@ The arms of a PR2 are mirror images of each other (y to -y). Everything is compu
 right arm is mirrored, answered for the left arm, and the answer mirrored back. Reading checks this symmetry, and the
 layout that the closed form requires: the seven axes z y x y x y x, with every link along x.
 
-Limits are the URDF's `lower` and `upper`: joints within them count as reachable. (The softer limits of its safety
-controllers are where a real controller starts to slow an arm down.) No other place chooses them.
+Limits are those of the model, which keeps the soft limits of the URDF's safety controllers (`soft_limits`).
 
 Shapes are named tuples of numbers because compiled kernels take those as arguments.
 """

@@ -128,6 +128,7 @@ class ArmCard:
         tool_frame: the URDF frame between the fingertips, x along the approach axis.
         home: the joints when the arm is out of the way (rad).
         gripper: its gripper.
+        limits: the lowest and highest value of each joint (rad, m), soft limits kept; infinite for endless ones.
         lifting: the joints that raise its elbow and hand: as at home they take an empty hand high above a table.
         is_mirrored: whether it is built as the mirror image of an arm on the left: its hand then rolls the other way.
         accelerations: its joints' top accelerations (rad/s2, m/s2); None where nobody has said.
@@ -140,6 +141,7 @@ class ArmCard:
     tool_frame: str
     home: tuple[float, ...]
     gripper: GripperCard
+    limits: tuple[tuple[float, float], ...]
     lifting: tuple[str, ...] = ()
     is_mirrored: bool = False
     accelerations: tuple[float, ...] | None = None

@@ -37,11 +37,17 @@ class CardRobot(ArmedRobot):
         self._mapped: _Mapped | None = None
 
     def reach(
-        self, torso_m: float, comfort_m: float, *, is_passing: bool = False, minds_body: bool = True
+        self,
+        torso_m: float,
+        comfort_m: float,
+        *,
+        is_passing: bool = False,
+        minds_body: bool = True,
+        minds_arms: bool = False,
     ) -> MappedReach:
         """Return the reach with the lift raised by `torso_m`, for a comfort radius (m); see `RobotPort.reach`.
 
-        The body is left to the joint paths, whether it is to be minded or not.
+        Body and other arms are left to the joint paths, whether they are to be minded or not.
 
         Raises:
             SceneError: the lift does not go there.

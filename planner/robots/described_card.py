@@ -15,16 +15,18 @@ from planner.robots.card import ArmCard, GripperCard, LinearGripper, Parallelogr
 from planner.robots.card_file import ArmFile, CardFile
 from planner.robots.card_parts import GripperFile, ParallelogramDrive
 from planner.robots.described_robot import DescribedRobot
+from planner.robots.soft_limits import keep_soft_limits, limits_of
 
 _MOVING = ("revolute", "continuous", "prismatic")
 
 
 def robot_card(robot: DescribedRobot) -> RobotCard:
     """Return the card of a described robot; its composed URDF is written to the user's cache."""
-    model = pin.buildModelFromXML(robot.urdf)
+    tree = fromstring(robot.urdf)
+    model = keep_soft_limits(pin.buildModelFromXML(robot.urdf), tree)
     card = card_on(robot.card, model, robot.lift_limits_m, _kept_urdf(robot.urdf))
     moved = {name for arm in card.arms for name in (*arm.joint_names, arm.gripper.joint_name)} | {card.lift_joint}
-    return replace(card, resting=tuple(_resting(fromstring(robot.urdf), moved, dict(card.resting))))
+    return replace(card, resting=tuple(_resting(tree, moved, dict(card.resting))))
 
 
 def card_on(
@@ -68,7 +70,15 @@ def _arm_card(model: pin.Model, arm: ArmFile) -> ArmCard:
         gripper=_gripper_card(model, arm.gripper),
         lifting=arm.lifting,
         accelerations=arm.accelerations,
+        limits=tuple(_limits(model, joint) for joint in joints),
     )
+
+
+def _limits(model: pin.Model, joint: pin.JointModel) -> tuple[float, float]:
+    """Return the lowest and highest value of a joint; infinite where it turns without end."""
+    if joint.nq > joint.nv:
+        return -math.inf, math.inf
+    return float(model.lowerPositionLimit[joint.idx_q]), float(model.upperPositionLimit[joint.idx_q])
 
 
 def _gripper_card(model: pin.Model, gripper: GripperFile) -> GripperCard:
@@ -86,10 +96,7 @@ def _resting(urdf: Element, moved: set[str | None], given: Mapping[str, float]) 
     for joint in urdf.iterfind("joint"):
         name = joint.get("name", "")
         if joint.get("type") in _MOVING and joint.find("mimic") is None and name not in moved:
-            limit = joint.find("limit")
-            is_bounded = limit is not None and joint.get("type") != "continuous"
-            low = float(limit.get("lower", 0.0)) if limit is not None and is_bounded else -math.inf
-            high = float(limit.get("upper", 0.0)) if limit is not None and is_bounded else math.inf
+            low, high = limits_of(joint)
             yield name, given.get(name, min(max(0.0, low), high))
 
 

@@ -17,6 +17,7 @@ from planner.robots.card_parts import ToolFile
 from planner.robots.chain import Chain, length_of
 from planner.robots.chain_reader import read_chain
 from planner.robots.own_robots import own_card, own_robots
+from planner.robots.soft_limits import keep_soft_limits
 from planner.robots.urdf_composing import composed_urdf
 from planner.robots.urdf_reader import parsed
 
@@ -78,6 +79,8 @@ class DescribedRobot:
             model = pin.buildModelFromXML(urdf)
         except (ValueError, RuntimeError) as error:
             raise RobotError("urdf", f"is no tree of links and joints: {error}") from None
+        tree = parsed(urdf.encode())
+        keep_soft_limits(model, tree)
         for number, (name, _) in enumerate(card.resting):
             moving_joint(model, name, f"resting.{name}" if name else f"resting[{number}]")
         arms = []
@@ -89,7 +92,7 @@ class DescribedRobot:
         if card.camera is not None and card.camera.link is not None and not model.existFrame(card.camera.link):
             raise RobotError("camera.link", f"{card.camera.link!r} is no link of the URDF")
         limits = lift_limits(model, card)
-        check_joints(model, card, mimicking(parsed(urdf.encode())))
+        check_joints(model, card, mimicking(tree))
         if not limits[0] <= card.scene.torso_m <= limits[1]:
             said = "without a lift" if card.lift is None else f"the lift goes from {limits[0]:g} to {limits[1]:g}"
             raise RobotError("scene.torso_m", f"is {card.scene.torso_m}, {said}")

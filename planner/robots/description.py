@@ -2,10 +2,12 @@
 
 from importlib.metadata import PackageNotFoundError, distribution
 from pathlib import Path
+from xml.etree import ElementTree
 
 import pinocchio as pin
 
 from planner.errors import FoldingError
+from planner.robots.soft_limits import keep_soft_limits
 
 _DISTRIBUTION = "example-robot-data"
 _SHARE = "cmeel.prefix/share"
@@ -33,5 +35,6 @@ def urdf_path() -> Path:
 
 
 def read_model() -> pin.Model:
-    """Return the kinematic tree of the PR2, its root fixed to ``base_footprint`` (4 ms)."""
-    return pin.buildModelFromUrdf(str(urdf_path()))
+    """Return the kinematic tree of the PR2, its root fixed to ``base_footprint``, with its soft limits (10 ms)."""
+    path = urdf_path()
+    return keep_soft_limits(pin.buildModelFromUrdf(str(path)), ElementTree.parse(path).getroot())

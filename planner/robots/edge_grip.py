@@ -12,13 +12,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from planner.geometry.pose import FloatArray
+from planner.robots.collision.collisions import TIP_CLEAR_M
 from planner.robots.collision.robot_parts import RobotParts
 from planner.robots.collision.rounded_hull import RoundedHull
 from planner.robots.collision.separation import END, HAND
 from planner.robots.openings import EDGE_OPEN_M, HELD_M, LOWERED_MAX_M, RAISED_MAX_M
 
 FINGER_CLEAR_M, BODY_CLEAR_M = 0.0003, 0.0015
-"""Distance that fingertips, and all else of a hand, keep from the table (m); collision checks ask for 0 and 1 mm."""
+"""Distance that fingertips, and all else of a hand, keep from the table (m); collision checks ask for 0.1 and 1 mm."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,7 +84,9 @@ def edge_raised_m(hand: HandShape, height_m: float, pitch_rad: float) -> float |
     Returns:
         The height; None where a finger would be in the table, or the hand too far from its path.
     """
-    sides = [side for side in (1.0, -1.0) if hand.raised_m(HELD_M, height_m, pitch_rad, side) <= FINGER_CLEAR_M]
+    sides = [
+        side for side in (1.0, -1.0) if hand.raised_m(HELD_M, height_m, pitch_rad, side) <= FINGER_CLEAR_M - TIP_CLEAR_M
+    ]
     raised = [hand.raised_m(EDGE_OPEN_M, height_m, pitch_rad, side) for side in sides]
     able = [one for one in raised if -LOWERED_MAX_M <= one <= RAISED_MAX_M]
     return min(able, default=None)

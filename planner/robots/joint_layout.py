@@ -27,6 +27,7 @@ class JointLayout:
         accelerations: the top accelerations (rad/s2), shape (joints,).
         is_continuous: which joints turn without end, shape (joints,).
         is_lifting: which joints raise an arm's elbow and hand, shape (joints,).
+        ranges: the lowest and highest values (rad, m), infinite for endless joints, shape (joints, 2).
     """
 
     spans: tuple[slice, ...]
@@ -36,6 +37,7 @@ class JointLayout:
     accelerations: FloatArray
     is_continuous: BoolArray
     is_lifting: BoolArray
+    ranges: FloatArray
 
     @staticmethod
     def of(card: RobotCard) -> "JointLayout":
@@ -51,6 +53,7 @@ class JointLayout:
             np.array([own for arm in card.arms for own in arm.kept_accelerations], dtype=float),
             np.array([turns for arm in card.arms for turns in arm.is_continuous], dtype=np.bool_),
             np.array(lifting, dtype=np.bool_),
+            np.array([ends for arm in card.arms for ends in arm.limits], dtype=float),
         )
 
     @property

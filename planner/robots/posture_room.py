@@ -3,8 +3,9 @@
 To reach something close to the body the arm folds its forearm against the shoulder. Joint limits allow it, the body
 does not. Paths are validated only in the end, so without this test the search would plan with such places and have them
 rejected one by one. So a place counts as reachable only if at least one of some sampled postures there is clear of what
-stands still while this arm moves: the body, its own shoulder and the other arm at home. Whether a path leads from one
-posture to the next, past the table and an arm that moves too, is left to the joint paths.
+stands still whatever the arms do: the body and its own shoulder. Whether a path leads from one posture to the next,
+past the table and the other arm, which may be anywhere, is left to the joint paths. A restricted task may ask for room
+beside the other arm at home, too: there, joint paths are mostly found at once.
 
 As in `planner.robots.kernel` the arm is a left arm, and tool poses are seen from its shoulder.
 """
@@ -144,22 +145,24 @@ def _level(aim: ToolPose, rotation: FloatArray) -> None:
     rotation[0, 2], rotation[1, 2], rotation[2, 2] = -cos * aim.az, -sin * aim.az, flat
 
 
-def room_beside(shape: ArmShape, robot: RobotParts, torso_m: float, home: FloatArray) -> Room:
-    """Return the room that the body, and the right arm at home, leave the left arm.
+def room_beside(shape: ArmShape, robot: RobotParts, torso_m: float, home: FloatArray | None = None) -> Room:
+    """Return the room that the body leaves the left arm.
 
     Args:
         shape: the left arm.
         robot: the robot's parts.
         torso_m: how far the torso is raised (m).
-        home: the right arm's joints (rad), shape (7,).
+        home: the joints of the right arm if its upper part is an obstacle too (rad), shape (7,).
     """
     parts = compiled_parts(robot, 0)
     poses = np.zeros((len(parts.bounds), 5, 3))
     poses[2 * EACH :, : PLACE + 1] = robot.body_poses
     poses[2 * EACH + 1 :, PLACE, 2] += torso_m
-    pose_arm(shape, torso_m, home, -1.0, poses[EACH : 2 * EACH])
+    others: tuple[int, ...] = ()
+    if home is not None:
+        pose_arm(shape, torso_m, home, -1.0, poses[EACH : 2 * EACH])
+        others = tuple(EACH + part for part in (SHOULDER, SHOULDER_LIFT, UPPER_ARM))
     set_middles(parts.bounds, poses)
-    others = (EACH + part for part in (SHOULDER, SHOULDER_LIFT, UPPER_ARM))
     body = (2 * EACH + part for part in (BASE, TORSO))
     pairs = np.array([*product((FOREARM, WRIST, PALM, FINGERS), (SHOULDER, *others, *body))])
     return Room(torso_m, parts, poses, pairs, -CELL_M / 2, empty_memory())

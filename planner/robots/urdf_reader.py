@@ -135,7 +135,7 @@ def parsed(data: bytes) -> Element:
 def _check_numbers(part: Element, field: str) -> None:
     """Refuse limits, origins and axes that are no numbers, and origins that are too far."""
     for element in part.iter():
-        if element.tag not in ("origin", "axis", "limit"):
+        if element.tag not in ("origin", "axis", "limit", "safety_controller"):
             continue
         for name, text in element.attrib.items():
             numbers = text.split()

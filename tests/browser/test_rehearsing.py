@@ -126,10 +126,6 @@ def test_a_rehearsal_tells_of_each_step_what_became_of_it(page: Page, new_sheet:
     expect(pill).not_to_contain_text("Rehearsed")
 
     server.begun_by(begin)
-    server.end(run() | {"regrasps": 0, "decisions": [{"step": 0, "code": "firmer"}]})
-    expect(said).to_contain_text("at most 4 mm off on average, a second hand added once, to hold corners firmly.")
-
-    server.begun_by(begin)
     expect(mark).to_have_count(0)
     server.end(run(held=False, mean_mm=31.0))
     expect(said).to_contain_text("Lost at step 1: the cloth is 31 mm off on average.")

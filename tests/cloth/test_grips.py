@@ -138,17 +138,41 @@ def test_three_grips_that_hold_a_round_edge_are_found_among_hundreds_of_candidat
         assert gaps.max() <= 0.127 + 1e-5
 
 
-def test_a_hand_more_is_offered_where_it_holds_corners_that_are_far_from_the_fewest_grips():
+def test_corners_further_than_eight_centimetres_from_one_hand_get_another():
     piece, vertices = top(0.254)
     found = grip_covers(piece, vertices, 0.127, 2)
-    assert found.firmer == (((0.0, 0.3), (0.254, 0.3)),)
-    assert found.every == (*found.firmer, *found.covers)
-    assert grip_covers(piece, vertices, 0.127, 1).firmer == ()
+    assert found.firm == (((0.0, 0.3), (0.254, 0.3)),)
+    assert found.every == (*found.firm, *found.covers) and found.count == 1
 
 
-def test_corners_held_firmly_need_no_hand_more():
-    piece, vertices = top(2.0 * grips.FIRM * 0.127)
+@pytest.mark.parametrize(("width_m", "hands"), [(0.16, 1), (0.161, 2)])
+def test_corners_held_firmly_need_no_hand_more(width_m: float, hands: int):
+    piece, vertices = top(width_m)
     found = grip_covers(piece, vertices, 0.127, 2)
-    assert found.count == 1 and found.firmer == ()
-    piece, vertices = top(2.0 * grips.FIRM * 0.127 + 0.001)
-    assert grip_covers(piece, vertices, 0.127, 2).firmer
+    assert found.count == 1 and len(found.firm[0]) == hands
+    assert (found.every == found.covers) == (hands == 1)
+
+
+def test_where_the_hands_cannot_hold_firmly_they_hold_as_near_as_they_can():
+    piece, vertices = top(0.254)
+    alone = grip_covers(piece, vertices, 0.127, 1)
+    assert alone.firm == alone.covers and alone.firm_m == pytest.approx(0.127)
+    row = np.array([(0.0, 0.3), (0.12, 0.3), (0.32, 0.3), (0.52, 0.3)])
+    found = grip_covers(rectangle(0.52, 0.3), row, 0.127, 2)
+    assert found.firm == found.covers and found.firm_m == pytest.approx(0.1)
+
+
+def test_a_radius_under_eight_centimetres_is_firm():
+    piece, vertices = top(0.13)
+    found = grip_covers(piece, vertices, 0.06, 2)
+    assert found.firm == found.covers and found.count == 2
+
+
+def test_firm_covers_are_the_best_of_their_number_within_eight_centimetres():
+    rng = random.Random(11)
+    for _ in range(60):
+        piece = Region.polygon(star(rng, 8))
+        vertices = must_hold(piece, UP, (), 0.1) if piece.shape.is_valid else np.empty((0, 2))
+        narrow, wide = (grip_covers(piece, vertices, radius_m, 2) for radius_m in (grips.FIRM_M, 0.2))
+        assert not narrow.covers or wide.firm == narrow.covers
+        assert bool(wide.firm) == bool(wide.covers)

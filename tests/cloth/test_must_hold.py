@@ -5,13 +5,14 @@ import random
 
 import numpy as np
 import pytest
+import shapely
 
 from planner.cloth.must_hold import must_hold
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Point2
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
-from tests.builders import rectangle, star
+from tests.builders import noisy, rectangle, star
 from tests.replay import flat
 
 UP = (0.0, 1.0)
@@ -118,7 +119,8 @@ def test_random_polygons_agree_with_looking_for_cloth_above_each_vertex(support_
     rng = random.Random(6)
     for _ in range(60):
         region = Region.polygon(star(rng, 9))
-        if not region.shape.is_valid:
+        around = flat.corners(shapely.convex_hull(region.shape))
+        if not region.shape.is_valid or any(flat.is_hardly_a_corner(*corner) for corner in around):
             continue
         looked = flat.must_hold(region.shape, UP, [], math.radians(support_deg))
         assert held(region, support_deg=support_deg) == {(round(x, 4), round(y, 4)) for x, y in looked}
@@ -131,3 +133,24 @@ def test_a_wider_support_angle_never_asks_for_more():
         if region.shape.is_valid:
             answers = [held(region, support_deg=angle) for angle in (0.0, 5.0, 30.0, 80.0)]
             assert answers[0] >= answers[1] >= answers[2] >= answers[3]
+
+
+@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("count", [60, 200, 400])
+def test_of_a_traced_rectangle_no_more_must_be_held_than_of_the_rectangle(count: int, seed: int):
+    corners = np.array([(0.0, 0.0), (0.4, 0.0), (0.4, 0.3), (0.0, 0.3)])
+    outline = noisy(corners, count, 0.001, random.Random(seed))
+    found = must_hold(Region.polygon(outline), UP, (Segment((0.0, 0.0), (0.4, 0.0)),), math.radians(5.0))
+    gaps = np.hypot(*(found[:, None] - corners[2:]).transpose(2, 0, 1))
+    assert gaps.min(axis=1).max() < 0.005 and gaps.min(axis=0).max() < 0.005
+
+
+@pytest.mark.parametrize("radius_m", [0.1, 0.25])
+def test_the_must_hold_zone_of_a_round_cloth_is_the_same_by_however_many_points_it_is_drawn(radius_m: float):
+    ends = []
+    for count in (60, 100, 200, 400):
+        angles = np.linspace(0.0, math.pi, count // 2 + 1)
+        half = Region.polygon(radius_m * np.column_stack([np.cos(angles), np.sin(angles)]))
+        found = must_hold(half, UP, (Segment((-radius_m, 0.0), (radius_m, 0.0)),), math.radians(5.0))
+        ends.append(math.degrees(np.arctan2(found[:, 1], found[:, 0]).min()))
+    assert max(ends) - min(ends) < 4.0

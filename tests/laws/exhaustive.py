@@ -121,7 +121,7 @@ class Exhaustive:
             return
         placement = context.placed(state.offset)
         turn = placement.yaw_rad - context.station_pose(state.station).yaw_rad
-        for cover in drag_covers(context, state.done, state.offset, towards).every:
+        for cover in context.allowed(drag_covers(context, state.done, state.offset, towards)):
             points = placement.to_outer(np.array(cover).reshape(-1, 2))
             if not cover or nearest_pair_m(points) < context.grips_apart_m - 1e-5:
                 continue

@@ -32,7 +32,7 @@ def plain_task(rng: Random) -> Problem:
     drawn = _folded(rng, outline, rng.randint(1, 3), _straight_line)
     middle = np.array(outline).min(axis=0) / 2 + np.array(outline).max(axis=0) / 2
     yaw = rng.choice((0.0, math.pi / 2, math.pi, -math.pi / 2, -math.pi / 2, rng.uniform(-math.pi, math.pi)))
-    placement = _lying(middle, rng.uniform(-0.65, -0.2), rng.choice((0.0, rng.uniform(-0.2, 0.2))), yaw)
+    placement = lying(middle, rng.uniform(-0.65, -0.2), rng.choice((0.0, rng.uniform(-0.2, 0.2))), yaw)
     scene = Scene(
         friction=rng.choice((1.0, 1.0, rng.uniform(0.1, 1.0))),
         approach_cone_rad=rng.choice((math.radians(75.0), math.radians(75.0), math.pi, rng.uniform(0.5, math.pi))),
@@ -52,13 +52,13 @@ def rough_task(rng: Random) -> Problem:
     yaw = rng.choice((rng.randrange(-2, 3) * math.pi / 2, rng.uniform(-math.pi, math.pi)))
     scene = _odd_scene(rng) if rng.random() < 0.5 else Scene()
     half_m, wide_m = scene.table.depth_m / 2, scene.table.width_m / 2
-    placement = _lying(middle, rng.uniform(-1.1, 0.6) * half_m, rng.uniform(-1.1, 1.1) * wide_m, yaw)
+    placement = lying(middle, rng.uniform(-1.1, 0.6) * half_m, rng.uniform(-1.1, 1.1) * wide_m, yaw)
     start, _ = rng.choice(scene.stations)
     comfort_m = rng.choice((0.03, 0.0, 0.1, rng.uniform(0.0, 0.1)))
     return Problem(replace(drawn, placement=placement), scene, start, comfort_m)
 
 
-def _lying(middle: np.ndarray, x_m: float, y_m: float, yaw_rad: float) -> Pose2:
+def lying(middle: np.ndarray, x_m: float, y_m: float, yaw_rad: float) -> Pose2:
     """Return the placement that puts a point of the drawing at a place of the table."""
     cos, sin = math.cos(yaw_rad), math.sin(yaw_rad)
     x, y = float(middle[0]), float(middle[1])
@@ -155,8 +155,8 @@ def _folded(rng: Random, outline: Outline, wanted: int, line_of: Line) -> Garmen
             break
         is_red = bool(folds) and rng.random() < 0.2
         silhouette = flap_silhouette(cloth, is_red=is_red)
-        drawn = _chord(silhouette, line_of(rng, silhouette), "red" if is_red else "blue")
-        after = None if drawn is None else _after(cloth, drawn, lines)
+        drawn = smaller_part_over(silhouette, line_of(rng, silhouette), "red" if is_red else "blue")
+        after = None if drawn is None else after_fold(cloth, drawn, lines)
         if after is not None:
             line, cloth = after
             folds.append(drawn)
@@ -164,7 +164,7 @@ def _folded(rng: Random, outline: Outline, wanted: int, line_of: Line) -> Garmen
     return garment(outline, *folds)
 
 
-def _chord(silhouette: Region, line: Segment, kind: str) -> DrawnFold | None:
+def smaller_part_over(silhouette: Region, line: Segment, kind: str) -> DrawnFold | None:
     """Return a fold of the smaller part along the longest stretch of a whole line within the cloth."""
     stretches = silhouette.overlaps_with(Segment(line.at(-10.0), line.at(10.0)))
     longest = max(stretches, key=lambda ends: math.dist(*ends), default=None)
@@ -178,7 +178,7 @@ def _chord(silhouette: Region, line: Segment, kind: str) -> DrawnFold | None:
     return fold(start, end, kind)
 
 
-def _after(cloth: ClothState, drawn: DrawnFold, lines: Sequence[Segment]) -> tuple[Segment, ClothState] | None:
+def after_fold(cloth: ClothState, drawn: DrawnFold, lines: Sequence[Segment]) -> tuple[Segment, ClothState] | None:
     try:
         line = snapped_line(drawn, flap_silhouette(cloth, is_red=drawn.is_red))
         return line, fold_cloth(cloth, line, is_red=drawn.is_red, crease=lines[-1] if drawn.is_red else None).cloth

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from planner import Plan, Scene, load_garment, make_plan
 from planner.errors import RequestError
-from planner.geometry.keyframes import peaks, rate_at, value_at
+from planner.geometry.keyframes import extremes, peaks, rate_at, value_at
 from planner.motion.motion_limits import MotionLimits
 from planner.planning.plan_check import require_replay
 from planner.planning.problem import Problem
@@ -99,3 +99,26 @@ def test_the_peaks_between_keyframes_are_those_of_the_cubic(keyframes: list[tupl
         assert hardest <= accelerations[number, 0] * (1.0 + 1e-6) + 1e-6
         assert accelerations[number, 0] == pytest.approx(hardest, rel=2e-2, abs=2e-2)
         assert value_at(times, values, rates, start) == pytest.approx(values[number])
+
+
+def test_an_elbow_beyond_its_soft_limit_is_refused_with_the_joint_and_how_far(plan: Plan):
+    path = plan.trajectory
+    assert path is not None
+    elbow = path.arms.names.index("l_elbow_flex_joint")
+    rows = path.arms.rows.copy()
+    rows[:, elbow] = -0.1  # its limits are -2.1213 and -0.15 rad
+    still = replace(path.arms, positions=tuple(map(tuple, rows.tolist())))
+    with pytest.raises(RequestError, match=r"l_elbow_flex_joint is 0\.050 rad beyond its limits -2\.1213 and -0\.15"):
+        require_replay(replace(plan, trajectory=replace(path, arms=still)))
+
+
+@given(st.lists(st.tuples(*[st.floats(-2.0, 2.0)] * 2), min_size=2, max_size=4))
+def test_extremes_between_keyframes_are_those_of_a_dense_sampling(keyframes: list[tuple[float, float]]):
+    values, rates = (np.array(column)[:, None] for column in zip(*keyframes, strict=True))
+    times = np.arange(len(values), dtype=float)
+    low, high = extremes(times, values, rates)
+    for number in range(len(times) - 1):
+        there = [float(value_at(times.tolist(), values, rates, number + s)[0]) for s in np.linspace(0.0, 0.9999, 400)]
+        assert min(there) == pytest.approx(low[number, 0], abs=1e-3)
+        assert max(there) == pytest.approx(high[number, 0], abs=1e-3)
+        assert low[number, 0] <= min(there) + 1e-9 and high[number, 0] >= max(there) - 1e-9

@@ -21,7 +21,7 @@ from tests.replay.way_round import DRIVE_M_S2, from_rest_to_rest_s, require_way_
 from tests.replay.world import ARMS, GRID_M, SECOND, Way, World
 
 DRAG_M = 0.10
-FIRM = 0.875
+FIRM_M = 0.08
 
 
 def check(
@@ -42,6 +42,7 @@ class Checker(World):
 
     def run(self, plan: dict[str, Any]) -> None:
         self._require_dag(plan["dag"])
+        self.is_late = plan["cost_s"] > plan["statistics"]["bound_s"] + SECOND
         self.table.require_rest(self._on_table(), "at the start")
         for number, primitive in enumerate(plan["primitives"]):
             kind = primitive["kind"]
@@ -114,7 +115,7 @@ class Checker(World):
     ) -> None:
         """Require every vertex to be held, with grips on the cloth.
 
-        They are the fewest and nearest possible, or the nearest of as many as hold everything firmly.
+        They are the fewest and nearest possible, within the radius or firmly, or the nearest of as many as there are.
         """
         assert 1 <= len(spots) <= len(ARMS), f"{name}: {len(spots)} grips for two arms"
         for spot in spots:
@@ -126,12 +127,14 @@ class Checker(World):
         assert found[0] <= radius_m + 1e-4, f"{name}: a vertex is {found[0]:.4f} m from the nearest grip"
         if self.held:
             alone = [flat.reach_of([spot], vertices)[0] <= radius_m for spot in self.held.values()]
-            is_firmer = found[0] <= FIRM * radius_m + 1e-4
-            assert len(spots) == 1 or is_firmer or not any(alone), f"{name}: one of the grips held would do"
+            is_nearer = all(found[0] < flat.reach_of([spot], vertices)[0] for spot in self.held.values())
+            assert len(spots) == 1 or is_nearer or not any(alone), f"{name}: one of the grips held would do"
             return
-        best = [flat.best_cover(piece, vertices, share * radius_m, len(ARMS), still) for share in (1.0, FIRM)]
+        radii_m = (radius_m, min(FIRM_M, radius_m))
+        best = [flat.best_cover(piece, vertices, within_m, len(ARMS), still) for within_m in radii_m]
+        best.append(flat.nearest_cover(piece, vertices, len(ARMS), still))
         is_best = any(one is not None and np.allclose(found, one, atol=NEAR_M) for one in best)
-        assert is_best, f"{name}: {found} m, best {best[0]} m, firmly {best[1]} m"
+        assert is_best, f"{name}: {found} m, best {best[0]} m, firmly {best[1]} m, nearest {best[2]} m"
 
     def _require_path(self, grips: list[dict[str, Any]], spots: list[Place], name: str, line: flat.Line) -> None:
         for grip, spot in zip(grips, spots, strict=True):
@@ -165,12 +168,15 @@ class Checker(World):
     def _require_fold_time(self, primitive: dict[str, Any], name: str) -> None:
         """Require two or three arm motions, and base legs on the grid that lead from one standoff to the other.
 
-        Where the arms cannot keep up with the base it drives a little slower: by half a step of the grid at most.
+        Where the arms cannot keep up with the base it drives a little slower: by half a step of the grid at most. A
+        plan that takes longer than its bound may have arms that are later than that.
         """
         arms_s = (2 if self.held else 3) * self.scene["arm_motion_s"]
         steps = (primitive["duration_s"] - arms_s) * self.scene["base_speed_m_s"] / GRID_M
         least = abs(primitive["base"]["back_off_m"] - self.standoff) / GRID_M
         assert steps >= least - 1e-5, f"{name}: takes {primitive['duration_s']} s, too few for arms and base"
+        if self.is_late:
+            return
         driven = math.floor(steps + 1e-5)
         assert steps - driven < 0.5 - 1e-5, f"{name}: its legs are no multiple of 5 cm"
         assert (driven - round(least)) % 2 == 0, f"{name}: {steps} steps do not lead to its end"

@@ -106,7 +106,9 @@ def corners(shape: BaseGeometry) -> list[tuple[Place, Place, Place]]:
 
 def must_hold(shape: BaseGeometry, up: Place, baselines: list[Line], support_angle_rad: float) -> list[Place]:
     """Return the vertices on the hull and off the baseline with no cloth above, within the support angle."""
-    hull = MultiPoint([p for _, p, _ in corners(shapely.convex_hull(shape))] or [shapely.get_coordinates(shape)[0]])
+    around = corners(shapely.convex_hull(shape))
+    whole = [shapely.get_coordinates(shape)[0]] if not around else [point for _, point, _ in around]
+    hull = MultiPoint([corner[1] for corner in around if not is_hardly_a_corner(*corner)] or whole)
     heading = math.atan2(up[1], up[0])
     needed = []
     for before, point, after in corners(shape):
@@ -120,6 +122,13 @@ def must_hold(shape: BaseGeometry, up: Place, baselines: list[Line], support_ang
         if shape.distance(arc) > 2e-9:
             needed.append(point)
     return needed
+
+
+def is_hardly_a_corner(before: Place, point: Place, after: Place) -> bool:
+    """Return whether a hull runs straight on, within 2.5 mm and 5 degrees: the outline is known no better."""
+    (ax, ay), (bx, by) = np.subtract(point, before), np.subtract(after, point)
+    turn = math.atan2(ax * by - ay * bx, ax * bx + ay * by)
+    return abs(turn) < math.radians(5.0) and LineString([before, after]).distance(Point(point)) < 2.5e-3
 
 
 def bisector(shape: BaseGeometry, point: Place) -> Place:
@@ -143,16 +152,29 @@ def best_cover(
 
     Nothing is lifted by a hand on the line that stays where it is.
     """
-    candidates = list(vertices)
+    spots = candidates(shape, vertices, still)
+    for count in range(1, arms + 1):
+        ranks = [reach_of(list(grips), vertices) for grips in combinations(spots, count)]
+        good = [rank for rank in ranks if rank[0] <= radius_m + 1e-5]
+        if good:
+            return min(good)
+    return None
+
+
+def nearest_cover(shape: BaseGeometry, vertices: list[Place], arms: int, still: Line | None = None) -> list[float]:
+    """Return the distances of the nearest cover by any number of grips, by trying all."""
+    spots = candidates(shape, vertices, still)
+    counts = range(1, min(arms, len(spots)) + 1)
+    return min(reach_of(list(grips), vertices) for count in counts for grips in combinations(spots, count))
+
+
+def candidates(shape: BaseGeometry, vertices: list[Place], still: Line | None) -> list[Place]:
+    """Return the places that may be gripped."""
+    found = list(vertices)
     for count in (2, 3):
         for some in combinations(vertices, count):
             centre = shapely.minimum_bounding_circle(MultiPoint(some)).centroid
             foot = shapely.shortest_line(centre, shape.boundary).coords[1]
             if still is None or LineString(still).distance(Point(foot)) > 1e-5:
-                candidates.append(tuple(foot))
-    for count in range(1, arms + 1):
-        ranks = [reach_of(list(grips), vertices) for grips in combinations(candidates, count)]
-        good = [rank for rank in ranks if rank[0] <= radius_m + 1e-5]
-        if good:
-            return min(good)
-    return None
+                found.append(tuple(foot))
+    return found

@@ -38,15 +38,13 @@ export function summary({ runs, held, of, success_low: low, success_high: high }
 
 /** @param {Run} run */
 function oneRun(run) {
-  const { held, steps, decisions, regrasps, replans } = run;
+  const { held, steps, regrasps, replans } = run;
   const lost = steps.find((verdict) => !verdict.held);
   if (lost) return say("rehearsal.lost_at", { step: lostAt(run) ?? 0, length: lost.mean_mm.toFixed(0) });
   const again = regrasps && say("rehearsal.regrasps", { count: regrasps });
   const anew = replans && say("rehearsal.replans", { count: replans });
-  const firmer = decisions.filter(({ code }) => code === "firmer").length;
-  const hands = firmer && say("rehearsal.firmer", { count: firmer });
   const off = say("rehearsal.off", { length: worstOf(run).toFixed(0) });
-  const told = [off, again, hands, anew].filter(Boolean).join(", ");
+  const told = [off, again, anew].filter(Boolean).join(", ");
   return held ? say("rehearsal.all_held", { told }) : brokenOff(run);
 }
 

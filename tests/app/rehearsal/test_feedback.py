@@ -19,7 +19,7 @@ from app.rehearsal.judge import Gate
 from app.rehearsal.noise import Noise
 from app.rehearsal.noisy_world import NoisyWorld
 from app.rehearsal.perform import FAILURES_MAX, Performer
-from app.rehearsal.rest import rest_tasks
+from app.rehearsal.rest import rest_task
 from app.rehearsal.step_motions import step_motions
 from app.rehearsal.world import Observation, Performed, StepMotion
 from planner import Plan, Task, load_garment, make_plan
@@ -187,29 +187,13 @@ def test_the_rest_is_planned_again_with_as_much_work_as_the_plan_had_time_howeve
     assert {task.limits.time_limit_s for task in asked} == {TIME_LIMIT_S[1]}
 
 
-def test_the_rest_is_planned_with_grips_that_hold_firmly_and_only_where_that_has_no_plan_with_others():
-    asked: list[Task] = []
-
-    def unsolved(task: Task) -> Plan:
-        asked.append(task)
-        return replace(towel_plan(), status="infeasible")
-
-    done = Performer(towel_plan(), NotedWorld(outline_at(0.05, 0.0)), Gate(), unsolved).performed()
-    assert "infeasible" in done.reason
-    garment = towel_plan().garment
-    radii_m = [task.garment.grip_radius_m for task in asked]
-    assert radii_m == pytest.approx([0.1016, 0.1111, 0.127], abs=1e-4)  # 4/5 and 7/8 of 12.7 cm
-    assert asked[0].garment.folds[0].grip_radius_m == pytest.approx(0.1016, abs=1e-4)
-    assert asked[-1].garment == garment
-
-
 def test_a_scarf_that_lies_closer_than_planned_is_still_taken_by_both_corners():
     # Its edge is 25.4 cm wide, and one hand in the middle would be quicker by half a second.
     plan = make_plan(Task.of(load_garment("scarf")))
     last = plan.steps[2]
     lies = Pose2(-1.139, 0.326, last.before.placement.yaw_rad + 0.0067)
-    firm, *_ = rest_tasks(plan.task, replace(last.before, placement=lies))
-    assert [len(step.holdings) for step in make_plan(firm).steps] == [2, 2]
+    rest = rest_task(plan.task, replace(last.before, placement=lies))
+    assert [len(step.holdings) for step in make_plan(rest).steps] == [2, 2]
 
 
 def test_a_fold_taken_at_another_point_lands_where_the_fold_brings_that_point():

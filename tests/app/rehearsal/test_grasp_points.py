@@ -84,7 +84,7 @@ def test_hands_take_corners_of_several_layers_inside_of_where_they_are_seen_as_f
     assert at_layered_corners(replace(step, holdings=()), plan.sequence) == frozenset()
     skirt = make_plan(Task.of(load_garment("skirt")))
     taken = [sorted(at_layered_corners(one, skirt.sequence)) for one in skirt.steps]
-    assert taken == [[], [], ["right"], []]  # two tips; in the last fold the middle of an edge
+    assert taken == [[], [], ["right"], ["left"]]  # tips, then a corner
     (tip,) = skirt.steps[2].holdings
     along = replace(tip, point=(tip.point[0], tip.point[1] - 0.05))  # 5 cm from the tips, along the waist or the hem
     assert at_layered_corners(replace(skirt.steps[2], holdings=(along,)), skirt.sequence) == frozenset()

@@ -1,0 +1,163 @@
+"""Find paths round what is in the way by sampling: RRT-Connect (Kuffner and LaValle, 2000), then shortcuts.
+
+Two trees of configurations grow from start and goal. In turns, one goes towards a random configuration, the other
+towards where that one came to; where they meet there is a path. The random numbers have a fixed seed and the
+configurations that are tested are counted, so the same question always has the same answer, after bounded work.
+"""
+
+from collections.abc import Callable
+from itertools import pairwise
+
+import numpy as np
+
+from planner.geometry.pose import BoolArray, FloatArray
+
+TESTED_MAX = 4_000
+"""The most configurations tested for one path, those for its shortcuts apart."""
+
+_SHORTCUT_TESTED_MAX = 5_000
+"""The most configurations tested for shortcuts."""
+
+_STRIDE_RAD = 1.0
+"""The farthest that a tree grows at once: the largest turn of a joint (rad)."""
+
+_BATCH = 8
+"""Configurations tested together: most lines into an obstacle end within a few."""
+
+_SHORTCUTS = 60
+"""Shortcuts tried."""
+
+_SEED = 1
+
+AreFree = Callable[[FloatArray], BoolArray]
+"""The test at which configurations, shape (n, joints), nothing is in the way."""
+
+
+class SampledPaths:
+    """Finds one path between two configurations.
+
+    Attributes:
+        tested: how many configurations have been tested.
+    """
+
+    def __init__(self, are_free: AreFree, low: FloatArray, high: FloatArray, step_rad: float) -> None:
+        """Keep the test and the box of the configurations that may be tried.
+
+        Args:
+            are_free: the test.
+            low: the lowest value of each joint (rad), shape (joints,).
+            high: the highest; one equal to the lowest stays as it is.
+            step_rad: the largest turn of a joint from one tested configuration to the next (rad).
+        """
+        self.tested = 0
+        self._are_free, self._low, self._high, self._step_rad = are_free, low, high, step_rad
+        self._rng = np.random.default_rng(_SEED)
+
+    def path(self, start: FloatArray, goal: FloatArray) -> FloatArray | None:
+        """Return configurations from start to goal, shape (n, joints), between which lines are free.
+
+        None if no path was found.
+        """
+        if not self._test(np.array([start, goal])).all():
+            return None
+        trees = _Tree(start), _Tree(goal)
+        turn = 0
+        while self.tested < TESTED_MAX:
+            one, other = trees[turn], trees[1 - turn]
+            grown = self._grow(one, self._rng.uniform(self._low, self._high))
+            if grown is not None and (met := self._connect(other, one.nodes[grown])) is not None:
+                halves = one.way(grown), other.way(met)
+                there = np.concatenate([halves[0], halves[1][::-1][1:]])
+                return self._shortened(there if turn == 0 else there[::-1])
+            turn = 1 - turn
+        return None
+
+    def _grow(self, tree: "_Tree", towards: FloatArray) -> int | None:
+        """Grow a tree by at most one stride; return its new node, None if there is no room."""
+        near = tree.nearest(towards)
+        away = towards - tree.nodes[near]
+        stride = float(np.abs(away).max())
+        reached = self._led(
+            tree.nodes[near], tree.nodes[near] + away * min(1.0, _STRIDE_RAD / max(stride, _STRIDE_RAD))
+        )
+        return None if reached is None else tree.add(reached, near)
+
+    def _connect(self, tree: "_Tree", place: FloatArray) -> int | None:
+        """Grow a tree towards a configuration until it is there or stopped; return the node there, None if stopped."""
+        while self.tested < TESTED_MAX:
+            grown = self._grow(tree, place)
+            if grown is None:
+                return None
+            if np.array_equal(tree.nodes[grown], place):
+                return grown
+        return None
+
+    def _led(self, start: FloatArray, end: FloatArray) -> FloatArray | None:
+        """Return the last free configuration on a line, its end if all of it is free; None if there is none."""
+        line = sampled(start, end, self._step_rad)[1:]
+        for first in range(0, len(line), _BATCH):
+            batch = line[first : first + _BATCH]
+            are_free = self._test(batch)
+            if not are_free.all():
+                count = first + int(are_free.argmin())
+                return None if count == 0 else line[count - 1]
+        return end
+
+    def _shortened(self, way: FloatArray) -> FloatArray:
+        """Return a path with the corners left out that a free line between two random points of it spares."""
+        most = self.tested + _SHORTCUT_TESTED_MAX
+        for _ in range(_SHORTCUTS):
+            if len(way) < 3 or self.tested >= most:
+                break
+            lengths = np.append(0.0, np.cumsum([float(np.abs(b - a).max()) for a, b in pairwise(way)]))
+            cuts = np.sort(self._rng.uniform(0.0, lengths[-1], 2))
+            first, last = np.digitize(cuts, lengths).clip(1, len(way) - 1).tolist()
+            if first == last:
+                continue
+            ends = np.column_stack([np.interp(cuts, lengths, column) for column in way.T])
+            led = self._led(*ends)
+            if led is not None and np.array_equal(ends[1], led):
+                way = np.concatenate([way[:first], ends, way[last:]])
+        return way
+
+    def _test(self, joints: FloatArray) -> BoolArray:
+        self.tested += len(joints)
+        return self._are_free(joints)
+
+
+class _Tree:
+    """Configurations, each with the one that it was reached from."""
+
+    def __init__(self, root: FloatArray) -> None:
+        """Begin with one configuration."""
+        self._rows, self._from = np.tile(root, (64, 1)), [0]
+
+    @property
+    def nodes(self) -> FloatArray:
+        """The configurations, shape (n, joints)."""
+        return self._rows[: len(self._from)]
+
+    def nearest(self, joints: FloatArray) -> int:
+        """Return the node nearest to a configuration."""
+        return int(((self.nodes - joints) ** 2).sum(axis=1).argmin())
+
+    def add(self, joints: FloatArray, near: int) -> int:
+        """Add a node that was reached from another one, and return its number."""
+        if len(self._from) == len(self._rows):
+            self._rows = np.concatenate([self._rows, self._rows])
+        self._rows[len(self._from)] = joints
+        self._from.append(near)
+        return len(self._from) - 1
+
+    def way(self, node: int) -> FloatArray:
+        """Return the configurations from the root to a node, shape (n, joints)."""
+        numbers = [node]
+        while numbers[-1] != 0:
+            numbers.append(self._from[numbers[-1]])
+        return np.asarray(self.nodes[numbers[::-1]])
+
+
+def sampled(start: FloatArray, end: FloatArray, step_rad: float) -> FloatArray:
+    """Return the straight line between two configurations, step by step, both included."""
+    count = max(1, int(np.ceil(np.abs(end - start).max() / step_rad)))
+    return np.asarray(start + np.linspace(0.0, 1.0, count + 1)[:, None] * (end - start))

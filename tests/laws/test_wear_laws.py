@@ -1,0 +1,35 @@
+"""Laws of plans for random hoods, ponchos and jumpers with four to eight folds, many of them in a long run."""
+
+from random import Random
+from time import process_time
+
+import pytest
+
+from planner.planning import budget
+from tests.laws.plan_laws import LAWS, differences
+from tests.laws.wear import wear_task
+
+QUICK_SEEDS = (1, 4, 8)
+"""Garments that are planned in a second or two."""
+
+
+def seeds(count: int) -> list[object]:
+    return [seed if seed in QUICK_SEEDS else pytest.param(seed, marks=pytest.mark.long) for seed in range(count)]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", seeds(100))
+def test_a_hood_a_poncho_and_a_jumper_keep_the_laws_of_plans(seed: int, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(budget, "clock_s", process_time)  # work ends a search, however busy the machine is
+    found = differences(wear_task(Random(seed)), seed)
+    assert not {name: broken for name, broken in found.by_law.items() if broken}
+
+
+def test_the_garments_have_four_to_eight_folds_and_are_of_three_kinds():
+    garments = [wear_task(Random(seed)).garment for seed in range(40)]
+    assert {len(garment.folds) for garment in garments} <= set(range(4, 9))
+    assert len({len(garment.outline) for garment in garments}) >= 3
+
+
+def test_each_law_says_by_how_much_plans_differ():
+    assert {"mirror", "turn", "redraw", "order", "tail", "h=0", "comfort", "friction", "stations"} <= LAWS.keys()

@@ -1,0 +1,52 @@
+"""Paths found by sampling: through a gap in a wall, always the same, and given up after bounded work."""
+
+from itertools import pairwise
+
+import numpy as np
+
+from planner.geometry.pose import BoolArray, FloatArray
+from planner.motion.sampled_paths import TESTED_MAX, SampledPaths, sampled
+
+STEP_RAD = 0.05
+LOW, HIGH = np.full(3, -3.0), np.full(3, 3.0)
+START, GOAL = np.array([-2.0, -2.0, 0.0]), np.array([2.0, -2.0, 0.0])
+
+
+def beside_the_wall(joints: FloatArray) -> BoolArray:
+    """A wall 1 rad thick at joint 0, open where joints 1 and 2 are between 1.5 and 2.7."""
+    is_in_wall, is_in_gap = np.abs(joints[:, 0]) < 0.5, (np.abs(joints[:, 1:] - 2.1) < 0.6).all(axis=1)
+    return np.asarray(~is_in_wall | is_in_gap)
+
+
+def no_gap(joints: FloatArray) -> BoolArray:
+    return np.asarray(np.abs(joints[:, 0]) >= 0.5)
+
+
+def test_a_path_goes_through_the_only_gap_of_a_wall():
+    way = SampledPaths(beside_the_wall, LOW, HIGH, STEP_RAD).path(START, GOAL)
+    assert way is not None and (way[0] == START).all() and (way[-1] == GOAL).all()
+    line = np.concatenate([sampled(a, b, STEP_RAD) for a, b in pairwise(way)])
+    assert beside_the_wall(line).all() and ((line >= LOW) & (line <= HIGH)).all()
+
+
+def test_the_same_question_has_the_same_answer():
+    first, again = (SampledPaths(beside_the_wall, LOW, HIGH, STEP_RAD).path(START, GOAL) for _ in range(2))
+    assert first is not None and again is not None and np.array_equal(first, again)
+
+
+def test_where_there_is_no_path_the_work_is_bounded():
+    paths = SampledPaths(no_gap, LOW, HIGH, STEP_RAD)
+    assert paths.path(START, GOAL) is None
+    assert TESTED_MAX <= paths.tested < TESTED_MAX + 100
+
+
+def test_a_start_that_is_not_free_costs_one_test_of_both_ends():
+    paths = SampledPaths(beside_the_wall, LOW, HIGH, STEP_RAD)
+    assert paths.path(np.zeros(3), GOAL) is None and paths.tested == 2
+
+
+def test_joints_that_may_not_move_stay():
+    low, high = np.array([-3.0, -3.0, 2.0]), np.array([3.0, 3.0, 2.0])
+    start, goal = np.array([-2.0, -2.0, 2.0]), np.array([2.0, -2.0, 2.0])
+    way = SampledPaths(beside_the_wall, low, high, STEP_RAD).path(start, goal)
+    assert way is not None and (way[:, 2] == 2.0).all()

@@ -1,0 +1,102 @@
+"""What a plan may cost: more stations, an arm that is not at home, folds given in another order, the rest of a plan."""
+
+import math
+from dataclasses import replace
+
+import pytest
+
+from planner import Garment, Plan, Scene, load_garment, make_plan
+from planner.geometry.pose import Point2, Pose2
+from planner.planning.problem import Problem
+from planner.planning.restricted_tasks import with_arms_apart
+from planner.task.scene import DEFAULT_STATIONS
+from planner.task.task import Task
+from tests.builders import fold, garment
+from tests.robots.remade import RemadeRobot
+
+WORK_S = 10.0
+
+
+def planned(what: Garment, scene: Scene | None = None) -> Plan:
+    return make_plan(what, scene, time_limit_s=60.0, work_limit_s=WORK_S)
+
+
+def hood(wide: float, low: float, high: float, out: float, side: float, half: float) -> Garment:
+    """Return a hooded top with its sleeves down: sleeves, both sides, and the lower half up."""
+    neck, shoulder = 0.3 * wide, high + 0.026
+    right: list[Point2] = [
+        (wide, 0.0),
+        (wide, low),
+        (wide + out - 0.05, low - 0.26 * out),
+        (wide + out, low - 0.26 * out + 0.083),
+        (wide, high),
+        (wide - neck, shoulder),
+        (wide - neck - 0.007, shoulder + 0.16),
+    ]
+    outline = (*right, *((wide - x, y) for x, y in reversed(right)))
+    over = high + side / neck * (shoulder - high)
+    return garment(
+        outline,
+        fold((0.0, low), (0.0, high)),
+        fold((wide, high), (wide, low)),
+        fold((side, 0.0), (side, over)),
+        fold((wide - side, over), (wide - side, 0.0)),
+        fold((wide - side, half), (side, half)),
+    )
+
+
+def tall_hood() -> Garment:
+    """Return a hood whose second side is out of the hands' way only after a drag, or from another station."""
+    one = hood(0.33647, 0.32179, 0.49307, 0.19663, 0.09956, 0.25493)
+    return replace(one, placement=Pose2(-0.69325, 0.13007, -math.pi / 2))
+
+
+@pytest.mark.slow
+def test_more_stations_never_cost_more():
+    front = Scene(stations=(("front", DEFAULT_STATIONS["front"]),))
+    many, one = planned(tall_hood()), planned(tall_hood(), front)
+    assert many.is_solved and one.is_solved
+    assert many.cost_s <= one.cost_s + 1e-5
+    assert all(step.kind != "move" for step in many.steps), "a drag does without the drive round the table"
+
+
+@pytest.mark.slow
+def test_independent_folds_given_in_another_order_cost_the_same():
+    one = hood(0.367, 0.2609, 0.3997, 0.248, 0.088, 0.1884)
+    one = replace(one, placement=Pose2(-0.63198, 0.17753, -math.pi / 2))
+    left, right, side, other_side, half = one.folds
+    other = replace(one, folds=(right, left, other_side, side, half))
+    assert planned(other).cost_s == pytest.approx(planned(one).cost_s, abs=1e-5)
+
+
+def test_the_rest_of_a_plan_after_a_drag_that_holds_costs_what_is_left():
+    wide, cut = 0.57542, 0.1067
+    right: list[Point2] = [(wide - cut, 0.0), (wide, cut), (wide, wide - cut), (wide - cut, wide)]
+    poncho = garment(
+        (*right, *((wide - x, y) for x, y in reversed(right))),
+        fold((wide, 0.27521), (0.0, 0.27521)),
+        fold((0.3592, wide), (0.3592, 0.27521)),
+    )
+    plan = planned(replace(poncho, placement=Pose2(-0.6138, 0.26188, -1.63851)))
+    assert plan.is_proven and plan.state_after(0).held
+    rest = make_plan(replace(plan.task, start=plan.state_after(0)))
+    assert rest.cost_s == pytest.approx(plan.cost_s - plan.steps[0].end_s, abs=1e-5)
+
+
+def test_a_bound_minds_no_arm_that_may_be_elsewhere():
+    # The shirt's third fold at standoff 0 brings the right arm where the left one is at home, not in that fold.
+    plan = planned(load_garment("shirt"))
+    assert plan.statistics.bound_s == pytest.approx(63.0)
+    assert not plan.is_proven or plan.cost_s == pytest.approx(63.0)
+
+
+def test_with_arms_apart_a_place_beside_the_other_arm_at_home_is_out_of_reach():
+    problem = Problem.of(Task.of(load_garment("shirt")))
+    (apart,) = with_arms_apart(problem)
+    assert apart.context.reach is not problem.context.reach
+    assert apart.context.reach.comfort_m == problem.context.reach.comfort_m
+
+
+def test_a_robot_that_minds_no_arms_has_no_task_with_arms_apart():
+    problem = Problem.of(Task.of(load_garment("hand-towel")))
+    assert not list(with_arms_apart(replace(problem, robot=RemadeRobot())))
