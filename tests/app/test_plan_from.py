@@ -68,7 +68,7 @@ async def test_the_start_is_taken_back_by_a_command_and_by_an_edit(client: httpx
             again = await replanned(page, start=None)
             assert again["plan"]["cost_s"] == pytest.approx(whole["plan"]["cost_s"])
         else:
-            told = (await put(client, state, moved(state, 0.001))).json()
+            told = (await put(client, state, moved(state, -0.001))).json()
             again = await replanned(page, start=None, version=told["version"])
             assert again["before"] is None  # what was left is nothing to compare the whole with
         assert len(again["plan"]["primitives"]) == len(whole["plan"]["primitives"])
@@ -100,7 +100,7 @@ async def test_a_drawing_that_was_changed_is_planned_from_its_beginning_when_it_
     workspace = client._transport.app.state.workspace  # type: ignore[attr-defined]
     state, page, _ = await planned(client)
     await from_second_step(page)
-    changed = (await put(client, state, moved(state, 0.001))).json()
+    changed = (await put(client, state, moved(state, -0.001))).json()
     await client.post(f"/api/documents/{state['id']}/undo", json={"base_version": changed["version"]})
     await page.hang_up()
     workspace.close_unused(-1.0)

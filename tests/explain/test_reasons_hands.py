@@ -27,7 +27,7 @@ NEARBY = Scene(stations=FRONT, back_off_max_m=0.2)
 def house(radius_m: float, *more):
     """Return the house with its tip towards the robot, its roof to be folded up."""
     roof = fold((0.4, 0.0), (0.0, 0.0), name="roof", radius_m=radius_m)
-    return garment(HOUSE, roof, *more, placement=Pose2(-0.45, 0.2, BACK))
+    return garment(HOUSE, roof, *more, placement=Pose2(-0.42, 0.2, BACK))
 
 
 def test_three_corners_need_a_hand_too_many_until_one_holds_two_of_them():

@@ -16,10 +16,13 @@ from tests.planning.found import found_plan
 from tests.planning.provoked import (
     BACK,
     COMFORT_M,
+    FORE_M,
     FRONT,
     FURTHEST_X,
     HAMMER_SCENE,
     LEVEL_M,
+    STRAIGHT_M,
+    UPPER_M,
     but_for_collisions,
     fixed,
     hammer,
@@ -73,11 +76,12 @@ def test_a_grip_that_lacks_only_comfort_says_how_much_it_has():
 
 
 def test_a_path_rises_as_high_as_the_part_that_moves_is_deep():
-    # Straight down, a hand hangs from a forearm that the wrist's limit of 120 degrees lets rise by 30 at most, from
-    # an elbow that the shoulder's lift lets rise by 30: at most (0.4 + 0.321) sin 30 over the shoulder. The apex is
-    # D + 0.02 over the table, and the wrist 0.18 m over that.
-    depth, height = 0.26, 1.0
-    over = height + depth + 0.02 + 0.18 - (0.051 + 0.739675 + 0.29) - (0.4 + 0.321) * math.sin(math.pi / 6)
+    # Straight down, a hand hangs from a forearm that the wrist's limit of 1.994 rad lets rise by 1.994 - pi / 2 at
+    # most, from an elbow that the shoulder's lift lets rise by 0.3536 rad. The apex is D + 0.02 over the table, and the
+    # wrist 0.18 m over that.
+    depth, height = 0.26, 0.903
+    rise = UPPER_M * math.sin(0.3536) + FORE_M * math.sin(1.994 - math.pi / 2)
+    over = height + depth + 0.02 + 0.18 - (0.051 + 0.739675 + 0.29) - rise
     assert 0.01 < over < 0.03
     scene = Scene(stations=FRONT, table=Table(height_m=height))
     reason = but_for_collisions(refused(strip(-0.24, 0.54, depth), scene))
@@ -89,7 +93,7 @@ def test_a_path_rises_as_high_as_the_part_that_moves_is_deep():
     assert "lower the table or raise the torso" in reason.message
     lower = replace(scene, table=Table(height_m=height - reason.shift_m - 0.001))
     assert is_gone(reason, make_plan(strip(-0.24, 0.54, depth), lower, time_limit_s=60.0))
-    raised = Scene(stations=FRONT, table=Table(height_m=height), torso_m=min(0.31, 0.29 + reason.shift_m + 0.001))
+    raised = Scene(stations=FRONT, table=Table(height_m=height), torso_m=0.29 + reason.shift_m + 0.001)
     assert is_gone(reason, make_plan(strip(-0.24, 0.54, depth), raised, time_limit_s=60.0))
     less = strip(-0.24, 0.54, depth - reason.short_by_m - 0.001)
     assert is_gone(reason, make_plan(less, scene, time_limit_s=60.0))
@@ -118,21 +122,20 @@ def test_a_grip_at_the_shoulders_foot_is_too_near_for_the_elbow():
 
 
 def test_a_grip_behind_the_shoulder_is_beyond_the_limit_of_its_pan():
-    # From the left shoulder the grip is 0.11 m behind and 0.288 m to the right: at -111 degrees, and a left shoulder
-    # pans to -0.7146 rad, -41 degrees. To go ahead does not change how far it is, only where.
-    cloth = garment(
-        rectangle_points(0.1, 0.5), fold((0.1, 0.1), (0.0, 0.1)), placement=Pose2(-0.16 - 0.95, -0.05, BACK)
-    )
+    # From the left shoulder the grip is 0.05 m behind and 0.288 m to the right: at -100 degrees, and a left shoulder
+    # pans to -0.5646 rad, -32 degrees. To go ahead hardly changes how far it is, only where. At a table as low as this
+    # it is further below the shoulder than what its lift keeps it from.
+    cloth = garment(rectangle_points(0.1, 0.5), fold((0.1, 0.1), (0.0, 0.1)), placement=Pose2(-0.1 - 0.95, -0.05, BACK))
     scene = Scene(
         stations=FRONT,
         back_off_max_m=0.0,
         approach_cone_rad=0.0,
-        table=Table(height_m=0.7, depth_m=4.0, width_m=3.0),
+        table=Table(height_m=0.6, depth_m=4.0, width_m=3.0),
     )
     reason = but_for_collisions(refused(cloth, scene))
     assert (reason.code, reason.cause, reason.joint) == (Code.OUT_OF_REACH, "joint_limit", "shoulder pan")
     assert reason.arm == "left"
-    seen = np.array(reason.point) - np.array([-0.95 - 0.05, 0.188, 0.051 + 0.739675 + 0.29 - 0.7])
+    seen = np.array(reason.point) - np.array([-0.95 - 0.05, 0.188, 0.051 + 0.739675 + 0.29 - 0.6])
     assert math.degrees(math.atan2(seen[1], seen[0])) < -90.0
     further = np.linalg.norm(seen + reason.short_by_m * np.array(reason.towards)) - np.linalg.norm(seen)
     assert abs(further) < 0.1 * reason.short_by_m
@@ -140,14 +143,16 @@ def test_a_grip_behind_the_shoulder_is_beyond_the_limit_of_its_pan():
 
 
 def test_what_is_far_away_is_short_by_at_least_its_distance():
-    # The arm is 1.001 m long from pan axis to tool, and the far end 2.0 m ahead of the left shoulder.
+    # The arm is 1.001 m long from pan axis to tool, and the far end 2.0 m ahead of the left shoulder. With the hand
+    # straight down, the elbow as straight as it goes, and room for comfort, the arm gets as far as its wrist does.
     table = Table(depth_m=4.0, height_m=LEVEL_M)
     scene = replace(fixed(), table=table, stations=(("front", Pose2(-1.5, 0.0, 0.0)),))
     reason = but_for_collisions(refused(strip(-1.5 - 0.05 + 2.0, 0.3, 0.1), scene))
     assert (reason.code, reason.cause) == (Code.OUT_OF_REACH, "too_far")
     assert reason.short_by_m >= 2.0 - (0.1 + 0.4 + 0.321 + 0.18)
     assert reason.is_at_least and "at least" in reason.message
-    assert reason.shift_m == pytest.approx(reason.short_by_m, abs=0.001)
+    assert reason.shift_m == pytest.approx(2.0 + COMFORT_M - (0.1 + STRAIGHT_M), abs=0.001)
+    assert reason.shift_m - (UPPER_M + FORE_M - STRAIGHT_M) - 0.001 < reason.short_by_m < reason.shift_m
     assert "1.21 m nearer to the robot: move the cloth" in reason.message
 
 

@@ -36,15 +36,15 @@ SLIPPING = {"hanging_m2": {"near": 0.03}, "lying_m2": 0.01, "friction": 1.0, "ne
 
 
 def test_causes_of_one_fold_come_with_the_smallest_repair_first():
-    # A strip of 0.621 m whose far end is 0.05 m out of reach at the start. Dragged by 0.1 m it is in reach, but then
-    # folded at 0.3 m from its far end 0.08 + 0.059 m of it hang and 0.621 - 0.139 lie: that takes a friction of 0.288,
-    # and there is 0.25. Without the fold 0.08 hang and 0.541 lie: that holds.
-    far_x, near_x = FURTHEST_X - COMFORT_M + 0.05, -0.78
-    cloth = strip(far_x, far_x - near_x, 0.3)
-    hanging = (-0.8 - (near_x - 0.1)) + (-0.8 - (far_x - 0.1 - 0.6))
+    # A strip of 0.539 m whose far end is 0.05 m out of reach at the start. Dragged by 0.1 m it is in reach, but then
+    # folded at 0.25 m from its far end 0.08 + 0.041 m of it hang and 0.539 - 0.121 lie: that takes a friction of 0.29,
+    # and there is 0.25. Without the fold 0.08 hang and 0.459 lie: that holds.
+    far_x, near_x, edge_x = FURTHEST_X - COMFORT_M + 0.05, -0.7, -0.72
+    cloth = strip(far_x, far_x - near_x, 0.25)
+    hanging = (edge_x - (near_x - 0.1)) + (edge_x - (far_x - 0.1 - 0.5))
     needed = hanging / (far_x - near_x - hanging)
-    assert needed == pytest.approx(0.288, abs=0.002)
-    scene = Scene(stations=FRONT, table=Table(height_m=LEVEL_M), friction=0.25)
+    assert needed == pytest.approx(0.29, abs=0.002)
+    scene = Scene(stations=FRONT, table=Table(height_m=LEVEL_M, depth_m=-2.0 * edge_x), friction=0.25)
     slip, reach = (
         next(r for r in refused(cloth, scene).reasons if r.code is code) for code in (Code.SLIPS, Code.OUT_OF_REACH)
     )
@@ -54,16 +54,19 @@ def test_causes_of_one_fold_come_with_the_smallest_repair_first():
     assert "the cloth dragged by (-0.10, 0.00) m" in slip.message and "dragged" not in reach.message
 
 
-def test_of_causes_each_of_which_is_enough_the_smallest_repair_comes_first():
-    # The same strip, folded at 0.1 m from its far end, which is 0.05 m out of reach as it lies. Dragged by 0.1 m it is
-    # within reach, but the arm has no room; dragged by 0.2 m, 0.18 m of the strip hang and 0.441 lie.
+@pytest.mark.parametrize(("friction", "codes"), [(0.08, ["out_of_reach", "slips"]), (0.12, ["slips", "out_of_reach"])])
+def test_of_causes_each_of_which_is_enough_the_smallest_repair_comes_first(friction, codes):
+    # A strip of 0.619 m, folded at 0.1 m from its far end, which is 0.05 m out of reach as it lies. Dragged by 0.1 m it
+    # is within reach, but 0.08 m of it hang and 0.539 lie: that takes a friction of 0.148.
     far_x, near_x = FURTHEST_X - COMFORT_M + 0.05, -0.78
     cloth = strip(far_x, far_x - near_x, 0.1)
-    scene = Scene(stations=FRONT, table=Table(height_m=LEVEL_M), friction=0.12)
-    reach, slip = refused(cloth, scene).reasons
-    assert [(reach.code, reach.set), (slip.code, slip.set)] == [(Code.OUT_OF_REACH, 0), (Code.SLIPS, 1)]
-    assert slip.needed_friction == pytest.approx(0.18 / (far_x - near_x - 0.18), rel=1e-3)
-    assert reach.short_by_m < slip.needed_friction - scene.friction
+    scene = Scene(stations=FRONT, table=Table(height_m=LEVEL_M), friction=friction)
+    found = refused(cloth, scene).reasons
+    assert [(r.code, r.set) for r in found] == [*zip(codes, (0, 1), strict=True)]
+    slip, reach = sorted(found, key=lambda r: r.needed_friction is None)
+    assert slip.needed_friction == pytest.approx(0.08 / (far_x - near_x - 0.08), rel=1e-3)
+    assert reach.short_by_m == pytest.approx(0.05, abs=0.0015)
+    assert (reach.short_by_m < slip.needed_friction - friction) == (found[0] is reach)
 
 
 def test_what_does_not_stand_alone_in_the_way_is_no_reason():

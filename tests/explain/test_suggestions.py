@@ -53,7 +53,8 @@ def test_an_article_that_cannot_be_halved_is_told_to_be_folded_nearer_its_end(na
     assert f"{found.cost_s:.1f} s" in found.message
     assert "towards the robot" in found.message
     plan = planned_with(found.change, cloth)
-    assert plan.cost_s == pytest.approx(found.cost_s, abs=1e-9) and found.cost_s == found.plan.cost_s
+    # It was found with a share of the work that a plan by itself may take.
+    assert plan.cost_s is not None and plan.cost_s <= found.cost_s + 1e-9 and found.cost_s == found.plan.cost_s
 
 
 def test_a_garment_out_of_reach_is_told_to_be_moved_where_it_can_be_folded():

@@ -50,7 +50,8 @@ def test_no_two_ways_of_a_fold_have_the_same_motion():
 
 
 def test_ways_that_cannot_be_quicker_than_one_that_was_found_are_not_led(monkeypatch: pytest.MonkeyPatch):
-    maker, first, _ = some_fold(arm_motion_s=1.4)
+    # The arms carry the napkin over in 2.1 s with the fingers' rest, which is more than two arm motions.
+    maker, first, _ = some_fold(arm_motion_s=0.9)
     quick = maker.validated(first, replace(QUICK, ways=1))
     assert quick is not None and quick.is_late
     takes_s, led, made = sum(quick.durations_s()), [], maker.made

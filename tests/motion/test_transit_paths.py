@@ -34,11 +34,31 @@ def test_paths_that_differ_in_their_cloth_or_its_room_are_others():
     goal = start + np.linspace(0.0, 0.2, len(start))
     bare, covered = (problem.maker._cloths.of(state) for state in (problem.start, _far(problem)))
     near = transits.at_grips
+    searched, before = transits._searched.cache_info, transits._searched.cache_info().misses
     way = transits.way(base, start, goal, bare, near)
-    assert transits.way(base, start.copy(), goal.copy(), bare, near) is way
+    assert np.array_equal(transits.way(base, start.copy(), goal.copy(), bare, near), way)
+    assert searched().misses <= before + 1
+    before = searched().misses
     none = (np.zeros(len(near[0])), near[1])
-    assert transits.way(base, start, goal, bare, none) is not way
-    assert transits.way(base, start, goal, covered, near) is not way
+    transits.way(base, start, goal, bare, none)
+    transits.way(base, start, goal, covered, near)
+    assert searched().misses == before + 2
+
+
+def test_a_path_is_found_again_whole_turns_away_though_turns_are_not_exact():
+    problem = Problem.of(Task.of(load_garment("hand-towel")))
+    transits, base = problem.maker.transits, problem.context.base_pose(0, 0)
+    cloth, near = problem.maker._cloths.of(problem.start), transits.at_grips
+    start, goal = transits.home, transits.home + 0.1
+    turns = 2.0 * np.pi * transits.layout.is_continuous
+    assert turns.any()
+    way = transits.way(base, start, goal, cloth, near)
+    misses = transits._searched.cache_info().misses
+    for count in (-3, 1, 7):
+        turned = transits.way(base, start + count * turns, goal + (count + 1) * turns, cloth, near)
+        assert np.allclose(turned, way + count * turns, atol=1e-9)
+        assert np.array_equal(turned[0], start + count * turns)
+    assert transits._searched.cache_info().misses == misses
 
 
 def _far(problem: Problem):

@@ -29,10 +29,16 @@ base_link + torso + raised by - rest - tool (m)."""
 
 COMFORT_M = 0.03
 
-FURTHEST_X = -0.95 - 0.05 + 0.1 + 0.4 + 0.321
+UPPER_M, FORE_M = 0.4, 0.321
+"""The lengths of the upper arm and the forearm (m)."""
+
+STRAIGHT_M = math.sqrt(UPPER_M**2 + FORE_M**2 + 2.0 * UPPER_M * FORE_M * math.cos(0.15))
+"""How far a wrist can be from the axis of the shoulder's lift, the elbow bent by its soft limit, 0.15 rad (m)."""
+
+FURTHEST_X = -0.95 - 0.05 + 0.1 + STRAIGHT_M
 """How far ahead of `front` the far end of a strip can be at a table of that height (m). It is pinched from beyond it,
 which only a hand that points straight down can; its wrist is level with the shoulder, which is 5 cm behind the base's
-middle, and at most 0.1 + 0.4 + 0.321 m from the shoulder's pan axis."""
+middle, and at most 0.1 m + `STRAIGHT_M` from the shoulder's pan axis: 0.1 m ahead of it is the lift's."""
 
 HOUSE = ((0.4, 0.3), (0.0, 0.3), (0.0, -0.1), (0.2, -0.2), (0.4, -0.1))
 """A house upside down: its roof's tip hangs 0.1 m below its eaves, which are 0.1 m below the line at y = 0."""

@@ -105,9 +105,9 @@ def test_an_elbow_beyond_its_soft_limit_is_refused_with_the_joint_and_how_far(pl
     path = plan.trajectory
     assert path is not None
     elbow = path.arms.names.index("l_elbow_flex_joint")
-    rows = path.arms.rows.copy()
-    rows[:, elbow] = -0.1  # its limits are -2.1213 and -0.15 rad
-    still = replace(path.arms, positions=tuple(map(tuple, rows.tolist())))
+    rows, rates = path.arms.rows.copy(), path.arms.rates.copy()
+    rows[:, elbow], rates[:, elbow] = -0.1, 0.0  # its limits are -2.1213 and -0.15 rad
+    still = replace(path.arms, positions=tuple(map(tuple, rows.tolist())), velocities=tuple(map(tuple, rates.tolist())))
     with pytest.raises(RequestError, match=r"l_elbow_flex_joint is 0\.050 rad beyond its limits -2\.1213 and -0\.15"):
         require_replay(replace(plan, trajectory=replace(path, arms=still)))
 

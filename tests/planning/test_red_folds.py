@@ -151,13 +151,13 @@ def test_what_no_hand_holds_any_more_cannot_be_folded_in_a_chain():
 
 
 def test_a_hand_on_the_part_that_stays_holds_nothing_of_the_part_that_moves():
-    # A ribbon 0.2 m wide: one hand holds both corners from between them, 0.1 m from each. A corner then goes
-    # back over a line 0.06 m from it. It is well within the hand's radius, but the hand is on the other side of
-    # the line.
-    over, corner = fold((0.2, 0.2), (0.0, 0.2)), fold((0.0, 0.34), (0.06, 0.4), "red")
-    problem = context(garment(rectangle_points(0.2, 0.5), over, corner))
+    # A ribbon 0.15 m wide: one hand holds both corners firmly from between them, 0.075 m from each. A corner then goes
+    # back over a line 0.06 m from it along both edges. It is well within the hand's radius, but the hand is on the
+    # other side of the line.
+    over, corner = fold((0.15, 0.2), (0.0, 0.2)), fold((0.0, 0.34), (0.06, 0.4), "red")
+    problem = context(garment(rectangle_points(0.15, 0.5), over, corner))
     first = step_of(problem, START)
-    assert [h.point for h in first.after.held] == [pytest.approx((0.1, 0.4))]
+    assert [h.point for h in first.after.held] == [pytest.approx((0.075, 0.4))]
     assert list(GFold(problem).successors(first.after)) == []
     assert [o.code for o in problem.obstacles.of(1)] == [Code.RED_NEEDS_HOLD]
 

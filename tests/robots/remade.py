@@ -75,6 +75,7 @@ class Mounted:
             joint_names=names,
             speeds_rad_s=(*arm.speeds_rad_s, *(1.0,) * self.idle),
             is_continuous=(*arm.is_continuous, *(False,) * self.idle),
+            limits=(*arm.limits, *((-1.0, 1.0),) * self.idle),
             home=(*arm.home, *(0.0,) * self.idle),
             lifting=tuple(f"{self.name}_{joint}" for joint in arm.lifting),
             gripper=replace(arm.gripper, joint_name=f"{self.name}_{arm.gripper.joint_name}"),
@@ -274,9 +275,12 @@ class RemadeCollisions:
     def are_some_apart(self, arms: tuple[int, int], first: FloatArray, second: FloatArray) -> bool:
         return bool(self.postures_apart(arms, first, second).any())
 
+    def free(self, bases: Pose2 | FloatArray, joints: FloatArray) -> BoolArray:
+        alone = [self.arm_free(arm, bases, joints[:, self._layout.spans[arm]]) for arm in self._layout.arms]
+        return np.all([*alone, self.arms_apart(tuple(self._layout.arms), joints)], axis=0)
+
     def are_all_free(self, bases: Pose2 | FloatArray, joints: FloatArray) -> bool:
-        alone = (self.arm_free(arm, bases, joints[:, self._layout.spans[arm]]).all() for arm in self._layout.arms)
-        return all(alone) and bool(self.arms_apart(tuple(self._layout.arms), joints).all())
+        return bool(self.free(bases, joints).all())
 
     def over_cloth(self, pieces: Sequence[FloatArray], over_m: float) -> RemadeClearance:
         return RemadeClearance(self._arms, self._real.over_cloth(pieces, over_m))

@@ -16,6 +16,14 @@ TABLE_M = 0.79
 COLLISIONS = ROBOT.collisions(Table(), TORSO_M)
 LEAP_RAD = 0.4
 
+NEAR_M = 0.54
+"""How far ahead a hand is that passes straight before its own shoulder (m).
+
+At 45 degrees down its wrist is 0.127 m behind it and 0.053 m below the shoulder. An elbow at its soft limit of
+2.1213 rad holds the wrist hypot(0.4 - 0.321 cos(pi - 2.1213), 0.321 sin(pi - 2.1213)) = 0.359 m from the lift axis,
+which is 0.05 m ahead of the base's middle where the arm faces the hand: so 0.532 m is the nearest.
+"""
+
 
 def line(start: tuple[float, float, float], end: tuple[float, float, float], yaw_deg: float) -> ToolPath:
     """Return a straight path in 40 steps, the hand pointing down by 45 degrees."""
@@ -83,7 +91,7 @@ def test_hands_that_cross_over_the_middle_find_a_way_past_each_other(gap_m: floa
     # The left hand goes to the right and the right one to the left, one behind the other.
     paths = (
         line((0.62 + gap_m, 0.25, 0.9), (0.62 + gap_m, -0.1, 0.9), 0.0),
-        line((0.5, -0.25, 0.9), (0.5, 0.1, 0.9), 0.0),
+        line((NEAR_M, -0.25, 0.9), (NEAR_M, 0.1, 0.9), 0.0),
     )
     assert not COLLISIONS.arms_apart((0, 1), alone(paths)).all(), "else nothing is to be found"
     require_followed(paths, along(paths))
@@ -128,7 +136,7 @@ def test_where_one_arm_has_no_way_by_itself_that_is_told():
 
 
 def test_arms_of_eight_and_seven_joints_cross_as_those_of_seven_do():
-    paths = (line((0.74, 0.25, 0.9), (0.74, -0.1, 0.9), 0.0), line((0.5, -0.25, 0.9), (0.5, 0.1, 0.9), 0.0))
+    paths = (line((0.74, 0.25, 0.9), (0.74, -0.1, 0.9), 0.0), line((NEAR_M, -0.25, 0.9), (NEAR_M, 0.1, 0.9), 0.0))
     real = UNLIKE.collisions(Table(), TORSO_M)
 
     def is_free_of(arm: int) -> IsFree:
@@ -144,7 +152,7 @@ def test_arms_of_eight_and_seven_joints_cross_as_those_of_seven_do():
 
 def test_three_arms_go_as_they_would_alone_or_one_pair_after_the_other_gives_way():
     aside = np.array([0.0, 0.45, 0.0])
-    crossing = (line((0.74, 0.25, 0.9), (0.74, -0.1, 0.9), 0.0), line((0.5, -0.25, 0.9), (0.5, 0.1, 0.9), 0.0))
+    crossing = (line((0.74, 0.25, 0.9), (0.74, -0.1, 0.9), 0.0), line((NEAR_M, -0.25, 0.9), (NEAR_M, 0.1, 0.9), 0.0))
     outer = line((0.6, 0.4, 0.9), (0.7, 0.2, 0.9), 0.0)
     paths = {0: replace(outer, positions=outer.positions + aside), 1: crossing[0], 2: crossing[1]}
     real = THREE_ARMS.collisions(Table(), TORSO_M)

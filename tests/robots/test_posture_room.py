@@ -15,9 +15,10 @@ ROBOT = load_robot("pr2")
 TORSO_M = 0.29
 LEVEL = APPROACHES.index(Approach(0.0, math.radians(15)))
 
-AT_THE_SHOULDER = (0.15, 0.188, 0.75)
-"""Straight below and before the left shoulder, at (-0.05, 0.188, 1.08): the wrist is 3 cm ahead of it and 0.28 m
-lower, so forearm and upper arm, 0.321 and 0.4 m long, are folded together."""
+AT_THE_SHOULDER = (0.15, 0.188, 0.66)
+"""Straight below and before the left shoulder, at (-0.05, 0.188, 1.08): the wrist is 3 cm ahead of it and 0.37 m
+lower. Forearm and upper arm, 0.321 and 0.4 m long, are nearly folded together: the elbow's soft limit of 2.1213 rad
+brings the wrist as near as 0.36 m to the lift axis, which is 10 cm ahead of the shoulder."""
 
 AHEAD = (0.6, 0.188, 0.9)
 

@@ -145,10 +145,12 @@ def test_of_places_to_be_had_together_only_the_approaches_examined_in_time_count
 
 
 def test_a_straight_arm_lacks_exactly_what_the_bones_lack():
-    # Fingers ahead, 30 degrees down, at the height at which the wrist is level with the shoulder: it is at most
-    # 0.1 + 0.4 + 0.321 m ahead of the pan axis, which is 5 cm behind the base's middle. The tool is 0.18 m from it.
+    # Fingers ahead, 30 degrees down, at the height at which the wrist is level with the shoulder: it is ahead of the
+    # lift axis by 0.4 and 0.321 m at most, with an elbow that stays bent by its soft limit of 0.15 rad. That axis is
+    # 0.1 m ahead of the pan axis, which is 5 cm behind the base's middle. The tool is 0.18 m from the wrist.
     level = 0.051 + 0.739675 + TORSO_M - 0.18 * np.sin(np.pi / 6)
-    furthest = -0.05 + 0.1 + 0.4 + 0.321 + 0.18 * np.cos(np.pi / 6)
+    bones = np.hypot(0.4 + 0.321 * np.cos(0.15), 0.321 * np.sin(0.15))
+    furthest = -0.05 + 0.1 + bones + 0.18 * np.cos(np.pi / 6)
     for comfort_m in (0.0, COMFORT_M):
         reach = ROBOT.reach(TORSO_M, comfort_m)
         found = reach.shortfall(0, np.array([furthest + 0.2, 0.188, level]), FORWARD)
@@ -160,7 +162,9 @@ def test_a_straight_arm_lacks_exactly_what_the_bones_lack():
 def test_where_only_the_body_is_in_the_way_it_is_to_blame():
     reach = ROBOT.reach(TORSO_M, COMFORT_M)
     alone = Pr2Reach(("left",), (MirroredArm(read_arm(MODEL), is_mirrored=False),), TORSO_M, COMFORT_M)
-    points = np.random.default_rng(39).uniform((-0.1, -0.3, 0.7), (0.5, 0.5, 1.2), (200, 3))
+    # An elbow at its soft limit of 2.1213 rad keeps the wrist 0.36 m from the lift axis, at 1.08 m: nearer than that a
+    # limit is to blame, so it is lower down that only the body is.
+    points = np.random.default_rng(39).uniform((-0.1, -0.3, 0.4), (0.5, 0.5, 0.9), (200, 3))
     found = [(point, reach.shortfall(0, point, FORWARD)) for point in points]
     hindered = [point for point, one in found if one is not None and one.cause == "own_body"]
     assert len(hindered) >= 3
