@@ -58,7 +58,8 @@ def corrected(base: Relaxed, met: Trial, ask: Ask, is_enough: Callable[[], bool]
         found += [replace(reason, set=number + n) for n, members in enumerate(sets) for reason in members]
         if not sets and (corrections.is_cut_short or not corrections.is_but_touching):
             found += untried(mine)
-    return tuple(found) or untried(measured)
+    is_explained = any(reason.code is not Code.WAITS_FOR_FOLD for reason in found)
+    return tuple(found) if is_explained else untried(measured)
 
 
 def untried(measured: Sequence[Reason]) -> tuple[Reason, ...]:

@@ -59,12 +59,17 @@ class Causes:
 
     def reasons(self) -> tuple[Reason, ...]:
         """Return the causes, the smallest repair first."""
-        met = [o for o in self.context.obstacles.of(self.fold) if o.state is None or o.state.done in self.dones]
-        collided = sorted((o for o in met if o.code is Code.COLLISION), key=lambda o: o.dragged_to is not None)
+        every = list(self.context.obstacles.of(self.fold))
+        met = [o for o in every if o.state is None or o.state.done in self.dones]
+        # After a collision the fold is tried nowhere alike, whichever other folds have been done.
+        collided = sorted((o for o in every if o.code is Code.COLLISION), key=lambda o: self._rank(o, met))
         if collided:
             return (of_obstacle(self.context, collided[0]),)
         found = list(self._alone(met)) or list(self._hands(met)) or list(self._together(met))
         return tuple(sorted(found, key=lambda reason: lacking(reason, self.context)))
+
+    def _rank(self, collision: Obstacle, met: Collection[Obstacle]) -> tuple[bool, bool]:
+        return collision not in met, collision.dragged_to is not None
 
     def _alone(self, met: list[Obstacle]) -> Iterator[Reason]:
         """Yield each obstacle that is all that stands against some way."""

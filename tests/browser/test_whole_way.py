@@ -25,7 +25,7 @@ from tests.browser.ways import ByFinger, ByKeyboard, ByMouse, Way, expect_folds
 CORNERS: list[Point] = [(0.0, 0.0), (0.4, 0.0), (0.4, 0.2), (0.3, 0.3), (0.2, 0.2), (0.1, 0.3), (0.0, 0.2)]
 FOLDS: list[tuple[Point, Point]] = [((0.1, 0.0), (0.1, 0.3)), ((0.3, 0.3), (0.3, 0.0)), ((0.3, 0.1), (0.1, 0.1))]
 PULLED = 1
-PULLS_M = (0.04, 0.08, 0.12, 0.16, 0.18, 0.2)
+PULLS_M = (0.04, 0.08, 0.12, 0.16, 0.2, 0.24, 0.28, 0.3, 0.32)
 # Where a hand puts a point: within a few pixels, and a pixel is some 3 mm there.
 NEAR_M = 0.008
 
@@ -51,6 +51,7 @@ def there_and_back(page: Page, way: Way, sheet: Sheet) -> dict[str, Any]:
     assert [fold["status"] for fold in drawn["solved"]] == ["legal"] * 3
 
     pull_until_there_is_no_plan(page, way, sheet)
+    expect(status).to_have_attribute("data-is-final", "true")
     sentence = status.inner_text().removeprefix(NO_PLAN)
     assert sentence.startswith(("Left over: ", "Right over: "))  # both sides are held by the corners at the edge
     expect(page.locator(".reason")).to_have_text(f"{sentence}.")
