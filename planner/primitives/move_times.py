@@ -2,8 +2,8 @@
 
 Folds and drags begin with driving to where they are done, so before them a standoff to which the base can drive on in
 time is no worse than one where it stands already. Before a move it may be worse: the leg that backs out goes from rest
-to rest, and the base turns where that ends. So a standoff that leaves no such leg, or a shorter way round, may save more
-than the driving there takes.
+to rest, and the base turns where that ends. So a standoff that leaves no such leg, or a shorter way round the table,
+may save more than the driving there takes.
 """
 
 import numpy as np
