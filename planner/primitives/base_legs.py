@@ -47,16 +47,21 @@ def travel(strips: NDArray[np.uint32], count: int) -> NDArray[np.int64]:
     return steps
 
 
-def unbeaten(steps: NDArray[np.int64]) -> list[int]:
+def unbeaten(steps: NDArray[np.int64], onward: NDArray[np.int64] | None = None) -> list[int]:
     """Return the final standoffs that driving on from another one does not reach in as few steps.
 
     Args:
         steps: the steps to each final standoff, `IMPOSSIBLE` where it cannot be reached, shape (count,).
+        onward: by how many steps one must come before another to beat it, shape (count, count); None: as many as the
+            base drives from one to the other.
     """
+    if onward is None:
+        places = np.arange(len(steps))
+        onward = np.abs(places[:, None] - places)
     by_cost = sorted(np.flatnonzero(steps < IMPOSSIBLE), key=lambda end: (steps[end], end))
     kept: list[int] = []
     for end in by_cost:
-        if all(steps[end] < steps[other] + abs(end - other) for other in kept):
+        if all(steps[end] < steps[other] + onward[other, end] for other in kept):
             kept.append(int(end))
     return sorted(kept)
 

@@ -138,13 +138,16 @@ class BaseMove:
         return DeferredSteps(tuple(self._later(state, station) for station in stations if station != state.station))
 
     def _later(self, state: State, station: int) -> Deferred[MoveStep]:
-        """Return a deferred move whose lower bound ignores all obstacles: the straight drive and the turn."""
-        time, start = self._context.drive_time, self._context.base_pose(state.station, state.standoff)
-        goal = self._context.station_pose(station)
-        drive_s = time.driving_s(math.dist(place_of(start), place_of(goal)))
-        turn_s = time.turning_s(abs(wrapped_angle(goal.yaw_rad - start.yaw_rad)))
         after = State(state.done, state.offset, station, 0)
-        return Deferred(drive_s + turn_s, after, partial(self.to, state, station), is_there=True)
+        at_least_s = self.at_least_s(state.station, state.standoff, station)
+        return Deferred(at_least_s, after, partial(self.to, state, station), is_there=True)
+
+    def at_least_s(self, station: int, standoff: int, goal: int) -> float:
+        """Return a lower bound on the time of a move that ignores all obstacles: the straight drive and the turn."""
+        time, start = self._context.drive_time, self._context.base_pose(station, standoff)
+        end = self._context.station_pose(goal)
+        drive_s = time.driving_s(math.dist(place_of(start), place_of(end)))
+        return drive_s + time.turning_s(abs(wrapped_angle(end.yaw_rad - start.yaw_rad)))
 
     def to(self, state: State, station: int) -> tuple[MoveStep, ...]:
         """Return the move to a station."""

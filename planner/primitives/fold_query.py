@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.geometry.driving import IMPOSSIBLE, Driving
+from planner.primitives.base_legs import unbeaten
 from planner.primitives.context import Context
 from planner.primitives.fold_obstacles import geometric_obstacle
 from planner.primitives.fold_trial import FoldTrial, fold_trials
@@ -90,6 +91,24 @@ class FoldQuery:
         if not ends:
             self._note_out_of_reach()
         return ends
+
+    def ends_before_moves(self, begun: NDArray[np.int64], onward: NDArray[np.int64]) -> list[End]:
+        """Return the ends that only a move can make worth their steps: driving on reaches them as cheaply.
+
+        Args:
+            begun: as for `ends`.
+            onward: by how many steps one end must come before another to make it useless before a move, see
+                `MoveTimes.onward`.
+        """
+        if int((begun + self._least).min()) >= IMPOSSIBLE:
+            return []
+        best: dict[int, End] = {}
+        for end in self.every_end(begun):
+            if end.standoff not in best or end.steps < best[end.standoff].steps:
+                best[end.standoff] = end
+        steps = np.full(self._context.standoffs, IMPOSSIBLE)
+        steps[list(best)] = [end.steps for end in best.values()]
+        return [best[standoff] for standoff in sorted({*unbeaten(steps, onward)} - {*unbeaten(steps)})]
 
     def _ends(self, number: int, driving: Driving) -> Iterator[End]:
         trial = self._trials[number]

@@ -4,6 +4,7 @@ from collections.abc import Iterable, Iterator
 from functools import partial
 
 import numpy as np
+from numpy.typing import NDArray
 
 from planner.geometry.driving import IMPOSSIBLE
 from planner.geometry.pose import Point2
@@ -13,6 +14,7 @@ from planner.primitives.drag_grips import dragged, longest_drag
 from planner.primitives.drag_step import DragStep
 from planner.primitives.drag_way import DragWay, DragWays
 from planner.primitives.holding_drags import STEPS_PER_DRAG, HoldingDrags
+from planner.primitives.move_times import MoveTimes
 from planner.primitives.primitive import Deferred, DeferredSteps
 from planner.primitives.state import State
 
@@ -26,6 +28,7 @@ class GDrag:
         self._context = context
         self._ways = context.kept(DragWays)
         self._holding = context.kept(HoldingDrags)
+        self._moves = context.kept(MoveTimes)
         self._longest = longest_drag(context)
 
     def successors(self, state: State) -> Iterable[DragStep]:
@@ -62,20 +65,42 @@ class GDrag:
                     yield from self._holding.successors(state, way, count, offset)
             else:
                 yield from self._letting_go(state, ways, count, offset)
+                yield from self._before_moves(state, ways, count, offset)
         yield from self._later(state, count + 1, towards)
 
     def _letting_go(self, state: State, ways: tuple[DragWay, ...], count: int, offset: Point2) -> Iterator[DragStep]:
         """Yield the cheapest drag to each final standoff that driving on from another one does not reach as cheaply."""
-        best: dict[int, DragWay] = {}
-        for way in ways:
-            for stand in way.stands:
-                best.setdefault(stand, way)
+        for end in unbeaten(self._steps_to(state, ways, count)):
+            yield self._to(state, ways, count, offset, end)
+
+    def _before_moves(
+        self, state: State, ways: tuple[DragWay, ...], count: int, offset: Point2
+    ) -> Iterator[Deferred[DragStep]]:
+        """Yield deferred drags to the other standoffs that are of use for a move, each with the quickest move."""
+        if self._moves.may_follow(state.done):
+            seconds, after = self._moves.at_least_s(state.station), State(state.done, offset, state.station, 0)
+            duration_s = self._context.scene.arm_motion_s + self._context.drag_s(count * STEPS_PER_DRAG) + seconds
+            yield Deferred(duration_s, after, partial(self._to_move, state, ways, count, offset))
+
+    def _to_move(
+        self, state: State, ways: tuple[DragWay, ...], count: int, offset: Point2
+    ) -> Iterator[Deferred[DragStep]]:
+        steps, least_s = self._steps_to(state, ways, count), self._moves.least_s(state.station)
+        for end in sorted({*unbeaten(steps, self._moves.onward(state.station))} - {*unbeaten(steps)}):
+            step = self._to(state, ways, count, offset, end)
+            yield Deferred(step.duration_s + float(least_s[end]), step.after, partial(iter, (step,)))
+
+    def _steps_to(self, state: State, ways: tuple[DragWay, ...], count: int) -> NDArray[np.int64]:
+        """Return the least steps of driving in all to each final standoff, `IMPOSSIBLE` where there is no drag."""
         steps = np.full(self._context.standoffs, IMPOSSIBLE)
-        for stand in best:
+        for stand in {stand for way in ways for stand in way.stands}:
             end = stand + count * STEPS_PER_DRAG
             if end < len(steps):
                 steps[end] = abs(state.standoff - stand) + end - stand
-        for end in unbeaten(steps):
-            stand = end - count * STEPS_PER_DRAG
-            after = State(state.done, offset, state.station, end)
-            yield DragStep(self._context, best[stand], state, after, stand)
+        return steps
+
+    def _to(self, state: State, ways: tuple[DragWay, ...], count: int, offset: Point2, end: int) -> DragStep:
+        """Return the drag to a final standoff by the best hands."""
+        stand = end - count * STEPS_PER_DRAG
+        way = next(way for way in ways if stand in way.stands)
+        return DragStep(self._context, way, state, State(state.done, offset, state.station, end), stand)

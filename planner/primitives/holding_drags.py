@@ -19,6 +19,7 @@ from planner.primitives.drag_step import DragStep
 from planner.primitives.drag_way import DragWay
 from planner.primitives.fold_query import FoldQueries
 from planner.primitives.held_covers import held_covers
+from planner.primitives.move_times import MoveTimes
 from planner.primitives.primitive import Deferred
 from planner.primitives.state import Held, State
 
@@ -88,6 +89,7 @@ class HoldingDrags:
     def __init__(self, context: Context) -> None:
         self._context = context
         self._queries = context.kept(FoldQueries)
+        self._moves = context.kept(MoveTimes)
         self._leads: dict[tuple[object, ...], _Leads] = {}
 
     def every(self, state: State, way: DragWay, count: int, offset: Point2) -> Iterator[DragStep]:
@@ -107,6 +109,7 @@ class HoldingDrags:
         elif folds:
             for fold in folds:
                 yield from self._serving(drag, fold, drag.driven)
+                yield from self._serving_before_moves(drag, fold)
             yield self._later(drag, drag.driven, lambda: self._every_step(drag), is_spare=True)
 
     def _drag(self, state: State, way: DragWay, count: int, offset: Point2) -> _Drag:
@@ -136,9 +139,7 @@ class HoldingDrags:
 
     def _serving(self, drag: _Drag, fold: int, least: int) -> Iterator[DragStep | Deferred[DragStep]]:
         """Yield the drags that serve a fold best, where drag and fold take at least `least` steps of driving in all."""
-        begun = np.full(self._context.standoffs, IMPOSSIBLE)
-        at = drag.leads.ends
-        begun[at] = np.abs(drag.before.standoff + drag.driven - at) + drag.driven
+        begun = self._begun(drag)
         # The limit grows geometrically, so that a fold far away is queried only a few times.
         most = drag.driven + 3 * (least - drag.driven)
         ends, more = self._queries.of(drag.leads.first, fold).ends(begun, least, most)
@@ -147,6 +148,40 @@ class HoldingDrags:
             yield self._later(drag, end.steps, partial(iter, (step,)))
         if more < IMPOSSIBLE:
             yield self._later(drag, more, partial(self._serving, drag, fold, more))
+
+    def _begun(self, drag: _Drag) -> NDArray[np.int64]:
+        """Return the steps in which the base can be at each standoff when a fold after the drag begins."""
+        begun = np.full(self._context.standoffs, IMPOSSIBLE)
+        at = drag.leads.ends
+        begun[at] = np.abs(drag.before.standoff + drag.driven - at) + drag.driven
+        return begun
+
+    def _serving_before_moves(self, drag: _Drag, fold: int) -> Iterator[Deferred[DragStep]]:
+        """Yield deferred drags that serve a fold best after which the base moves on, each with fold and move."""
+        if self._moves.may_follow(drag.before.done | 1 << fold):
+            seconds = self._context.drive_s(drag.driven) + self._moves.at_least_s(drag.before.station)
+            yield self._with_move(drag, seconds, partial(self._near_move, drag, fold))
+
+    def _near_move(self, drag: _Drag, fold: int) -> Iterator[Deferred[DragStep]]:
+        places = np.arange(self._context.standoffs)
+        driven = (self._begun(drag)[:, None] + np.abs(places[:, None] - places)).min(axis=0)
+        least_s = self._context.drive_s(1) * driven + self._moves.least_s(drag.before.station)
+        yield self._with_move(drag, float(least_s.min()), partial(self._to_move, drag, fold))
+
+    def _to_move(self, drag: _Drag, fold: int) -> Iterator[Deferred[DragStep]]:
+        query, least_s = self._queries.of(drag.leads.first, fold), self._moves.least_s(drag.before.station)
+        for end in query.ends_before_moves(self._begun(drag), self._moves.onward(drag.before.station)):
+            step = self._step(drag, drag.leads.after(end.first))
+            seconds = self._context.drive_s(end.steps) + float(least_s[end.standoff])
+            yield self._with_move(drag, seconds, partial(iter, (step,)))
+
+    def _with_move(
+        self, drag: _Drag, seconds: float, steps: Callable[[], Iterator[DragStep | Deferred[DragStep]]]
+    ) -> Deferred[DragStep]:
+        """Return deferred drags; driving, were it all at top speed, and the move take at least so many seconds."""
+        dragging_s = self._context.drag_s(drag.driven) - self._context.drive_s(drag.driven)
+        duration_s = self._context.scene.arm_motion_s + dragging_s + seconds
+        return Deferred(duration_s, drag.leads.first, steps)
 
     def _later(
         self,

@@ -6,7 +6,11 @@ edge would, and are computed when nothing cheaper is left.
 
 Ties: the larger cost so far first, then the order of insertion, so that the same problem gives the same path on every
 run and machine. Deferred edges count with the cost of the state that yielded them, so a known path goes before an
-unknown one. With a consistent heuristic no state is expanded twice.
+unknown one.
+
+With a consistent heuristic no state is expanded twice, but for one: deferred edges may cost less than their bound, if
+what must follow them takes longer than the heuristic says by as much. A state to which such an edge leads at less cost
+than before is expanded again.
 """
 
 import heapq
@@ -22,6 +26,10 @@ A = TypeVar("A")
 
 _DIGITS = 9
 """The decimals to which costs are compared, so that sums of the same terms in another order are equal."""
+
+
+_WORTH_REOPENING = 1e-6
+"""The least cost saved for which a state is expanded again: sums of rounded costs differ by less."""
 
 
 class Outcome(StrEnum):
@@ -50,7 +58,7 @@ class DeferredEdges(NamedTuple, Generic[S, A]):
     """Deferred edges that leave a state.
 
     Attributes:
-        cost: a lower bound on the cost of each.
+        cost: a lower bound on the cost of each, with what must follow it beyond the heuristic.
         towards: a state at which the heuristic is no larger than at any state that they lead to.
         compute: returns them; further deferred edges of the same state may be among them.
     """
@@ -126,10 +134,13 @@ class _Search(Generic[S, A]):
 
     def _follow(self, state: S, cost: float, edge: Edge[S, A]) -> None:
         after = edge.after
-        is_better = after not in self.closed and cost < self.costs.get(after, math.inf)
-        if is_better and self.push(after, cost, self.heuristic(after), None):
+        known = self.costs.get(after, math.inf)
+        if after in self.closed:
+            known = known - _WORTH_REOPENING if self.is_consistent else -math.inf
+        if cost < known and self.push(after, cost, self.heuristic(after), None):
             self.costs[after] = cost
             self.parents[after] = (state, edge)
+            self.closed.discard(after)
             self.explored += 1
 
     def path_to(self, state: S) -> tuple[Edge[S, A], ...]:

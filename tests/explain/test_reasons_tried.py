@@ -73,14 +73,19 @@ def test_what_no_shift_brings_into_reach_is_the_cause_all_the_same():
 
 @pytest.mark.long
 def test_between_the_places_of_drags_a_small_move_does_what_no_drag_does():
-    # Drags go by 0.1 m, and the halved tie is in reach only within a centimetre between two of their places.
+    # A tie halved nearer to its end is in reach from the side while its end hangs no deeper than hands come down beside
+    # the table, and no less than brings the place within reach where it is laid down. Drags go by 0.1 m, and from here
+    # they leave it 2.5 cm too deep, or 7.5 cm higher than wanted, where its place is out of reach: 3 cm would do.
     tie = load_garment("tie-halved")
-    reason, *_ = planned("tie-halved").answer.reasons
-    assert (reason.code, reason.gives) == (Code.OUT_OF_REACH, "fold")
-    once = replace(tie, folds=tie.folds[:1])
+    half = tie.folds[0]
+    nearer = replace(half, start=(half.start[0], half.start[1] - 0.05), end=(half.end[0], half.end[1] - 0.05))
+    once = replace(tie, folds=(nearer,), placement=tie.placement.moved(0.02, 0.0))
+    reason, *_ = refused(once).reasons
+    assert (reason.code, reason.gives) == (Code.OUT_OF_REACH, "plan")
     assert planned_with(reason.change, once).is_solved
-    move = {"placement": tie.placement.moved(reason.shift_m - 0.0015, 0.0).to_dict()}
+    move = {"placement": once.placement.moved(reason.shift_m - 0.0015, 0.0).to_dict()}
     assert reason.shift_towards == pytest.approx((1.0, 0.0, 0.0), abs=1e-6)
+    assert reason.shift_m < 0.1, "within the grid of drags"
     assert not planned_with(move, once).is_solved
 
 

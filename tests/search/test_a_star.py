@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from planner.search.a_star import Edge, Outcome, SearchResult, a_star
+from planner.search.a_star import DeferredEdges, Edge, Outcome, SearchResult, a_star
 
 
 def search(
@@ -158,3 +158,14 @@ def test_no_state_is_expanded_twice(seed: int):
 
     found = search(0, successors, 24)
     assert len(asked) == len(set(asked)) == found.expanded
+
+
+def test_a_state_left_before_is_left_again_if_a_deferred_edge_leads_there_at_less_cost():
+    # The edge to b takes 1, but is deferred until 5, since from b on 4 more are needed than the heuristic says.
+    ways = {
+        "a": [Edge("late", 2.0, "b"), DeferredEdges(5.0, "b", lambda: [Edge("soon", 1.0, "b")])],
+        "b": [Edge("on", 4.5, "goal")],
+    }
+    found = a_star("a", lambda at, _: ways.get(at, []), "goal".__eq__, lambda _: 0.0, 100, lambda: False)
+    assert [edge.action for edge in found.path] == ["soon", "on"]
+    assert found.cost == found.bound == 5.5
