@@ -4,12 +4,14 @@ import re
 
 from playwright.sync_api import Page, expect
 
+from tests.browser.searches import SEARCH_MS
+
 
 def expect_planned(page: Page) -> None:
     """Expect the final plan: on a slow machine another plan is shown before it."""
     status = page.get_by_role("status")
     expect(status).to_contain_text("Planned: ")
-    expect(status).to_have_attribute("data-is-final", "true")
+    expect(status).to_have_attribute("data-is-final", "true", timeout=SEARCH_MS)
 
 
 def cost_s(page: Page) -> float:
