@@ -50,9 +50,6 @@ page-types: $(READY_DEV) $(READY_JS)
 	@cd tests/js && $(NODE) node_modules/openapi-typescript/bin/cli.js openapi.json --output api.d.ts >/dev/null
 	cd tests/js && $(NODE) node_modules/typescript/bin/tsc --project .
 
-page-rules: $(READY_DEV) ## write the rules of drawing that the page shares with the stage
-	$(BIN)/python -m app.drawing.page_rules static/js/board/rules.js
-
 imports: $(READY_DEV)
 	$(PYTEST) tests/test_imports.py
 

@@ -13,8 +13,8 @@ from app.replanner import Replanner
 from app.shared_texts import SharedTexts
 from app.shown_robot import shown_robot
 from app.store.plan_store import PlanStore
-from app.ui.editor.desk import Desk
 from app.ui.stage import Stage
+from app.ui.viewpoints.sessions import Sessions
 from app.visitors_view import VisitorsView
 
 
@@ -50,8 +50,8 @@ class OpenDocument:
             if self._shown is None:
                 drawing = self.document.state.drawing
                 stage = Stage(shown_robot(drawing.robot), drawing.scene)
-                desk = Desk(self.document, stage.server, stage.opening)
-                self._shown = (stage, Player(self.document, stage, desk))
+                sessions = Sessions(self.document, stage.server, stage.opening)
+                self._shown = (stage, Player(self.document, stage, sessions))
             return self._shown[0]
 
     def show_to_visitors(self) -> Stage:

@@ -8,9 +8,9 @@ from app.answer import ShownPlan
 from app.document import Document
 from app.document_state import DocumentState
 from app.shown_robot import shown_robot
-from app.ui.editor.desk import Desk
 from app.ui.lying_cloth import lying_cloth
 from app.ui.stage import Stage
+from app.ui.viewpoints.sessions import Sessions
 from app.visitors_view import VisitorsView
 from planner.cloth.garment import Garment
 from planner.geometry.pose import Pose2
@@ -47,17 +47,17 @@ class Player:
     It also handles the requests of the stage's visitors, before it draws.
     """
 
-    def __init__(self, document: Document | VisitorsView, stage: Stage, desk: Desk | None = None) -> None:
+    def __init__(self, document: Document | VisitorsView, stage: Stage, sessions: Sessions | None = None) -> None:
         """Start showing at once; `close` ends it.
 
         Args:
             document: the document, or the view of it that visitors have.
             stage: the stage.
-            desk: the requests of those who edit on the stage.
+            sessions: the cameras of those who look at it.
         """
         self._document = document
         self._stage = stage
-        self._desk = desk
+        self._sessions = sessions
         self._changed = threading.Event()
         self._is_closed = False
         self._due_s = 0.0
@@ -70,8 +70,8 @@ class Player:
         self._preview: tuple[ShownPlan, float] | None = None
         self._changed.set()
         self._unsubscribe = document.subscribe(self._changed.set)
-        if desk is not None:
-            desk.on_asked(self._changed.set)
+        if sessions is not None:
+            sessions.on_queued(self._changed.set)
         self._thread = threading.Thread(target=self._run, name="player", daemon=True)
         self._thread.start()
 
@@ -112,12 +112,12 @@ class Player:
         return self._due_s - now_s
 
     def _update(self) -> None:
-        if self._desk is not None:
-            self._desk.work()
+        if self._sessions is not None:
+            self._sessions.work()
         state = self._document.state
         self._show(state)
-        if self._desk is not None:
-            self._desk.show(state)
+        if self._sessions is not None:
+            self._sessions.show(state)
 
     def _show(self, state: DocumentState) -> None:
         shown, self._shown = self._shown, state

@@ -34,7 +34,7 @@ _NOT_FOUND = 4404
 async def read_stage_page(request: Request, name: str) -> Response:
     """Return the page that shows a stage."""
     await run_in_threadpool(workspace_of(request).opened, name)
-    return HTMLResponse(stage_page(is_seated=not is_shared(request.scope)), headers={"cache-control": "no-cache"})
+    return HTMLResponse(stage_page(has_session=not is_shared(request.scope)), headers={"cache-control": "no-cache"})
 
 
 @router.get("/{name}")

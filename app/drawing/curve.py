@@ -20,8 +20,6 @@ CURVE_TOLERANCE_M: Final = 1e-3
 CURVE_MAX: Final = 2.0
 """Largest distance of a handle from the middle of its chord, along it or across (chord lengths)."""
 
-_FLAT: Final = 1e-4
-"""Distance of a handle from its chord below which the edge is straight (chord lengths)."""
 
 _STRAIGHT_RAD: Final = 1e-4
 """Half angle below which an arc is told from a parabola only by rounding (rad)."""
@@ -38,21 +36,6 @@ class Curve:
 
     along: float
     across: float
-
-    @staticmethod
-    def through(start: Point2, end: Point2, handle: Point2) -> "Curve | None":
-        """Return the curve between two corners that has its handle at a point (m); None where that is straight."""
-        a, b = np.array(start), np.array(end)
-        chord = b - a
-        square = float(chord @ chord)
-        if square == 0.0:
-            return None
-        off = np.array(handle) - (a + b) / 2.0
-        along, across = (
-            min(max(float(off @ way) / square, -CURVE_MAX), CURVE_MAX)
-            for way in (chord, np.array([-chord[1], chord[0]]))
-        )
-        return None if abs(across) < _FLAT else Curve(along, across)
 
     @property
     def turned(self) -> "Curve":

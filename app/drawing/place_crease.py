@@ -6,11 +6,10 @@ times. Of the chords that separate the point from its target, the fold takes the
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Final
 
 from app.drawing.drawing import ChordTie, End, Tie
 from app.drawing.drawing_json import end_to_dict
-from app.drawing.rules import NO_CLOTH
 from app.drawing.solution import Solution, landed_rings, rings
 from app.drawing.ties import Names
 from planner.cloth.garment import FIRST_IS_RED, FOLDS_MAX
@@ -26,6 +25,8 @@ from planner.geometry.segment import Segment
 from planner.geometry.split import split_along
 from planner.geometry.tolerance import LENGTH_M
 from planner.message import Message
+
+NO_CLOTH: Final = "there is no cloth yet: draw an outline first"
 
 
 @dataclass(frozen=True)

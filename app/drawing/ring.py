@@ -81,11 +81,6 @@ def ring_of(outline: tuple[Corner, ...]) -> Ring:
     return ring
 
 
-def straight_ring(points: Sequence[Point2]) -> Ring:
-    """Return the ring of an outline without curves."""
-    return Ring(tuple(points), tuple(range(len(points))))
-
-
 def reordered(outline: Sequence[Corner], before: Sequence[Corner]) -> tuple[Corner, ...]:
     """Return corners in a new order, each edge as curved as it was between the same corners before."""
     curves = {

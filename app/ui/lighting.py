@@ -53,12 +53,6 @@ def ink(wanted: Rgb) -> NDArray[np.uint8]:
     return np.array(_before_film(wanted, 1.0, 0.0), dtype=np.uint8)
 
 
-def instance_paint(wanted: Rgb) -> Rgb:
-    """Return the paint of batched meshes, whose colours viser takes as shares of light, not as screen colours."""
-    red, green, blue = (round(255.0 * float(share)) for share in _linear(paint(wanted)))
-    return red, green, blue
-
-
 def seen(painted: Rgb) -> Rgb:
     """Return how a level surface of a colour looks."""
     return _on_film(painted, _LEVEL_LIGHT, _SHEEN)

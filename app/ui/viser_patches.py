@@ -8,18 +8,17 @@ But when it starts it passes a `process_request` hook to `websockets.asyncio.ser
 our check in front of that hook.
 
 **A page that fits into ours.** viser's page is one built file without options for its looks. Its notices, and on a
-phone its panel of controls, have no place in our frame: the style that we add hides everything but the canvas and the
-floating panels, and puts the board's background behind them. A frame is narrower than a window, so the width below
+phone panels of controls have no place in our frame: the style that we add hides everything but the canvas, and puts the
+board's background behind it. A frame is narrower than a window, so the width below
 which viser assumes a phone is reduced. Its labels are black on white on every background: their shaders get the page's
-own colours, light on dark, which are legible on both. Until the visitor's panel is there, viser shows one with the
-address of the websocket; so the frame tells our page when its own panel has come, and our page covers it until then.
+own colours, light on dark, which are legible on both. The frame tells our page when there is a picture and, for those
+who may choose a viewpoint, when the server knows them; our page covers it until then.
 """
 
 import contextlib
 import functools
 import hmac
 import http
-import json
 import secrets
 import threading
 from collections.abc import Callable, Iterator
@@ -33,7 +32,7 @@ from websockets.asyncio.server import ServerConnection
 from websockets.datastructures import Headers
 from websockets.http11 import Request, Response
 
-from app.language import LANGUAGES, say
+from app.ui.viewpoints.viewpoint_choice import CHANNEL
 
 LOOPBACK = "127.0.0.1"
 SECRET_HEADER = "X-Pleat-Stage"
@@ -41,11 +40,8 @@ SECRET_HEADER = "X-Pleat-Stage"
 VISER_PAGE = Path(viser.__file__).parent / "client" / "build" / "index.html"
 """The page that shows a stage: a single self-contained file."""
 
-PANEL = "panel.label"
-"""The key of the label by which the visitor's panel is found, in any language."""
-
-SEATED = "pleat-seated"
-"""The frame's message to the page once the visitor's own panel is there."""
+READY = "pleat-ready"
+"""The frame's message to the page once it can be looked at."""
 
 PHONE_WIDTH = "(max-width: 36em)"
 """The media query with which viser's page recognises a phone."""
@@ -54,7 +50,6 @@ _HIDE = (
     b"<style>#root * { visibility: hidden }"
     b"#root canvas, #root canvas ~ div, #root canvas ~ div * { visibility: visible }</style>"
 )
-_PANELS = b"<style>#root [data-dock-root], #root [data-dock-root] * { visibility: visible }</style>"
 _GROUND = (
     b"<style>body { background: #fafaf8 !important }"
     b' [data-mantine-color-scheme="dark"] body { background: #16181c !important }</style>'
@@ -80,25 +75,17 @@ _LABELS = b"""<script>{
     };
   }
 }</script>"""
-_UNSEATED = f"""<script>{{
-  const watch = new MutationObserver(() => {{
-    if (!document.querySelector("#root canvas")) return;
-    watch.disconnect();
-    parent.postMessage("{SEATED}", location.origin);
-  }});
-  watch.observe(document.documentElement, {{ childList: true, subtree: true }});
-}}</script>""".encode()
-_SEATED = f"""<script>{{
-  const labels = {json.dumps([say(language, PANEL) for language in LANGUAGES])};
-  const isSeated = () => [...document.querySelectorAll("#root *")].some(
-    (part) => !part.childElementCount && labels.includes(part.textContent));
-  const watch = new MutationObserver(() => {{
-    if (!isSeated()) return;
-    watch.disconnect();
-    parent.postMessage("{SEATED}", location.origin);
-  }});
-  watch.observe(document.documentElement, {{ childList: true, subtree: true, characterData: true }});
-}}</script>""".encode()
+_TELL_READY = """<script>{
+  const isReady = () => document.querySelector("#root canvas") && (%s);
+  const watch = setInterval(() => {
+    if (!isReady()) return;
+    clearInterval(watch);
+    parent.postMessage("%s", location.origin);
+  }, 50);
+}</script>"""
+_HAS_SESSION = (
+    f'Object.keys(window.__viserMutable?.nodeRefFromName ?? {{}}).some((name) => name.startsWith("{CHANNEL}"))'
+)
 
 
 _Hook = Callable[[ServerConnection, Request], Response | None]
@@ -139,13 +126,12 @@ def _guarded(hook: _Hook, secret: str) -> _Hook:
 
 
 @functools.lru_cache(maxsize=2)
-def stage_page(*, is_seated: bool = True) -> bytes:
+def stage_page(*, has_session: bool = True) -> bytes:
     """Return the page that shows a stage: viser's page with our additions.
 
     Args:
-        is_seated: whether its visitor has a panel; one by a link has none, and viser's own has no place there.
+        has_session: whether its viewpoint can be chosen; that of those who have a link cannot.
     """
-    styles = _HIDE + _GROUND + (_PANELS if is_seated else b"")
-    scripts = _NARROW + _LABELS + (_SEATED if is_seated else _UNSEATED)
-    styled = VISER_PAGE.read_bytes().replace(b"</head>", styles + b"</head>", 1)
-    return styled.replace(b"<head>", b"<head>" + scripts, 1)
+    ready = _TELL_READY % (_HAS_SESSION if has_session else "true", READY)
+    styled = VISER_PAGE.read_bytes().replace(b"</head>", _HIDE + _GROUND + b"</head>", 1)
+    return styled.replace(b"<head>", b"<head>" + _NARROW + _LABELS + ready.encode(), 1)

@@ -63,7 +63,7 @@ mountHistory(store, verbs);
 mountOffline(store);
 mountStagePlay(store, togglePlay);
 const looking = { play: togglePlay, help: dialogs.help };
-mountStage(store, keyHandler(isViewOnly ? looking : verbs)); // letters move the camera there
+mountStage(store, keyHandler(isViewOnly ? looking : verbs), board); // letters move the camera there
 
 const keys = isViewOnly ? looking : { ...verbs, ...boardKeys(board), h: () => repair.takeFocus() };
 document.addEventListener("keydown", keyHandler(keys));

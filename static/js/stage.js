@@ -4,12 +4,13 @@
  */
 
 import { svg } from "./board/sheet.js";
+import { StageSurface } from "./board/stage_surface.js";
 import { byId, element } from "./dom.js";
 import { say } from "./language/say.js";
 import { StageViews } from "./stage_views.js";
 
 /** What the frame says when it is ready, see app/api/stage_routes.py. */
-const SEATED = "pleat-seated";
+const READY = "pleat-ready";
 /** A table, and cloth on it. */
 const TABLE = "M18 54L60 40L102 54L60 70ZM24 58V84M60 72V98M96 58V84";
 const CLOTH = "M48 52L64 46L78 52L62 58Z";
@@ -29,15 +30,17 @@ function isDrawnBySoftware() {
 /**
  * @param {import("./store.js").Store} store
  * @param {(event: KeyboardEvent) => void} onKey keys pressed while the stage has the focus
+ * @param {import("./board/board.js").Board} board whose tools act on the stage too
  */
-export function mountStage(store, onKey) {
+export function mountStage(store, onKey, board) {
   const frame = /** @type {HTMLIFrameElement} */ (byId("stage"));
+  new StageSurface(board, frame);
   const pace = isDrawnBySoftware() ? "by-software/" : "";
   const cover = picture();
   const views = new StageViews(frame);
   frame.after(cover);
   addEventListener("message", ({ source, data }) => {
-    if (source !== frame.contentWindow || data !== SEATED) return;
+    if (source !== frame.contentWindow || data !== READY) return;
     cover.hidden = true;
     views.show(true);
   });

@@ -1,13 +1,13 @@
 /**
  * The viewpoints, on the stage itself. The server moves the camera, as it rides along with the robot; which of its
- * visitors this page's frame is, a node of the frame's scene says (`app/ui/editor/camera_panel.py`).
+ * sessions this page's frame is, a node of the frame's scene says (`app/ui/viewpoints/viewpoint_choice.py`).
  */
 
 import { button, byId } from "./dom.js";
 import { say } from "./language/say.js";
 
 const VIEWS = /** @type {const} */ (["preset.follow", "preset.robot", "preset.top", "preset.side", "preset.free"]);
-const CHANNEL = "/seat/";
+const CHANNEL = "/session/";
 
 /** @typedef {{nodeRefFromName: Record<string, unknown>, sendMessage: (message: object) => void}} Viser */
 
@@ -25,7 +25,7 @@ export class StageViews {
     );
   }
 
-  /** @param {boolean} isThere whether the visitor has a seat */
+  /** @param {boolean} isThere whether it can be looked at */
   show(isThere) {
     this.root.hidden = !isThere;
   }

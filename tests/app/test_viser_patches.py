@@ -31,7 +31,7 @@ def test_visers_page_has_what_ours_is_hung_on(mark: str) -> None:
 def test_our_additions_are_in_the_page_once() -> None:
     page = stage_page().decode()
     assert len(page) > len(PAGE)
-    assert page.count("pleat-seated") == 1
+    assert page.count("pleat-ready") == 1
     assert page.count(PHONE_WIDTH) == PAGE.count(PHONE_WIDTH) + 1
 
 

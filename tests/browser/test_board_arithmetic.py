@@ -1,7 +1,6 @@
 """Lengths as people write them, and the plane geometry of the page, tested on the modules themselves."""
 
 import json
-import math
 from collections.abc import Iterator
 from random import Random
 from typing import Any
@@ -9,11 +8,11 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, Page
 
-from app.drawing.curve import Curve
-from app.drawing.rules import SNAP_PX, fold_name, next_corner, snapped, snapped_handle
-from planner.cloth.outline import POINTS_MAX
+from app.drawing.curve import CURVE_MAX, CURVE_TOLERANCE_M, Curve
+from app.drawing.place_crease import NO_CLOTH
+from planner.cloth.garment import FIRST_IS_RED
+from planner.cloth.outline import EDGE_MIN_M, POINTS_MAX
 from planner.geometry.pose import Point2
-from planner.geometry.region import Region
 from tests.app.conftest import Served
 from tests.browser.board_desk import window
 
@@ -192,26 +191,20 @@ def test_a_plan_that_reads_the_same_as_what_any_takes_is_told_with_the_differenc
     assert asked(page, "numbers", f"m.quicker({cost_s}, {least_s})", room="dock") == said
 
 
-def test_the_board_names_folds_as_the_stage_does(page: Page) -> None:
-    rng = Random(71)
-    ways = [(rng.uniform(-1, 1), rng.uniform(-1, 1)) for _ in range(60)] + [(0, 1), (1, 0), (0, -1), (-1, 0), (1, 1)]
-    taken = [["left over", "top down", "top down 2"][: rng.randint(0, 3)] for _ in ways]
-    lists = [[{"name": name} for name in names] for names in taken]
-    named = asked(page, "stroke", f"{json.dumps(ways)}.map((way, n) => m.nameOf([0, 0], way, {json.dumps(lists)}[n]))")
-    assert named == [fold_name(way, names) for way, names in zip(ways, taken, strict=True)]
-
-
-def test_an_outline_goes_on_and_ends_on_the_board_as_on_the_stage(page: Page) -> None:
-    rng = Random(72)
-    asks = []
-    for count in (*range(8), POINTS_MAX - 1, POINTS_MAX):
-        points = [(0.01 * n, rng.uniform(0, 0.3)) for n in range(count)]
-        near = [(x + rng.choice((0.0, 9e-4, 1.1e-3)), y) for x, y in points[:2] + points[-2:]]
-        asks += [(points, place) for place in [*near, (-0.2, 0.1)]]
-    told = asked(page, "stroke", f"{json.dumps(asks)}.map(([points, next]) => m.nextCorner(points, next))")
-    expected = [next_corner(points, place) for points, place in asks]
-    assert told == expected
-    assert {"put", "close", "taken", "full"} == set(expected)
+def test_an_outline_goes_on_and_ends(page: Page) -> None:
+    triangle, many = [[0, 0], [0.4, 0], [0, 0.3]], [[0.01 * n, 0] for n in range(POINTS_MAX)]
+    asks = [
+        ("close", triangle, [0, 0.0005]),
+        ("close", triangle, triangle[-1]),
+        ("taken", triangle, triangle[1]),
+        ("taken", triangle[:2], triangle[0]),
+        ("put", triangle, [0.2, 0.2]),
+        ("put", many[1:], [0, 0.3]),
+        ("full", many, [0, 0.3]),
+        ("close", many, many[0]),
+    ]
+    told = asked(page, "stroke", f"{json.dumps(asks)}.map(([_, points, next]) => m.nextCorner(points, next))")
+    assert told == [expected for expected, _, _ in asks]
 
 
 def strongest(page: Page, points: list[Point2], scale: float, to: dict[str, Any]) -> Any:
@@ -227,38 +220,50 @@ def strongest(page: Page, points: list[Point2], scale: float, to: dict[str, Any]
     )
 
 
-def test_a_pointer_on_the_board_means_what_it_means_on_the_stage(page: Page) -> None:
-    ring, scale = [(0.0, 0.0), (0.35, 0.03), (0.4, 0.4), (-0.1, 0.3)], 700.0
-    rng = Random(73)
-    points = [(rng.uniform(-0.15, 0.45), rng.uniform(-0.05, 0.45)) for _ in range(150)]
-    points += [(x + rng.uniform(-0.02, 0.02), y + rng.uniform(-0.02, 0.02)) for x, y in ring for _ in range(20)]
-    found = strongest(page, points, scale, {"rings": [ring]})
-    region, kinds = Region.polygon(ring), set()
-    for point, there in zip(points, found, strict=True):
-        here = snapped(region, point, 1 / scale)
-        kinds.add(there["kind"] if there else None)
-        assert (there is None) == (here == point)
-        # On an edge the board goes on to the nearest line of its grid.
-        slack = SNAP_PX["grid"] / scale if there and there["kind"] == "edge" else 1e-9
-        assert there is None or math.dist(there["at"], here) <= slack
-    assert kinds == {"vertex", "fraction", "edge", None}
+def test_a_pointer_means_the_corner_before_the_fraction_before_the_edge(page: Page) -> None:
+    square = [(0.0, 0.0), (0.4, 0.0), (0.4, 0.4), (0.0, 0.4)]
+    points = [
+        (0.007, 0.007),  # 9.9 mm from a corner, which holds 10 px
+        (0.205, 0.006),  # 7.8 mm from the middle of an edge
+        (0.1384, 0.0072),  # 8.8 mm from a third of an edge
+        (0.24, 0.0075),  # nothing but the edge within 8 px
+        (0.24, 0.0085),
+        (0.2, 0.2),
+    ]
+    found = strongest(page, points, 1000.0, {"rings": [square]})
+    assert [one and one["kind"] for one in found] == ["vertex", "fraction", "fraction", "edge", None, None]
+    assert found[0]["at"] == pytest.approx([0, 0])
+    assert found[1]["at"] == pytest.approx([0.2, 0])
+    assert found[2]["at"] == pytest.approx([0.4 / 3, 0])
+    assert found[3]["at"][1] == pytest.approx(0)
 
 
-def test_an_edge_bends_on_the_board_as_on_the_stage(page: Page) -> None:
-    a, b, scale = (0.1, 0.0), (0.4, 0.2), 700.0
+def test_the_page_has_the_numbers_and_sentences_of_the_server(page: Page) -> None:
+    names = ("MOST_CORNERS", "SAME_CORNER_M", "CURVE_TOLERANCE_M", "CURVE_MAX")
+    numbers = asked(page, "rules", f"{json.dumps(names)}.map((name) => m[name])")
+    assert numbers == [POINTS_MAX, EDGE_MIN_M, CURVE_TOLERANCE_M, CURVE_MAX]
+    sentences = asked(page, "rules", "[m.NO_CLOTH, m.FIRST_IS_RED]")
+    assert [text.lower().rstrip(".") for text in sentences] == [NO_CLOTH.lower(), FIRST_IS_RED.lower()]
+
+
+def test_an_edge_is_bent_straight_to_a_half_circle_to_an_arc_or_freely(page: Page) -> None:
+    a, b = (0.0, 0.0), (0.4, 0.0)
+    points = [(0.1, 0.005), (0.205, 0.195), (0.205, 0.1), (0.3, 0.1)]
+    found = strongest(page, points, 1000.0, {"rings": [], "bent": [a, b]})
+    assert [one and one["kind"] for one in found] == ["dropped", "fraction", "bisector", None]
+    assert found[0]["at"] == pytest.approx([0.1, 0.0])
+    assert found[1]["at"] == pytest.approx([0.2, 0.2])
+    assert found[2]["at"] == pytest.approx([0.2, 0.1])
+
+
+def test_the_page_bends_an_edge_to_a_handle_as_the_server_reads_the_curve(page: Page) -> None:
+    a, b = (0.1, 0.0), (0.4, 0.2)
     rng = Random(74)
-    points = [(rng.uniform(-0.1, 0.5), rng.uniform(-0.2, 0.5)) for _ in range(150)]
-    points += [(x + rng.uniform(-0.02, 0.02), y + rng.uniform(-0.02, 0.02)) for x, y in [(0.15, 0.25), a] * 30]
-    found = strongest(page, points, scale, {"rings": [], "bent": [a, b]})
-    kinds = set()
-    for point, there in zip(points, found, strict=True):
-        kinds.add(there["kind"] if there else None)
-        assert snapped_handle(a, b, point, 1 / scale) == pytest.approx(tuple(there["at"]) if there else point)
-        bent = asked(page, "curves", f"m.curveThrough({list(a)}, {list(b)}, {list(point)})")
-        curve = Curve.through(a, b, point)
-        assert (bent is None) == (curve is None)
-        assert curve is None or bent == pytest.approx({"along": curve.along, "across": curve.across})
-    assert kinds == {"dropped", "fraction", "bisector", None}
+    for along, across in [(rng.uniform(-1.5, 1.5), rng.uniform(-1.5, 1.5)) for _ in range(20)]:
+        x, y = Curve(along, across).handle(a, b)
+        bent = asked(page, "curves", f"m.curveThrough({list(a)}, {list(b)}, [{x}, {y}])")
+        assert bent == pytest.approx({"along": along, "across": across})
+    assert asked(page, "curves", f"m.curveThrough({list(a)}, {list(b)}, [0.25, 0.1])") is None
 
 
 def test_a_drawing_is_made_as_large_as_the_garment_of_a_suggestion_and_folds_stay_tied(page: Page) -> None:

@@ -121,8 +121,8 @@ def test_on_a_phone_the_large_stage_has_play_and_help_speaks_of_fingers_first(ph
 
 def test_until_the_stage_is_there_a_quiet_picture_lies_over_it(phone: Page) -> None:
     expect(phone.locator(".stage-cover")).to_have_text("Loading the 3D view\N{HORIZONTAL ELLIPSIS}")
-    phone.evaluate("dispatchEvent(new MessageEvent('message', { data: 'pleat-seated' }))")  # from no stage
+    phone.evaluate("dispatchEvent(new MessageEvent('message', { data: 'pleat-ready' }))")  # from no stage
     expect(phone.locator(".stage-cover")).not_to_have_attribute("hidden", "")
-    told = "{ data: 'pleat-seated', source: document.getElementById('stage').contentWindow }"
+    told = "{ data: 'pleat-ready', source: document.getElementById('stage').contentWindow }"
     phone.evaluate(f"dispatchEvent(new MessageEvent('message', {told}))")
     expect(phone.locator(".stage-cover")).to_have_attribute("hidden", "")

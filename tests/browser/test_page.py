@@ -106,10 +106,12 @@ def test_robot_cloth_and_table_are_rendered(page: Page) -> None:
     page.wait_for_function(RENDERED)
 
 
-def test_the_picture_over_the_stage_goes_once_the_stage_has_its_panel(page: Page) -> None:
+def test_the_picture_over_the_stage_goes_once_it_can_be_looked_at_and_no_panel_of_viser_is_seen(page: Page) -> None:
     expect(page.locator(".stage-cover")).to_be_hidden()
+    expect(page.get_by_role("toolbar", name="Look from")).to_be_visible()
     stage = page.frame_locator("#stage")
-    expect(stage.get_by_text("Table", exact=True).first).to_be_visible()
+    expect(stage.locator("canvas").first).to_be_visible()
+    expect(stage.locator("[data-dock-root] *").locator("visible=true")).to_have_count(0)
 
 
 def test_viewpoints_on_the_stage_move_its_camera(page: Page) -> None:

@@ -39,7 +39,7 @@ NOT_READ_IN = {
 """Where a text is a key or a name, whatever it says."""
 
 ALLOWED = {
-    "board/rules.js": "written from the planner's rules, in English; shown by `translated`",
+    "board/rules.js": "in English; shown by `translated`",
     "board/edits.js": "the halves of English fold names, left for right",
     "dom.js": "says to a programmer that an element is missing",
     "main.js": "the name of the program",

@@ -34,6 +34,10 @@ export function drawingArea() {
 
 /** A sheet for each layer, the lowest first. @param {SVGElement} scene */
 export function sheetsOf(scene) {
-  const sheets = LAYERS.map((name) => [name, new Sheet(scene, `layer-${name}`)]);
+  const sheets = LAYERS.map((name) => {
+    const sheet = new Sheet(scene, `layer-${name}`);
+    sheet.root.id = `board-${name}`; // the stage shows some of them too
+    return [name, sheet];
+  });
   return /** @type {Record<LayerName, Sheet>} */ (Object.fromEntries(sheets));
 }

@@ -22,7 +22,6 @@ from app.files.svg_drawing import svg_drawing
 from planner.cloth.garment import Garment
 from planner.cloth.outline import POINTS_MAX
 from planner.errors import FieldError
-from planner.geometry.pose import Point2
 from planner.geometry.region import Region
 from tests.app.drawing.drawings import crease, towel_drawing, with_corner
 
@@ -63,16 +62,6 @@ def test_points_are_within_the_tolerance_of_the_curve_and_its_handle_is_on_it(
     off = np.hypot(*np.moveaxis(a + along_piece[..., None] * (b - a) - fine, -1, 0)).min(axis=0)
     is_smooth = abs(across) > 0.1 and abs(along) < 0.5 and x > 0.2  # no points nearer than 2 mm were left out
     assert off.max() <= (CURVE_TOLERANCE_M + 1e-9 if is_smooth else 3e-3)
-
-
-@given(parts, parts, points, points)
-def test_a_curve_leads_through_its_handle(along: float, across: float, start: Point2, end: Point2) -> None:
-    assume(math.dist(start, end) > 1e-3 and abs(across) > 1e-3)
-    curve = Curve(along, across)
-    found = Curve.through(start, end, curve.handle(start, end))
-    assert found is not None
-    assert (found.along, found.across) == pytest.approx((along, across), abs=1e-9)
-    assert Curve.through(start, end, Curve(along, 0.0).handle(start, end)) is None
 
 
 @given(along=parts, across=parts)

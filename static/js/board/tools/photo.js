@@ -42,6 +42,11 @@ export class PhotoTool extends Tool {
     return this.points.length === 2;
   }
 
+  /** The photo lies on the board alone. */
+  takes() {
+    return false;
+  }
+
   /** @param {Pointer} pointer */
   hover(pointer) {
     this.cursor = this.board.photo.shown ? "crosshair" : "default";

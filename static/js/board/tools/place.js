@@ -85,6 +85,11 @@ export class PlaceTool extends Tool {
   }
 
   /** @param {Pointer} pointer */
+  takes(pointer) {
+    return this.grasp(pointer) !== null || this.station(pointer) !== null;
+  }
+
+  /** @param {Pointer} pointer */
   hover(pointer) {
     this.board.hover = null;
     const grasp = this.grasp(pointer) ?? this.station(pointer);

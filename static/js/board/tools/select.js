@@ -66,6 +66,12 @@ export class SelectTool extends Tool {
   }
 
   /** @param {Pointer} pointer */
+  takes(pointer) {
+    const found = hit(this.board, pointer);
+    return found !== null && found.kind !== "cloth";
+  }
+
+  /** @param {Pointer} pointer */
   hover(pointer) {
     const found = hit(this.board, pointer);
     this.board.hover = found;

@@ -34,6 +34,11 @@ export class Tool {
   /** The tool has been chosen. */
   enter() {}
 
+  /** Whether a press there is the tool's, where others wait for it too. @param {Pointer} _pointer */
+  takes(_pointer) {
+    return true;
+  }
+
   /** The pointer is there. @param {Pointer} _pointer */
   hover(_pointer) {}
 

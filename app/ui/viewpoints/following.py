@@ -8,8 +8,8 @@ import math
 import numpy as np
 
 from app.answer import ShownPlan
-from app.ui.editor.presets import Lens
 from app.ui.viewpoint import Viewpoint
+from app.ui.viewpoints.presets import Lens
 from planner.geometry.pose import Point2, Pose2, wrapped_angle
 
 ASIDE_RAD = math.radians(50.0)

@@ -7,9 +7,9 @@ from enum import StrEnum
 
 import numpy as np
 
-from app.ui.editor.ground import Ground
 from app.ui.robot_model import Link, load_robot_model
 from app.ui.viewpoint import FOV_RAD, Viewpoint
+from app.ui.viewpoints.ground import Ground
 from planner.geometry.pose import FloatArray, Point2, Point3, Pose2
 from planner.geometry.table import Table
 from planner.robots.card import RobotCard

@@ -4,9 +4,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.ui.editor.ground import Ground
-from app.ui.editor.presets import Lens, robots_eye, side, top
 from app.ui.viewpoint import FOV_RAD
+from app.ui.viewpoints.ground import Ground
+from app.ui.viewpoints.presets import Lens, robots_eye, side, top
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
 from planner.robots.load_robot import load_robot

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from app.answer import ShownPlan
-from app.ui.editor.following import Following, work_of
-from app.ui.editor.presets import Lens
+from app.ui.viewpoints.following import Following, work_of
+from app.ui.viewpoints.presets import Lens
 from planner import Plan, Timeline, load_garment, make_plan
 from planner.geometry.pose import Pose2, wrapped_angle
 

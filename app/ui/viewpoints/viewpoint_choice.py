@@ -12,12 +12,11 @@ from collections.abc import Callable
 
 import viser
 
-from app.language import Language, say
-from app.ui.editor.presets import Lens, Preset
 from app.ui.viewpoint import Viewpoint
+from app.ui.viewpoints.presets import Lens, Preset
 
-CHANNEL = "/seat/"
-"""The beginning of the name of a visitor's scene node; the rest is viser's name for the choice of a viewpoint."""
+CHANNEL = "/session/"
+"""The beginning of the name of a session's scene node; the rest is viser's name for the choice of a viewpoint."""
 
 _REMEMBERED = 8
 """Number of opening viewpoints remembered, because a browser reports its camera with a delay."""
@@ -28,15 +27,14 @@ _RIDDEN = 90
 OnPreset = Callable[[Preset], None]
 
 
-class CameraPanel:
+class ViewpointChoice:
     """A choice that no panel shows, and the viewpoint before it was first made."""
 
-    def __init__(self, client: viser.ClientHandle, language: Language, opening: Viewpoint, on_preset: OnPreset) -> None:
+    def __init__(self, client: viser.ClientHandle, opening: Viewpoint, on_preset: OnPreset) -> None:
         """Build the choice.
 
         Args:
             client: whose camera it is.
-            language: the language that it speaks.
             opening: the opening viewpoint.
             on_preset: called with the preset pressed; must not block.
         """
@@ -48,12 +46,9 @@ class CameraPanel:
         self._has_begun = self._is_left = False
         self._preset: Viewpoint | None = None
         self._ridden: deque[Viewpoint] = deque(maxlen=_RIDDEN)
-        self._language = language
-        self._folder = client.gui.add_folder(say(language, "panel.camera"), visible=False)
-        with self._folder:
-            self._buttons = client.gui.add_button_group(say(language, "panel.look_from"), self._labels)
-        self._buttons.on_click(self._pressed)
-        client.scene.add_frame(f"{CHANNEL}{self._buttons._impl.uuid}", show_axes=False)  # it has no other name
+        buttons = client.gui.add_button_group("", tuple(Preset), visible=False)
+        buttons.on_click(self._pressed)
+        client.scene.add_frame(f"{CHANNEL}{buttons._impl.uuid}", show_axes=False)  # it has no other name
 
     @property
     def lens(self) -> Lens:
@@ -110,20 +105,7 @@ class CameraPanel:
         self._move(self._free)
 
     async def _pressed(self, event: viser.GuiEvent[viser.GuiButtonGroupHandle]) -> None:
-        chosen = event.target.value
-        self._on_preset(next(one for one in Preset if chosen in (one, say(self._language, one))))
-
-    def speak(self, language: Language) -> None:
-        """Take over another language."""
-        if language == self._language:
-            return
-        self._language = language
-        self._folder.label = say(language, "panel.camera")
-        self._buttons.label, self._buttons.options = say(language, "panel.look_from"), self._labels
-
-    @property
-    def _labels(self) -> tuple[str, ...]:
-        return tuple(say(self._language, preset) for preset in Preset)
+        self._on_preset(Preset(event.target.value))
 
     @property
     def _here(self) -> Viewpoint:

@@ -1,4 +1,4 @@
-"""The area of a drawing on the table in which the pointer may draw."""
+"""Where a drawing lies on the table."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -31,18 +31,8 @@ class Ground:
         low, high = corners.min(axis=0), corners.max(axis=0)
         return Ground((float(low[0]), float(low[1])), (float(high[0]), float(high[1])))
 
-    def holds(self, point: Point2) -> bool:
-        """Return whether a point of the table frame is on the ground."""
-        return all(low <= place <= high for low, place, high in zip(self.low, point, self.high, strict=True))
-
 
 def on_table(drawing: Drawing, points: Iterable[Point2]) -> tuple[Point2, ...]:
     """Return points of the article frame in the table frame (m)."""
     placed = drawing.placement.to_outer(np.array(list(points), dtype=float).reshape(-1, 2))
     return tuple((float(x), float(y)) for x, y in placed)
-
-
-def in_article(drawing: Drawing, point: Point2) -> Point2:
-    """Return a point of the table frame in the article frame (m)."""
-    x, y = drawing.placement.to_inner(np.array(point))
-    return (float(x), float(y))

@@ -1,0 +1,116 @@
+"""The 3D view as one browser shows it: its camera."""
+
+from collections.abc import Callable
+
+import numpy as np
+import viser
+
+from app.document import Document
+from app.document_state import DocumentState
+from app.drawing.ring import ring_of
+from app.shown_robot import shown_robot
+from app.ui.opening import opening as opening_of
+from app.ui.viewpoint import Viewpoint
+from app.ui.viewpoints.following import Following, work_of
+from app.ui.viewpoints.ground import Ground, on_table
+from app.ui.viewpoints.presets import Preset, robots_eye, side, top
+from app.ui.viewpoints.viewpoint_choice import ViewpointChoice
+from planner.geometry.pose import Pose2
+
+Ask = Callable[[Callable[[], None]], None]
+"""Hands a request to the thread that draws the 3D view."""
+
+
+class Session:
+    """The camera of one browser; the 3D view's own thread uses it, viser's thread only adds requests."""
+
+    def __init__(self, client: viser.ClientHandle, document: Document, opening: Viewpoint, ask: Ask) -> None:
+        """Show table and robot.
+
+        Args:
+            client: the browser.
+            document: the document that is shown.
+            opening: the opening viewpoint.
+            ask: the function that hands a request to the 3D view's own thread.
+        """
+        self._client = client
+        self._document = document
+        self._ask = ask
+        self._is_from_right = False
+        self._robot = document.state.drawing.robot
+        self._following: Following | None = None
+        with client.atomic():
+            self._choice = ViewpointChoice(client, opening, lambda preset: ask(lambda: self._look(preset)))
+        self._open()
+        client.camera.on_update(self._camera_changed)
+
+    def show(self, state: DocumentState) -> None:
+        """Move the camera along with what is shown."""
+        with self._client.atomic():
+            self._follow(state)
+        self._client.flush()
+
+    def _open(self) -> None:
+        """Show table and robot whole, whatever the picture's shape, until the visitor moves the camera."""
+        state = self._document.state
+        scene, choice = state.drawing.scene, self._choice
+        base, card = self._starting_base(state), shown_robot(state.drawing.robot)
+        choice.open_on(opening_of(scene, choice.lens.aspect, base, is_from_right=self._is_from_right, card=card))
+
+    def _follow(self, state: DocumentState) -> None:
+        """Move the camera with the robot's head, or to the side of the table where the robot does not stand."""
+        if self._choice.is_riding:
+            self._choice.ride(self._moving_view(state))
+            return
+        if state.drawing.robot != self._robot:
+            self._robot = state.drawing.robot
+            self._open()
+        aside_m, beside_m = self._base(state).y_m, state.drawing.scene.table.width_m / 2
+        if abs(aside_m) > beside_m and self._is_from_right != (aside_m > 0.0):
+            self._is_from_right = aside_m > 0.0
+            self._open()
+
+    def _look(self, preset: Preset) -> None:
+        choice, state = self._choice, self._document.state
+        scene = state.drawing.scene
+        match preset:
+            case Preset.FREE:
+                choice.go_back()
+            case Preset.TOP:
+                choice.go_to(top(Ground.of(state.drawing), choice.lens))
+            case Preset.SIDE:
+                choice.go_to(side(choice.lens, scene.table))
+            case Preset.ROBOT | Preset.FOLLOW:
+                self._following = Following() if preset is Preset.FOLLOW else None
+                choice.ride(self._moving_view(state))
+
+    def _moving_view(self, state: DocumentState) -> Viewpoint:
+        """Return where the camera that follows the work, or that rides on the robot's head, is now."""
+        if self._following is None:
+            return self._robots_eye(state)
+        points = on_table(state.drawing, ring_of(state.drawing.outline).points) or state.drawing.scene.table.corners
+        x, y = np.array(points).mean(axis=0)
+        work = (float(x), float(y)) if state.shown is None else work_of(state.shown, self._document.t_s)
+        return self._following.view(self._base(state), work, self._choice.lens)
+
+    def _robots_eye(self, state: DocumentState) -> Viewpoint:
+        """Return the view from the robot's head where it stands now."""
+        scene, aspect, card = state.drawing.scene, self._choice.lens.aspect, shown_robot(state.drawing.robot)
+        points = on_table(state.drawing, ring_of(state.drawing.outline).points) or scene.table.corners
+        return robots_eye(card, self._base(state), points, aspect, scene.torso_m, -scene.table.height_m)
+
+    def _base(self, state: DocumentState) -> Pose2:
+        """Return where the robot stands now."""
+        if state.shown is not None:
+            return state.shown.timeline.base_at(self._document.t_s)
+        return self._starting_base(state)
+
+    @staticmethod
+    def _starting_base(state: DocumentState) -> Pose2:
+        """Return where the robot waits before a plan begins."""
+        stations = dict(state.drawing.scene.stations)
+        return stations.get(state.drawing.start_station) or next(iter(stations.values()))
+
+    async def _camera_changed(self, _: viser.CameraHandle) -> None:
+        if self._choice.is_opening:
+            self._ask(self._open)

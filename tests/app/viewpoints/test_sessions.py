@@ -1,0 +1,166 @@
+"""Cameras over the wire: messages of viser's page, through the 3D view's own thread, and back."""
+
+import math
+import time
+from collections.abc import Iterator
+
+import pytest
+
+from app.document import Document
+from app.drawing.draft import draft_of
+from app.drawing.garment_drawing import drawing_of
+from app.player import Player
+from app.ui.opening import opening
+from app.ui.stage import Stage
+from app.ui.viewpoints.presets import Preset
+from app.ui.viewpoints.sessions import Sessions
+from app.ui.viser_patches import start_private_viser
+from planner import Scene
+from planner.robots.load_robot import load_robot
+from tests.app.drawing.drawings import towel_drawing
+from tests.app.viewpoints.viewer import EYE, Viewer
+from tests.replay.planned import planned
+
+CARD = load_robot("pr2").card
+
+
+@pytest.fixture(scope="module")
+def opened() -> Iterator[tuple[Document, Stage]]:
+    document, stage = Document(draft_of(towel_drawing())), Stage(CARD, Scene())
+    player = Player(document, stage, Sessions(document, stage.server, stage.opening))
+    yield document, stage
+    player.close()
+    stage.close()
+
+
+def test_a_viewpoint_moves_the_camera_of_the_browser_that_chose_it_alone(opened: tuple[Document, Stage]) -> None:
+    _, stage = opened
+    with Viewer(stage) as viewer, Viewer(stage) as other:
+        for each in (viewer, other):
+            each.until(lambda each=each: each.channel is not None)
+        assert viewer.channel != other.channel
+        opening = [stage.opening.position]  # what a new browser is told
+        assert viewer.camera == other.camera == opening
+        viewer.choose(Preset.TOP)
+        viewer.until(lambda: len(viewer.camera) == 2)
+        assert viewer.camera[1][:2] == pytest.approx((0.0, 0.0), abs=0.01)
+        viewer.choose(Preset.FREE)
+        viewer.until(lambda: len(viewer.camera) == 3)
+        assert viewer.camera[2] == pytest.approx(EYE)
+        other.choose(Preset.SIDE)
+        other.until(lambda: len(other.camera) == 2)
+        assert other.camera[0] == opening[0]
+        assert len(viewer.camera) == 3
+
+
+def test_in_a_tall_picture_the_camera_begins_further_back_and_follows_its_shape(opened: tuple[Document, Stage]) -> None:
+    start, tall, taller = opened[1].opening, (390, 680), (312, 680)
+    with Viewer(opened[1], (3.0, 3.0, 3.0), tall) as viewer:  # a browser's own place, before it is told of another
+        viewer.until(lambda: viewer.channel is not None)
+        viewer.look(start.position, tall)
+        viewer.until(lambda: len(viewer.camera) == 2)
+        assert viewer.camera[1] == pytest.approx(opening(Scene(), 390 / 680).position)
+        viewer.look(viewer.camera[1], taller)
+        viewer.until(lambda: len(viewer.camera) == 3)
+        assert viewer.camera[2] == pytest.approx(opening(Scene(), 312 / 680).position)
+
+
+def test_a_camera_that_somebody_has_moved_stays_where_it_is(opened: tuple[Document, Stage]) -> None:
+    start = opened[1].opening
+    with Viewer(opened[1], start.position, (800, 500)) as viewer:
+        viewer.until(lambda: viewer.channel is not None)
+        viewer.look(EYE, (800, 500))
+        viewer.look(EYE, (390, 680))
+        viewer.look(start.position, (390, 680))  # by hand back to where it began
+        viewer.choose(Preset.TOP)
+        viewer.until(lambda: len(viewer.camera) == 2)
+        assert viewer.camera[1][2] > 2.5  # nothing but the button has moved it
+        assert viewer.camera[1][:2] == pytest.approx((0.0, 0.0), abs=0.01)
+
+
+def test_what_goes_wrong_for_one_session_does_not_stop_the_others(caplog: pytest.LogCaptureFixture) -> None:
+    server, _ = start_private_viser()
+    try:
+        sessions = Sessions(Document(draft_of(towel_drawing())), server, opening(Scene(), 1.0))
+        done: list[str] = []
+        sessions._ask(lambda: done.append(str(1 // 0)))
+        sessions._ask(lambda: done.append("second"))
+        sessions.work()
+        assert done == ["second"]
+        assert "failed" in caplog.text
+    finally:
+        server.stop()
+
+
+@pytest.fixture(scope="module")
+def driven() -> Iterator[tuple[Document, Stage]]:
+    """Open a document with a plan that drives to the table's left, and its stage."""
+    plan = planned("jeans").answer
+    document, stage = Document(draft_of(drawing_of(plan.garment))), Stage(CARD, Scene())
+    task = document.state.task
+    assert task is not None
+    document.settle(document.state.version, task, plan, "id")
+    player = Player(document, stage, Sessions(document, stage.server, stage.opening))
+    yield document, stage
+    player.close()
+    stage.close()
+
+
+def time_at_side(document: Document) -> float:
+    """Return a time at which the robot stands beside the table (s)."""
+    shown = document.state.shown
+    assert shown is not None
+    times = (move.start_s + move.duration_s for move in shown.plan.primitives if move.kind == "move")
+    return next(t for t in times if abs(shown.timeline.base_at(t).y_m) > 0.6)
+
+
+def test_the_robots_eye_goes_along_when_the_base_drives_until_somebody_moves_the_camera(
+    driven: tuple[Document, Stage],
+) -> None:
+    document, stage = driven
+    document.seek(0.0)
+    shown = document.state.shown
+    assert shown is not None
+    with Viewer(stage) as viewer:
+        viewer.until(lambda: viewer.channel is not None)
+        viewer.choose(Preset.ROBOT)
+        viewer.until(lambda: len(viewer.camera) == 2)
+        before = shown.timeline.base_at(0.0)
+        assert math.dist(viewer.camera[-1][:2], (before.x_m, before.y_m)) < 0.4
+        document.seek(at := time_at_side(document))
+        beside = shown.timeline.base_at(at)
+        viewer.until(lambda: math.dist(viewer.camera[-1][:2], (beside.x_m, beside.y_m)) < 0.4)
+        viewer.look(EYE, (800, 500))
+        time.sleep(0.2)
+        moves = len(viewer.camera)
+        document.seek(0.0)
+        time.sleep(0.3)
+        assert len(viewer.camera) == moves
+
+
+def test_a_camera_that_nobody_has_moved_looks_from_the_side_where_the_robot_does_not_stand(
+    driven: tuple[Document, Stage],
+) -> None:
+    document, stage = driven
+    document.seek(0.0)
+    with Viewer(stage, stage.opening.position) as viewer:
+        viewer.until(lambda: viewer.channel is not None)
+        viewer.look(viewer.camera[-1], (800, 500))
+        document.seek(at := time_at_side(document))
+        shown = document.state.shown
+        assert shown is not None
+        beside = shown.timeline.base_at(at)
+        viewer.until(lambda: viewer.camera[-1][1] * beside.y_m < 0.0)
+
+
+def test_a_camera_that_somebody_has_moved_stays_though_the_robot_stands_before_it(
+    driven: tuple[Document, Stage],
+) -> None:
+    document, stage = driven
+    document.seek(0.0)
+    with Viewer(stage) as viewer:
+        viewer.until(lambda: viewer.channel is not None)
+        moves = len(viewer.camera)
+        document.seek(time_at_side(document))
+        time.sleep(0.3)
+        assert len(viewer.camera) == moves

@@ -1,0 +1,100 @@
+"""A viewer of the 3D view without a browser: it sends the messages of viser's page, and reads what the page reads."""
+
+import time
+from collections.abc import Callable
+from typing import Any
+
+import msgspec.msgpack
+import zstandard
+from websockets.sync.client import connect
+
+from app.ui.stage import Stage
+from app.ui.viewpoints.presets import Preset
+from app.ui.viewpoints.viewpoint_choice import CHANNEL
+from app.ui.viser_patches import LOOPBACK, SECRET_HEADER
+from planner.geometry.pose import Point3
+from tests.patience import PATIENCE_S
+
+SUBPROTOCOL = "viser-v1.1.1"
+EYE = (0.0, 0.0, 2.0)
+
+
+class Viewer:
+    """A viewer that looks at the middle of the table from 2 m above it, unless its camera is set.
+
+    Attributes:
+        nodes: the names of the scene's nodes.
+        camera: the places that the server has sent the camera to.
+    """
+
+    def __init__(self, stage: Stage, eye: Point3 = EYE, size: tuple[int, int] = (800, 500)) -> None:
+        self._socket = connect(
+            f"ws://{LOOPBACK}:{stage.port}",
+            subprotocols=[SUBPROTOCOL],  # type: ignore[list-item]
+            additional_headers={SECRET_HEADER: stage.secret},
+            proxy=None,
+            max_size=None,
+        )
+        self.nodes: set[str] = set()
+        self.camera: list[tuple[float, ...]] = []
+        self.look(eye, size)
+
+    def look(self, eye: Point3, size: tuple[int, int]) -> None:
+        """Report the camera's pose, and the picture's width and height (px)."""
+        self._say(
+            "ViewerCameraMessage",
+            wxyz=(0.0, 1.0, 0.0, 0.0),
+            position=eye,
+            fov=0.72,
+            near=0.01,
+            far=1000.0,
+            image_height=size[1],
+            image_width=size[0],
+            look_at=(0.0, 0.0, 0.0),
+            up_direction=(0.0, 0.0, 1.0),
+        )
+
+    def __enter__(self) -> "Viewer":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._socket.close()
+
+    def until(self, condition: Callable[[], Any]) -> None:
+        """Read on until a condition holds."""
+        deadline = time.monotonic() + PATIENCE_S
+        while not condition():
+            assert time.monotonic() < deadline
+            self._read()
+
+    def choose(self, preset: Preset) -> None:
+        """Choose a viewpoint, as the page does."""
+        self.until(lambda: self.channel is not None)
+        self._say("GuiUpdateMessage", uuid=str(self.channel).removeprefix(CHANNEL), updates={"value": str(preset)})
+
+    @property
+    def channel(self) -> str | None:
+        """The node that names its session's choice of a viewpoint; None before it is there."""
+        return next((name for name in self.nodes if name.startswith(CHANNEL)), None)
+
+    def _say(self, kind: str, **fields: Any) -> None:
+        self._socket.send(msgspec.msgpack.encode({"type": kind, **fields}))
+
+    def _read(self) -> None:
+        try:
+            raw = self._socket.recv(timeout=0.2)
+        except TimeoutError:
+            return
+        assert isinstance(raw, bytes)
+        packed = raw[16 : 16 + int.from_bytes(raw[8:16], "little")]
+        for message in msgspec.msgpack.decode(zstandard.ZstdDecompressor().decompress(packed))["messages"]:
+            self._take(message)
+
+    def _take(self, message: dict[str, Any]) -> None:
+        kind, name = message["type"], message.get("name")
+        if kind == "RemoveSceneNodeMessage":
+            self.nodes.discard(str(name))
+        elif kind == "SetCameraPositionMessage":
+            self.camera.append(tuple(message["position"]))
+        elif name and "props" in message:
+            self.nodes.add(name)
