@@ -59,7 +59,7 @@ test-quick: $(READY_DEV) $(KERNELS) ## the tests that are quick and need no brow
 	$(PYTEST) -n $(JOBS) --dist loadfile --no-loadscope-reorder -m "not browser and not slow and not long"
 
 test: $(READY_DEV) $(KERNELS) browser nginx ## every test but the longest, the property laws on a few hundred random cases
-	$(PYTEST) -n $(JOBS) --dist loadfile --no-loadscope-reorder -m "not long"
+	$(PYTEST) -n $(JOBS) --dist loadfile --no-loadscope-reorder -m "not long" --durations=50
 
 test-long: $(READY_DEV) $(KERNELS) browser nginx ## every test, the laws on thousands of random cases
 	$(PYTEST) -n $(JOBS) --dist loadfile --no-loadscope-reorder --hypothesis-profile=long

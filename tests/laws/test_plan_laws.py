@@ -39,7 +39,7 @@ def require_same(seed: int, image: Callable[[Problem], Problem], rel: float = 0.
 
 
 @given(SEEDS)
-@law("plan", short=5, long=300)
+@law("plan", short=2, long=300)
 @example(169)  # a grip .3 mm beside the middle of the robot, which either arm may take
 @example(174)  # a hand that turns by half a turn in its grip
 def test_a_mirror_image_has_the_same_answer(seed: int):

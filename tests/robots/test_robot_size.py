@@ -4,11 +4,11 @@ import gc
 from types import FunctionType, ModuleType
 
 import numpy as np
-import pytest
 
 from planner.robots.described_robot import read_robot
 from planner.robots.load_robot import load_robot
 from planner.robots.mapped_arm import all_arms
+from tests.sweep import sweep
 
 NONE_OF_IT = (type, ModuleType, FunctionType)
 
@@ -29,7 +29,7 @@ def held_mb(root: object) -> float:
     return size / 1e6
 
 
-@pytest.mark.parametrize("name", ["so101-pair", "ur5e-pair"])
+@sweep("name", ["so101-pair", "ur5e-pair"], quick=["so101-pair"])
 def test_the_maps_of_a_robots_arms_are_in_memory_once(name: str) -> None:
     robot = load_robot(name)
     robot.forget_reach()  # what other tests have asked of it is more than its maps
