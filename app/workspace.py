@@ -21,7 +21,6 @@ from app.store.database import Database
 from app.store.document_repository import DocumentRepository, KeptDocument
 from app.store.garment_repository import GarmentRepository
 from app.store.job_repository import JobRepository
-from app.store.older.take_over import take_over
 from app.store.plan_store import PlanStore
 from app.store.robot_repository import RobotRepository
 from app.store.share_repository import ShareRepository
@@ -91,13 +90,12 @@ class Workspace:
         self._closing = threading.Event()
 
     def prepare(self) -> None:
-        """Open the database, and take over what versions before it have kept as files.
+        """Open the database.
 
         Raises:
             StorageError: the system or the database refuses.
-            NewerDatabaseError: a newer version of Pleat has changed the tables.
+            OtherDatabaseError: another version of Pleat has made the tables.
         """
-        take_over(self.folder, self.database)
         with self.database.reading("the database cannot be used"):
             pass
 

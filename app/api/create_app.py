@@ -43,7 +43,6 @@ from app.api.shared import Shared
 from app.api.token_only import TokenOnly
 from app.api.whole_requests import WholeRequests
 from app.job_kinds.kinds import KINDS
-from app.job_kinds.studies import take_studies_over
 from app.server.request_id import RequestIds
 from app.settings import Settings
 from app.store.access_token import AccessToken
@@ -61,7 +60,6 @@ def create_app(settings: Settings, token: AccessToken | None = None) -> FastAPI:
 
     @asynccontextmanager
     async def lifespan(_: FastAPI) -> AsyncIterator[None]:
-        await run_in_threadpool(take_studies_over, workspace.study_store)
         await run_in_threadpool(workspace.start)
         try:
             yield

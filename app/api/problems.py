@@ -20,7 +20,7 @@ from app.jobs.apart import PlannerNotLoadedError, StoppedError
 from app.jobs.job_desk import ForeignJobError
 from app.jobs.job_pool import BusyError
 from app.jobs.limits import TooManyError
-from app.store.database import NewerDatabaseError
+from app.store.database import OtherDatabaseError
 from app.store.document_errors import BrokenDocumentError, NewerDocumentError, UnknownDocumentError
 from app.store.job_repository import UnknownJobError
 from app.store.plan_store import UnknownPlanError
@@ -66,7 +66,7 @@ _STATUS_OF: dict[type[FoldingError], int] = {
     UnknownStudyError: 404,
     BrokenDocumentError: 422,
     NewerDocumentError: 409,
-    NewerDatabaseError: 409,
+    OtherDatabaseError: 409,
     ForbiddenStorageError: 403,
     LookOnlyError: 403,
     FullStorageError: 507,

@@ -7,7 +7,7 @@ from typing import Any
 
 from app.jobs.job_kind import JobKind, Stores
 from app.store.storage_error import storing
-from app.store.study_store import ID_PATTERN, StudyStore
+from app.store.study_store import StudyStore
 from app.studies.garment_entries import Sources
 from app.studies.results import Results
 from app.studies.study import Study
@@ -15,7 +15,7 @@ from app.studies.study_fields import StudyFields
 from app.studies.study_file import study_of
 from app.studies.study_job import do_study
 from app.studies.table import CSV, PARQUET, TIMING
-from planner.errors import FoldingError, RequestError
+from planner.errors import RequestError
 from planner.robots.known_robots import require_name
 
 CELLS_LIMIT = 10_000
@@ -66,17 +66,6 @@ def keep_study(studies: StudyStore, study_id: str) -> bool:
         return False
     studies.keep(study_id, study.title, json.dumps(study.to_dict()), files)
     return True
-
-
-def take_studies_over(studies: StudyStore) -> None:
-    """Put the studies into the database that versions before have kept as folders alone; their folders stay."""
-    folders = [path.name for path in sorted(studies.folder.glob("*")) if ID_PATTERN.fullmatch(path.name)]
-    known = studies.known() if folders else ()
-    for study_id in (name for name in folders if name not in known):
-        try:
-            keep_study(studies, study_id)
-        except FoldingError as error:
-            _log.warning("study %s could not be taken over: %s", study_id, error)
 
 
 STUDIES = JobKind(

@@ -76,8 +76,6 @@ class DataFolder:
 
     Attributes:
         path: the folder.
-        garments: the folder in which versions before the database kept garments.
-        documents: the folder in which they kept documents.
         robots: the folder of robots.
         database: the file of the database.
         token: the file of the token's hash.
@@ -87,8 +85,6 @@ class DataFolder:
     def __init__(self, path: Path) -> None:
         """Describe the folder without touching the disk."""
         self.path = path
-        self.garments = path / "garments"
-        self.documents = path / "documents"
         self.robots = path / ROBOTS
         self.database = path / "pleat.db"
         self.token = path / "token.json"

@@ -33,13 +33,13 @@ _log = logging.getLogger(__name__)
 
 
 @dataclass
-class NewerDatabaseError(FoldingError):
-    """A newer version of Pleat has changed the tables."""
+class OtherDatabaseError(FoldingError):
+    """Another version of Pleat has made the tables, from which no migration leads to this one's."""
 
     where: str
 
     def __str__(self) -> str:
-        return f"{self.where} belongs to a newer version of Pleat; use that one, or another database"
+        return f"{self.where} belongs to another version of Pleat; use that one, or another database"
 
 
 class BadDatabaseUrlError(FoldingError):
@@ -108,7 +108,7 @@ class Database:
 
         Raises:
             StorageError: the system or the database refuses.
-            NewerDatabaseError: a newer version of Pleat has changed the tables.
+            OtherDatabaseError: another version of Pleat has made the tables.
         """
         with self._session(what, None) as session:
             yield session
@@ -125,7 +125,7 @@ class Database:
 
         Raises:
             StorageError: the system or the database refuses.
-            NewerDatabaseError: a newer version of Pleat has changed the tables.
+            OtherDatabaseError: another version of Pleat has made the tables.
         """
         with self._session(what, is_synced) as session:
             if is_lasting and self.is_copy:
@@ -159,7 +159,7 @@ class Database:
 
         Raises:
             DBAPIError: the database refuses.
-            NewerDatabaseError: a newer version of Pleat has changed the tables.
+            OtherDatabaseError: another version of Pleat has made the tables.
         """
         with self._lock:
             if self._engine is None:
@@ -232,4 +232,4 @@ class Database:
             try:
                 upgrade(config, "head")
             except CommandError:
-                raise NewerDatabaseError(str(self.path or "the database")) from None
+                raise OtherDatabaseError(str(self.path or "the database")) from None

@@ -23,7 +23,7 @@ from app.store.tape import Tape, TapeChange, tape_of, whole
 from planner.task.world_state import WorldState
 
 FORMAT = 4
-"""The newest format number of documents in the database; 1 and 2 were files (see `app.store.older`)."""
+"""The newest format number of documents in the database."""
 
 _STRAIGHT = 3
 """The format number of documents without curves, which versions that know no curves read."""

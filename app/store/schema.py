@@ -1,4 +1,4 @@
-"""The tables of the database; `migrations` has the steps that lead to them from every version before."""
+"""The tables of the database; `migrations` has the steps that lead to them."""
 
 from sqlalchemy import BigInteger, ForeignKey, Index, LargeBinary, Text
 from sqlalchemy.orm import DeclarativeBase, Mapped, mapped_column
@@ -43,8 +43,8 @@ class DocumentRow(Table):
     Its steps are those numbered from `first` on; `now` is the current one, those after it are what redo restores.
     `revision` counts the commits, so that a server notices that another one was quicker. `changed_at` is UTC, as in RFC
     3339, and `opened_s` seconds since the epoch. `preview` is the drawing that a gesture in progress has led to, and
-    `start` the world state from which the drawing is planned, both as JSON. A file of an older version that could not
-    be taken over is a document without steps: `problem` says why, and `format` is the file's if it is a newer one.
+    `start` the world state from which the drawing is planned, both as JSON. A document
+    that cannot be read has no steps: `problem` says why.
     """
 
     __tablename__ = "documents"

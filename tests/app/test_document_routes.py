@@ -4,15 +4,15 @@ import asyncio
 import itertools
 import math
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import httpx
 import pytest
+from sqlalchemy import text
 
+from app.workspace import Workspace
 from tests.app.document_requests import created, moved, put
 from tests.app.samples import towel
-from tests.app.store.drafts import TOWEL, older_file
 from tests.app.test_garbage import BODIES, assert_problem
 
 pytestmark = pytest.mark.anyio
@@ -97,25 +97,25 @@ async def test_a_long_list_comes_in_pages_each_of_which_leads_to_the_next(client
         assert (await client.get("/api/documents", params={"after": after})).status_code == 200
 
 
-@pytest.mark.parametrize("format_", [2, 99])
-async def test_a_document_of_a_newer_version_is_refused_by_it(
-    client: httpx.AsyncClient, tmp_path: Path, format_: int
-) -> None:
-    state = await created(client)
-    path = tmp_path / "documents" / "newer222.json"
-    path.parent.mkdir()
-    path.write_text(older_file("newer222", 3, TOWEL, format_))
-    before = path.read_bytes()
-    client._transport.app.state.workspace.prepare()  # type: ignore[attr-defined]
+def spoil(client: httpx.AsyncClient, document_id: str, change: str) -> None:
+    """Close all documents, and change a row of one as no server would."""
+    workspace: Workspace = client._transport.app.state.workspace  # type: ignore[attr-defined]
+    workspace.close_unused(0.0)
+    with workspace.database.writing("try") as session:
+        session.execute(text(f"UPDATE {change} = :id"), {"id": document_id})
+
+
+async def test_a_document_of_a_newer_version_is_refused_by_it(client: httpx.AsyncClient) -> None:
+    newer, state = await created(client), await created(client)
+    spoil(client, newer["id"], "documents SET format = 99 WHERE id")
     for answer in (
-        await client.get("/api/documents/newer222"),
-        await put(client, {**state, "id": "newer222"}, state["drawing"]),
-        await client.post("/api/documents", json={"copy_of": "newer222"}),
+        await client.get(f"/api/documents/{newer['id']}"),
+        await put(client, newer, newer["drawing"]),
+        await client.post("/api/documents", json={"copy_of": newer["id"]}),
     ):
-        assert f"format {format_}" in assert_problem(answer, 409)["detail"]
-    assert [one["id"] for one in (await client.get("/api/documents")).json() if one["problem"]] == ["newer222"]
+        assert "format 99" in assert_problem(answer, 409)["detail"]
+    assert [one["id"] for one in (await client.get("/api/documents")).json() if one["problem"]] == [newer["id"]]
     assert (await client.get("/")).headers["location"] == f"/d/{state['id']}"
-    assert (tmp_path / "before-database" / "documents" / "newer222.json").read_bytes() == before
 
 
 @pytest.mark.parametrize("body", BODIES.values(), ids=BODIES.keys())
@@ -215,15 +215,12 @@ async def test_the_page_of_a_document_that_is_not_there_says_so(client: httpx.As
     assert "text/html" in answer.headers["content-type"]
 
 
-async def test_a_spoilt_document_is_told_of_and_leads_nobody_astray(client: httpx.AsyncClient, tmp_path: Path) -> None:
-    state = await created(client)
-    folder = tmp_path / "documents"
-    folder.mkdir()
-    (folder / "spoilt22.json").write_text("{")
-    client._transport.app.state.workspace.prepare()  # type: ignore[attr-defined]
-    assert_problem(await client.get("/api/documents/spoilt22"), 422)
+async def test_a_spoilt_document_is_told_of_and_leads_nobody_astray(client: httpx.AsyncClient) -> None:
+    spoilt, state = await created(client), await created(client)
+    spoil(client, spoilt["id"], "document_steps SET drawing = '{' WHERE document_id")
+    assert_problem(await client.get(f"/api/documents/{spoilt['id']}"), 422)
     entries = (await client.get("/api/documents")).json()
-    assert [entry["id"] for entry in entries if entry["problem"]] == ["spoilt22"]
+    assert [entry["id"] for entry in entries if entry["problem"]] == [spoilt["id"]]
     assert (await client.get("/")).headers["location"] == f"/d/{state['id']}"
 
 

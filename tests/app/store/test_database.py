@@ -1,4 +1,6 @@
+import sqlite3
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
 
@@ -8,12 +10,17 @@ from alembic.migration import MigrationContext
 from sqlalchemy import delete, func, select, text
 
 from app.store import job_repository
-from app.store.database import BadDatabaseUrlError, Database, NewerDatabaseError
+from app.store.database import BadDatabaseUrlError, Database, OtherDatabaseError
+from app.store.document_repository import DocumentRepository
+from app.store.garment_repository import GarmentRepository
 from app.store.job_repository import JobRepository, UnknownJobError
 from app.store.schema import JobRow, Table
 from app.store.storage_error import ForbiddenStorageError, StorageError
 from tests.app.refused import refused
 from tests.databases import emptied
+
+TODAY = Path(__file__).parent / "today.sql"
+"""A data folder's database with the tables of the first release: a document and a garment are in it."""
 
 
 def test_the_migrations_lead_to_the_tables_of_the_code(database: Database) -> None:
@@ -21,12 +28,27 @@ def test_the_migrations_lead_to_the_tables_of_the_code(database: Database) -> No
         assert compare_metadata(MigrationContext.configure(connection), Table.metadata) == []
 
 
-def test_a_database_of_a_newer_version_is_refused_and_left_alone(database: Database) -> None:
+def test_a_data_folder_with_todays_tables_is_taken_over_with_all_that_is_in_it(tmp_path: Path) -> None:
+    with closing(sqlite3.connect(tmp_path / "pleat.db")) as file:
+        file.executescript(TODAY.read_text())
+    database = Database(tmp_path / "pleat.db")
+    assert database.problem() is None
+    with database.engine().connect() as connection:
+        assert compare_metadata(MigrationContext.configure(connection), Table.metadata) == []
+    documents, garments = DocumentRepository(database), GarmentRepository(database)
+    (listed,) = documents.page(None, 10).entries
+    assert (listed.id, listed.title, listed.problem) == ("t93vw8un", "Towel", None)
+    assert garments.garment("towel").folds == ()
+    database.close()
+
+
+@pytest.mark.parametrize("version", ["0006", "9999"])
+def test_a_database_of_another_version_is_refused_and_left_alone(database: Database, version: str) -> None:
     with database.writing("try") as session:
-        session.execute(text("UPDATE alembic_version SET version_num = '9999'"))
+        session.execute(text(f"UPDATE alembic_version SET version_num = '{version}'"))
     database.close()
     before = [] if database.path is None else [database.path.read_bytes()]
-    with pytest.raises(NewerDatabaseError), database.reading("try"):
+    with pytest.raises(OtherDatabaseError), database.reading("try"):
         pass
     assert before == ([] if database.path is None else [database.path.read_bytes()])
 

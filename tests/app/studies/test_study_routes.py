@@ -8,7 +8,7 @@ import httpx
 import pytest
 from pyarrow import parquet
 
-from app.job_kinds.studies import take_studies_over
+from app.job_kinds.studies import keep_study
 from app.store.database import Database
 from app.store.study_store import StudyStore, UnknownStudyError
 from app.studies.results import Results
@@ -74,7 +74,7 @@ async def test_files_that_are_not_a_studys_are_not_found(client: httpx.AsyncClie
     assert {answer.status_code for answer in answers} == {404}
 
 
-async def test_a_study_of_a_version_that_kept_folders_alone_is_taken_over(tmp_path: Path) -> None:
+async def test_a_study_that_is_done_goes_from_its_folder_into_the_database(tmp_path: Path) -> None:
     folder, asked = tmp_path / "studies", study()
     with Results(folder / study_id(asked)) as results:
         results.begin(asked, resume=True)
@@ -82,7 +82,8 @@ async def test_a_study_of_a_version_that_kept_folders_alone_is_taken_over(tmp_pa
     (folder / ("0" * 32)).mkdir()  # one that is not done
     with closing(Database(tmp_path / "pleat.db")) as database:
         store = StudyStore(folder, database)
-        take_studies_over(store)
+        assert keep_study(store, study_id(asked))
+        assert not keep_study(store, "0" * 32)
         assert store.known() == {study_id(asked)}
         elsewhere = StudyStore(tmp_path / "elsewhere", database)
         assert elsewhere.file(study_id(asked), CSV) == (folder / study_id(asked) / CSV).read_bytes()
