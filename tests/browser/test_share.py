@@ -14,6 +14,7 @@ NewSheet = Callable[[Garment], Sheet]
 def test_the_page_of_a_link_plays_and_has_nothing_that_changes_the_document(page: Page, new_sheet: NewSheet) -> None:
     sheet = new_sheet("scarf")
     page.goto(sheet.page_url)
+    expect(page.locator(".hint-line")).to_contain_text("Drag corners")
     page.get_by_role("button", name="Share").click()
     link = page.get_by_role("textbox", name="Link")
     expect(link).to_have_value(re.compile(r"^http://.*/s/[\w-]+/d/\w+$"))
@@ -24,6 +25,7 @@ def test_the_page_of_a_link_plays_and_has_nothing_that_changes_the_document(page
     for name in ("Undo", "Redo", "Rename", "Share", "New", "Import"):
         expect(page.get_by_role("button", name=name, exact=True)).to_have_count(0)
     expect(page.locator("#rail")).to_have_count(0)
+    expect(page.locator(".hint-line")).to_be_empty()
     expect(page.get_by_role("button", name="Export", exact=True)).to_be_visible()
     before = sheet.state
     page.mouse.click(300, 300)
