@@ -1,6 +1,6 @@
 """Rules of drawing by hand: what a pointer snaps to, when an outline closes, what folds are called, what is refused.
 
-Both editors keep them. The stage's calls these functions. The board cannot ask the server at every move of a hand: it
+Both editors keep them. The 3D view's calls these functions. The board cannot ask the server at every move of a hand: it
 has the numbers and sentences from `static/js/board/rules.js`, which `app.drawing.page_rules` writes, and tests hold its
 own snapping, corners and names against these.
 """
@@ -28,7 +28,7 @@ SNAP_PX: Final = {
     "grid": 4.0,
     "line": 4.0,
 }
-"""The snapping distance of each kind of target (px), the strongest kind first; the stage has no grid or guides."""
+"""The snapping distance of each kind of target (px), the strongest kind first; the 3D view has no grid or guides."""
 
 FRACTIONS: Final = ((1, 2), (1, 3), (2, 3), (1, 4), (3, 4))
 """The fractions of an edge that a pointer snaps to, as numerator and denominator."""
@@ -37,7 +37,7 @@ HANDLE_PX: Final = 12.0
 """The distance within which a mouse grabs a handle (px)."""
 
 FINGER_PX: Final = 22.0
-"""The same for a finger (px), and for any pointer on the stage, where fingers are not told from mice."""
+"""The same for a finger (px), and for any pointer in the 3D view, where fingers are not told from mice."""
 
 LEAST_CORNERS: Final = 3
 """The fewest corners with which an outline can be closed."""

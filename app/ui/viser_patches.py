@@ -1,7 +1,7 @@
 """All changes to viser, with their reasons; `tests/app/test_viser_patches.py` fails where viser changes under them.
 
 **A server that only this process can reach.** viser listens on a port of its own without authentication, so any web
-page open in a browser on this machine could connect to it and read the scene. A stage is reached through the one public
+page open in a browser on this machine could connect to it and read the scene. A 3D view is reached through the public
 address only: the viser port requires a secret header, which our proxy knows and which no page can send along with a
 websocket. viser has no option for that, and makes its websocket server inside a function, so no subclass can change it.
 But when it starts it passes a `process_request` hook to `websockets.asyncio.server.serve`, and during the start we put
@@ -36,15 +36,15 @@ from websockets.http11 import Request, Response
 from app.language import LANGUAGES, say
 
 LOOPBACK = "127.0.0.1"
-SECRET_HEADER = "X-Pleat-Stage"
+SECRET_HEADER = "X-Pleat-View"
 
 VISER_PAGE = Path(viser.__file__).parent / "client" / "build" / "index.html"
-"""The page that shows a stage: a single self-contained file."""
+"""The page that shows a 3D view: a single self-contained file."""
 
 PANEL = "panel.label"
 """The key of the label by which the visitor's panel is found, in any language."""
 
-SEATED = "pleat-seated"
+SESSION_STARTED = "pleat-session-started"
 """The frame's message to the page once the visitor's own panel is there."""
 
 PHONE_WIDTH = "(max-width: 36em)"
@@ -80,22 +80,22 @@ _LABELS = b"""<script>{
     };
   }
 }</script>"""
-_UNSEATED = f"""<script>{{
+_WITHOUT_SESSION = f"""<script>{{
   const watch = new MutationObserver(() => {{
     if (!document.querySelector("#root canvas")) return;
     watch.disconnect();
-    parent.postMessage("{SEATED}", location.origin);
+    parent.postMessage("{SESSION_STARTED}", location.origin);
   }});
   watch.observe(document.documentElement, {{ childList: true, subtree: true }});
 }}</script>""".encode()
-_SEATED = f"""<script>{{
+_WITH_SESSION = f"""<script>{{
   const labels = {json.dumps([say(language, PANEL) for language in LANGUAGES])};
-  const isSeated = () => [...document.querySelectorAll("#root *")].some(
+  const hasSession = () => [...document.querySelectorAll("#root *")].some(
     (part) => !part.childElementCount && labels.includes(part.textContent));
   const watch = new MutationObserver(() => {{
-    if (!isSeated()) return;
+    if (!hasSession()) return;
     watch.disconnect();
-    parent.postMessage("{SEATED}", location.origin);
+    parent.postMessage("{SESSION_STARTED}", location.origin);
   }});
   watch.observe(document.documentElement, {{ childList: true, subtree: true, characterData: true }});
 }}</script>""".encode()
@@ -139,13 +139,13 @@ def _guarded(hook: _Hook, secret: str) -> _Hook:
 
 
 @functools.lru_cache(maxsize=2)
-def stage_page(*, is_seated: bool = True) -> bytes:
-    """Return the page that shows a stage: viser's page with our additions.
+def view_page(*, has_session: bool = True) -> bytes:
+    """Return the page that shows a 3D view: viser's page with our additions.
 
     Args:
-        is_seated: whether its visitor has a panel; one by a link has none, and viser's own has no place there.
+        has_session: whether its visitor has a panel; one by a link has none, and viser's own has no place there.
     """
-    styles = _HIDE + _GROUND + (_PANELS if is_seated else b"")
-    scripts = _NARROW + _LABELS + (_SEATED if is_seated else _UNSEATED)
+    styles = _HIDE + _GROUND + (_PANELS if has_session else b"")
+    scripts = _NARROW + _LABELS + (_WITH_SESSION if has_session else _WITHOUT_SESSION)
     styled = VISER_PAGE.read_bytes().replace(b"</head>", styles + b"</head>", 1)
     return styled.replace(b"<head>", b"<head>" + scripts, 1)

@@ -192,7 +192,7 @@ def test_a_plan_that_reads_the_same_as_what_any_takes_is_told_with_the_differenc
     assert asked(page, "numbers", f"m.quicker({cost_s}, {least_s})", room="dock") == said
 
 
-def test_the_board_names_folds_as_the_stage_does(page: Page) -> None:
+def test_the_board_names_folds_as_the_3d_view_does(page: Page) -> None:
     rng = Random(71)
     ways = [(rng.uniform(-1, 1), rng.uniform(-1, 1)) for _ in range(60)] + [(0, 1), (1, 0), (0, -1), (-1, 0), (1, 1)]
     taken = [["left over", "top down", "top down 2"][: rng.randint(0, 3)] for _ in ways]
@@ -201,7 +201,7 @@ def test_the_board_names_folds_as_the_stage_does(page: Page) -> None:
     assert named == [fold_name(way, names) for way, names in zip(ways, taken, strict=True)]
 
 
-def test_an_outline_goes_on_and_ends_on_the_board_as_on_the_stage(page: Page) -> None:
+def test_an_outline_goes_on_and_ends_on_the_board_as_in_the_3d_view(page: Page) -> None:
     rng = Random(72)
     asks = []
     for count in (*range(8), POINTS_MAX - 1, POINTS_MAX):
@@ -227,7 +227,7 @@ def strongest(page: Page, points: list[Point2], scale: float, to: dict[str, Any]
     )
 
 
-def test_a_pointer_on_the_board_means_what_it_means_on_the_stage(page: Page) -> None:
+def test_a_pointer_on_the_board_means_what_it_means_in_the_3d_view(page: Page) -> None:
     ring, scale = [(0.0, 0.0), (0.35, 0.03), (0.4, 0.4), (-0.1, 0.3)], 700.0
     rng = Random(73)
     points = [(rng.uniform(-0.15, 0.45), rng.uniform(-0.05, 0.45)) for _ in range(150)]
@@ -244,7 +244,7 @@ def test_a_pointer_on_the_board_means_what_it_means_on_the_stage(page: Page) -> 
     assert kinds == {"vertex", "fraction", "edge", None}
 
 
-def test_an_edge_bends_on_the_board_as_on_the_stage(page: Page) -> None:
+def test_an_edge_bends_on_the_board_as_in_the_3d_view(page: Page) -> None:
     a, b, scale = (0.1, 0.0), (0.4, 0.2), 700.0
     rng = Random(74)
     points = [(rng.uniform(-0.1, 0.5), rng.uniform(-0.2, 0.5)) for _ in range(150)]

@@ -15,11 +15,11 @@ from app.drawing.solution import landed_rings
 from app.language import say, translated
 from app.ui.editor.aids import Aids, Ghost, Pile, closed
 from app.ui.editor.aim import Aim
+from app.ui.editor.document_writer import DocumentWriter
+from app.ui.editor.drawing_messages import localized
 from app.ui.editor.ground import Ground, in_article, on_table
 from app.ui.editor.mode import FoldKind
-from app.ui.editor.pencil import Pencil
 from app.ui.editor.refusal import RefusedError
-from app.ui.editor.spoken import spoken
 from app.ui.editor.tool import Tool
 from planner.cloth.garment import FIRST_IS_RED
 from planner.folds.fold_cloth import flap_silhouette
@@ -50,24 +50,24 @@ class DrawFold(Tool):
         kind: the kind of fold drawn.
     """
 
-    def __init__(self, pencil: Pencil) -> None:
-        """Take the pencil that writes into the document."""
+    def __init__(self, writer: DocumentWriter) -> None:
+        """Take the writer that writes into the document."""
         self.kind = FoldKind.BLUE
-        self._pencil = pencil
+        self._writer = writer
         self._stroke: _Stroke | None = None
         self._found: PlacedCrease | None = None
 
     def hint(self) -> str:
         """Return what to do now."""
         if self._stroke is not None:
-            return say(self._pencil.state.language, "stage.line_to_edge")
-        if len(self._pencil.state.solution.cloths) > 1:
-            return say(self._pencil.state.language, "stage.line_folded")
-        return say(self._pencil.state.language, "stage.line_flat")
+            return say(self._writer.state.language, "view3d.line_to_edge")
+        if len(self._writer.state.solution.cloths) > 1:
+            return say(self._writer.state.language, "view3d.line_folded")
+        return say(self._writer.state.language, "view3d.line_flat")
 
     def press(self, aim: Aim) -> None:
         """Begin a line."""
-        state = self._pencil.state
+        state = self._writer.state
         start = _snapped(state, aim, self._seen(state))
         self._stroke = _Stroke(start, start, Ground.of(state.drawing))
 
@@ -75,7 +75,7 @@ class DrawFold(Tool):
         """Draw the line up to the pointer."""
         if self._stroke is None or aim is None:
             return
-        state = self._pencil.state
+        state = self._writer.state
         self._found, self._stroke = None, replace(self._stroke, end=_snapped(state, aim, self._seen(state)))
         self._found = self._placed(state, self._stroke)
 
@@ -86,10 +86,10 @@ class DrawFold(Tool):
             return
         self.put_down()
         if aim is None or not stroke.ground.holds(aim.point):
-            raise RefusedError(say(self._pencil.state.language, "rule.off_table_no_fold"))
-        state = self._pencil.state
+            raise RefusedError(say(self._writer.state.language, "rule.off_table_no_fold"))
+        state = self._writer.state
         drawn = replace(stroke, end=_snapped(state, aim, self._seen(state)))
-        self._pencil.commit(DRAW_FOLD, lambda now: self._folded(now, drawn))
+        self._writer.commit(DRAW_FOLD, lambda now: self._folded(now, drawn))
 
     def tap(self, aim: Aim) -> None:
         """Begin a line, or end it."""
@@ -100,7 +100,7 @@ class DrawFold(Tool):
 
     def last(self) -> str | None:
         """Return the label of the line that has been begun."""
-        return say(self._pencil.state.language, "stage.line") if self._stroke is not None else None
+        return say(self._writer.state.language, "view3d.line") if self._stroke is not None else None
 
     def put_down(self) -> None:
         """Drop the line that has been begun."""
@@ -128,11 +128,11 @@ class DrawFold(Tool):
         legal = len(solution.cloths) - 1
         if legal < len(state.drawing.folds):
             problems = (problem for problem in solution.problems if problem.fold == legal)
-            told = (spoken(state.language, problem.says, problem.message) for problem in problems)
-            why = next(told, say(state.language, "stage.not_legal"))
+            told = (localized(state.language, problem.says, problem.message) for problem in problems)
+            why = next(told, say(state.language, "view3d.not_legal"))
             name = translated(state.language, state.drawing.folds[legal].name)
             raise RefusedError(
-                as_sentence(say(state.language, "stage.fix_first", number=legal + 1, name=name, why=why))
+                as_sentence(say(state.language, "view3d.fix_first", number=legal + 1, name=name, why=why))
             )
         refuse_too_many(solution)
         if self._is_red and legal == 0:
@@ -142,7 +142,7 @@ class DrawFold(Tool):
     def _placed(self, state: DocumentState, stroke: _Stroke) -> PlacedCrease:
         start, end = (in_article(state.drawing, point) for point in (stroke.start, stroke.end))
         if math.dist(start, end) < STROKE_MIN_M:
-            raise RefusedError(say(self._pencil.state.language, "rule.drag_on"))
+            raise RefusedError(say(self._writer.state.language, "rule.drag_on"))
         return along_line(state.solution, None, Segment(start, end), is_red=self._is_red)
 
     def _folded(self, state: DocumentState, stroke: _Stroke) -> Drawing:

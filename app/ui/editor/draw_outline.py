@@ -19,10 +19,10 @@ from app.drawing.rules import (
 from app.language import say, translated
 from app.ui.editor.aids import Aids
 from app.ui.editor.aim import Aim
+from app.ui.editor.document_writer import DocumentWriter
+from app.ui.editor.drawing_messages import localized
 from app.ui.editor.ground import Ground, in_article
-from app.ui.editor.pencil import Pencil
 from app.ui.editor.refusal import RefusedError
-from app.ui.editor.spoken import spoken
 from app.ui.editor.tool import Tool
 from planner.geometry.pose import Point2
 
@@ -32,9 +32,9 @@ _REFUSALS: Final = {"taken": CORNER_TAKEN, "full": TOO_MANY_CORNERS}
 class DrawOutline(Tool):
     """Draws an outline, whose corners stay in the table frame until it is closed."""
 
-    def __init__(self, pencil: Pencil) -> None:
-        """Take the pencil that writes into the document."""
-        self._pencil = pencil
+    def __init__(self, writer: DocumentWriter) -> None:
+        """Take the writer that writes into the document."""
+        self._writer = writer
         self._points: tuple[Point2, ...] = ()
         self._is_closed = False
 
@@ -42,12 +42,12 @@ class DrawOutline(Tool):
         """Return what to do now."""
         count = len(self._points)
         if count == 0 and self._is_closed:
-            return say(self._pencil.state.language, "stage.outline_closed")
+            return say(self._writer.state.language, "view3d.outline_closed")
         if count == 0:
-            return say(self._pencil.state.language, "stage.outline_begin")
+            return say(self._writer.state.language, "view3d.outline_begin")
         if count < LEAST_CORNERS:
-            return say(self._pencil.state.language, "stage.outline_count", number=count, least=LEAST_CORNERS)
-        return say(self._pencil.state.language, "stage.outline_close")
+            return say(self._writer.state.language, "view3d.outline_count", number=count, least=LEAST_CORNERS)
+        return say(self._writer.state.language, "view3d.outline_close")
 
     def press(self, aim: Aim) -> None:
         """Do nothing: a corner is put where the pointer is released."""
@@ -58,13 +58,13 @@ class DrawOutline(Tool):
     def release(self, aim: Aim | None) -> None:
         """Treat a drag that hardly moved as a click."""
         if aim is None:
-            raise RefusedError(say(self._pencil.state.language, "rule.off_table"))
+            raise RefusedError(say(self._writer.state.language, "rule.off_table"))
         self.tap(aim)
 
     def tap(self, aim: Aim) -> None:
         """Put a corner here, or close the outline."""
-        if not Ground.of(self._pencil.state.drawing).holds(aim.point):
-            raise RefusedError(say(self._pencil.state.language, "rule.off_table"))
+        if not Ground.of(self._writer.state.drawing).holds(aim.point):
+            raise RefusedError(say(self._writer.state.language, "rule.off_table"))
         place = snapped_corner(self._points, aim.point, aim.pixel_m)
         becomes = next_corner(self._points, place)
         if becomes == "close":
@@ -72,11 +72,11 @@ class DrawOutline(Tool):
         elif becomes == "put":
             self._points = (*self._points, place)
         else:
-            raise RefusedError(translated(self._pencil.state.language, as_sentence(_REFUSALS[becomes])))
+            raise RefusedError(translated(self._writer.state.language, as_sentence(_REFUSALS[becomes])))
 
     def last(self) -> str | None:
         """Return the label of the last corner."""
-        return say(self._pencil.state.language, "part.corner", number=len(self._points)) if self._points else None
+        return say(self._writer.state.language, "part.corner", number=len(self._points)) if self._points else None
 
     def take_back(self) -> None:
         """Remove the last corner."""
@@ -96,10 +96,10 @@ class DrawOutline(Tool):
         def change(state: DocumentState) -> Drawing:
             points = [in_article(state.drawing, point) for point in self._points]
             for problem in outline_problems(straight_ring(points)):
-                raise RefusedError(as_sentence(spoken(state.language, problem.says, problem.message)))
+                raise RefusedError(as_sentence(localized(state.language, problem.says, problem.message)))
             corners = tuple(Corner(f"v{i}", point) for i, point in enumerate(points))
             return replace(state.drawing, outline=corners, folds=())
 
-        self._pencil.commit(DRAW_OUTLINE, change)
+        self._writer.commit(DRAW_OUTLINE, change)
         self._points = ()
         self._is_closed = True

@@ -1,6 +1,6 @@
 """The editing state of one visitor: mode, active tool, last refusal. It depends on the document, not on viser.
 
-A single thread calls everything here (see `app.ui.editor.desk`).
+A single thread calls everything here (see `app.ui.editor.sessions`).
 """
 
 from collections.abc import Callable, Mapping
@@ -10,13 +10,13 @@ from app.drawing.rules import as_sentence
 from app.language import Language, say, translated
 from app.ui.editor.aids import NO_AIDS, Aids
 from app.ui.editor.aim import Aim
+from app.ui.editor.document_writer import DocumentWriter
 from app.ui.editor.draw_fold import DrawFold
 from app.ui.editor.draw_outline import DrawOutline
+from app.ui.editor.drawing_messages import localized
 from app.ui.editor.mode import FoldKind, Mode
 from app.ui.editor.move_points import MovePoints
-from app.ui.editor.pencil import Pencil
 from app.ui.editor.refusal import RefusedError, sentence
-from app.ui.editor.spoken import spoken
 from app.ui.editor.tool import Tool
 from planner.errors import FoldingError
 
@@ -37,11 +37,11 @@ class Editor:
         """
         self.mode = Mode.LOOK
         self._document = document
-        self._pencil = Pencil(document, owner)
-        self._fold = DrawFold(self._pencil)
+        self._writer = DocumentWriter(document, owner)
+        self._fold = DrawFold(self._writer)
         self._tools: Mapping[Mode, Tool] = {
-            Mode.MOVE_POINTS: MovePoints(self._pencil),
-            Mode.DRAW_OUTLINE: DrawOutline(self._pencil),
+            Mode.MOVE_POINTS: MovePoints(self._writer),
+            Mode.DRAW_OUTLINE: DrawOutline(self._writer),
             Mode.DRAW_FOLD: self._fold,
         }
         self._refusal = ""
@@ -69,12 +69,12 @@ class Editor:
             return self._refusal
         tool = self._tool
         if tool is None:
-            return say(self.language, "stage.looking")
+            return say(self.language, "view3d.looking")
         problems = self._document.state.solution.problems
         shows_problem = self.mode is Mode.MOVE_POINTS and self._document.state.drawing.outline
         if not problems or not shows_problem:
             return tool.hint()
-        return as_sentence(spoken(self.language, problems[0].says, problems[0].message))
+        return as_sentence(localized(self.language, problems[0].says, problems[0].message))
 
     @property
     def undo_label(self) -> str:

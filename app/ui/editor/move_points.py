@@ -12,8 +12,8 @@ from app.drawing.rules import BEND_EDGE, FINGER_PX, LEAST_CORNERS, MOVE_CORNER, 
 from app.language import say
 from app.ui.editor.aids import Aids, closed
 from app.ui.editor.aim import Aim
+from app.ui.editor.document_writer import Change, DocumentWriter
 from app.ui.editor.ground import Ground, in_article, on_table
-from app.ui.editor.pencil import Change, Pencil
 from app.ui.editor.refusal import RefusedError
 from app.ui.editor.tool import Tool
 from planner.geometry.pose import Point2
@@ -55,20 +55,20 @@ class _Grip:
 class MovePoints(Tool):
     """Moves the handle nearest to the pointer."""
 
-    def __init__(self, pencil: Pencil) -> None:
-        """Take the pencil that writes into the document."""
-        self._pencil = pencil
+    def __init__(self, writer: DocumentWriter) -> None:
+        """Take the writer that writes into the document."""
+        self._writer = writer
         self._grip: _Grip | None = None
 
     def hint(self) -> str:
         """Return what to do now."""
         if self._grip is not None:
-            return self._say("stage.let_go_bend" if self._grip.is_middle else "stage.let_go")
-        return self._say("stage.drag_corner" if self._pencil.state.drawing.outline else "stage.no_outline")
+            return self._say("view3d.let_go_bend" if self._grip.is_middle else "view3d.let_go")
+        return self._say("view3d.drag_corner" if self._writer.state.drawing.outline else "view3d.no_outline")
 
     def press(self, aim: Aim) -> None:
         """Grab the nearest handle that is near enough."""
-        drawing = self._pencil.state.drawing
+        drawing = self._writer.state.drawing
         handles = [(corner.id, False, place) for corner, place in _corners(drawing)]
         handles += [(corner.id, True, place) for corner, place in _middles(drawing)]
         near = [handle for handle in handles if math.dist(handle[2], aim.point) <= FINGER_PX * aim.pixel_m]
@@ -81,7 +81,7 @@ class MovePoints(Tool):
     def drag(self, aim: Aim | None) -> None:
         """Show the document with the handle here."""
         if self._grip is not None and aim is not None and self._grip.ground.holds(aim.point):
-            self._pencil.preview(self._grip.label, self._grip.change(aim))
+            self._writer.preview(self._grip.label, self._grip.change(aim))
 
     def release(self, aim: Aim | None) -> None:
         """Put the handle here, as one step; off the table, put it back."""
@@ -89,9 +89,9 @@ class MovePoints(Tool):
         if grip is None:
             return
         if aim is None or not grip.ground.holds(aim.point):
-            self._pencil.cancel()
+            self._writer.cancel()
             raise RefusedError(self._say("rule.off_table_edge" if grip.is_middle else "rule.off_table_corner"))
-        self._pencil.commit(grip.label, grip.change(aim))
+        self._writer.commit(grip.label, grip.change(aim))
 
     def tap(self, aim: Aim) -> None:
         """Do nothing: a click moves no corner."""
@@ -100,7 +100,7 @@ class MovePoints(Tool):
     def put_down(self) -> None:
         """Put the handle back where it was."""
         self._grip = None
-        self._pencil.cancel()
+        self._writer.cancel()
 
     def aids(self, state: DocumentState) -> Aids:
         """Return a handle at each corner, and a smaller one in the middle of each edge that has room for it."""
@@ -115,7 +115,7 @@ class MovePoints(Tool):
         )
 
     def _say(self, key: str) -> str:
-        return say(self._pencil.state.language, key)
+        return say(self._writer.state.language, key)
 
 
 def _corners(drawing: Drawing) -> Iterator[tuple[Corner, Point2]]:

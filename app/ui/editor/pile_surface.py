@@ -1,4 +1,4 @@
-"""Folded cloth as a surface of flat layers, for the stage."""
+"""Folded cloth as a surface of flat layers, for the 3D view."""
 
 import numpy as np
 

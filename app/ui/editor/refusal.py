@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from app.drawing.rules import as_sentence
 from app.language import ENGLISH, Language, translated
-from app.ui.editor.spoken import spoken
+from app.ui.editor.drawing_messages import localized
 from planner.errors import FieldError, FoldingError
 
 _SUBJECTS = {"line": "The line", "end": "The fold", "start": "The fold"}
@@ -30,5 +30,5 @@ def sentence(error: FoldingError, language: Language = ENGLISH) -> str:
     if isinstance(error, FieldError):
         subject = _SUBJECTS.get(error.field.rpartition(".")[2])
         text = f"{subject} {error.message}" if subject and error.message.startswith("does not") else error.message
-        text = spoken(language, error.says, text)
+        text = localized(language, error.says, text)
     return translated(language, as_sentence(text))

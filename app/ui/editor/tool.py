@@ -1,4 +1,4 @@
-"""The interface of the stage's tools; there is one tool for each mode in which the pointer draws."""
+"""The interface of the 3D view's tools; there is one tool for each mode in which the pointer draws."""
 
 from abc import ABC, abstractmethod
 

@@ -1,4 +1,4 @@
-"""The rules of drawing that stage and board share; `tests/browser` holds what the board does by itself against them."""
+"""The rules of drawing that 3D view and board share; `tests/browser` holds what the board does against them."""
 
 from pathlib import Path
 

@@ -18,7 +18,7 @@ def at(point: Point2) -> Aim:
     return Aim(point, PIXEL_M)
 
 
-def seat(drawing: Drawing, mode: Mode) -> tuple[Document, Editor]:
+def editing(drawing: Drawing, mode: Mode) -> tuple[Document, Editor]:
     """Return a document and an editor in a mode."""
     document = Document(draft_of(drawing))
     editor = Editor(document, "hand")

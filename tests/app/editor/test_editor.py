@@ -4,13 +4,13 @@ from app.document import Document
 from app.drawing.draft import draft_of
 from app.drawing.edit import Edit
 from app.ui.editor.aids import NO_AIDS
+from app.ui.editor.document_writer import DocumentWriter
 from app.ui.editor.editor import Editor
 from app.ui.editor.mode import Mode
-from app.ui.editor.pencil import Pencil
 from planner import Plan, make_plan
 from planner.cloth.garment import Garment
 from tests.app.drawing.drawings import pulled, towel_drawing
-from tests.app.editor.hand import at, drag, seat
+from tests.app.editor.hand import at, drag, editing
 from tests.app.samples import towel
 
 FAR_CORNER = (-0.4, -0.2)
@@ -67,7 +67,7 @@ def test_while_a_film_runs_no_aids_are_seen_and_a_drag_only_goes_back_to_the_beg
 
 
 def test_undo_and_redo_say_what_they_do() -> None:
-    document, editor = seat(towel_drawing(), Mode.MOVE_POINTS)
+    document, editor = editing(towel_drawing(), Mode.MOVE_POINTS)
     before = document.state.drawing
     assert (editor.undo_label, editor.redo_label) == ("Undo", "Redo")
     drag(editor, FAR_CORNER, (-0.3, -0.3))
@@ -81,7 +81,7 @@ def test_undo_and_redo_say_what_they_do() -> None:
 
 
 def test_undo_takes_back_what_was_done_elsewhere_too() -> None:
-    document, editor = seat(towel_drawing(), Mode.LOOK)
+    document, editor = editing(towel_drawing(), Mode.LOOK)
     before = document.state.drawing
     document.edit(Edit("Elsewhere", pulled(before, 0, -0.1, 0.0)))
     assert editor.undo_label == "Undo: Elsewhere"
@@ -90,7 +90,7 @@ def test_undo_takes_back_what_was_done_elsewhere_too() -> None:
 
 
 def test_a_refusal_stays_until_the_next_thing_is_done() -> None:
-    _, editor = seat(towel_drawing(), Mode.MOVE_POINTS)
+    _, editor = editing(towel_drawing(), Mode.MOVE_POINTS)
     drag(editor, (0.3, 0.3), (0.2, 0.2))
     assert "no corner there" in editor.says
     editor.press(at(FAR_CORNER))
@@ -98,20 +98,20 @@ def test_a_refusal_stays_until_the_next_thing_is_done() -> None:
 
 
 def test_pointing_past_the_table_is_told_of() -> None:
-    _, editor = seat(towel_drawing(), Mode.DRAW_OUTLINE)
+    _, editor = editing(towel_drawing(), Mode.DRAW_OUTLINE)
     editor.tap(None)
     assert "off the table" in editor.says
 
 
 def test_a_document_that_has_been_closed_is_told_of() -> None:
-    document, editor = seat(towel_drawing(), Mode.MOVE_POINTS)
+    document, editor = editing(towel_drawing(), Mode.MOVE_POINTS)
     document.end()
     drag(editor, FAR_CORNER, (-0.3, -0.3))
     assert editor.says == "The document has been closed."
 
 
 def test_who_leaves_in_the_middle_of_a_drag_leaves_nothing_behind() -> None:
-    document, editor = seat(towel_drawing(), Mode.MOVE_POINTS)
+    document, editor = editing(towel_drawing(), Mode.MOVE_POINTS)
     before = document.state.drawing
     editor.press(at(FAR_CORNER))
     editor.drag(at((-0.3, -0.3)))
@@ -122,7 +122,7 @@ def test_who_leaves_in_the_middle_of_a_drag_leaves_nothing_behind() -> None:
 
 def test_a_change_that_comes_too_late_is_made_once_more_to_what_is_there() -> None:
     document = Document(draft_of(towel_drawing()))
-    pencil = Pencil(document, "hand")
+    writer = DocumentWriter(document, "hand")
     seen: list[int] = []
 
     def change(state):
@@ -131,7 +131,7 @@ def test_a_change_that_comes_too_late_is_made_once_more_to_what_is_there() -> No
         seen.append(state.version)
         return pulled(state.drawing, 2, 0.1, 0.0)
 
-    state = pencil.commit("Mine", change)
+    state = writer.commit("Mine", change)
     assert seen == [1, 2]
     assert state.drawing.outline[0].point == pytest.approx((-0.1, 0.0))
     assert state.drawing.outline[2].point == pytest.approx((0.5, 0.3))

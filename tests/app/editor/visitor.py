@@ -1,4 +1,4 @@
-"""A visitor of a stage without a browser: it sends the messages of viser's page, and reads what the page reads."""
+"""A visitor of a 3D view without a browser: it sends the messages of viser's page, and reads what the page reads."""
 
 import time
 from collections.abc import Callable
@@ -9,8 +9,8 @@ import zstandard
 from websockets.sync.client import connect
 
 from app.ui.editor.aim import CLOTH_HEIGHT_M
-from app.ui.editor.glass import NODE
-from app.ui.stage import Stage
+from app.ui.editor.pointer_capture import NODE
+from app.ui.view_3d import View3D
 from app.ui.viser_patches import LOOPBACK, SECRET_HEADER
 from planner.geometry.pose import Point2, Point3
 from tests.patience import PATIENCE_S
@@ -28,11 +28,11 @@ class Visitor:
         camera: the places that the server has sent the camera to.
     """
 
-    def __init__(self, stage: Stage, eye: Point3 = EYE, size: tuple[int, int] = (800, 500)) -> None:
+    def __init__(self, view: View3D, eye: Point3 = EYE, size: tuple[int, int] = (800, 500)) -> None:
         self._socket = connect(
-            f"ws://{LOOPBACK}:{stage.port}",
+            f"ws://{LOOPBACK}:{view.port}",
             subprotocols=[SUBPROTOCOL],  # type: ignore[list-item]
-            additional_headers={SECRET_HEADER: stage.secret},
+            additional_headers={SECRET_HEADER: view.secret},
             proxy=None,
             max_size=None,
         )
@@ -83,7 +83,7 @@ class Visitor:
         return node in self.nodes and bool(self.nodes[node]["visible"])
 
     def touch(self, phase: str, start: Point2, end: Point2, modifier: str | None = None) -> None:
-        """Drag on the glass: report where the pointer went down on the cloth, where it is, and the keys held."""
+        """Drag on the capture box: report where the pointer went down on the cloth, where it is, and the keys held."""
         places = {"start_position": beyond(start), "end_position": beyond(end)}
         screen = {"start_screen_pos": (0.5, 0.5), "end_screen_pos": (0.5, 0.5)}
         self._say(
@@ -145,7 +145,7 @@ class Visitor:
 
 
 def beyond(point: Point2) -> tuple[float, float, float]:
-    """Return where the ray through a point of the cloth meets the glass: a thousand times as far from the eye."""
+    """Return where the ray through a point of the cloth meets the capture box: a thousand times as far from the eye."""
     x, y, z = EYE
     u, v = point
     return (x + 1000 * (u - x), y + 1000 * (v - y), z + 1000 * (CLOTH_HEIGHT_M - z))

@@ -1,4 +1,4 @@
-"""Writes into the document on behalf of one visitor of a stage.
+"""Writes into the document on behalf of one visitor of a 3D view.
 
 A change is a function of the document's state, not a drawing: when another visitor was faster, it is applied again, to
 the new state.
@@ -17,7 +17,7 @@ Change: TypeAlias = Callable[[DocumentState], Drawing]
 """A function from the document's state to the new drawing; it raises `FoldingError` for what cannot be done."""
 
 
-class Pencil:
+class DocumentWriter:
     """Commits, and gestures, each of which becomes one step."""
 
     def __init__(self, document: Document, owner: str) -> None:
@@ -25,7 +25,7 @@ class Pencil:
 
         Args:
             document: the document that is changed.
-            owner: a name that no other pencil has.
+            owner: a name that no other writer has.
         """
         self._document = document
         self._owner = owner

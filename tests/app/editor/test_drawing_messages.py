@@ -4,8 +4,8 @@ from app.drawing.outline_problems import outline_problems
 from app.drawing.problem import Problem
 from app.drawing.ring import straight_ring
 from app.language import LANGUAGES, Language
+from app.ui.editor.drawing_messages import _LOCALIZED, localized
 from app.ui.editor.refusal import sentence
-from app.ui.editor.spoken import _SPOKEN, spoken
 from planner.cloth.garment import DrawnFold
 from planner.errors import FoldError, RequestError
 from planner.folds.fold import snapped_line
@@ -22,17 +22,17 @@ def outline_problems_of(points: list[Point2]) -> tuple[Problem, ...]:
 def test_a_bow_tie_is_told_as_the_board_tells_it_in_centimetres_and_counted_from_one() -> None:
     problem = outline_problems_of([(0.0, 0.0), (0.5, 0.5), (0.5, 0.0), (0.0, 0.5)])[0]
     assert problem.message == "edges 0 and 2 cross at (0.250, 0.250) m"
-    assert spoken("en", problem.says, problem.message) == "edges 1 and 3 cross at (25, 25) cm of the garment"
+    assert localized("en", problem.says, problem.message) == "edges 1 and 3 cross at (25, 25) cm of the garment"
 
 
 def test_a_short_edge_and_a_small_outline_are_told_in_centimetres() -> None:
     short = outline_problems_of([(0.0, 0.0), (0.0004, 0.0), (0.3, 0.3)])[0]
-    assert spoken("en", short.says, short.message) == (
+    assert localized("en", short.says, short.message) == (
         "edge 1, from point 1 to point 2, is 0.04 cm long, less than 0.1 cm"
     )
     small = outline_problems_of([(0.0, 0.0), (0.01, 0.0), (0.0, 0.01)])[0]
     assert (
-        spoken("en", small.says, small.message)
+        localized("en", small.says, small.message)
         == "it covers 0.5 cm\N{SUPERSCRIPT TWO}, less than 1 cm\N{SUPERSCRIPT TWO}"
     )
 
@@ -48,27 +48,29 @@ def test_a_refused_fold_is_told_in_centimetres() -> None:
 
 
 def test_what_has_no_numbers_is_its_sentence() -> None:
-    assert spoken("en", None, "so it is") == "so it is"
-    assert spoken("en", Message("take_back", "so it is"), "so it is") == "so it is"
+    assert localized("en", None, "so it is") == "so it is"
+    assert localized("en", Message("take_back", "so it is"), "so it is") == "so it is"
     assert sentence(RequestError("line", Message("line_misses_cloth", "does not cross the cloth"))) == (
         "The line does not cross the cloth."
     )
 
 
-def test_messages_are_told_in_the_language_of_the_stage_with_its_decimal_mark() -> None:
+def test_messages_are_told_in_the_language_of_the_3d_view_with_its_decimal_mark() -> None:
     bow_tie = outline_problems_of([(0.0, 0.0), (0.506, 0.506), (0.506, 0.0), (0.0, 0.506)])[0]
-    assert spoken("de", bow_tie.says, bow_tie.message) == "Kanten 1 und 3 kreuzen sich bei (25,3; 25,3) cm des Stücks"
+    assert (
+        localized("de", bow_tie.says, bow_tie.message) == "Kanten 1 und 3 kreuzen sich bei (25,3; 25,3) cm des Stücks"
+    )
     short = outline_problems_of([(0.0, 0.0), (0.0004, 0.0), (0.3, 0.3)])[0]
-    assert "0,04 cm" in spoken("es", short.says, short.message)
+    assert "0,04 cm" in localized("es", short.says, short.message)
     off = RequestError("line", Message("line_misses_cloth", "does not cross the cloth"))
     assert sentence(off, "de") == "Die Linie kreuzt den Stoff nicht."
 
 
-@pytest.mark.parametrize("code", sorted(_SPOKEN))
+@pytest.mark.parametrize("code", sorted(_LOCALIZED))
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_every_spoken_message_has_a_text_for_each_of_its_places(code: str, language: Language) -> None:
+def test_every_localized_message_has_a_text_for_each_of_its_places(code: str, language: Language) -> None:
     (values,) = (sample for sample in MESSAGES if sample["code"] == code)
     says = Message(code, "the English sentence", {name: value for name, value in values.items() if name != "code"})
-    told = spoken(language, says, says.text)
+    told = localized(language, says, says.text)
     assert told != says.text
     assert "{" not in told

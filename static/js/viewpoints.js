@@ -1,5 +1,5 @@
 /**
- * The viewpoints, on the stage itself. The server moves the camera, as it rides along with the robot; which of its
+ * The viewpoints, in the 3D view itself. The server moves the camera, as it rides along with the robot; which of its
  * visitors this page's frame is, a node of the frame's scene says (`app/ui/editor/camera_panel.py`).
  */
 
@@ -7,25 +7,25 @@ import { button, byId } from "./dom.js";
 import { say } from "./language/say.js";
 
 const VIEWS = /** @type {const} */ (["preset.follow", "preset.robot", "preset.top", "preset.side", "preset.free"]);
-const CHANNEL = "/seat/";
+const CHANNEL = "/session/";
 
 /** @typedef {{nodeRefFromName: Record<string, unknown>, sendMessage: (message: object) => void}} Viser */
 
-export class StageViews {
+export class View3DViews {
   /** @param {HTMLIFrameElement} frame */
   constructor(frame) {
     this.frame = frame;
-    this.root = byId("stage-views");
+    this.root = byId("viewpoints");
     this.root.replaceChildren(
       ...VIEWS.map((view) => {
-        const made = button("stage-view", () => this.look(view), say(view));
+        const made = button("viewpoint", () => this.look(view), say(view));
         made.title = say(`${view}_hint`);
         return made;
       }),
     );
   }
 
-  /** @param {boolean} isThere whether the visitor has a seat */
+  /** @param {boolean} isThere whether the visitor has a session */
   show(isThere) {
     this.root.hidden = !isThere;
   }

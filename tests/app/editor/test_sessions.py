@@ -1,4 +1,4 @@
-"""Editing over the wire: messages of viser's page, through the stage's own thread, to the document and back."""
+"""Editing over the wire: messages of viser's page, through the 3D view's own thread, to the document and back."""
 
 import math
 import time
@@ -12,10 +12,10 @@ from app.drawing.drawing import Drawing
 from app.drawing.garment_drawing import drawing_of
 from app.player import Player
 from app.ui.editor.camera_panel import CHANNEL
-from app.ui.editor.desk import Desk
-from app.ui.editor.glass import NODE
+from app.ui.editor.pointer_capture import NODE
+from app.ui.editor.sessions import Sessions
 from app.ui.opening import opening
-from app.ui.stage import Stage
+from app.ui.view_3d import View3D
 from app.ui.viser_patches import start_private_viser
 from planner import Scene
 from planner.robots.load_robot import load_robot
@@ -29,16 +29,16 @@ ELSEWHERE = (-0.35, -0.3)
 
 
 @pytest.fixture(scope="module")
-def opened() -> Iterator[tuple[Document, Stage]]:
-    document, stage = Document(draft_of(towel_drawing())), Stage(CARD, Scene())
-    player = Player(document, stage, Desk(document, stage.server, stage.opening))
-    yield document, stage
+def opened() -> Iterator[tuple[Document, View3D]]:
+    document, view = Document(draft_of(towel_drawing())), View3D(CARD, Scene())
+    player = Player(document, view, Sessions(document, view.server, view.opening))
+    yield document, view
     player.close()
-    stage.close()
+    view.close()
 
 
 @pytest.fixture
-def document(opened: tuple[Document, Stage]) -> Iterator[Document]:
+def document(opened: tuple[Document, View3D]) -> Iterator[Document]:
     document, _ = opened
     yield document
     while document.state.draft.closed().history.can_undo:
@@ -46,7 +46,7 @@ def document(opened: tuple[Document, Stage]) -> Iterator[Document]:
 
 
 @pytest.fixture
-def visitor(opened: tuple[Document, Stage], document: Document) -> Iterator[Visitor]:
+def visitor(opened: tuple[Document, View3D], document: Document) -> Iterator[Visitor]:
     with Visitor(opened[1]) as visitor:
         visitor.until(lambda: NODE in visitor.nodes)
         yield visitor
@@ -57,7 +57,7 @@ def grown(drawing: Drawing) -> bool:
     return drawing.outline[2].point == pytest.approx((0.5, 0.35))
 
 
-def test_who_only_looks_sees_no_glass_and_no_handles(visitor: Visitor) -> None:
+def test_who_only_looks_has_no_pointer_capture_and_no_handles(visitor: Visitor) -> None:
     visitor.until(lambda: "Mode" in visitor.controls)
     assert not visitor.is_shown(NODE)
     assert "/editor/handles" not in visitor.nodes
@@ -130,7 +130,7 @@ def test_a_drag_past_the_horizon_and_back_is_a_drag(visitor: Visitor, document: 
     visitor.until(lambda: grown(document.state.drawing))
 
 
-def test_each_visitor_has_a_mode_of_its_own(visitor: Visitor, opened: tuple[Document, Stage]) -> None:
+def test_each_visitor_has_a_mode_of_its_own(visitor: Visitor, opened: tuple[Document, View3D]) -> None:
     with Visitor(opened[1]) as other:
         visitor.choose("Mode", "Move points")
         visitor.until(lambda: visitor.is_shown(NODE))
@@ -142,7 +142,7 @@ def test_each_visitor_has_a_mode_of_its_own(visitor: Visitor, opened: tuple[Docu
 
 
 def test_a_visitor_who_goes_away_in_the_middle_of_a_drag_leaves_no_gesture_open(
-    opened: tuple[Document, Stage], document: Document
+    opened: tuple[Document, View3D], document: Document
 ) -> None:
     with Visitor(opened[1]) as leaving:
         leaving.choose("Mode", "Move points")
@@ -155,7 +155,7 @@ def test_a_visitor_who_goes_away_in_the_middle_of_a_drag_leaves_no_gesture_open(
 
 
 def test_a_button_moves_the_camera_of_the_visitor_who_pressed_it_and_nothing_else_does(
-    visitor: Visitor, document: Document, opened: tuple[Document, Stage]
+    visitor: Visitor, document: Document, opened: tuple[Document, View3D]
 ) -> None:
     with Visitor(opened[1]) as other:
         other.until(lambda: NODE in other.nodes)
@@ -182,7 +182,9 @@ def test_a_button_moves_the_camera_of_the_visitor_who_pressed_it_and_nothing_els
         assert other.camera == opening
 
 
-def test_in_a_tall_picture_the_camera_begins_further_back_and_follows_its_shape(opened: tuple[Document, Stage]) -> None:
+def test_in_a_tall_picture_the_camera_begins_further_back_and_follows_its_shape(
+    opened: tuple[Document, View3D],
+) -> None:
     start, tall, taller = opened[1].opening, (390, 680), (312, 680)
     with Visitor(opened[1], (3.0, 3.0, 3.0), tall) as visitor:  # a browser's own place, before it is told of another
         visitor.until(lambda: "Mode" in visitor.controls)
@@ -194,7 +196,7 @@ def test_in_a_tall_picture_the_camera_begins_further_back_and_follows_its_shape(
         assert visitor.camera[2] == pytest.approx(opening(Scene(), 312 / 680).position)
 
 
-def test_a_camera_that_somebody_has_moved_stays_where_it_is(opened: tuple[Document, Stage]) -> None:
+def test_a_camera_that_somebody_has_moved_stays_where_it_is(opened: tuple[Document, View3D]) -> None:
     start = opened[1].opening
     with Visitor(opened[1], start.position, (800, 500)) as visitor:
         visitor.until(lambda: "Mode" in visitor.controls)
@@ -210,7 +212,7 @@ def test_a_camera_that_somebody_has_moved_stays_where_it_is(opened: tuple[Docume
 def test_of_a_drag_only_the_latest_place_is_worked_on() -> None:
     server, _ = start_private_viser()
     try:
-        desk = Desk(Document(draft_of(towel_drawing())), server, opening(Scene(), 1.0))
+        sessions = Sessions(Document(draft_of(towel_drawing())), server, opening(Scene(), 1.0))
         done: list[str] = []
         for visitor, name, is_passing in (
             (1, "press", False),
@@ -219,8 +221,8 @@ def test_of_a_drag_only_the_latest_place_is_worked_on() -> None:
             (2, "drag 3", True),
             (2, "release", False),
         ):
-            desk._ask(visitor, lambda name=name: done.append(name), is_passing)
-        desk.work()
+            sessions._enqueue(visitor, lambda name=name: done.append(name), is_passing)
+        sessions.perform()
         assert done == ["press", "drag 2", "drag 3", "release"]
     finally:
         server.stop()
@@ -229,29 +231,29 @@ def test_of_a_drag_only_the_latest_place_is_worked_on() -> None:
 def test_what_goes_wrong_for_one_visitor_does_not_stop_the_others(caplog: pytest.LogCaptureFixture) -> None:
     server, _ = start_private_viser()
     try:
-        desk = Desk(Document(draft_of(towel_drawing())), server, opening(Scene(), 1.0))
+        sessions = Sessions(Document(draft_of(towel_drawing())), server, opening(Scene(), 1.0))
         done: list[str] = []
-        desk._ask(1, lambda: done.append(str(1 // 0)), False)
-        desk._ask(2, lambda: done.append("second"), False)
-        desk.work()
+        sessions._enqueue(1, lambda: done.append(str(1 // 0)), False)
+        sessions._enqueue(2, lambda: done.append("second"), False)
+        sessions.perform()
         assert done == ["second"]
-        assert "could not be done" in caplog.text
+        assert "failed" in caplog.text
     finally:
         server.stop()
 
 
 @pytest.fixture(scope="module")
-def driven() -> Iterator[tuple[Document, Stage]]:
-    """Open a document with a plan that drives to the table's left, and its stage."""
+def driven() -> Iterator[tuple[Document, View3D]]:
+    """Open a document with a plan that drives to the table's left, and its 3D view."""
     plan = planned("jeans").answer
-    document, stage = Document(draft_of(drawing_of(plan.garment))), Stage(CARD, Scene())
+    document, view = Document(draft_of(drawing_of(plan.garment))), View3D(CARD, Scene())
     task = document.state.task
     assert task is not None
     document.settle(document.state.version, task, plan, "id")
-    player = Player(document, stage, Desk(document, stage.server, stage.opening))
-    yield document, stage
+    player = Player(document, view, Sessions(document, view.server, view.opening))
+    yield document, view
     player.close()
-    stage.close()
+    view.close()
 
 
 def time_at_side(document: Document) -> float:
@@ -263,13 +265,13 @@ def time_at_side(document: Document) -> float:
 
 
 def test_the_robots_eye_goes_along_when_the_base_drives_until_somebody_moves_the_camera(
-    driven: tuple[Document, Stage],
+    driven: tuple[Document, View3D],
 ) -> None:
-    document, stage = driven
+    document, view = driven
     document.seek(0.0)
     shown = document.state.shown
     assert shown is not None
-    with Visitor(stage) as visitor:
+    with Visitor(view) as visitor:
         visitor.until(lambda: "Look from" in visitor.controls)
         visitor.choose("Look from", "Robot's eye")
         visitor.until(lambda: len(visitor.camera) == 2)
@@ -287,11 +289,11 @@ def test_the_robots_eye_goes_along_when_the_base_drives_until_somebody_moves_the
 
 
 def test_a_camera_that_nobody_has_moved_looks_from_the_side_where_the_robot_does_not_stand(
-    driven: tuple[Document, Stage],
+    driven: tuple[Document, View3D],
 ) -> None:
-    document, stage = driven
+    document, view = driven
     document.seek(0.0)
-    with Visitor(stage, stage.opening.position) as visitor:
+    with Visitor(view, view.opening.position) as visitor:
         visitor.until(lambda: "Mode" in visitor.controls)
         visitor.look(visitor.camera[-1], (800, 500))
         document.seek(at := time_at_side(document))
@@ -302,11 +304,11 @@ def test_a_camera_that_nobody_has_moved_looks_from_the_side_where_the_robot_does
 
 
 def test_a_camera_that_somebody_has_moved_stays_though_the_robot_stands_before_it(
-    driven: tuple[Document, Stage],
+    driven: tuple[Document, View3D],
 ) -> None:
-    document, stage = driven
+    document, view = driven
     document.seek(0.0)
-    with Visitor(stage) as visitor:
+    with Visitor(view) as visitor:
         visitor.until(lambda: "Mode" in visitor.controls)
         moves = len(visitor.camera)
         document.seek(time_at_side(document))

@@ -1,4 +1,4 @@
-"""The stage as one visitor uses it: editor, panels, aids, and the surface that catches the pointer."""
+"""One visitor's session in the 3D view: editor, panels, aids, and the surface that catches the pointer."""
 
 import math
 from collections.abc import Callable
@@ -18,8 +18,8 @@ from app.ui.editor.camera_panel import CameraPanel
 from app.ui.editor.edit_panel import EditPanel
 from app.ui.editor.editor import Editor
 from app.ui.editor.following import Following, work_of
-from app.ui.editor.glass import Glass, Touch
 from app.ui.editor.ground import Ground, on_table
+from app.ui.editor.pointer_capture import PointerCapture, Touch
 from app.ui.editor.presets import Preset, robots_eye, side, top
 from app.ui.grip_view import ROOT as MARKS
 from app.ui.opening import opening as opening_of
@@ -31,26 +31,26 @@ _PANEL_PX = 250
 _PANEL_GAP_PX = 15
 _ZOOM_STEP = 1.2
 
-Ask = Callable[[Callable[[], None], bool], None]
-"""Hands an action to the stage's own thread; a passing action may be replaced by a later one."""
+Enqueue = Callable[[Callable[[], None], bool], None]
+"""Hands an action to the 3D view's own thread; a passing action may be replaced by a later one."""
 
 
-class Seat:
-    """The parts of one visitor; the stage's own thread makes and uses them, viser's thread only adds actions."""
+class Session:
+    """The parts of one visitor; the 3D view's own thread makes and uses them, viser's thread only adds actions."""
 
-    def __init__(self, client: viser.ClientHandle, document: Document, opening: Viewpoint, ask: Ask) -> None:
+    def __init__(self, client: viser.ClientHandle, document: Document, opening: Viewpoint, enqueue: Enqueue) -> None:
         """Build panels and aids; the panels are closed at first, and lie where there is mostly no cloth.
 
         Args:
             client: the visitor.
             document: the document that is edited.
             opening: the opening viewpoint.
-            ask: the function that hands an action to the stage's own thread.
+            enqueue: the function that hands an action to the 3D view's own thread.
         """
         self._client = client
         self._document = document
-        self._ask = ask
-        self._editor = Editor(document, f"stage.{client.client_id}")
+        self._enqueue = enqueue
+        self._editor = Editor(document, f"view3d.{client.client_id}")
         self._zoom = 0
         self._is_dark = document.state.is_dark
         self._is_from_right = False
@@ -61,12 +61,12 @@ class Seat:
             client.gui.set_panel_label(say(language, PANEL))
             client.gui.main_panel.float(x=-_PANEL_GAP_PX, y=-_PANEL_GAP_PX, width=_PANEL_PX)
             client.gui.main_panel.minimize()
-            self._edit_panel = EditPanel(client, language, lambda act: ask(lambda: act(self._editor), False))
+            self._edit_panel = EditPanel(client, language, lambda act: enqueue(lambda: act(self._editor), False))
             self._camera_panel = CameraPanel(
-                client, language, opening, lambda preset: ask(lambda: self._look(preset), False)
+                client, language, opening, lambda preset: enqueue(lambda: self._look(preset), False)
             )
             self._aids = AidsView(client, DARK if self._is_dark else LIGHT)
-            self._glass = Glass(client, self._touched)
+            self._capture = PointerCapture(client, self._touched)
             self._marks = client.scene.add_frame(MARKS, show_axes=False)
         self._open()
         client.camera.on_update(self._camera_changed)
@@ -78,7 +78,7 @@ class Seat:
             if state.is_dark != self._is_dark:
                 self._is_dark = state.is_dark
                 self._aids.recolour(DARK if state.is_dark else LIGHT)
-            self._glass.catch(is_on=self._editor.is_drawing)
+            self._capture.catch(is_on=self._editor.is_drawing)
             if self._marks.visible == self._editor.is_drawing:
                 self._marks.visible = not self._editor.is_drawing
             self._aids.show(self._editor.aids, _ZOOM_STEP**self._zoom)
@@ -97,7 +97,7 @@ class Seat:
     def _touched(self, touch: Touch, aim: Aim | None) -> None:
         editor = self._editor
         act = {"press": editor.press, "drag": editor.drag, "release": editor.release, "tap": editor.tap}[touch]
-        self._ask(lambda: act(aim), touch == "drag")
+        self._enqueue(lambda: act(aim), touch == "drag")
 
     def _open(self) -> None:
         """Show table and robot whole, whatever the picture's shape, until the visitor moves the camera."""
@@ -162,9 +162,9 @@ class Seat:
 
     async def _camera_changed(self, _: viser.CameraHandle) -> None:
         if self._camera_panel.is_opening:
-            self._ask(self._open, False)
+            self._enqueue(self._open, False)
         if self._editor.is_drawing and self._zoom_now != self._zoom:
-            self._ask(lambda: None, False)
+            self._enqueue(lambda: None, False)
 
     @property
     def _zoom_now(self) -> int:

@@ -1,4 +1,4 @@
-"""Messages about a drawing in the stage's words: in its reader's language and in centimetres, counted from 1.
+"""Messages about a drawing, localized for the 3D view: in its reader's language, in centimetres, counted from 1.
 
 The words are those of the page (`static/words`); the page fills them in the unit that its reader has chosen.
 """
@@ -10,7 +10,7 @@ from app.language import Language, catalogue, numeral, say
 from planner.geometry.pose import Point2
 from planner.message import Message
 
-_SPOKEN = frozenset(
+_LOCALIZED = frozenset(
     {
         "dropped_too_near",
         "edge_too_short",
@@ -31,9 +31,9 @@ _SPOKEN = frozenset(
 _COUNTED = frozenset({"edge", "from", "to"})
 
 
-def spoken(language: Language, says: Message | None, sentence: str) -> str:
-    """Return a message in the stage's words; its sentence where the stage has no words for it."""
-    if says is None or says.code not in _SPOKEN or f"message.{says.code}" not in catalogue(language):
+def localized(language: Language, says: Message | None, sentence: str) -> str:
+    """Return a message in a language; its English sentence if the catalogue has no text for it."""
+    if says is None or says.code not in _LOCALIZED or f"message.{says.code}" not in catalogue(language):
         return sentence
     return say(language, f"message.{says.code}", **_places(language, says.values))
 

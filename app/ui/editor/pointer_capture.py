@@ -1,4 +1,4 @@
-"""The glass: an invisible box round the scene that catches the pointer while a visitor draws.
+"""Pointer capture: an invisible box round the scene that catches the pointer while a visitor draws.
 
 viser's camera stays where it is while a node is dragged. With the box every point of the picture belongs to a node, so
 no gesture with the left button can turn the camera. The box lies beyond what the camera sees, and so does the arrow
@@ -23,7 +23,7 @@ from app.ui.editor.aim import Aim, aim, pixel_angle
 from planner.geometry.pose import Point3
 from planner.geometry.tolerance import GRID_M
 
-NODE = "/editor/glass"
+NODE = "/editor/pointer_capture"
 
 _HALF_M = 2048.0  # beyond the camera's far plane at 1000 m
 _CORNERS = _HALF_M * np.array([[x, y, z] for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)], dtype=float)
@@ -59,7 +59,7 @@ class _Ended:
     """A drag that viser has called ended.
 
     Attributes:
-        start: where it began, on the glass.
+        start: where it began, on the box.
         modifier: the keys that were held.
         aim: where the pointer was.
         timer: the timer that will end the drag.
@@ -71,12 +71,12 @@ class _Ended:
     timer: asyncio.TimerHandle
 
     def goes_on_as(self, event: _DragEvent) -> bool:
-        """Return whether a start continues this drag with other keys: it is at the same point of the glass."""
+        """Return whether a start continues this drag with other keys: it is at the same point of the box."""
         is_same_place = math.dist(self.start, event.start_position) <= GRID_M * _HALF_M
         return is_same_place and event.modifier != self.modifier
 
 
-class Glass:
+class PointerCapture:
     """The box of one visitor; it exists only while the visitor draws."""
 
     def __init__(self, client: viser.ClientHandle, on_touch: OnTouch) -> None:
