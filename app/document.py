@@ -1,6 +1,6 @@
 """The document: the one object that owns the mutable state. It knows neither viser nor FastAPI.
 
-REST, page and stage are thin layers over it: they call its methods and are notified of changes. Its state is one
+REST, page and 3D view are thin layers over it: they call its methods and are notified of changes. Its state is one
 immutable value (`app.document_state`), and so is what becomes of it. A change of the drawing is on the disk before
 anyone sees it.
 """
@@ -12,7 +12,6 @@ from contextlib import contextmanager
 from dataclasses import replace
 from typing import Protocol
 
-from app.answer import Answer
 from app.document_state import DocumentState
 from app.drawing.draft import Draft
 from app.drawing.drawing import Drawing
@@ -20,9 +19,10 @@ from app.drawing.edit import Edit, OvertakenError, StaleVersionError
 from app.held_folds import Checks, HeldFold
 from app.jobs.courtesy import Courtesy
 from app.language import Language
+from app.observable import Listener, Observable
 from app.playback import Playback
 from app.rehearsal.trace import RunTrace
-from app.watched import Listener, Watched
+from app.version_plan import VersionPlan
 from planner.errors import FoldingError
 from planner.task.plan import Plan
 from planner.task.task import Task
@@ -92,12 +92,12 @@ class Document:
         self._edits = threading.Lock()
         self._has_ended = False
         self._courtesy = courtesy or Courtesy()
-        self._watched = Watched(DocumentState(version, draft, start=start))
+        self._state = Observable(DocumentState(version, draft, start=start))
 
     @property
     def state(self) -> DocumentState:
         """The current state."""
-        return self._watched.value
+        return self._state.value
 
     @property
     def t_s(self) -> float:
@@ -106,7 +106,7 @@ class Document:
 
     def subscribe(self, listener: Listener) -> Callable[[], None]:
         """Call a function after every change, in the thread that made it; return the function that unsubscribes it."""
-        return self._watched.subscribe(listener)
+        return self._state.subscribe(listener)
 
     def edit(self, edit: Edit) -> DocumentState:
         """Change the drawing; return the new state.
@@ -144,11 +144,11 @@ class Document:
             is_from_elsewhere = version == state.version and state.task not in (None, task)
             if is_late or is_from_elsewhere:  # another start was chosen for the same drawing meanwhile
                 return state
-            answer = Answer(belongs_to, task, plan, plan_id, is_final)
+            answer = VersionPlan(belongs_to, task, plan, plan_id, is_final)
             answered = state.answered(answer)
             return answered if state.task is None else answered.showing(answer, self._clock())
 
-        self._watched.change(change)
+        self._state.change(change)
 
     def put_checks(self, drawing: Drawing, folds: tuple[HeldFold, ...]) -> None:
         """Store the grips that the folds of a drawing need; ignore them if the drawing has changed."""
@@ -156,28 +156,28 @@ class Document:
         def change(state: DocumentState) -> DocumentState:
             return replace(state, checks=Checks(state.version, folds)) if state.drawing == drawing else state
 
-        self._watched.change(change)
+        self._state.change(change)
 
     def fail(self, version: int, failure: str) -> None:
         """Store why a version has no answer."""
-        self._watched.change(lambda state: replace(state, failure=failure) if version == state.version else state)
+        self._state.change(lambda state: replace(state, failure=failure) if version == state.version else state)
 
     def prepare(self, share: float | None) -> None:
         """Store how far the robot's arms are mapped (0 to 1), in steps of a hundredth; None: they are."""
         prepared = None if share is None else round(share, 2)
-        self._watched.change(lambda state: state if state.prepared == prepared else replace(state, prepared=prepared))
+        self._state.change(lambda state: state if state.prepared == prepared else replace(state, prepared=prepared))
 
     def compile(self, *, is_compiling: bool) -> None:
         """Store whether the planner is being compiled, at its first use."""
-        self._watched.change(lambda state: replace(state, is_compiling=is_compiling))
+        self._state.change(lambda state: replace(state, is_compiling=is_compiling))
 
     def stop_planning(self) -> None:
         """Stop waiting for an answer to this version, or for a better one."""
-        self._watched.change(lambda state: state.stopped(STOPPED))
+        self._state.change(lambda state: state.stopped(STOPPED))
 
     def plan_again(self) -> None:
         """Request an answer to a version for which planning was stopped or failed."""
-        self._watched.change(lambda state: replace(state, failure=None) if state.failure else state)
+        self._state.change(lambda state: replace(state, failure=None) if state.failure else state)
 
     def plan_from(self, step: int) -> None:
         """Plan the rest after a step of the plan shown; raise `RequestError` if there is none. -1: before the first."""
@@ -204,7 +204,7 @@ class Document:
             kept = replace(state.answer, is_final=False) if state.answer.plan.is_solved else None
             return replace(state, answer=kept, is_thorough=True)
 
-        self._watched.change(change)
+        self._state.change(change)
 
     def play(self) -> None:
         """Start playing; without a solved plan, do nothing."""
@@ -228,23 +228,23 @@ class Document:
 
     def set_theme(self, *, is_dark: bool) -> None:
         """Set whether the background is dark."""
-        self._watched.change(lambda state: replace(state, is_dark=is_dark))
+        self._state.change(lambda state: replace(state, is_dark=is_dark))
 
     def set_language(self, language: Language) -> None:
-        """Set the language of the stage's words and of the instruction sheet."""
-        self._watched.change(lambda state: replace(state, language=language))
+        """Set the language of the 3D view's words and of the instruction sheet."""
+        self._state.change(lambda state: replace(state, language=language))
 
     def set_effort(self, work_s: float | None) -> None:
         """Set the work of each search from the next one on, None for the usual (s, see `planner.planning.budget`)."""
-        self._watched.change(lambda state: replace(state, work_s=work_s))
+        self._state.change(lambda state: replace(state, work_s=work_s))
 
     def preview(self, plan: Plan | None) -> None:
-        """Have the stage show the plan of a change that is pointed at; None shows the document's own again."""
-        self._watched.change(lambda state: state.previewing(plan))
+        """Have the 3D view show the plan of a change that is pointed at; None shows the document's own again."""
+        self._state.change(lambda state: state.previewing(plan))
 
     def show_trace(self, trace: RunTrace | None) -> None:
-        """Have the stage show the cloth of a rehearsed run along with the plan on show; None: no more."""
-        self._watched.change(lambda state: state.tracing(trace))
+        """Have the 3D view show the cloth of a rehearsed run along with the plan on show; None: no more."""
+        self._state.change(lambda state: state.tracing(trace))
 
     def stop_at_end(self) -> None:
         """Pause if the plan has been played to its end."""
@@ -265,7 +265,7 @@ class Document:
                 return self.state
             with self._unless_overtaken():
                 self._keep(version + 1, after)
-            return self._watched.change(lambda state: state.redrawn(after, self._clock()))
+            return self._state.change(lambda state: state.redrawn(after, self._clock()))
 
     def _start_at(self, start_of: Callable[[DocumentState], WorldState | None]) -> None:
         """Plan the same drawing from another world state; it is saved before anyone sees it."""
@@ -276,7 +276,7 @@ class Document:
             if start != self.state.start:
                 with self._unless_overtaken():
                     self._keep_start(start)
-            self._watched.change(lambda state: state.started_at(start, self._clock()))
+            self._state.change(lambda state: state.started_at(start, self._clock()))
 
     @contextmanager
     def _unless_overtaken(self) -> Iterator[None]:
@@ -297,7 +297,7 @@ class Document:
             current = replace(state, version=max(state.version, saved.version - 1))
             return current.redrawn(saved.draft, self._clock()).started_at(saved.start, self._clock())
 
-        self._watched.change(change)
+        self._state.change(change)
 
     def _change_playback(self, change: Callable[[Playback], Playback]) -> None:
-        self._watched.change(lambda state: replace(state, playback=change(state.playback)))
+        self._state.change(lambda state: replace(state, playback=change(state.playback)))

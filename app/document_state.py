@@ -3,7 +3,6 @@
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from app.answer import Answer, Rehearsed, ShownPlan
 from app.drawing.draft import Draft
 from app.drawing.drawing import Drawing
 from app.drawing.solution import Solution
@@ -11,6 +10,7 @@ from app.held_folds import Checks
 from app.language import ENGLISH, Language
 from app.playback import Playback
 from app.rehearsal.trace import RunTrace
+from app.version_plan import Rehearsed, ShownPlan, VersionPlan
 from planner.errors import RequestError
 from planner.motion.timeline import Timeline
 from planner.task.plan import Plan
@@ -37,18 +37,18 @@ class DocumentState:
         is_thorough: whether a user has requested more search than usual for this version.
         playback: the playback.
         is_dark: whether the background is dark; the last page to set it decides for all.
-        language: the language of the stage and the instruction sheet; decided in the same way.
+        language: the language of the 3D view and the instruction sheet; decided in the same way.
         work_s: the limit on the work of a search (s on the machine of `planner.planning.budget`), None for the usual
             one; decided in the same way.
-        preview: the plan of a change that is pointed at; the stage shows it in place of `shown`.
-        rehearsed: a run whose cloth the stage shows along with its plan.
+        preview: the plan of a change that is pointed at; the 3D view shows it in place of `shown`.
+        rehearsed: a run whose cloth the 3D view shows along with its plan.
     """
 
     version: int
     draft: Draft
-    answer: Answer | None = None
-    committed: Answer | None = None
-    before: Answer | None = None
+    answer: VersionPlan | None = None
+    committed: VersionPlan | None = None
+    before: VersionPlan | None = None
     shown: ShownPlan | None = None
     checks: Checks | None = None
     start: WorldState | None = None
@@ -165,7 +165,7 @@ class DocumentState:
         playback = self.playback.paused(now_s).sought(now_s, 0.0)
         return replace(after, playback=playback, failure=None, is_thorough=False)
 
-    def showing(self, answer: Answer, now_s: float) -> "DocumentState":
+    def showing(self, answer: VersionPlan, now_s: float) -> "DocumentState":
         """Return the state that plays an answer's plan, at a wall-clock time (s), or nothing if it is not solved."""
         if not answer.plan.is_solved:
             return replace(self, shown=None, playback=self.playback.lasting(now_s, 0.0))
@@ -181,18 +181,18 @@ class DocumentState:
         return replace(self, answer=replace(self.answer, is_final=True))
 
     def previewing(self, plan: Plan | None) -> "DocumentState":
-        """Return the state in which the stage shows the plan of a change that is pointed at; None: its own again."""
+        """Return the state in which the 3D view shows the plan of a change that is pointed at; None: its own again."""
         if plan is None:
             return self if self.preview is None else replace(self, preview=None)
         return replace(self, preview=ShownPlan(self.version, plan, Timeline.of(plan)))
 
     def tracing(self, trace: RunTrace | None) -> "DocumentState":
-        """Return the state in which the stage shows a run of the plan on show; None: none."""
+        """Return the state in which the 3D view shows a run of the plan on show; None: none."""
         if trace is None or self.shown is None:
             return self if self.rehearsed is None else replace(self, rehearsed=None)
         return replace(self, rehearsed=Rehearsed(self.shown.plan, trace))
 
-    def answered(self, answer: Answer) -> "DocumentState":
+    def answered(self, answer: VersionPlan) -> "DocumentState":
         """Return the state with an answer; keep an answer to a committed drawing for comparison with the next."""
         after = replace(self, answer=answer)
         if self.draft.gesture is not None or answer.version != self.version:

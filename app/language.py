@@ -1,7 +1,7 @@
 """The words that the server shows to a person: those of the page's catalogues, in `static/words`.
 
-The stage's panels and the instruction sheet speak the reader's language. REST, the command line and what is stored stay
-English.
+The 3D view's panels and the instruction sheet speak the reader's language. REST, the command line and what is stored
+stay English.
 """
 
 import json

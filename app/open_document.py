@@ -1,4 +1,4 @@
-"""An open document: with its planner and, once someone views it, its stage and its player."""
+"""An open document: with its planner and, once someone views it, its 3D view and its player."""
 
 import threading
 import time
@@ -13,7 +13,7 @@ from app.replanner import Replanner
 from app.shared_texts import SharedTexts
 from app.shown_robot import shown_robot
 from app.store.plan_store import PlanStore
-from app.ui.stage import Stage
+from app.ui.view_3d import View3D
 from app.ui.viewpoints.sessions import Sessions
 from app.visitors_view import VisitorsView
 
@@ -38,29 +38,29 @@ class OpenDocument:
         self.visitors = VisitorsView(document)
         self._replanner = Replanner(document, pool, plans)
         self._lock = threading.Lock()
-        self._shown: tuple[Stage, Player] | None = None
-        self._shown_to_visitors: tuple[Stage, Player] | None = None
+        self._shown: tuple[View3D, Player] | None = None
+        self._shown_to_visitors: tuple[View3D, Player] | None = None
         self._users = 0
         self._used_s = time.monotonic()
         self._goodbyes: list[Callable[[], None]] = []
 
-    def show(self) -> Stage:
-        """Return its stage; the first call builds it."""
+    def show(self) -> View3D:
+        """Return its 3D view; the first call builds it."""
         with self._lock:
             if self._shown is None:
                 drawing = self.document.state.drawing
-                stage = Stage(shown_robot(drawing.robot), drawing.scene)
-                sessions = Sessions(self.document, stage.server, stage.opening)
-                self._shown = (stage, Player(self.document, stage, sessions))
+                view = View3D(shown_robot(drawing.robot), drawing.scene)
+                sessions = Sessions(self.document, view.server, view.opening)
+                self._shown = (view, Player(self.document, view, sessions))
             return self._shown[0]
 
-    def show_to_visitors(self) -> Stage:
-        """Return the stage of those who have a link, on which nothing can be edited; the first call builds it."""
+    def show_to_visitors(self) -> View3D:
+        """Return the 3D view of those who have a link, on which nothing can be edited; the first call builds it."""
         with self._lock:
             if self._shown_to_visitors is None:
                 drawing = self.document.state.drawing
-                stage = Stage(shown_robot(drawing.robot), drawing.scene)
-                self._shown_to_visitors = (stage, Player(self.visitors, stage))
+                view = View3D(shown_robot(drawing.robot), drawing.scene)
+                self._shown_to_visitors = (view, Player(self.visitors, view))
             return self._shown_to_visitors[0]
 
     @property
@@ -96,12 +96,12 @@ class OpenDocument:
             self._used_s = time.monotonic()
 
     def close(self) -> None:
-        """Close the document, its planner, its player and its stage."""
+        """Close the document, its planner, its player and its 3D view."""
         with self._lock:
             shown = [one for one in (self._shown, self._shown_to_visitors) if one is not None]
             self._shown = self._shown_to_visitors = None
         self.document.end()
         self._replanner.close()
-        for stage, player in shown:
+        for view, player in shown:
             player.close()
-            stage.close()
+            view.close()

@@ -1,16 +1,16 @@
-"""The player: shows a document on its stage, 30 times a second while it plays and someone watches."""
+"""The player: shows a document on its 3D view, 30 times a second while it plays and someone watches."""
 
 import logging
 import threading
 import time
 
-from app.answer import ShownPlan
 from app.document import Document
 from app.document_state import DocumentState
 from app.shown_robot import shown_robot
 from app.ui.lying_cloth import lying_cloth
-from app.ui.stage import Stage
+from app.ui.view_3d import View3D
 from app.ui.viewpoints.sessions import Sessions
+from app.version_plan import ShownPlan
 from app.visitors_view import VisitorsView
 from planner.cloth.garment import Garment
 from planner.geometry.pose import Pose2
@@ -18,19 +18,19 @@ from planner.task.plan import Plan
 from planner.task.scene import Scene
 
 UPDATES_PER_S = 30.0
-"""Updates of a stage that someone watches (1/s)."""
+"""Updates of a 3D view that someone watches (1/s)."""
 
 _UNWATCHED_PERIOD_S = 0.25
 """Period of the updates while nobody watches (s)."""
 
 PATIENCE_S = 0.3
-"""Time for which the stage waits for the plan of a changed drawing, to show both at once (s).
+"""Time for which the 3D view waits for the plan of a changed drawing, to show both at once (s).
 
-Drawing the stage is the most expensive work of a browser, and the board comes first.
+Drawing the 3D view is the most expensive work of a browser, and the board comes first.
 """
 
 REST_S = 0.4
-"""Pause in a gesture after which a stage drawn by software follows it (s)."""
+"""Pause in a gesture after which a 3D view drawn by software follows it (s)."""
 
 PREVIEW_S = 6.0
 """Time in which the plan of a change that is pointed at is shown (s)."""
@@ -42,21 +42,21 @@ _log = logging.getLogger(__name__)
 
 
 class Player:
-    """A thread with exclusive access to a stage.
+    """A thread with exclusive access to a 3D view.
 
-    It also handles the requests of the stage's visitors, before it draws.
+    It also handles the requests of the 3D view's visitors, before it draws.
     """
 
-    def __init__(self, document: Document | VisitorsView, stage: Stage, sessions: Sessions | None = None) -> None:
+    def __init__(self, document: Document | VisitorsView, view: View3D, sessions: Sessions | None = None) -> None:
         """Start showing at once; `close` ends it.
 
         Args:
             document: the document, or the view of it that visitors have.
-            stage: the stage.
+            view: the 3D view.
             sessions: the cameras of those who look at it.
         """
         self._document = document
-        self._stage = stage
+        self._view = view
         self._sessions = sessions
         self._changed = threading.Event()
         self._is_closed = False
@@ -83,7 +83,7 @@ class Player:
         self._thread.join(_CLOSING_S)
 
     def _run(self) -> None:
-        """Update the stage in a loop; after a failure redraw everything once, then at the next change."""
+        """Update the 3D view in a loop; after a failure redraw everything once, then at the next change."""
         has_failed = False
         while True:
             self._changed.wait(self._period_s())
@@ -93,7 +93,7 @@ class Player:
             try:
                 self._update()
             except Exception:
-                _log.exception("the stage could not be brought up to date")
+                _log.exception("the 3D view could not be brought up to date")
                 self._shown = self._plan = self._spread = self._bare = None
                 if not has_failed:
                     self._changed.set()
@@ -107,7 +107,7 @@ class Player:
         state = self._document.state
         if not (self._is_previewing(now_s) if state.preview is not None else state.playback.is_playing):
             return None if self._waits_until_s is None else max(0.0, self._waits_until_s - now_s)
-        period_s = 1.0 / UPDATES_PER_S if self._stage.has_watchers else _UNWATCHED_PERIOD_S
+        period_s = 1.0 / UPDATES_PER_S if self._view.has_watchers else _UNWATCHED_PERIOD_S
         self._due_s = max(self._due_s + period_s, now_s)
         return self._due_s - now_s
 
@@ -122,9 +122,9 @@ class Player:
     def _show(self, state: DocumentState) -> None:
         shown, self._shown = self._shown, state
         if shown is None or shown.is_dark != state.is_dark:
-            self._stage.set_theme(is_dark=state.is_dark)
+            self._view.set_theme(is_dark=state.is_dark)
         if shown is None or shown.language != state.language:
-            self._stage.set_language(state.language)
+            self._view.set_language(state.language)
         if state.preview is not None:
             self._show_preview(state.preview)
             return
@@ -137,9 +137,9 @@ class Player:
         if self._plan is not state.shown.plan:
             self._plan = state.shown.plan
             self._set(state.shown.plan.task.robot, state.shown.plan.scene)
-            self._stage.show_plan(state.shown.plan)
+            self._view.show_plan(state.shown.plan)
         self._spread = self._bare = self._waits_until_s = None
-        self._stage.show(state.shown.timeline.at(self._document.t_s), state.trace)
+        self._view.show(state.shown.timeline.at(self._document.t_s), state.trace)
         self._document.stop_at_end()
 
     def _is_previewing(self, now_s: float) -> bool:
@@ -153,13 +153,13 @@ class Player:
             self._preview = (shown, now_s)
             self._plan, self._spread, self._bare, self._waits_until_s = shown.plan, None, None, None
             self._set(shown.plan.task.robot, shown.plan.scene)
-            self._stage.show_plan(shown.plan)
+            self._view.show_plan(shown.plan)
         share = min((now_s - self._preview[1]) / PREVIEW_S, 1.0)
-        self._stage.show(shown.timeline.at(share * shown.timeline.duration_s))
+        self._view.show(shown.timeline.at(share * shown.timeline.duration_s))
 
     def _is_to_rest(self, state: DocumentState) -> bool:
-        """Return whether to leave the stage as it is, because drawing it would slow down a gesture."""
-        if state.draft.gesture is None or not self._stage.is_drawn_by_software:
+        """Return whether to leave the 3D view as it is, because drawing it would slow down a gesture."""
+        if state.draft.gesture is None or not self._view.is_drawn_by_software:
             if self._moved is not None:
                 self._moved = self._waits_until_s = None
             return False
@@ -175,7 +175,7 @@ class Player:
         return shown.version != state.version and not state.playback.is_playing and self._document.t_s == 0.0
 
     def _show_spread(self, state: DocumentState) -> None:
-        """Show the garment spread out; while the drawing is invalid, leave the stage as it is."""
+        """Show the garment spread out; while the drawing is invalid, leave the 3D view as it is."""
         spread, scene = state.solution.spread, state.drawing.scene
         stations = dict(scene.stations)
         base = stations.get(state.drawing.start_station) or next(iter(stations.values()))
@@ -187,22 +187,22 @@ class Player:
             return
         self._spread, self._plan, self._bare, self._waits_until_s = spread, None, None, None
         self._set(state.drawing.robot, scene)
-        self._stage.show_garment(spread, lying_cloth(spread, scene.table), base)
+        self._view.show_garment(spread, lying_cloth(spread, scene.table), base)
 
     def _show_bare(self, robot: str, scene: Scene, base: Pose2) -> None:
         """Show the robot at a table without cloth, for an empty or still invalid drawing."""
         if (robot, base) != self._bare:
             self._spread, self._plan, self._bare, self._waits_until_s = None, None, (robot, base), None
             self._set(robot, scene)
-            self._stage.show_bare(base)
+            self._view.show_bare(base)
 
     def _set(self, robot: str, scene: Scene) -> None:
-        """Set the stage with a robot and a scene; both stay where they are the same."""
-        self._stage.show_scene(scene)
-        self._stage.show_robot(shown_robot(robot))
+        """Set the 3D view with a robot and a scene; both stay where they are the same."""
+        self._view.show_scene(scene)
+        self._view.show_robot(shown_robot(robot))
 
     def _is_to_wait(self, state: DocumentState) -> bool:
-        """Return whether a plan for the drawing will come soon, and the stage has something to show until then."""
+        """Return whether a plan for the drawing will come soon, and the 3D view has something to show until then."""
         answer = state.answer if state.is_answered else None
         has_plan_soon = state.is_planning or (answer is not None and answer.plan.is_solved)
         if not has_plan_soon or (self._spread is None and self._plan is None):

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 from app.document import Document
 from app.document_state import DocumentState
+from app.observable import Listener, Observable
 from app.playback import Playback
-from app.watched import Listener, Watched
 
 
 class VisitorsView:
@@ -17,7 +17,7 @@ class VisitorsView:
         """Begin at the plan's start, paused."""
         self._document = document
         self._clock = clock
-        self._playback = Watched(Playback())
+        self._playback = Observable(Playback())
 
     @property
     def state(self) -> DocumentState:

@@ -1,9 +1,9 @@
 """The server's cost of one animation frame: without viewers, with one viewer, with ten.
 
 A plan's whole timeline is shown at 30 frames a second, as the player does, once for each number of viewers, which are
-real clients of the stage in a process of their own. A frame's server time is all CPU time that the server's process
-spends from one frame to the next: computing the sample, writing it on the stage, and viser's own thread, which packs it
-and sends it to each viewer.
+real clients of the 3D view in a process of their own. A frame's server time is all CPU time that the server's process
+spends from one frame to the next: computing the sample, writing it in the 3D view, and viser's own thread, which packs
+it and sends it to each viewer.
 """
 
 import json
@@ -17,7 +17,7 @@ from statistics import median, quantiles
 from time import perf_counter, process_time, sleep, thread_time
 from typing import Any
 
-from app.ui.stage import Stage
+from app.ui.view_3d import View3D
 from bench.measurement import BenchmarkError, Ratio
 from bench.report import Report, Row
 from bench.viewers import READY
@@ -53,7 +53,7 @@ class Times:
 
     Attributes:
         make_ms: CPU time of computing the frame.
-        show_ms: CPU time of `Stage.show`.
+        show_ms: CPU time of `View3D.show`.
         server_ms: CPU time of the whole process until the next frame.
         wall_ms: elapsed time from the start of making it to the end of showing it.
     """
@@ -76,34 +76,34 @@ def frames_of(articles: Sequence[str], every: int, viewers: Sequence[int] = VIEW
         plan = make_plan(load_garment(article))
         if not plan.is_solved:
             raise BenchmarkError(f"{article} has no plan to be shown")
-        stage = Stage(load_robot(plan.task.robot).card, plan.scene)
+        view = View3D(load_robot(plan.task.robot).card, plan.scene)
         try:
-            stage.show_plan(plan)
-            rows.append(_row(article, {count: _run(stage, plan, count, every) for count in viewers}))
+            view.show_plan(plan)
+            rows.append(_row(article, {count: _run(view, plan, count, every) for count in viewers}))
         finally:
-            stage.close()
+            view.close()
     title = f"One animation frame, {FRAMES_PER_S:g} a second: CPU time of the server"
     return Report("frames", title, COLUMNS, tuple(rows), 1)
 
 
-def _run(stage: Stage, plan: Plan, viewers: int, every: int) -> tuple[list[Times], list[dict[str, int]]]:
+def _run(view: View3D, plan: Plan, viewers: int, every: int) -> tuple[list[Times], list[dict[str, int]]]:
     """Return the times of each frame of a plan, and what each viewer has read."""
     timeline = Timeline.of(plan)
     moments = [number * every / FRAMES_PER_S for number in range(int(timeline.duration_s * FRAMES_PER_S / every) + 1)]
-    stage.show(timeline.at(0.0))
+    view.show(timeline.at(0.0))
     read: list[dict[str, int]] = []
-    with _watched(stage, viewers, read):
-        times = list(_shown(stage, plan, moments))
+    with _watched(view, viewers, read):
+        times = list(_shown(view, plan, moments))
     return times, read
 
 
-def _shown(stage: Stage, plan: Plan, moments: Sequence[float]) -> Iterator[Times]:
+def _shown(view: View3D, plan: Plan, moments: Sequence[float]) -> Iterator[Times]:
     timeline, due_s = Timeline.of(plan), perf_counter()
     for t_s in moments:
         wall, whole, begun = perf_counter(), process_time(), thread_time()
         frame = timeline.at(t_s)
         made = thread_time()
-        stage.show(frame)
+        view.show(frame)
         shown, wall = thread_time(), perf_counter() - wall
         due_s = max(due_s + 1.0 / FRAMES_PER_S, perf_counter())
         sleep(due_s - perf_counter() if due_s > perf_counter() else 0.0)
@@ -112,12 +112,12 @@ def _shown(stage: Stage, plan: Plan, moments: Sequence[float]) -> Iterator[Times
 
 
 @contextmanager
-def _watched(stage: Stage, viewers: int, read: list[dict[str, int]]) -> Iterator[None]:
+def _watched(view: View3D, viewers: int, read: list[dict[str, int]]) -> Iterator[None]:
     """Connect viewers within the context; at its end add what each of them has read to `read`."""
     if viewers == 0:
         yield
         return
-    command = [sys.executable, "-m", "bench.viewers", str(stage.port), stage.secret, str(viewers)]
+    command = [sys.executable, "-m", "bench.viewers", str(view.port), view.secret, str(viewers)]
     with subprocess.Popen(command, cwd=ROOT, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:
         try:
             assert process.stdout is not None

@@ -2,7 +2,7 @@
 
 The page itself keeps the time (`bench.hand_page`): from each movement of the mouse to the corner drawn there, and from
 the release to the status of the plan for the dropped drawing. Browser and server share the machine. Where the browser
-draws the stage by software, a frame of the page takes as long as that, so the drags are also measured without a stage.
+draws the 3D view by software, a frame of the page takes as long as that, so the drags are also measured without it.
 The corners and directions are those of `bench.re_plan`; each drag is undone before the next.
 """
 
@@ -19,7 +19,7 @@ from bench.served import ask, cpu_s, served
 
 COLUMNS = (
     "article",
-    "stage",
+    "view3d",
     "drags",
     "ghost [ms]",
     "p95",
@@ -31,7 +31,7 @@ COLUMNS = (
     "solved",
     "other",
 )
-STAGES = {False: "left out", True: "by software"}
+VIEWS = {False: "left out", True: "by software"}
 NO_BROWSER = "no browser"
 
 
@@ -67,7 +67,7 @@ def _rows(articles: Sequence[str], drags: int) -> Iterator[Row]:
     try:
         from playwright.sync_api import Error
 
-        found = {article: [drags_of(article, drags, has_stage=is_there) for is_there in STAGES] for article in articles}
+        found = {article: [drags_of(article, drags, has_view=is_there) for is_there in VIEWS] for article in articles}
     except ImportError:
         yield _absent("Playwright is not installed")
         return
@@ -80,14 +80,14 @@ def _rows(articles: Sequence[str], drags: int) -> Iterator[Row]:
         yield _row("all", [[one for dragged in runs for one in dragged] for runs in zip(*found.values(), strict=True)])
 
 
-def drags_of(article: str, drags: int, *, has_stage: bool) -> list[Dragged]:
+def drags_of(article: str, drags: int, *, has_view: bool) -> list[Dragged]:
     """Return the measurements of drags of an article's corners, in a server and a browser of their own."""
     from bench.hand_page import window
 
     with served() as (url, process):
         document = ask("POST", f"{url}/api/documents", {"garment": article})
         path, corners = f"{url}/api/documents/{document['id']}", document["drawing"]["outline"]
-        with window(f"{url}/d/{document['id']}", has_stage=has_stage) as page:
+        with window(f"{url}/d/{document['id']}", has_view=has_view) as page:
             moves = chosen(article, len(corners), drags)
             return [_dragged(page, path, process.pid, *move) for move in moves]
 
@@ -112,7 +112,7 @@ def _dragged(page: Any, path: str, pid: int, corner: int, towards_rad: float) ->
 def _row(article: str, runs: Sequence[Sequence[Dragged]]) -> Row:
     summaries = [_summary(dragged) for dragged in runs]
     lines: list[tuple[str, ...]] = []
-    for stage, found in zip(STAGES.values(), summaries, strict=True):
+    for view, found in zip(VIEWS.values(), summaries, strict=True):
         ghost, plan, cpu_ms = found["to_ghost_ms"], found["to_plan_ms"], found["server_cpu_ms"]
         cells = (
             f"{ghost['median']:.1f}",
@@ -123,8 +123,8 @@ def _row(article: str, runs: Sequence[Sequence[Dragged]]) -> Row:
             str(found["solved"]),
             str(found["drags"] - found["solved"]),
         )
-        lines.append(("" if lines else article, stage, str(found["drags"]), *cells))
-    return Row(tuple(lines), {"article": article, **dict(zip(STAGES.values(), summaries, strict=True))})
+        lines.append(("" if lines else article, view, str(found["drags"]), *cells))
+    return Row(tuple(lines), {"article": article, **dict(zip(VIEWS.values(), summaries, strict=True))})
 
 
 def _summary(dragged: Sequence[Dragged]) -> dict[str, Any]:

@@ -45,8 +45,8 @@ HAS_ANSWER = """(version) => {
   const pill = document.getElementById("status");
   return pill.ariaBusy === "false" && Number(pill.dataset.version) >= version;
 }"""
-HAS_STAGE = """() =>
-  Boolean(document.getElementById("stage").contentWindow.__viserMutable?.nodeRefFromName["/cloth/front"])"""
+HAS_VIEW = """() =>
+  Boolean(document.getElementById("view3d").contentWindow.__viserMutable?.nodeRefFromName["/cloth/front"])"""
 HAS_BOARD = """() => Number(document.getElementById("drafting-board")?.dataset.version) > 0"""
 FIT = """() => {
   for (const name of ["outline", "select"]) document.querySelector(`[data-tool=${name}]`).click();
@@ -102,17 +102,17 @@ class Heard:
 
 
 @contextmanager
-def window(url: str, *, has_stage: bool) -> Iterator[Page]:
-    """Yield a page that keeps time, its stage at rest or left out; raise Playwright's error if there is no browser."""
+def window(url: str, *, has_view: bool) -> Iterator[Page]:
+    """Yield a page that keeps time, its 3D view at rest or left out; raise Playwright's error without a browser."""
     with sync_playwright() as playwright:
-        flags = BY_SOFTWARE if has_stage else FLAT
+        flags = BY_SOFTWARE if has_view else FLAT
         browser = playwright.chromium.launch(executable_path=SYSTEM_CHROMIUM, args=flags)
         page = browser.new_page(viewport={"width": 1024, "height": 768})
         page.set_default_timeout(PATIENCE_MS)
-        if not has_stage:
+        if not has_view:
             page.route("**/viser/**", lambda route: route.abort())
         page.goto(url)
-        page.wait_for_function(HAS_STAGE if has_stage else HAS_BOARD)
+        page.wait_for_function(HAS_VIEW if has_view else HAS_BOARD)
         page.evaluate(KEEP_TIME)
         yield page
         browser.close()
@@ -125,7 +125,7 @@ def wait_for_answer(page: Page, version: int) -> None:
 
 
 def wait_for_rest(page: Page) -> None:
-    """Wait until the page and its stage have drawn everything."""
+    """Wait until the page and its 3D view have drawn everything."""
     page.evaluate(STAYS_QUICK, [QUICK_MS, QUICK_FRAMES])
 
 

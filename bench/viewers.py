@@ -1,4 +1,4 @@
-"""A process that watches a stage: ``python -m bench.viewers PORT SECRET COUNT``.
+"""A process that watches a 3D view: ``python -m bench.viewers PORT SECRET COUNT``.
 
 Each viewer is a client of viser's protocol on a websocket of its own and reads all messages. Once all viewers have the
 scene, the process prints a line; when standard input ends, it prints as JSON how much each has read, and disconnects.

@@ -3,7 +3,6 @@
 from dataclasses import replace
 from typing import Any
 
-from app.api.asked import asked_start
 from app.api.messages import (
     COMMANDS,
     Choose,
@@ -23,6 +22,7 @@ from app.api.messages import (
     ShowTrace,
     Stop,
 )
+from app.api.request_parsing import requested_start
 from app.document import Document
 from app.document_state import DocumentState
 from app.drawing.arcs import with_arcs
@@ -41,7 +41,7 @@ def command_of(data: Any) -> Command:  # noqa: ANN401
     return COMMANDS.read(data)
 
 
-def obey(command: Command, workspace: Workspace, document: Document) -> None:
+def dispatch(command: Command, workspace: Workspace, document: Document) -> None:
     """Carry out a command."""
     match command:
         case Play():
@@ -69,7 +69,7 @@ def obey(command: Command, workspace: Workspace, document: Document) -> None:
         case PlanFrom(step=int(step)):
             document.plan_from(step)
         case PlanFromState(start=start):
-            document.plan_from_state(lambda task: asked_start(task, start))
+            document.plan_from_state(lambda task: requested_start(task, start))
         case Stop():
             document.stop_planning()
         case Preview(plan=None):

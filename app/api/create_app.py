@@ -1,4 +1,4 @@
-"""Assembly of the server: REST, page, stages, guard. Nothing is built at import."""
+"""Assembly of the server: REST, page, 3D views, guard. Nothing is built at import."""
 
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
@@ -24,11 +24,11 @@ from app.api import (
     robot_routes,
     scene_routes,
     share_routes,
-    stage_routes,
     study_routes,
     suggestion_events,
     suggestion_routes,
     template_routes,
+    view_3d_routes,
 )
 from app.api.client_limits import ClientLimits
 from app.api.described import describe
@@ -114,7 +114,7 @@ def _routes() -> APIRouter:
         file_routes,
         overlay_routes,
         live,
-        stage_routes,
+        view_3d_routes,
         metrics_routes,
         page_routes,
     ):

@@ -6,7 +6,6 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Depends, Request, Response
 from fastapi.concurrency import run_in_threadpool
 
-from app.api.asked import asked_garment, workspace_of
 from app.api.body import JsonBody
 from app.api.commands import put_garment, put_robot
 from app.api.described import DescribedRoute, problems
@@ -14,7 +13,8 @@ from app.api.document_answers import DocumentAnswer
 from app.api.document_messages import EditRequest, GarmentRequest, RobotRequest, TravelRequest
 from app.api.live_messages import document_message
 from app.api.problems import ProblemResponse
-from app.api.told import document_text
+from app.api.request_parsing import requested_garment, workspace_of
+from app.api.serialization import document_text
 from app.document import Document
 from app.document_state import DocumentState
 from app.drawing.drawing import Drawing
@@ -52,7 +52,7 @@ async def put_other_garment(request: Request, document_id: str, wanted: GarmentR
     """Put another garment in place of the one that is drawn, as one step."""
 
     def change(document: Document) -> DocumentState:
-        garment = asked_garment(workspace_of(request), wanted.garment)
+        garment = requested_garment(workspace_of(request), wanted.garment)
         return put_garment(document, garment, wanted.label, wanted.base_version, has_arcs=wanted.arcs)
 
     return await _changed(request, document_id, change)

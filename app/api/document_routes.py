@@ -8,10 +8,10 @@ from fastapi import APIRouter, Depends, Query, Request, Response
 from fastapi.concurrency import run_in_threadpool
 from starlette.responses import JSONResponse
 
-from app.api.asked import asked_garment, workspace_of
 from app.api.body import JsonBody
-from app.api.commands import obey
+from app.api.commands import dispatch
 from app.api.described import DescribedRoute, problems
+from app.api.disconnect import quick_answer
 from app.api.document_answers import (
     CreaseAnswer,
     DocumentAnswer,
@@ -25,8 +25,8 @@ from app.api.document_changes import opened_document
 from app.api.document_messages import CreaseRequest, NewDocument
 from app.api.live_messages import document_message, playback_message
 from app.api.messages import AnyCommand, Command
+from app.api.request_parsing import requested_garment, workspace_of
 from app.api.shared import is_shared, play
-from app.api.waiting import quick_answer
 from app.drawing.arcs import with_arcs
 from app.drawing.blank import blank_drawing
 from app.drawing.drawing import Drawing
@@ -106,7 +106,7 @@ async def post_playback(request: Request, document_id: str, command: CommandBody
     if is_shared(request.scope):
         play(command, opened.visitors)
         return JSONResponse(playback_message(opened.visitors.state, opened.visitors.t_s))
-    await run_in_threadpool(obey, command, workspace_of(request), opened.document)
+    await run_in_threadpool(dispatch, command, workspace_of(request), opened.document)
     return JSONResponse(playback_message(opened.document.state, opened.document.t_s))
 
 
@@ -166,7 +166,7 @@ def _first_drawing(workspace: Workspace, wanted: NewDocument) -> Drawing:
         return workspace.opened(wanted.copy_of).document.state.drawing
     if wanted.garment is None:
         return blank_drawing()
-    drawing = drawing_of(asked_garment(workspace, wanted.garment))
+    drawing = drawing_of(requested_garment(workspace, wanted.garment))
     return with_arcs(drawing) if wanted.arcs else drawing
 
 

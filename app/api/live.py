@@ -14,11 +14,11 @@ from fastapi.concurrency import run_in_threadpool
 from starlette.websockets import WebSocketDisconnect
 
 from app.api.body import parsed
-from app.api.commands import command_of, obey
+from app.api.commands import command_of, dispatch
+from app.api.disconnect import waking
 from app.api.live_messages import problem_message
+from app.api.serialization import SentState
 from app.api.shared import is_shared, play, until_revoked
-from app.api.told import Telling
-from app.api.waiting import waking
 from app.jobs.limits import TooManyError
 from app.open_document import OpenDocument
 from app.workspace import Workspace
@@ -47,7 +47,7 @@ async def live(websocket: WebSocket, document_id: str) -> None:
     is_removed = asyncio.Event()
     with opened.in_use(waking(is_removed)):
         ways = [
-            asyncio.create_task(_tell(websocket, opened)),
+            asyncio.create_task(_send_updates(websocket, opened)),
             asyncio.create_task(_listen(websocket, workspace, opened)),
             asyncio.create_task(_close_after(is_removed.wait(), websocket)),
             asyncio.create_task(_close_after(until_revoked(websocket, workspace.shares), websocket)),
@@ -60,16 +60,16 @@ async def live(websocket: WebSocket, document_id: str) -> None:
             await asyncio.gather(*ways, return_exceptions=True)
 
 
-async def _tell(websocket: WebSocket, opened: OpenDocument) -> None:
+async def _send_updates(websocket: WebSocket, opened: OpenDocument) -> None:
     changed = asyncio.Event()
     played = opened.visitors if is_shared(websocket.scope) else opened.document
     unsubscribe = played.subscribe(waking(changed))
-    telling = Telling(opened, played)
+    sent = SentState(opened, played)
     try:
         while True:
             changed.clear()
             state = played.state
-            for text in await run_in_threadpool(telling.news, state):
+            for text in await run_in_threadpool(sent.updates, state):
                 await websocket.send_text(text)
             timeout_s = _TICK_S if state.playback.is_playing else None
             with contextlib.suppress(TimeoutError):
@@ -89,7 +89,7 @@ async def _listen(websocket: WebSocket, workspace: Workspace, opened: OpenDocume
                 if is_shared(websocket.scope):
                     play(command, opened.visitors)
                 else:
-                    await run_in_threadpool(obey, command, workspace, opened.document)
+                    await run_in_threadpool(dispatch, command, workspace, opened.document)
             except FoldingError as error:
                 await websocket.send_json(problem_message(error))
 

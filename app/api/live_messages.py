@@ -3,12 +3,12 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from app.answer import Answer
 from app.document_state import DocumentState
 from app.drawing.drawing_json import drawing_to_dict
 from app.drawing.garment_json import garment_to_dict
 from app.held_folds import Checks
 from app.shown_robot import shown_robot
+from app.version_plan import VersionPlan
 from planner.errors import FoldingError
 from planner.geometry.pose import Point2
 from planner.robots.load_robot import robot_card_file
@@ -116,7 +116,7 @@ def _out_of_time(statistics: Statistics) -> str:
     )
 
 
-def _answer(state: DocumentState, answer: Answer) -> dict[str, Any]:
+def _answer(state: DocumentState, answer: VersionPlan) -> dict[str, Any]:
     return {
         "version": answer.version,
         "is_stale": answer.version != state.version,
@@ -127,7 +127,7 @@ def _answer(state: DocumentState, answer: Answer) -> dict[str, Any]:
     }
 
 
-def _figures(answer: Answer) -> dict[str, Any]:
+def _figures(answer: VersionPlan) -> dict[str, Any]:
     return {"version": answer.version, "status": answer.plan.status, "cost_s": answer.plan.cost_s}
 
 

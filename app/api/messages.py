@@ -122,14 +122,14 @@ class SetSpeed(StrictModel):
 
 
 class SetTheme(StrictModel):
-    """Set the stage's theme, dark or light."""
+    """Set the 3D view's theme, dark or light."""
 
     do: Literal["theme"]
     dark: bool
 
 
 class SetLanguage(StrictModel):
-    """Set the language of the stage's words and of the instruction sheet."""
+    """Set the language of the 3D view's words and of the instruction sheet."""
 
     do: Literal["language"]
     language: Language
@@ -182,14 +182,14 @@ class PlanFromState(StrictModel):
 
 
 class ShowTrace(StrictModel):
-    """Have the stage show the cloth of a rehearsed run along with the plan, by the id of its trace; null: no more."""
+    """Have the 3D view show the cloth of a rehearsed run along with the plan, by the id of its trace; null: no more."""
 
     do: Literal["show_trace"]
     trace: Annotated[str, Field(max_length=64)] | None
 
 
 class Preview(StrictModel):
-    """Have the stage show a plan by its id, that of a suggestion; null: the document's own again."""
+    """Have the 3D view show a plan by its id, that of a suggestion; null: the document's own again."""
 
     do: Literal["preview"]
     plan: Annotated[str, Field(max_length=64)] | None

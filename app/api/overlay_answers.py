@@ -80,7 +80,7 @@ class PathGripAnswer(BaseModel):
 
 
 class PathsAnswer(BaseModel):
-    """The hands' paths of a primitive, in the article frame as the article lies when the primitive begins."""
+    """The hands' paths of a primitive, in the article frame as the garment lies when the primitive begins."""
 
     primitive: int
     kind: str
@@ -109,7 +109,7 @@ class ShortfallAnswer(BaseModel):
 
 
 class OverlaysAnswer(BaseModel):
-    """The overlays at one moment, in the article frame as the article lies then."""
+    """The overlays at one moment, in the article frame as the garment lies then."""
 
     version: int
     plan_version: int | None
@@ -128,7 +128,7 @@ class OverlaysAnswer(BaseModel):
 
 
 class PlaceAnswer(BaseModel):
-    """A placement, as a displacement of the article (article frame, m), and the cost of the plan there (s)."""
+    """A placement, as a displacement of the garment (article frame, m), and the cost of the plan there (s)."""
 
     move: Point
     placement: Pose2

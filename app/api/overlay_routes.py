@@ -10,13 +10,13 @@ from fastapi.concurrency import run_in_threadpool
 from starlette.responses import JSONResponse, Response
 
 from app import searches
-from app.api.asked import TimeLimit, workspace_of
 from app.api.body import JsonBody
 from app.api.described import DescribedRoute, problems
+from app.api.disconnect import answer_of, quick_answer
 from app.api.messages import PlacesRequest
 from app.api.overlay_answers import OverlaysAnswer, PlacesAnswer
 from app.api.problems import ProblemResponse
-from app.api.waiting import answer_of, quick_answer
+from app.api.request_parsing import TimeLimit, workspace_of
 from app.document_state import DocumentState
 from app.jobs.apart import ignore, run_apart
 from app.jobs.job_pool import ShouldStop
@@ -119,6 +119,6 @@ def _places(state: DocumentState, wanted: PlacesRequest, limit: TimeLimit, shoul
 
 
 def _place(cell: Cell, here: Pose2) -> dict[str, Any]:
-    """Return a cell as a displacement of the article from where it lies now."""
+    """Return a cell as a displacement of the garment from where it lies now."""
     x, y = here.to_inner(np.array([cell.placement.x_m, cell.placement.y_m]))
     return {"move": [float(x), float(y)], "placement": cell.placement.to_dict(), "cost_s": cell.cost_s}

@@ -9,7 +9,7 @@ from fastapi.concurrency import run_in_threadpool
 from starlette.responses import FileResponse, RedirectResponse, Response
 from starlette.staticfiles import NotModifiedResponse, StaticFiles
 
-from app.api.asked import workspace_of
+from app.api.request_parsing import workspace_of
 from app.page_files import scripts, styles
 from app.resources import static_dir
 from app.workspace import Workspace

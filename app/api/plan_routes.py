@@ -10,11 +10,11 @@ from starlette.responses import JSONResponse, Response
 
 from app import searches
 from app.api.answers import DagAnswer, PictureAnswer, PlanAnswer, TimelineAnswer
-from app.api.asked import TimeLimit, asked_garment, asked_task, within_request, workspace_of
 from app.api.body import JsonBody, read_object
 from app.api.described import DescribedRoute, problems
+from app.api.disconnect import answer_of, quick_answer
 from app.api.messages import DagRequest, PlanRequest
-from app.api.waiting import answer_of, quick_answer
+from app.api.request_parsing import TimeLimit, requested_garment, requested_task, within_request, workspace_of
 from app.files.import_file import LARGEST_PLAN_FILE
 from app.jobs.apart import ignore, run_apart
 from app.jobs.job_pool import ShouldStop
@@ -158,14 +158,14 @@ def _imported(workspace: Workspace, data: dict[str, Any], should_stop: ShouldSto
 
 
 def _dag(workspace: Workspace, wanted: DagRequest) -> dict[str, Any]:
-    garment = asked_garment(workspace, wanted.garment)
+    garment = requested_garment(workspace, wanted.garment)
     with within_request():
         answer: dict[str, Any] = fold_dag(garment).to_dict()
     return answer
 
 
 def _plan(workspace: Workspace, wanted: PlanRequest, limit: TimeLimit, should_stop: ShouldStop) -> bytes:
-    task = asked_task(workspace, wanted, limit)
+    task = requested_task(workspace, wanted, limit)
     with within_request():
         return planned(workspace, task, should_stop)
 

@@ -7,7 +7,7 @@ from fastapi import APIRouter, Request
 from fastapi.concurrency import run_in_threadpool
 
 from app.api.answers import Checks, Health
-from app.api.asked import workspace_of
+from app.api.request_parsing import workspace_of
 from planner.task.scene import Scene
 
 router = APIRouter(prefix="/api")

@@ -5,8 +5,8 @@ from fastapi.concurrency import run_in_threadpool
 from pydantic import BaseModel
 from starlette.responses import JSONResponse
 
-from app.api.asked import workspace_of
 from app.api.described import DescribedRoute, problems
+from app.api.request_parsing import workspace_of
 
 router = APIRouter(prefix="/api/documents", tags=["documents"], route_class=DescribedRoute)
 

@@ -97,8 +97,8 @@ def _allows(document_id: str, method: str, path: str) -> bool:
     document = f"/api/documents/{document_id}"
     if method == "POST":
         return path == f"{document}/playback"
-    stage = f"/viser/{document_id}"
-    is_of_document = path in (f"/d/{document_id}", document, stage) or path.startswith((f"{document}/", f"{stage}/"))
+    view = f"/viser/{document_id}"
+    is_of_document = path in (f"/d/{document_id}", document, view) or path.startswith((f"{document}/", f"{view}/"))
     if path.startswith(f"{document}/{_EARLIER}"):
         return False
     is_shipped = path.startswith(_ROBOT) and path.removeprefix(_ROBOT) in shipped_robots()

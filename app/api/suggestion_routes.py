@@ -16,12 +16,12 @@ from pydantic import BaseModel
 from starlette.responses import JSONResponse
 
 from app import searches
-from app.api.asked import TimeLimit, asked_places, asked_task, within_request, workspace_of
 from app.api.body import JsonBody
 from app.api.described import DescribedRoute, problems
+from app.api.disconnect import answer_of, until
 from app.api.messages import PlacementsRequest, PlanRequest
+from app.api.request_parsing import TimeLimit, requested_places, requested_task, within_request, workspace_of
 from app.api.suggestion_events import STREAM
-from app.api.waiting import answer_of, until
 from app.jobs.apart import StoppedError, ignore, run_apart
 from app.jobs.job_pool import Job, ShouldStop
 from app.store.plan_store import UnknownPlanError
@@ -114,7 +114,7 @@ class SuggestionSearch:
             self._job.stop()
 
     def _search(self, should_stop: ShouldStop) -> bool:
-        task = asked_task(self._workspace, self._wanted, self._limit)
+        task = requested_task(self._workspace, self._wanted, self._limit)
         known = self._known
         if known is not None and replace(known.task, limits=task.limits) != task:
             known = None
@@ -206,7 +206,7 @@ async def post_placements(request: Request, wanted: PlacementsRequestBody) -> JS
 def _placements(
     workspace: Workspace, wanted: PlacementsRequest, limit: TimeLimit, should_stop: ShouldStop
 ) -> dict[str, Any]:
-    task = asked_places(workspace, wanted, limit)
+    task = requested_places(workspace, wanted, limit)
     with within_request():
         found = run_apart(searches.map_places, should_stop, ignore, task, wanted.step_m)
     return found.to_dict()

@@ -97,7 +97,7 @@ class Crease:
         kind: "blue" or "red".
         start: the first end.
         end: the second end.
-        grip_radius_m: the radius of cloth that one grip holds (m); None for the article's.
+        grip_radius_m: the radius of cloth that one grip holds (m); None for the garment's.
         twin: the id of the fold that mirrors this one, if they are linked.
     """
 

@@ -14,7 +14,7 @@ from planner.task.task import DEFAULT_ROBOT
 
 
 def with_robot(solution: Solution, robot: str, past: Iterable[Drawing] = ()) -> Drawing:
-    """Return a solved drawing for another robot: its scene, its first station, and where the article lies for it.
+    """Return a solved drawing for another robot: its scene, its first station, and where the garment lies for it.
 
     Where the robot folded the same outline before, all that is as it was then.
 
@@ -47,7 +47,7 @@ def with_robot(solution: Solution, robot: str, past: Iterable[Drawing] = ()) -> 
 
 
 def _placement(drawing: Drawing, garment: Garment | None, scene: Scene, robot: str) -> Pose2:
-    """Return where the article lies for a robot, table frame, turned as it is now where that fits.
+    """Return where the garment lies for a robot, table frame, turned as it is now where that fits.
 
     Garments have a placement of their own for the default robot only. One that lies elsewhere is laid with its near
     edge just inside the table's, where that robot's arms reach best.

@@ -63,7 +63,7 @@ def garment_of(drawing: Drawing) -> Garment:
 
 
 def radius_m(drawing: Drawing, crease: Crease) -> float:
-    """Return a fold's grip radius (m): its own, or the article's."""
+    """Return a fold's grip radius (m): its own, or the garment's."""
     return drawing.grip_radius_m if crease.grip_radius_m is None else crease.grip_radius_m
 
 

@@ -1,6 +1,6 @@
 """Records a plan as one HTML file that plays in any browser, without a server or a network.
 
-The recording uses a stage of its own, so that the stages on view are not disturbed. viser keeps the messages that it
+The recording uses a 3D view of its own, so that those on show are not disturbed. viser keeps the messages that it
 would have sent to a browser, with their times, and embeds them in its client.
 """
 
@@ -9,7 +9,7 @@ import re
 
 from app.jobs.job_pool import ShouldStop
 from app.step_words import step_words
-from app.ui.stage import Stage
+from app.ui.view_3d import View3D
 from planner.motion.timeline import Timeline
 from planner.robots.load_robot import load_robot
 from planner.task.plan import Plan
@@ -39,24 +39,24 @@ def recording(plan: Plan, rate_hz: float, should_stop: ShouldStop, *, is_dark: b
         UnsolvedPlanError: the plan is not solved, so there is nothing to play.
     """
     timeline, captions = Timeline.of(plan), _captions(plan)
-    stage = Stage(load_robot(plan.task.robot).card, plan.scene)
+    view = View3D(load_robot(plan.task.robot).card, plan.scene)
     try:
-        stage.set_theme(is_dark=is_dark)
-        stage.show_plan(plan)
-        stage.show(timeline.at(0.0))
-        recorder = stage.record()
+        view.set_theme(is_dark=is_dark)
+        view.show_plan(plan)
+        view.show(timeline.at(0.0))
+        recorder = view.record()
         before_s = 0.0
         for frame in timeline.samples(rate_hz):
             if should_stop():
                 return b""
             recorder.insert_sleep(frame.t_s - before_s)
-            stage.show(frame)
-            stage.caption(captions[frame.primitive])
+            view.show(frame)
+            view.caption(captions[frame.primitive])
             before_s = frame.t_s
         recorder.insert_sleep(HOLD_S)
         page = recorder.as_html(dark_mode=is_dark)
     finally:
-        stage.close()
+        view.close()
     title = f"<title>{html.escape(plan.garment.title)} - Pleat</title>"
     return _TITLE.sub(lambda _: title, page, count=1).encode("utf-8", "replace")
 

@@ -19,7 +19,7 @@ class FoldLine:
         kind: "blue" or "red".
         curve: the line, in the direction drawn.
         name: its name, or None.
-        grip_radius_m: the radius of cloth that one grip holds (m); None for the article's.
+        grip_radius_m: the radius of cloth that one grip holds (m); None for the garment's.
     """
 
     kind: str

@@ -2,10 +2,10 @@
 
 from dataclasses import replace
 
-from app.answer import Answer
 from app.document_state import DocumentState
 from app.drawing.draft import draft_of
 from app.drawing.garment_drawing import drawing_of
+from app.version_plan import VersionPlan
 from planner.cloth.garment import Garment
 from planner.task.plan import Plan
 from planner.task.task import Task
@@ -24,4 +24,4 @@ def state_of_plan(plan: Plan) -> DocumentState:
         placement=task.start.placement,
         comfort_radius_m=task.limits.comfort_radius_m,
     )
-    return DocumentState(1, draft_of(drawing), Answer(1, task, plan, ""))
+    return DocumentState(1, draft_of(drawing), VersionPlan(1, task, plan, ""))

@@ -6,8 +6,8 @@ from typing import Annotated, Any
 
 from pydantic import Field
 
-from app.api.asked import asked_garment
 from app.api.messages import GarmentField, TimeLimit
+from app.api.request_parsing import requested_garment
 from app.comparison import compared
 from app.jobs.job_kind import JobKind, Progress, Stores, as_it_is
 from planner.cloth.garment import Garment
@@ -33,7 +33,7 @@ class ComparisonRequest(StrictModel):
 
 
 @dataclass(frozen=True, slots=True)
-class Asked:
+class ComparisonTask:
     """A garment, and the robots to compare.
 
     Attributes:
@@ -47,17 +47,17 @@ class Asked:
     limits: Limits
 
 
-def _prepare(stores: Stores, wanted: ComparisonRequest) -> Asked:
+def _prepare(stores: Stores, wanted: ComparisonRequest) -> ComparisonTask:
     robots = tuple(robot_names()) if wanted.robots is None else tuple(wanted.robots)
     for number, robot in enumerate(robots):
         try:
             require_name(robot)
         except RequestError as error:
             raise RequestError(f"robots[{number}]", error.message) from None
-    return Asked(asked_garment(stores, wanted.garment), robots, Limits(time_limit_s=wanted.time_limit_s))
+    return ComparisonTask(requested_garment(stores, wanted.garment), robots, Limits(time_limit_s=wanted.time_limit_s))
 
 
-def compare(asked: Asked, progress: Progress) -> dict[str, Any]:
+def compare(asked: ComparisonTask, progress: Progress) -> dict[str, Any]:
     """Return the comparison of each robot as JSON, in the order asked; the work of the job."""
     found = []
     progress(0.0, f"0 of {len(asked.robots)} robots")

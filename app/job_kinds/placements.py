@@ -1,14 +1,14 @@
 """The map of placements as a job: the cost of the plan wherever the garment could be laid."""
 
 from app import searches
-from app.api.asked import TimeLimit, asked_places
 from app.api.messages import PlacementsRequest
+from app.api.request_parsing import TimeLimit, requested_places
 from app.jobs.job_kind import JobKind, Stores, as_it_is
 from planner.task.task import Task
 
 
 def _prepare(stores: Stores, wanted: PlacementsRequest) -> tuple[Task, float]:
-    return asked_places(stores, wanted, TimeLimit(wanted.time_limit_s)), wanted.step_m
+    return requested_places(stores, wanted, TimeLimit(wanted.time_limit_s)), wanted.step_m
 
 
 PLACEMENTS = JobKind(

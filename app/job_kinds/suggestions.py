@@ -3,15 +3,15 @@
 from typing import Any
 
 from app import searches
-from app.api.asked import TimeLimit, asked_task
 from app.api.messages import PlanRequest
+from app.api.request_parsing import TimeLimit, requested_task
 from app.jobs.job_kind import JobKind, Stores
 from planner.task.plan import Plan
 from planner.task.task import Task
 
 
 def _prepare(stores: Stores, wanted: PlanRequest) -> tuple[Task, Plan | None]:
-    return asked_task(stores, wanted, TimeLimit(wanted.time_limit_s)), None
+    return requested_task(stores, wanted, TimeLimit(wanted.time_limit_s)), None
 
 
 def _finish(stores: Stores, answer: tuple[list[searches.Suggested], bool]) -> dict[str, Any]:

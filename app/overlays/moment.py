@@ -23,7 +23,7 @@ class NoClothError(FoldingError):
 
 @dataclass(frozen=True)
 class Moment:
-    """A moment of a plan, or of the article as drawn.
+    """A moment of a plan, or of the garment as drawn.
 
     Attributes:
         robot: the name of the robot.
@@ -35,8 +35,8 @@ class Moment:
         placement: the article frame in the table frame.
         cloth: the stack as it lies there.
         done: the folds done, in the user's order.
-        plan: the plan; None for the article as drawn.
-        frame: the sample of the plan; None for the article as drawn.
+        plan: the plan; None for the garment as drawn.
+        frame: the sample of the plan; None for the garment as drawn.
         reason: the first reason with a position why there is no plan, or None.
     """
 
@@ -74,7 +74,7 @@ class Moment:
 
 
 def moment_of_plan(state: DocumentState, t_s: float) -> Moment:
-    """Return the moment at a time in the plan shown (s), clamped to its duration; without a plan, the article as drawn.
+    """Return the moment at a time in the plan shown (s), clamped to its duration; without a plan, the garment as drawn.
 
     Raises:
         NoClothError: nothing is drawn yet.
@@ -105,7 +105,7 @@ def moment_of_plan(state: DocumentState, t_s: float) -> Moment:
 
 
 def moment_as_drawn(state: DocumentState, station: str | None, back_off_m: float) -> Moment:
-    """Return the moment of the article as drawn, with the robot at a station, by default its start.
+    """Return the moment of the garment as drawn, with the robot at a station, by default its start.
 
     Raises:
         NoClothError: nothing is drawn yet.

@@ -45,7 +45,7 @@ RESULT_COLUMNS: Mapping[str, type] = {
     "plan_id": str,
     "error": str,
 }
-"""The columns of a row after its axes: where the article lies, what came out, and why."""
+"""The columns of a row after its axes: where the garment lies, what came out, and why."""
 
 COMFORT_MARGIN = "comfort_margin_m"
 """The column of the margin that takes further plans, there only where a study asks for it."""

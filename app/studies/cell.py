@@ -115,7 +115,7 @@ def _placement(
     before: Table,
     table: Table,
 ) -> Pose2:
-    """Return where the article lies.
+    """Return where the garment lies.
 
     Its usual placement keeps its distance to the table's near edge; a turn is about the middle of its bounding box.
     """

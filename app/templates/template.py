@@ -108,16 +108,16 @@ def fold(name: str, start: Point2, end: Point2) -> DrawnFold:
 
 
 def lying_across(outline: tuple[Point2, ...]) -> Pose2:
-    """Return the placement with the article's x along the table's, its lowest x nearest to the robot.
+    """Return the placement with the garment's x along the table's, its lowest x nearest to the robot.
 
-    The article is centred across the table; the robot stands at the front.
+    The garment is centred across the table; the robot stands at the front.
     """
     xs, ys = zip(*outline, strict=True)
     return Pose2(NEAR_EDGE_X_M + INSIDE_M - min(xs), -(min(ys) + max(ys)) / 2, 0.0)
 
 
 def lying_away(outline: tuple[Point2, ...], inside_m: float = INSIDE_M, beside_m: float = 0.0) -> Pose2:
-    """Return the placement with the article's y along the table's x, its lowest y nearest to the robot at the front.
+    """Return the placement with the garment's y along the table's x, its lowest y nearest to the robot at the front.
 
     Args:
         outline: the pattern's corners (m).
@@ -129,7 +129,7 @@ def lying_away(outline: tuple[Point2, ...], inside_m: float = INSIDE_M, beside_m
 
 
 def lying_towards(outline: tuple[Point2, ...], beside_m: float = 0.0) -> Pose2:
-    """Return the placement with the article's y against the table's x, its highest y nearest to the robot.
+    """Return the placement with the garment's y against the table's x, its highest y nearest to the robot.
 
     Args:
         outline: the pattern's corners (m).

@@ -1,4 +1,4 @@
-"""The cloth on the stage: its two faces in two colours, and the outline of every layer.
+"""The cloth in the 3D view: its two faces in two colours, and the outline of every layer.
 
 A face of cloth has no thickness, so it is drawn twice from the same triangles: one mesh is seen from the front, the
 other from behind. Neither casts a shadow, because it would fall on the other.

@@ -1,4 +1,4 @@
-"""The colours that the stage should show, on a light or a dark background.
+"""The colours that the 3D view should show, on a light or a dark background.
 
 Blue, red and the cloth's two faces stay distinguishable for every kind of colour vision.
 """
@@ -17,7 +17,7 @@ def rgb(code: str) -> Rgb:
 
 @dataclass(frozen=True, slots=True)
 class Palette:
-    """The colour of each thing on the stage."""
+    """The colour of each thing in the 3D view."""
 
     cloth_front: Rgb = rgb("F0E6D2")
     cloth_back: Rgb = rgb("B4C3D6")

@@ -37,7 +37,7 @@ class GripView:
         self._route = _polyline(server, f"{ROOT}/route", _ROUTE_PX)
 
     def remove(self) -> None:
-        """Take all marks off the stage."""
+        """Remove all marks."""
         self._route.remove()
         for marks in self._hands.values():
             marks.remove()

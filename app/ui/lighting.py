@@ -1,4 +1,4 @@
-"""The lights of the stage, and surface colours that look as intended under them.
+"""The lights of the 3D view, and surface colours that look as intended under them.
 
 The browser maps light to screen colours by a tone curve (the ACES fit of three.js), which greys and darkens: cream
 looks cold white. The lights here are white, and their sum on level surfaces is known, so the curve can be inverted:

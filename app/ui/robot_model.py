@@ -1,4 +1,4 @@
-"""A robot's links and meshes, read once from its URDF and shared by all stages.
+"""A robot's links and meshes, read once from its URDF and shared by all 3D views.
 
 Links form a tree, as does viser's scene: a link's node hangs below its parent's, so a moving joint changes one node and
 the browser works out the poses beyond it. There is no kinematics here.

@@ -1,4 +1,4 @@
-"""The robot on the stage: one scene node for each link, moved by its joint."""
+"""The robot in the 3D view: one scene node for each link, moved by its joint."""
 
 import viser
 
@@ -46,7 +46,7 @@ class RobotView:
         self.hands = {arm.name: nodes[arm.tool_frame] for arm in card.arms}
 
     def remove(self) -> None:
-        """Take the robot off the stage."""
+        """Remove the robot."""
         self._root.remove()
 
     def stand_on(self, floor_z_m: float) -> None:

@@ -1,4 +1,4 @@
-"""The cloth of a rehearsed run on the stage: in a tone of its own over the planned cloth, shaded where it is off it."""
+"""The cloth of a rehearsed run in the 3D view: in its own tone over the planned cloth, shaded where it is off it."""
 
 import numpy as np
 import viser

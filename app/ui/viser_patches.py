@@ -1,7 +1,7 @@
 """All changes to viser, with their reasons; `tests/app/test_viser_patches.py` fails where viser changes under them.
 
 **A server that only this process can reach.** viser listens on a port of its own without authentication, so any web
-page open in a browser on this machine could connect to it and read the scene. A stage is reached through the one public
+page open in a browser on this machine could connect to it and read the scene. A 3D view is reached through the public
 address only: the viser port requires a secret header, which our proxy knows and which no page can send along with a
 websocket. viser has no option for that, and makes its websocket server inside a function, so no subclass can change it.
 But when it starts it passes a `process_request` hook to `websockets.asyncio.server.serve`, and during the start we put
@@ -35,10 +35,10 @@ from websockets.http11 import Request, Response
 from app.ui.viewpoints.viewpoint_choice import CHANNEL
 
 LOOPBACK = "127.0.0.1"
-SECRET_HEADER = "X-Pleat-Stage"
+SECRET_HEADER = "X-Pleat-View"
 
 VISER_PAGE = Path(viser.__file__).parent / "client" / "build" / "index.html"
-"""The page that shows a stage: a single self-contained file."""
+"""The page that shows a 3D view: a single self-contained file."""
 
 READY = "pleat-ready"
 """The frame's message to the page once it can be looked at."""
@@ -126,8 +126,8 @@ def _guarded(hook: _Hook, secret: str) -> _Hook:
 
 
 @functools.lru_cache(maxsize=2)
-def stage_page(*, has_session: bool = True) -> bytes:
-    """Return the page that shows a stage: viser's page with our additions.
+def view_page(*, has_session: bool = True) -> bytes:
+    """Return the page that shows a 3D view: viser's page with our additions.
 
     Args:
         has_session: whether its viewpoint can be chosen; that of those who have a link cannot.

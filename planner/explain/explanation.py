@@ -3,9 +3,9 @@
 from collections.abc import Callable, Collection, Iterable
 
 from planner.cloth.g_state import Unrest
-from planner.explain.correction_sets import corrected
 from planner.explain.reasons import note_collision, reason_at_start, reasons
-from planner.explain.relaxed import Relaxed
+from planner.explain.relaxation_sets import confirmed_reasons
+from planner.explain.relaxed_problem import RelaxedProblem
 from planner.planning.problem import Problem
 from planner.planning.trial import Trial, TryFolds
 from planner.primitives.context import Context
@@ -38,10 +38,10 @@ class Explanation:
     ) -> tuple[Reason, ...]:
         """Return minimal sets of the reasons met, each tried."""
 
-        def ask(relaxed: Relaxed, folds: int) -> Trial:
+        def ask(relaxed: RelaxedProblem, folds: int) -> Trial:
             return try_folds(relaxed.searched, relaxed.may_collide, folds)
 
-        return corrected(Relaxed.of(problem), met, ask, is_enough)
+        return confirmed_reasons(RelaxedProblem.of(problem), met, ask, is_enough)
 
 
 class FirstExplanation(Explanation):

@@ -9,7 +9,7 @@ import numpy as np
 
 from planner.explain.reason_attempt import explained
 from planner.explain.reason_miss import Miss
-from planner.explain.reason_remedy import FURTHEST_M, remedy
+from planner.explain.reason_shift import FURTHEST_M, least_shift
 from planner.geometry.pose import FloatArray, Point3, Pose2
 from planner.geometry.tolerance import ANGLE_RAD
 from planner.primitives.context import STANDOFFS_PER_M, Context
@@ -25,7 +25,7 @@ def out_of_reach(context: Context, fold: int, miss: Miss) -> Reason:
     station, pose = context.scene.stations[miss.state.station]
     arm = context.reach.arm_names[trial.arms[miss.grip]]
     point = _point(trial.tools[miss.grip, miss.waypoint])
-    needed = None if found.is_at_least else remedy(context, miss)
+    needed = None if found.is_at_least else least_shift(context, miss)
     values = {
         "arm": arm,
         "at": list(point),
@@ -91,7 +91,7 @@ def _moment(miss: Miss) -> _Moment:
     return _Moment.UP if sweep < 1.0 else _Moment.DOWN
 
 
-def remedied_by(reason: Reason, context: Context, kinds: tuple[str, ...]) -> Reason:
+def removed_by(reason: Reason, context: Context, kinds: tuple[str, ...]) -> Reason:
     """Return what was out of reach, with the repair that was tried and works.
 
     Args:

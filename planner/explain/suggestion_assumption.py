@@ -28,7 +28,7 @@ COMFORT_STEP_M = 0.001
 
 
 @dataclass(frozen=True, slots=True)
-class Lever:
+class Assumption:
     """An assumption that can be made in steps.
 
     Attributes:
@@ -60,26 +60,26 @@ def grip_radii(task: Task, folds: Sequence[int], reasons: Sequence[Reason]) -> S
     return _least(task, _grip_radii(task, folds), first)
 
 
-def levers(task: Task, folds: Sequence[int]) -> tuple[Lever, ...]:
+def assumptions(task: Task, folds: Sequence[int]) -> tuple[Assumption, ...]:
     """Return all assumptions that can be made for a task; `folds`: those whose grips may hold more."""
     return _comforts(task), _frictions(task), _grip_radii(task, folds)
 
 
-def _comforts(task: Task) -> Lever:
+def _comforts(task: Task) -> Assumption:
     now = task.limits.comfort_radius_m
     steps = math.ceil(now / COMFORT_STEP_M - LENGTH_M)
-    return Lever(0, steps, lambda task, step: _comfort(task, max(round(now - step * COMFORT_STEP_M, 6), 0.0)))
+    return Assumption(0, steps, lambda task, step: _comfort(task, max(round(now - step * COMFORT_STEP_M, 6), 0.0)))
 
 
-def _frictions(task: Task) -> Lever:
+def _frictions(task: Task) -> Assumption:
     now, most = _step_below(task.scene.friction * FRICTION_STEPS), round(FRICTION_MAX * FRICTION_STEPS)
-    return Lever(now, most, lambda task, step: _friction(task, step / FRICTION_STEPS))
+    return Assumption(now, most, lambda task, step: _friction(task, step / FRICTION_STEPS))
 
 
-def _grip_radii(task: Task, folds: Sequence[int]) -> Lever:
+def _grip_radii(task: Task, folds: Sequence[int]) -> Assumption:
     smallest = min((task.garment.folds[i].grip_radius_m for i in folds), default=GRIP_RADIUS_MAX_M)
     now, most = _step_below(smallest * GRIP_RADIUS_STEPS_PER_M), round(GRIP_RADIUS_MAX_M * GRIP_RADIUS_STEPS_PER_M)
-    return Lever(now, most, lambda task, step: _grip_radius(task, folds, step / GRIP_RADIUS_STEPS_PER_M))
+    return Assumption(now, most, lambda task, step: _grip_radius(task, folds, step / GRIP_RADIUS_STEPS_PER_M))
 
 
 def _step_above(steps: float) -> int:
@@ -92,20 +92,20 @@ def _step_below(steps: float) -> int:
     return math.floor(steps + LENGTH_M)
 
 
-def _least(task: Task, lever: Lever, first: Sequence[int] = ()) -> Search:
+def _least(task: Task, assumption: Assumption, first: Sequence[int] = ()) -> Search:
     """Look for the fewest steps that work, beyond those that fail; try some steps first, then the most."""
-    fails, most = lever.now, lever.most
+    fails, most = assumption.now, assumption.most
     best: Proof | None = None
     works, is_known = most + 1, False
     for step in sorted({step for step in (*first, most) if fails < step <= most}):
-        best = Proof.of(trial := lever.trial_at(task, step), (yield trial))
+        best = Proof.of(trial := assumption.trial_at(task, step), (yield trial))
         if best is not None:
             works, is_known = step, step in first
             break
         fails = step
     while works - fails > 1 and best is not None:
         middle, is_known = works - 1 if is_known else (fails + works) // 2, False
-        trial = lever.trial_at(task, middle)
+        trial = assumption.trial_at(task, middle)
         plan = yield trial
         if plan is None:
             break

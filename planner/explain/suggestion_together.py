@@ -8,7 +8,7 @@ bisection while the others stay.
 from collections.abc import Generator, Mapping, Sequence
 from typing import Any, TypeAlias
 
-from planner.explain.suggestion_assumption import levers
+from planner.explain.suggestion_assumption import assumptions
 from planner.explain.suggestion_trial import Proof, Search, SuggestionTrial
 from planner.task.plan import Plan
 from planner.task.task import Task
@@ -29,7 +29,11 @@ def together(task: Task, folds: Sequence[int]) -> Search:
         folds: the indices of the folds whose grips may hold more.
     """
     attempt = _Attempt(task, folds)
-    steps: _Steps = {number: lever.most for number, lever in enumerate(attempt.levers) if lever.most > lever.now}
+    steps: _Steps = {
+        number: assumption.most
+        for number, assumption in enumerate(attempt.assumptions)
+        if assumption.most > assumption.now
+    }
     best = yield from attempt.proof(steps)
     if best is None:
         return
@@ -41,7 +45,7 @@ def together(task: Task, folds: Sequence[int]) -> Search:
     if len(steps) < 2:
         return  # one alone is suggested by itself
     for number, most in tuple(steps.items()):
-        fails, works = attempt.levers[number].now, most
+        fails, works = attempt.assumptions[number].now, most
         while works - fails > 1:
             middle = (fails + works) // 2
             proof = yield from attempt.proof({**steps, number: middle})
@@ -58,7 +62,7 @@ class _Attempt:
 
     def __init__(self, task: Task, folds: Sequence[int]) -> None:
         self._task = task
-        self.levers = levers(task, folds)
+        self.assumptions = assumptions(task, folds)
 
     def proof(self, steps: _Steps) -> Generator[SuggestionTrial, Plan | None, Proof | None]:
         """Try assumptions; return the proof that they give a plan, or None."""
@@ -69,11 +73,11 @@ class _Attempt:
         task, parts, size = self._task, [], 0.0
         change: dict[str, Any] = {}
         for number, step in steps.items():
-            lever = self.levers[number]
-            part = lever.trial_at(task, step)
+            assumption = self.assumptions[number]
+            part = assumption.trial_at(task, step)
             task = part.task
             parts.append(part.says)
             change |= part.change
-            size += (step - lever.now) / (lever.most - lever.now)
+            size += (step - assumption.now) / (assumption.most - assumption.now)
         says = worded("assume_together", {"parts": [part.to_dict() for part in parts]}, self._task.garment.folds)
         return SuggestionTrial(TOGETHER, says, change, size, task)

@@ -1,4 +1,4 @@
-"""The card that planning and the stage read, of a robot described by a JSON card and a URDF."""
+"""The card that planning and the 3D view read, of a robot described by a JSON card and a URDF."""
 
 import math
 import tempfile

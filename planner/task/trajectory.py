@@ -2,7 +2,7 @@
 
 Between two keyframes everything moves on a cubic, so that velocities are continuous. Plans from before velocities were
 kept have none: there everything goes straight from keyframe to keyframe. The trajectory describes the motion
-completely: stage, exports, simulation and checks read nothing else.
+completely: 3D view, exports, simulation and checks read nothing else.
 """
 
 from bisect import bisect_right

@@ -1,4 +1,4 @@
-/** Keys that mean the same everywhere on the page, also while the stage has the focus. */
+/** Keys that mean the same everywhere on the page, also while the 3D view has the focus. */
 
 const TEXT_TYPES = new Set(["text", "search", "number", "file", "url", "email"]);
 

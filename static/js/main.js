@@ -19,8 +19,8 @@ import { mountOffline } from "./offline.js";
 import { mountPhone } from "./phone.js";
 import { mountRobots } from "./robots.js";
 import { mountSplitter } from "./splitter.js";
-import { mountStagePlay } from "./stage_play.js";
-import { mountStage } from "./stage.js";
+import { mountView3DPlay } from "./view3d_play.js";
+import { mountView3D } from "./view3d.js";
 import { Rehearsal } from "./rehearsal/rehearsal.js";
 import { Repair } from "./repair/repair.js";
 import { tellEffort } from "./settings/effort.js";
@@ -61,9 +61,9 @@ const verbs = {
 };
 mountHistory(store, verbs);
 mountOffline(store);
-mountStagePlay(store, togglePlay);
+mountView3DPlay(store, togglePlay);
 const looking = { play: togglePlay, help: dialogs.help };
-mountStage(store, keyHandler(isViewOnly ? looking : verbs), board); // letters move the camera there
+mountView3D(store, keyHandler(isViewOnly ? looking : verbs), board); // letters move the camera there
 
 const keys = isViewOnly ? looking : { ...verbs, ...boardKeys(board), h: () => repair.takeFocus() };
 document.addEventListener("keydown", keyHandler(keys));

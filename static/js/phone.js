@@ -1,4 +1,4 @@
-/** On a phone one of board and stage is large and the other a small inset; the dock is a sheet that pulls up. */
+/** On a phone one of board and 3D view is large and the other a small inset; the dock is a sheet that pulls up. */
 
 import { byId } from "./dom.js";
 import { say } from "./language/say.js";
@@ -13,9 +13,9 @@ export function mountPhone() {
   const grip = byId("sheet");
 
   const show = () => {
-    const isStageLarge = work.classList.contains("is-stage-large");
+    const isView3DLarge = work.classList.contains("is-view3d-large");
     swap.hidden = !phone.matches;
-    swap.setAttribute("aria-label", isStageLarge ? say("phone.board_large") : say("phone.stage_large"));
+    swap.setAttribute("aria-label", isView3DLarge ? say("phone.board_large") : say("phone.view3d_large"));
   };
   /** @param {boolean} isOpen */
   const open = (isOpen) => {
@@ -26,7 +26,7 @@ export function mountPhone() {
   const isOpen = () => document.body.classList.contains("is-sheet-open");
 
   swap.addEventListener("click", () => {
-    work.classList.toggle("is-stage-large");
+    work.classList.toggle("is-view3d-large");
     show();
   });
   /** @type {number|null} where the pull began (px) */

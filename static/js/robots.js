@@ -1,5 +1,5 @@
 /**
- * The combobox `Robot` on the stage: who folds. Another robot brings its table and stations along, as one step. The
+ * The combobox `Robot` in the 3D view: who folds. Another robot brings its table and stations along, as one step. The
  * window's event `robots` says that there are others.
  */
 

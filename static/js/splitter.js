@@ -1,4 +1,4 @@
-/** The bar between board and stage: dragged, or moved by the arrow keys; a double click puts it back. */
+/** The bar between board and 3D view: dragged, or moved by the arrow keys; a double click puts it back. */
 
 import { byId } from "./dom.js";
 
@@ -18,14 +18,14 @@ export function mountSplitter() {
   const put = (wanted) => {
     share = Math.min(Math.max(wanted, LEAST), MOST);
     work.style.setProperty("--board-share", `${100 * share}fr`);
-    work.style.setProperty("--stage-share", `${100 - 100 * share}fr`);
+    work.style.setProperty("--view3d-share", `${100 - 100 * share}fr`);
     splitter.setAttribute("aria-valuenow", String(Math.round(100 * share)));
     localStorage.setItem(KEY, String(share));
   };
   /** @param {PointerEvent} event */
   const at = (event) => {
     const left = byId("board").getBoundingClientRect().left;
-    const right = byId("stage-pane").getBoundingClientRect().right;
+    const right = byId("view3d-pane").getBoundingClientRect().right;
     return (event.clientX - left) / (right - left);
   };
 
@@ -33,7 +33,7 @@ export function mountSplitter() {
   splitter.setAttribute("aria-valuemax", String(100 * MOST));
   splitter.addEventListener("pointerdown", (event) => {
     splitter.setPointerCapture(event.pointerId);
-    work.classList.add("is-splitting"); // the stage's frame would swallow the pointer
+    work.classList.add("is-splitting"); // the 3D view's frame would swallow the pointer
   });
   splitter.addEventListener("pointermove", (event) => {
     if (splitter.hasPointerCapture(event.pointerId)) put(at(event));

@@ -4,7 +4,7 @@ import { byId } from "./dom.js";
 import { say } from "./language/say.js";
 
 const GONE = ["gallery", "rename", "share", "undo", "redo", "new", "import", "jobs", "settings", "compare", "rail"];
-const STILL = ["#garment", ".stage-robot", "#board", ".folds", ".dock-outcome"];
+const STILL = ["#garment", ".view3d-robot", "#board", ".folds", ".dock-outcome"];
 
 /** Whether the page was opened by such a link; the server refuses changes by it in any case. */
 export const isViewOnly = /\/s\/[\w-]+\/d\/[^/]+$/.test(location.pathname);

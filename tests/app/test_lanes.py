@@ -11,7 +11,7 @@ from typing import Any
 import httpx
 import pytest
 
-from app.api.asked import SHORTEST_S, TimeLimit
+from app.api.request_parsing import SHORTEST_S, TimeLimit
 from app.jobs.apart import PlannerNotLoadedError
 from app.jobs.job_pool import BusyError, JobPool
 from app.jobs.lanes import SEARCHES_WAITING_MAX

@@ -68,7 +68,7 @@ async def test_a_message_is_made_once_for_all_pages_and_the_answer(
         made.append(now.version)
         return document_message(document_id, now)
 
-    monkeypatch.setattr("app.api.told.document_message", noted)
+    monkeypatch.setattr("app.api.serialization.document_message", noted)
     moved = await move(client, state, -0.02)
     for page in pages:
         assert await page.until("document", version=moved["version"]) == moved

@@ -72,10 +72,10 @@ def test_edits_reach_the_websocket_of_a_page(proxied: httpx.Client) -> None:
             told = json.loads(page.recv(timeout=PATIENCE_S))
 
 
-def test_the_stage_and_its_websocket_are_below_the_prefix(proxied: httpx.Client) -> None:
+def test_the_3d_view_and_its_websocket_are_below_the_prefix(proxied: httpx.Client) -> None:
     document_id = created(proxied)
-    stage = proxied.get(f"/viser/{document_id}")
-    assert stage.headers["location"].endswith(f"{PREFIX}/viser/{document_id}/")
+    view = proxied.get(f"/viser/{document_id}")
+    assert view.headers["location"].endswith(f"{PREFIX}/viser/{document_id}/")
     assert proxied.get(f"/viser/{document_id}/").status_code == 200
     protocol = Subprotocol(f"viser-v{viser.__version__}")
     address = websocket_url(proxied, f"/viser/{document_id}")

@@ -7,9 +7,9 @@ from dataclasses import replace
 import pytest
 
 from app import replanner
-from app.answer import Answer
 from app.drawing.edit import Edit
 from app.drawing.solve import solve
+from app.version_plan import VersionPlan
 from planner import Task, find_plan
 from planner.planning import plan_search
 from planner.planning.found_plan import FoundPlan
@@ -77,9 +77,9 @@ def test_a_plan_that_was_shown_stays_readable_when_a_quicker_one_takes_its_place
     assert all(desk.plans.plan(plan_id).is_solved for plan_id in shown)
 
 
-def answers(desk: Desk) -> list[Answer]:
+def answers(desk: Desk) -> list[VersionPlan]:
     """Record everything that is shown from now on."""
-    shown: list[Answer] = []
+    shown: list[VersionPlan] = []
 
     def look() -> None:
         state = desk.document.state
@@ -160,7 +160,7 @@ def test_who_looks_longer_keeps_the_plan_on_show_until_a_quicker_one_is_found(
 def test_that_there_is_no_plan_is_told_before_the_reasons_are_tried(desk: Desk) -> None:
     """Reasons that were met come at once, marked as not tried; then those that were."""
     desk.rest()
-    seen: list[Answer] = []
+    seen: list[VersionPlan] = []
 
     def look() -> None:
         answer = desk.document.state.answer

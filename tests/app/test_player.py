@@ -16,8 +16,8 @@ from planner.robots.card import RobotCard
 from tests.app.drawing.drawings import outlined, pulled
 
 
-class CountingStage:
-    """A fake stage that counts what it is shown."""
+class CountingView3D:
+    """A fake 3D view that counts what it is shown."""
 
     def __init__(self, has_watchers: bool) -> None:
         self.has_watchers = has_watchers
@@ -76,8 +76,8 @@ def until(condition) -> None:
         time.sleep(0.005)
 
 
-class FailingStage(CountingStage):
-    """A stage that fails sometimes, as one does while a visitor leaves it."""
+class FailingView3D(CountingView3D):
+    """A 3D view that fails sometimes, as one does while a visitor leaves it."""
 
     def __init__(self, failures: int) -> None:
         super().__init__(has_watchers=True)
@@ -91,143 +91,143 @@ class FailingStage(CountingStage):
 
 
 def playing_for_a_second(plan: Plan, has_watchers: bool) -> list[float]:
-    document, stage = towel_document(), CountingStage(has_watchers)
-    player = Player(document, stage)
+    document, view = towel_document(), CountingView3D(has_watchers)
+    player = Player(document, view)
     try:
-        until(lambda: stage.lying == 1)
+        until(lambda: view.lying == 1)
         answer(document, plan)
-        until(lambda: stage.times == [0.0])
+        until(lambda: view.times == [0.0])
         document.play()
         until(lambda: document.t_s > 1.0)
         document.pause()
-        until(lambda: stage.times[-1] == document.t_s)
-        assert stage.plans == 1
-        return stage.times
+        until(lambda: view.times[-1] == document.t_s)
+        assert view.plans == 1
+        return view.times
     finally:
         player.close()
 
 
-def test_a_watched_stage_gets_thirty_updates_a_second(plan: Plan) -> None:
+def test_a_watched_3d_view_gets_thirty_updates_a_second(plan: Plan) -> None:
     assert 0.6 * UPDATES_PER_S <= len(playing_for_a_second(plan, has_watchers=True)) <= 1.2 * UPDATES_PER_S
 
 
-def test_an_unwatched_stage_gets_few(plan: Plan) -> None:
+def test_an_unwatched_3d_view_gets_few(plan: Plan) -> None:
     assert len(playing_for_a_second(plan, has_watchers=False)) <= 10
 
 
-def test_a_paused_stage_gets_one_update_for_each_change(plan: Plan) -> None:
-    document, stage = towel_document(), CountingStage(True)
-    player = Player(document, stage)
+def test_a_paused_3d_view_gets_one_update_for_each_change(plan: Plan) -> None:
+    document, view = towel_document(), CountingView3D(True)
+    player = Player(document, view)
     try:
         answer(document, plan)
         for t_s in (1.0, 2.0, 3.0):
             document.seek(t_s)
-            until(lambda t_s=t_s: stage.times and stage.times[-1] == t_s)
+            until(lambda t_s=t_s: view.times and view.times[-1] == t_s)
         time.sleep(0.2)
-        assert len(stage.times) <= 4
+        assert len(view.times) <= 4
     finally:
         player.close()
 
 
-def test_the_stage_follows_the_theme_and_another_garment_keeps_it() -> None:
-    document, stage = towel_document(), CountingStage(True)
-    player = Player(document, stage)
+def test_the_3d_view_follows_the_theme_and_another_garment_keeps_it() -> None:
+    document, view = towel_document(), CountingView3D(True)
+    player = Player(document, view)
     try:
-        until(lambda: stage.lying == 1)
+        until(lambda: view.lying == 1)
         document.set_theme(is_dark=True)
-        until(lambda: stage.themes == [False, True])
+        until(lambda: view.themes == [False, True])
         document.edit(Edit("Open T-shirt", drawing_of(load_garment("t-shirt"))))
-        until(lambda: stage.lying == 2)
+        until(lambda: view.lying == 2)
         assert document.state.is_dark
-        assert stage.themes == [False, True]
+        assert view.themes == [False, True]
     finally:
         player.close()
 
 
-def test_the_stage_follows_the_language() -> None:
-    document, stage = towel_document(), CountingStage(True)
-    player = Player(document, stage)
+def test_the_3d_view_follows_the_language() -> None:
+    document, view = towel_document(), CountingView3D(True)
+    player = Player(document, view)
     try:
-        until(lambda: stage.lying == 1)
+        until(lambda: view.lying == 1)
         document.set_language("de")
-        until(lambda: stage.languages == ["en", "de"])
+        until(lambda: view.languages == ["en", "de"])
         document.set_theme(is_dark=True)
-        until(lambda: stage.themes == [False, True])
-        assert stage.languages == ["en", "de"]
+        until(lambda: view.themes == [False, True])
+        assert view.languages == ["en", "de"]
     finally:
         player.close()
 
 
 def test_the_cloth_follows_the_drawing_at_once_while_the_film_stands_at_its_beginning(plan: Plan) -> None:
-    document, stage = towel_document(), CountingStage(True)
-    player = Player(document, stage)
+    document, view = towel_document(), CountingView3D(True)
+    player = Player(document, view)
     try:
-        until(lambda: stage.lying == 1)
+        until(lambda: view.lying == 1)
         answer(document, plan)
-        until(lambda: stage.times == [0.0])
+        until(lambda: view.times == [0.0])
         document.edit(Edit("Move", pulled(document.state.drawing, 0, -0.01, 0.0)))
-        until(lambda: stage.lying == 2)
+        until(lambda: view.lying == 2)
         document.undo()
-        until(lambda: len(stage.times) == 2)
+        until(lambda: len(view.times) == 2)
     finally:
         player.close()
 
 
 @pytest.mark.parametrize(("status", "drawn"), [("solved", (1, 1)), ("infeasible", (2, 0))])
-def test_the_stage_waits_with_a_drawing_for_its_plan_if_there_is_one(
+def test_the_3d_view_waits_with_a_drawing_for_its_plan_if_there_is_one(
     status: str, drawn: tuple[int, int], plan: Plan, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(player_module, "PATIENCE_S", 60.0)
-    document, stage = towel_document(), CountingStage(True)
-    player = Player(document, stage)
+    document, view = towel_document(), CountingView3D(True)
+    player = Player(document, view)
     try:
-        until(lambda: stage.lying == 1)
+        until(lambda: view.lying == 1)
         document.edit(Edit("Move", pulled(document.state.drawing, 0, -0.01, 0.0)))
         answer(document, replace(plan, status=status))
-        until(lambda: (stage.lying, stage.plans) == drawn)
+        until(lambda: (view.lying, view.plans) == drawn)
     finally:
         player.close()
 
 
 def test_in_the_middle_of_a_film_it_stays_until_the_next(plan: Plan) -> None:
-    document, stage = towel_document(), CountingStage(True)
-    player = Player(document, stage)
+    document, view = towel_document(), CountingView3D(True)
+    player = Player(document, view)
     try:
-        until(lambda: stage.lying == 1)
+        until(lambda: view.lying == 1)
         answer(document, plan)
         document.seek(2.0)
-        until(lambda: stage.times and stage.times[-1] == 2.0)
+        until(lambda: view.times and view.times[-1] == 2.0)
         document.edit(Edit("Move", pulled(document.state.drawing, 0, -0.01, 0.0)))
         time.sleep(0.2)
-        assert stage.lying == 1
+        assert view.lying == 1
     finally:
         player.close()
 
 
-def test_a_spoilt_drawing_leaves_on_the_stage_what_was_there(plan: Plan) -> None:
-    document, stage = towel_document(), CountingStage(True)
-    player = Player(document, stage)
+def test_a_spoilt_drawing_leaves_in_the_3d_view_what_was_there(plan: Plan) -> None:
+    document, view = towel_document(), CountingView3D(True)
+    player = Player(document, view)
     try:
-        until(lambda: stage.lying == 1)
+        until(lambda: view.lying == 1)
         document.edit(Edit("Spoil", outlined(document.state.drawing, (0.0, 0.0), (0.1, 0.0))))
         document.set_theme(is_dark=True)
-        until(lambda: stage.themes == [False, True])
-        assert (stage.lying, stage.bare) == (1, 0)
+        until(lambda: view.themes == [False, True])
+        assert (view.lying, view.bare) == (1, 0)
     finally:
         player.close()
 
 
-def test_where_nothing_is_drawn_the_stage_has_no_cloth() -> None:
-    document, stage = towel_document(), CountingStage(True)
-    player = Player(document, stage)
+def test_where_nothing_is_drawn_the_3d_view_has_no_cloth() -> None:
+    document, view = towel_document(), CountingView3D(True)
+    player = Player(document, view)
     try:
-        until(lambda: stage.lying == 1)
+        until(lambda: view.lying == 1)
         document.edit(Edit("Clear", outlined(document.state.drawing)))
-        until(lambda: stage.bare == 1)
+        until(lambda: view.bare == 1)
         document.set_theme(is_dark=True)
         document.undo()
-        until(lambda: stage.lying == 2)
-        assert stage.bare == 1
+        until(lambda: view.lying == 2)
+        assert view.bare == 1
     finally:
         player.close()
 
@@ -235,49 +235,49 @@ def test_where_nothing_is_drawn_the_stage_has_no_cloth() -> None:
 @pytest.mark.parametrize("corners", [(), ((0.0, 0.0), (0.1, 0.0))])
 def test_a_robot_waits_at_the_table_before_there_is_any_cloth(corners: tuple[Point2, ...]) -> None:
     drawing = drawing_of(load_garment("hand-towel"))
-    stage = CountingStage(True)
-    player = Player(Document(draft_of(outlined(drawing, *corners))), stage)
+    view = CountingView3D(True)
+    player = Player(Document(draft_of(outlined(drawing, *corners))), view)
     try:
-        until(lambda: stage.bare == 1)
-        assert stage.lying == 0
+        until(lambda: view.bare == 1)
+        assert view.lying == 0
     finally:
         player.close()
 
 
 def test_another_scene_is_put_up_with_what_is_shown_in_it() -> None:
-    document, stage = towel_document(), CountingStage(True)
-    player = Player(document, stage)
+    document, view = towel_document(), CountingView3D(True)
+    player = Player(document, view)
     try:
-        until(lambda: stage.lying == 1)
+        until(lambda: view.lying == 1)
         high = replace(Scene(), table=Table(height_m=0.9))
         document.edit(Edit("Table", replace(document.state.drawing, scene=high)))
-        until(lambda: stage.lying == 2)
-        assert stage.scenes == [Scene(), high]
+        until(lambda: view.lying == 2)
+        assert view.scenes == [Scene(), high]
     finally:
         player.close()
 
 
 def test_what_could_not_be_drawn_is_drawn_anew(caplog: pytest.LogCaptureFixture) -> None:
-    document, stage = towel_document(), FailingStage(failures=1)
-    player = Player(document, stage)
+    document, view = towel_document(), FailingView3D(failures=1)
+    player = Player(document, view)
     try:
-        until(lambda: stage.lying == 1)
+        until(lambda: view.lying == 1)
     finally:
         player.close()
     assert "a visitor has just left" in caplog.text
 
 
 def test_what_fails_again_waits_for_the_next_change(caplog: pytest.LogCaptureFixture) -> None:
-    document, stage = towel_document(), FailingStage(failures=2)
-    player = Player(document, stage)
+    document, view = towel_document(), FailingView3D(failures=2)
+    player = Player(document, view)
     try:
-        until(lambda: stage.failures == 0)
-        assert stage.lying == 0
+        until(lambda: view.failures == 0)
+        assert view.lying == 0
         document.set_theme(is_dark=True)
-        until(lambda: stage.lying == 1)
+        until(lambda: view.lying == 1)
     finally:
         player.close()
-    assert caplog.text.count("the stage could not be brought up to date") == 2
+    assert caplog.text.count("the 3D view could not be brought up to date") == 2
 
 
 def drag_on(document: Document, dx_m: float) -> None:
@@ -285,57 +285,57 @@ def drag_on(document: Document, dx_m: float) -> None:
     document.edit(Edit("Move", drawing, Phase.PREVIEW, gesture="one"))
 
 
-def test_where_software_draws_it_the_stage_follows_a_hand_once_that_rests(
+def test_where_software_draws_it_the_3d_view_follows_a_hand_once_that_rests(
     plan: Plan, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(player_module, "PATIENCE_S", 0.0)
     monkeypatch.setattr(player_module, "REST_S", 1.0)
-    document, stage = towel_document(), CountingStage(True)
-    stage.is_drawn_by_software = True
-    player = Player(document, stage)
+    document, view = towel_document(), CountingView3D(True)
+    view.is_drawn_by_software = True
+    player = Player(document, view)
     try:
-        until(lambda: stage.lying == 1)
+        until(lambda: view.lying == 1)
         begun = time.monotonic()
         while time.monotonic() < begun + 1.3:
             drag_on(document, -0.001)
-            assert stage.lying == 1
+            assert view.lying == 1
             time.sleep(0.02)
-        until(lambda: stage.lying == 2)  # the hand rests
+        until(lambda: view.lying == 2)  # the hand rests
         monkeypatch.setattr(player_module, "REST_S", 60.0)
         drag_on(document, -0.001)
         time.sleep(0.1)
-        assert stage.lying == 2
+        assert view.lying == 2
         document.edit(Edit("Move", document.state.drawing, gesture="one"))
-        until(lambda: stage.lying == 3)  # the hand has let go
+        until(lambda: view.lying == 3)  # the hand has let go
     finally:
         player.close()
 
 
-def test_where_a_graphics_card_draws_it_the_stage_follows_a_hand_at_once(
+def test_where_a_graphics_card_draws_it_the_3d_view_follows_a_hand_at_once(
     plan: Plan, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(player_module, "PATIENCE_S", 0.0)
     monkeypatch.setattr(player_module, "REST_S", 60.0)
-    document, stage = towel_document(), CountingStage(True)
-    player = Player(document, stage)
+    document, view = towel_document(), CountingView3D(True)
+    player = Player(document, view)
     try:
-        until(lambda: stage.lying == 1)
+        until(lambda: view.lying == 1)
         for number in (2, 3, 4):
             drag_on(document, -0.001)
-            until(lambda number=number: stage.lying == number)
+            until(lambda number=number: view.lying == number)
     finally:
         player.close()
 
 
 def test_a_plan_that_is_pointed_at_is_shown_to_its_end_and_then_the_own_one_again(plan: Plan, monkeypatch):
     monkeypatch.setattr(player_module, "PREVIEW_S", 0.2)
-    document, stage = towel_document(), CountingStage(has_watchers=True)
+    document, view = towel_document(), CountingView3D(has_watchers=True)
     answer(document, plan)
-    player = Player(document, stage)
-    until(lambda: stage.times == [0.0])
+    player = Player(document, view)
+    until(lambda: view.times == [0.0])
     document.preview(plan)
-    until(lambda: stage.times[-1] == plan.cost_s)
-    assert stage.plans == 2 and document.t_s == 0.0
+    until(lambda: view.times[-1] == plan.cost_s)
+    assert view.plans == 2 and document.t_s == 0.0
     document.preview(None)
-    until(lambda: stage.times[-1] == 0.0)
+    until(lambda: view.times[-1] == 0.0)
     player.close()

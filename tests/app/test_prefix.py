@@ -38,8 +38,8 @@ async def test_the_page_leads_to_addresses_below_the_prefix(client: httpx.AsyncC
     assert 'src="../static/page.js"' in page.text
     made = await client.post(f"{above}/api/documents", headers=PREFIX, json={"garment": towel()})
     assert made.headers["location"].startswith("/tools/pleat/d/")
-    stage = await client.get(f"{above}/viser/{made.json()['id']}", headers=PREFIX)
-    assert stage.headers["location"].startswith("/tools/pleat/viser/")
+    view = await client.get(f"{above}/viser/{made.json()['id']}", headers=PREFIX)
+    assert view.headers["location"].startswith("/tools/pleat/viser/")
     assert "/tools/pleat/openapi.json" in (await client.get(f"{above}/docs", headers=PREFIX)).text
 
 

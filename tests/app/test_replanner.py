@@ -7,12 +7,12 @@ from dataclasses import replace
 
 import pytest
 
-from app.answer import Answer
 from app.api.live_messages import plan_message, status_text
 from app.document_state import DocumentState
 from app.drawing.edit import Edit, Phase
 from app.replanner import Replanner
 from app.store.plan_store import PlanStore, UnknownPlanError
+from app.version_plan import VersionPlan
 from planner import Plan
 from planner.task.grip import Holding
 from tests.app.drawing.drawings import crease, outlined
@@ -148,7 +148,7 @@ def test_a_plan_is_shown_before_it_is_written_and_written_only_if_it_is_final(
     desk: Desk, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     desk.rest()
-    written: list[tuple[str, Answer | None]] = []
+    written: list[tuple[str, VersionPlan | None]] = []
 
     def write(_: PlanStore, plan_id: str, __: Plan) -> None:
         written.append((plan_id, desk.document.state.answer))

@@ -44,7 +44,7 @@ def live_path(served: Served) -> str:
     return f"/api/documents/{served.document}/live"
 
 
-def stage_path(served: Served) -> str:
+def view_path(served: Served) -> str:
     return f"/viser/{served.document}"
 
 
@@ -130,18 +130,18 @@ def test_another_garment_can_be_chosen_and_an_unknown_one_cannot(served: Served)
 
 
 @pytest.mark.parametrize("pace", ["", "/by-software"])
-def test_the_stages_page_and_websocket_come_through_the_one_port(served: Served, pace: str) -> None:
-    answer = REST.get(f"{served.url}{stage_path(served)}{pace}", follow_redirects=True)
+def test_the_3d_views_page_and_websocket_come_through_the_one_port(served: Served, pace: str) -> None:
+    answer = REST.get(f"{served.url}{view_path(served)}{pace}", follow_redirects=True)
     assert answer.status_code == 200
-    assert str(answer.url) == f"{served.url}{stage_path(served)}{pace}/"
+    assert str(answer.url) == f"{served.url}{view_path(served)}{pace}/"
     assert "text/html" in answer.headers["content-type"]
-    address = f"ws://{served.authority}{stage_path(served)}{pace}"
+    address = f"ws://{served.authority}{view_path(served)}{pace}"
     with connect(address, subprotocols=[SUBPROTOCOL], proxy=None, max_size=None) as page:
         assert page.subprotocol == SUBPROTOCOL
         assert isinstance(page.recv(timeout=PATIENCE_S), bytes)
 
 
-@pytest.mark.parametrize("path", [live_path, stage_path])
+@pytest.mark.parametrize("path", [live_path, view_path])
 @pytest.mark.parametrize("origin", ["http://evil.example", "null", "http://127.0.0.1:1"])
 def test_a_websocket_from_a_foreign_page_never_opens(
     served: Served, path: Callable[[Served], str], origin: str
@@ -184,13 +184,13 @@ def test_a_client_that_goes_away_stops_its_search(served: Served) -> None:
 def test_ctrl_c_and_kill_end_it_cleanly_whatever_is_open(tmp_path: Path, end: signal.Signals) -> None:
     server = Served(tmp_path)
     try:
-        address = f"ws://{server.authority}{stage_path(server)}"
+        address = f"ws://{server.authority}{view_path(server)}"
         with (
             live(server) as page,
-            connect(address, subprotocols=[SUBPROTOCOL], proxy=None, max_size=None) as stage,
+            connect(address, subprotocols=[SUBPROTOCOL], proxy=None, max_size=None) as view,
         ):
             until(page, "document")
-            stage.recv(timeout=PATIENCE_S)
+            view.recv(timeout=PATIENCE_S)
             with pytest.raises(httpx.ReadTimeout):
                 REST.post(f"{server.url}/api/plans", json={"garment": "shirt"}, timeout=0.05)
             assert (tmp_path / "server.json").exists()

@@ -1,4 +1,4 @@
-"""The cloth of a rehearsed run on the stage: beside the plan, shaded where it is off it."""
+"""The cloth of a rehearsed run in the 3D view: beside the plan, shaded where it is off it."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -12,7 +12,7 @@ from app.drawing.garment_drawing import drawing_of
 from app.rehearsal.planned_cloth import planned_positions
 from app.rehearsal.trace import ClothAfter, RunTrace, rounded, traced
 from app.rehearsal.world import Truth
-from app.ui.stage import Stage
+from app.ui.view_3d import View3D
 from planner import Plan, Scene, load_garment, make_plan
 from planner.geometry.woven_mesh import woven_mesh
 from planner.motion.timeline import Timeline
@@ -22,8 +22,8 @@ SLID_M = 0.03
 
 
 @pytest.fixture(scope="module")
-def stage() -> Iterator[Stage]:
-    made = Stage(load_robot("pr2").card, Scene())
+def view() -> Iterator[View3D]:
+    made = View3D(load_robot("pr2").card, Scene())
     yield made
     made.close()
 
@@ -48,34 +48,34 @@ def trace(plan: Plan) -> RunTrace:
     return traced(plan, Truth(pattern, flat, triangles), [(0.0, rounded(flat))], tuple(cloths), [])
 
 
-def parts(stage: Stage) -> list[Any]:
-    return [stage.server.scene.get_handle_by_name(f"/simulated/{name}") for name in ("near", "off")]
+def parts(view: View3D) -> list[Any]:
+    return [view.server.scene.get_handle_by_name(f"/simulated/{name}") for name in ("near", "off")]
 
 
-def test_cloth_that_is_off_its_plan_is_shaded_once_it_lies(stage: Stage, plan: Plan, trace: RunTrace) -> None:
+def test_cloth_that_is_off_its_plan_is_shaded_once_it_lies(view: View3D, plan: Plan, trace: RunTrace) -> None:
     line = Timeline.of(plan)
     first, last = (plan.steps[step.of_plan] for step in trace.steps)
-    stage.show_plan(plan)
-    stage.show(line.at(first.end_s), trace)
-    near, off = parts(stage)
+    view.show_plan(plan)
+    view.show(line.at(first.end_s), trace)
+    near, off = parts(view)
     assert (near.visible, off.visible) == (True, False)
     assert len(near.faces) == len(trace.triangles)
-    stage.show(line.at(last.end_s), trace)
+    view.show(line.at(last.end_s), trace)
     assert (near.visible, off.visible) == (True, True)
     assert len(near.faces) + len(off.faces) == len(trace.triangles)
     assert len(off.faces) == pytest.approx(len(trace.triangles) / 2, rel=0.1)
-    stage.show(line.at(last.end_s - 0.5 * last.duration_s), trace)
+    view.show(line.at(last.end_s - 0.5 * last.duration_s), trace)
     assert not off.visible, "while the plan moves the cloth there is nothing to compare with"
-    stage.show(line.at(last.end_s))
+    view.show(line.at(last.end_s))
     assert (near.visible, off.visible) == (False, False)
 
 
-def test_another_plan_has_no_run_yet(stage: Stage, plan: Plan, trace: RunTrace) -> None:
-    stage.show_plan(plan)
-    stage.show(Timeline.of(plan).at(0.0), trace)
-    assert parts(stage)[0].visible
-    stage.show_plan(plan)
-    assert not parts(stage)[0].visible
+def test_another_plan_has_no_run_yet(view: View3D, plan: Plan, trace: RunTrace) -> None:
+    view.show_plan(plan)
+    view.show(Timeline.of(plan).at(0.0), trace)
+    assert parts(view)[0].visible
+    view.show_plan(plan)
+    assert not parts(view)[0].visible
 
 
 def test_a_run_is_shown_along_with_its_plan_alone(plan: Plan, trace: RunTrace) -> None:

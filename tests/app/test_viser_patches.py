@@ -16,8 +16,8 @@ from app.ui.viser_patches import (
     PHONE_WIDTH,
     SECRET_HEADER,
     VISER_PAGE,
-    stage_page,
     start_private_viser,
+    view_page,
 )
 
 PAGE = VISER_PAGE.read_text(encoding="utf-8")
@@ -29,7 +29,7 @@ def test_visers_page_has_what_ours_is_hung_on(mark: str) -> None:
 
 
 def test_our_additions_are_in_the_page_once() -> None:
-    page = stage_page().decode()
+    page = view_page().decode()
     assert len(page) > len(PAGE)
     assert page.count("pleat-ready") == 1
     assert page.count(PHONE_WIDTH) == PAGE.count(PHONE_WIDTH) + 1

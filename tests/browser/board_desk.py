@@ -47,7 +47,7 @@ class Desk(Sheet):
 
 @contextmanager
 def window(browser: Browser) -> Iterator[Page]:
-    """Open a page without a stage; any error in it fails the test that comes last."""
+    """Open a page without a 3D view; any error in it fails the test that comes last."""
     faults: list[str] = []
     context = browser.new_context(viewport={"width": 1280, "height": 800})
     context.set_default_timeout(PATIENCE_MS)

@@ -1,4 +1,4 @@
-"""Browsers and servers. Most tests do without a stage: the page then loads at once and leaves the processor free."""
+"""Browsers and servers. Most tests do without a 3D view: the page then loads at once and leaves the processor free."""
 
 import time
 from collections.abc import Callable, Generator, Iterator
@@ -13,7 +13,7 @@ from tests.app.conftest import served as served
 from tests.browser.status_pill import expect_planned
 
 PATIENCE_MS = 60_000
-STAGE_PATIENCE_MS = 60_000
+VIEW_PATIENCE_MS = 60_000
 OFF = [
     # Each window renders two pages of the address bar's own: a third of what a blank page takes.
     "WebUIOmniboxPopup",
@@ -45,8 +45,8 @@ QUIET = [
 FLAT = [*QUIET, "--disable-gpu"]
 BY_SOFTWARE = [*QUIET, "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
 
-IN_STAGE = "document.getElementById('stage').contentWindow.__viserMutable"
-IS_THERE = f"(name) => Boolean({IN_STAGE}?.nodeRefFromName[name])"
+IN_VIEW = "document.getElementById('view3d').contentWindow.__viserMutable"
+IS_THERE = f"(name) => Boolean({IN_VIEW}?.nodeRefFromName[name])"
 
 SELDOM_AND_PLAIN = """
 if (location.pathname.includes("/viser/")) {
@@ -58,7 +58,7 @@ if (location.pathname.includes("/viser/")) {
   };
 }
 """
-"""Has the stage drawn five times a second, with rough edges: by software that takes two thirds of the time."""
+"""Has the 3D view drawn five times a second, with rough edges: by software that takes two thirds of the time."""
 
 Garment = str | dict[str, Any] | None
 
@@ -116,22 +116,22 @@ def browser(chromium_path: str | None) -> Browser:
     return BROWSERS.opened(chromium_path, BY_SOFTWARE)
 
 
-def new_stage_page(browser: Browser) -> Page:
-    """Open a small window that can show the stage."""
+def new_view_page(browser: Browser) -> Page:
+    """Open a small window that can show the 3D view."""
     page = browser.new_page(viewport={"width": 900, "height": 500})
     page.add_init_script(SELDOM_AND_PLAIN)
-    page.set_default_timeout(STAGE_PATIENCE_MS)
+    page.set_default_timeout(VIEW_PATIENCE_MS)
     return page
 
 
 @pytest.fixture(scope="module")
-def stage_window(
+def view_window(
     browser: Browser, designer: Served, new_sheet: Callable[[Garment], "Sheet"]
 ) -> Iterator[tuple[Page, list[str]]]:
-    """Open the page on a T-shirt with its stage, planned, and record errors and requests to other hosts."""
+    """Open the page on a T-shirt with its 3D view, planned, and record errors and requests to other hosts."""
     faults: list[str] = []
-    page = new_stage_page(browser)
-    expect.set_options(timeout=STAGE_PATIENCE_MS)
+    page = new_view_page(browser)
+    expect.set_options(timeout=VIEW_PATIENCE_MS)
     page.on("pageerror", lambda error: faults.append(str(error)))
     page.on("request", lambda request: faults.append(request.url) if is_foreign(request.url, designer) else None)
     page.goto(new_sheet("t-shirt").page_url)
@@ -142,9 +142,9 @@ def stage_window(
 
 
 @pytest.fixture
-def stage_page(stage_window: tuple[Page, list[str]]) -> Iterator[Page]:
+def view_page(view_window: tuple[Page, list[str]]) -> Iterator[Page]:
     """Return one page for all tests of a module, since loading takes long; anything wrong in it fails a test."""
-    page, faults = stage_window
+    page, faults = view_window
     yield page
     assert faults == []
 
@@ -225,7 +225,7 @@ def context(chromium: Browser) -> Iterator[BrowserContext]:
 
 @contextmanager
 def windows(chromium: Browser, **options: Any) -> Iterator[BrowserContext]:
-    """Return windows without a stage; any error in a page fails the test."""
+    """Return windows without a 3D view; any error in a page fails the test."""
     faults: list[str] = []
     opened = chromium.new_context(**{"viewport": {"width": 1280, "height": 800}, **options})
     opened.set_default_timeout(PATIENCE_MS)

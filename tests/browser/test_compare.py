@@ -11,7 +11,7 @@ from playwright.sync_api import Locator, Page, Route, expect
 
 from planner import load_garment
 from tests.app.conftest import REST, Served
-from tests.browser.conftest import STAGE_PATIENCE_MS, Garment, Sheet
+from tests.browser.conftest import VIEW_PATIENCE_MS, Garment, Sheet
 from tests.browser.status_pill import expect_planned
 
 
@@ -37,7 +37,7 @@ def test_two_versions_are_planned_shown_step_by_step_and_played_together(page: P
     page.get_by_role("button", name="Compare", exact=True).click()
     dialog = page.get_by_role("dialog", name="Two plans side by side")
     left, right = (dialog.locator(".compare-cost").nth(side) for side in (0, 1))
-    expect(left).to_contain_text(" s", timeout=STAGE_PATIENCE_MS)  # its plan is searched for in a process of its own
+    expect(left).to_contain_text(" s", timeout=VIEW_PATIENCE_MS)  # its plan is searched for in a process of its own
     expect(right).to_contain_text(" s")
     expect(left).not_to_have_text(right.inner_text())
     rows = dialog.locator("tbody tr")
@@ -117,7 +117,7 @@ def test_a_plan_file_dropped_on_a_side_is_shown_there_and_one_that_is_none_is_re
     page.get_by_role("button", name="Compare", exact=True).click()
     dialog = page.get_by_role("dialog", name="Two plans side by side")
     cost = dialog.locator(".compare-cost").first
-    expect(cost).to_contain_text(" s", timeout=STAGE_PATIENCE_MS)
+    expect(cost).to_contain_text(" s", timeout=VIEW_PATIENCE_MS)
     drop = """(side, text) => {
       const data = new DataTransfer();
       data.items.add(new File([text], "kept.plan.json"));

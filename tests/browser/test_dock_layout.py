@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from tests.browser.conftest import STAGE_PATIENCE_MS, Garment, Sheet, windows
+from tests.browser.conftest import VIEW_PATIENCE_MS, Garment, Sheet, windows
 from tests.browser.napkin import napkin
 from tests.browser.status_pill import expect_planned
 
@@ -47,9 +47,9 @@ def test_nothing_spills_at_any_width_nor_at_200_per_cent(wide: Page, width: int,
 
 
 @pytest.mark.parametrize("width", [1440, 960, 900, 800])
-def test_nothing_lies_over_the_tools_of_the_stage(wide: Page, width: int) -> None:
+def test_nothing_lies_over_the_tools_of_the_3d_view(wide: Page, width: int) -> None:
     wide.set_viewport_size({"width": width, "height": 500})
-    wide.evaluate("document.getElementById('stage-views').hidden = false")  # as if its stage were there
+    wide.evaluate("document.getElementById('viewpoints').hidden = false")  # as if its 3D view were there
     for name in ("Who can fold this?", "Follow", "Free"):
         wide.get_by_role("button", name=name, exact=True).click(trial=True)
 
@@ -102,13 +102,13 @@ def test_with_reduced_motion_nothing_eases(wide: Page) -> None:
     assert moving == 0
 
 
-def test_on_a_phone_the_large_stage_has_play_and_help_speaks_of_fingers_first(phone: Page) -> None:
+def test_on_a_phone_the_large_3d_view_has_play_and_help_speaks_of_fingers_first(phone: Page) -> None:
     phone.reload()
     expect_planned(phone)
     play = phone.get_by_role("button", name="Play in the 3D view")
     expect(play).to_be_hidden()
     phone.get_by_role("button", name="Show the 3D view large").tap()
-    expect(play).to_be_enabled(timeout=STAGE_PATIENCE_MS)
+    expect(play).to_be_enabled(timeout=VIEW_PATIENCE_MS)
     play.tap()
     pause = phone.get_by_role("button", name="Pause in the 3D view")
     expect(pause).to_be_visible()
@@ -119,10 +119,10 @@ def test_on_a_phone_the_large_stage_has_play_and_help_speaks_of_fingers_first(ph
     phone.keyboard.press("Escape")
 
 
-def test_until_the_stage_is_there_a_quiet_picture_lies_over_it(phone: Page) -> None:
-    expect(phone.locator(".stage-cover")).to_have_text("Loading the 3D view\N{HORIZONTAL ELLIPSIS}")
-    phone.evaluate("dispatchEvent(new MessageEvent('message', { data: 'pleat-ready' }))")  # from no stage
-    expect(phone.locator(".stage-cover")).not_to_have_attribute("hidden", "")
-    told = "{ data: 'pleat-ready', source: document.getElementById('stage').contentWindow }"
+def test_until_the_3d_view_is_there_a_quiet_picture_lies_over_it(phone: Page) -> None:
+    expect(phone.locator(".view3d-cover")).to_have_text("Loading the 3D view\N{HORIZONTAL ELLIPSIS}")
+    phone.evaluate("dispatchEvent(new MessageEvent('message', { data: 'pleat-ready' }))")  # from no 3D view
+    expect(phone.locator(".view3d-cover")).not_to_have_attribute("hidden", "")
+    told = "{ data: 'pleat-ready', source: document.getElementById('view3d').contentWindow }"
     phone.evaluate(f"dispatchEvent(new MessageEvent('message', {told}))")
-    expect(phone.locator(".stage-cover")).to_have_attribute("hidden", "")
+    expect(phone.locator(".view3d-cover")).to_have_attribute("hidden", "")

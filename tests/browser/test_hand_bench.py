@@ -29,7 +29,7 @@ def test_a_movement_lasts_until_it_is_drawn_and_a_release_until_its_plan_is_told
 
 @pytest.mark.long
 def test_a_corner_is_dragged_in_a_browser_and_timed_by_the_page() -> None:
-    (dragged,) = drags_of("hand-towel", 1, has_stage=False)
+    (dragged,) = drags_of("hand-towel", 1, has_view=False)
     assert len(dragged.to_ghost_ms) >= 3
     assert all(time_ms > 0.0 for time_ms in dragged.to_ghost_ms)
     assert dragged.to_plan_ms > 0.0

@@ -94,7 +94,7 @@ def test_all_that_is_read_or_heard_comes_from_the_catalogues(page: Page, designe
         route.fulfill(json=bracketed(route.fetch().json()))
 
     page.route("**/words/de.json", catalogue)
-    page.add_init_script("try { localStorage.setItem('pleat-language', 'de') } catch {}")  # the stage's frame has none
+    page.add_init_script("try { localStorage.setItem('pleat-language', 'de') } catch {}")  # not in viser's frame
     sheet = new_sheet("t-shirt")
     titles = {entry["title"] for entry in REST.get(f"{designer.url}/api/documents").json()}
     page.goto(sheet.page_url)

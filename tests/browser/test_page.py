@@ -1,4 +1,4 @@
-"""The page in a real browser. The stage is tested through the page's own scene, not through pixels."""
+"""The page in a real browser. The 3D view is tested through the page's own scene, not through pixels."""
 
 import itertools
 import time
@@ -10,12 +10,12 @@ import pytest
 from playwright.sync_api import Browser, Page, expect
 
 from tests.app.conftest import Served
-from tests.browser.conftest import IN_STAGE, REST, STAGE_PATIENCE_MS
+from tests.browser.conftest import IN_VIEW, REST, VIEW_PATIENCE_MS
 from tests.browser.status_pill import expect_planned
 
 NODE = """(name) => {
-  const stage = document.getElementById("stage").contentWindow;
-  const node = stage.__viserMutable?.nodeRefFromName[name];
+  const view = document.getElementById("view3d").contentWindow;
+  const node = view.__viserMutable?.nodeRefFromName[name];
   if (!node) return null;
   let low = [1e9, 1e9, 1e9], high = [-1e9, -1e9, -1e9], meshes = 0;
   node.updateWorldMatrix(true, true);
@@ -34,24 +34,24 @@ NODE = """(name) => {
   return { meshes, size: high.map((value, axis) => value - low[axis]), place: place.toArray() };
 }"""
 RENDERED = """() => {
-  const stage = document.getElementById("stage").contentWindow;
-  return stage.__viserTestpoints?.rendererInfo.render.triangles > 20000;
+  const view = document.getElementById("view3d").contentWindow;
+  return view.__viserTestpoints?.rendererInfo.render.triangles > 20000;
 }"""
 
 
 @pytest.fixture
-def page(stage_page: Page, designer: Served) -> Page:
+def page(view_page: Page, designer: Served) -> Page:
     """Return the page with the T-shirt at rest, spread out."""
-    stage_page.set_viewport_size({"width": 900, "height": 500})
-    document = f"{designer.url}/api/documents/{stage_page.url.rpartition('/')[2]}"
+    view_page.set_viewport_size({"width": 900, "height": 500})
+    document = f"{designer.url}/api/documents/{view_page.url.rpartition('/')[2]}"
     REST.put(f"{document}/garment", json={"garment": "t-shirt"}).raise_for_status()
     for command in ({"do": "pause"}, {"do": "seek", "t_s": 0.0}):
         REST.post(f"{document}/playback", json=command).raise_for_status()
-    expect(stage_page.locator("#time")).to_have_js_property("value", "0")
-    expect_planned(stage_page)
-    until_there(stage_page, "/cloth/front")
-    until_there(stage_page, "/robot")
-    return stage_page
+    expect(view_page.locator("#time")).to_have_js_property("value", "0")
+    expect_planned(view_page)
+    until_there(view_page, "/cloth/front")
+    until_there(view_page, "/robot")
+    return view_page
 
 
 def node(page: Page, name: str) -> dict[str, Any]:
@@ -65,7 +65,7 @@ def until_there(page: Page, name: str) -> None:
 
 def until(condition: Any) -> None:
     """Wait until a condition holds that cannot be evaluated in the page."""
-    deadline = time.monotonic() + STAGE_PATIENCE_MS / 1000
+    deadline = time.monotonic() + VIEW_PATIENCE_MS / 1000
     while not condition():
         assert time.monotonic() < deadline
         time.sleep(0.05)
@@ -106,33 +106,33 @@ def test_robot_cloth_and_table_are_rendered(page: Page) -> None:
     page.wait_for_function(RENDERED)
 
 
-def test_the_picture_over_the_stage_goes_once_it_can_be_looked_at_and_no_panel_of_viser_is_seen(page: Page) -> None:
-    expect(page.locator(".stage-cover")).to_be_hidden()
+def test_the_picture_over_the_3d_view_goes_once_it_can_be_looked_at_and_no_panel_of_viser_is_seen(page: Page) -> None:
+    expect(page.locator(".view3d-cover")).to_be_hidden()
     expect(page.get_by_role("toolbar", name="Look from")).to_be_visible()
-    stage = page.frame_locator("#stage")
-    expect(stage.locator("canvas").first).to_be_visible()
-    assert stage.locator("button, input").count() > 0  # it is there, with the choice of viewpoints, and hidden
-    expect(stage.locator("button, input").locator("visible=true")).to_have_count(0)
+    view = page.frame_locator("#view3d")
+    expect(view.locator("canvas").first).to_be_visible()
+    assert view.locator("button, input").count() > 0  # it is there, with the choice of viewpoints, and hidden
+    expect(view.locator("button, input").locator("visible=true")).to_have_count(0)
 
 
-def test_viewpoints_on_the_stage_move_its_camera(page: Page) -> None:
+def test_viewpoints_in_the_3d_view_move_its_camera(page: Page) -> None:
     """Viser's y is up."""
-    height = f"{IN_STAGE}.camera.position.y"
+    height = f"{IN_VIEW}.camera.position.y"
     before = page.evaluate(height)
     page.get_by_role("button", name="Top", exact=True).click()
-    page.wait_for_function(f"Math.hypot({IN_STAGE}.camera.position.x, {IN_STAGE}.camera.position.z) < 0.05")
+    page.wait_for_function(f"Math.hypot({IN_VIEW}.camera.position.x, {IN_VIEW}.camera.position.z) < 0.05")
     page.get_by_role("button", name="Free", exact=True).click()
     page.wait_for_function(f"Math.abs({height} - {before}) < 0.01")
 
 
-def test_labels_on_the_stage_are_light_on_dark(page: Page) -> None:
+def test_labels_in_the_3d_view_are_light_on_dark(page: Page) -> None:
     """Their shaders are viser's with other colours, those of the ground and of the letters."""
-    expect(page.frame_locator("#stage").locator(":root")).to_have_attribute("data-recoloured", "2")
+    expect(page.frame_locator("#view3d").locator(":root")).to_have_attribute("data-recoloured", "2")
 
 
-def test_the_server_knows_that_the_processor_draws_the_stage(page: Page) -> None:
+def test_the_server_knows_that_the_processor_draws_the_3d_view(page: Page) -> None:
     # As it does in these tests, see the browser's flags.
-    assert page.locator("#stage").get_attribute("src").endswith("/by-software/")
+    assert page.locator("#view3d").get_attribute("src").endswith("/by-software/")
 
 
 def test_the_page_names_garment_folds_and_plan(page: Page) -> None:
@@ -186,8 +186,8 @@ def test_another_garment_is_planned_and_shown(page: Page) -> None:
     expect(page.get_by_role("list", name="Folds").get_by_role("listitem")).to_have_count(5)
 
 
-def test_the_stage_takes_on_the_pages_theme_and_its_ground(page: Page) -> None:
-    grounds = """() => [document, document.getElementById("stage").contentDocument].map(
+def test_the_3d_view_takes_on_the_pages_theme_and_its_ground(page: Page) -> None:
+    grounds = """() => [document, document.getElementById("view3d").contentDocument].map(
       ({ body, defaultView }) => defaultView.getComputedStyle(body).backgroundColor)"""
     dark, light = ["rgb(22, 24, 28)"] * 2, ["rgb(250, 250, 248)"] * 2
     until(lambda: page.evaluate(grounds) == light)
@@ -234,17 +234,17 @@ def test_a_document_that_is_not_there_is_told_of(browser: Browser, designer: Ser
     page = browser.new_page()
     try:
         page.goto(f"{designer.url}/d/nothing")
-        expect(page.get_by_role("status")).to_contain_text("There is no such document", timeout=STAGE_PATIENCE_MS)
+        expect(page.get_by_role("status")).to_contain_text("There is no such document", timeout=VIEW_PATIENCE_MS)
     finally:
         page.close()
 
 
 @pytest.mark.long
-def test_page_and_stage_come_back_by_themselves_when_the_server_does(page: Page, designer: Served) -> None:
-    page.evaluate("document.getElementById('stage').contentWindow.isOfBefore = true")
+def test_page_and_3d_view_come_back_by_themselves_when_the_server_does(page: Page, designer: Served) -> None:
+    page.evaluate("document.getElementById('view3d').contentWindow.isOfBefore = true")
     designer.stop()
     expect(page.get_by_role("status")).to_contain_text("Connection lost")
     designer.start_again()
     expect_planned(page)
-    page.wait_for_function("!document.getElementById('stage').contentWindow.isOfBefore")
+    page.wait_for_function("!document.getElementById('view3d').contentWindow.isOfBefore")
     until_there(page, "/cloth/front")

@@ -7,7 +7,7 @@ from playwright.sync_api import Browser
 
 from app.files.recording import recording
 from planner import load_garment, make_plan
-from tests.browser.conftest import STAGE_PATIENCE_MS
+from tests.browser.conftest import VIEW_PATIENCE_MS
 
 MESHES = """() => {
   const robot = window.__viserMutable?.nodeRefFromName["/robot"];
@@ -38,10 +38,10 @@ def test_a_recording_plays_from_the_disk_and_asks_for_nothing(saved: Path, brows
     page.on("pageerror", lambda error: faults.append(str(error)))
     page.goto(saved.as_uri())
     assert page.title() == "Hand towel - Pleat"
-    page.wait_for_function(f"({MESHES})() > 20", timeout=STAGE_PATIENCE_MS)
+    page.wait_for_function(f"({MESHES})() > 20", timeout=VIEW_PATIENCE_MS)
     first = page.evaluate(HAND)
     moved = f"({HAND})().some((value, axis) => Math.abs(value - {first}[axis]) > 0.05)"
-    page.wait_for_function(moved, timeout=STAGE_PATIENCE_MS)
+    page.wait_for_function(moved, timeout=VIEW_PATIENCE_MS)
     page.close()
     assert faults == []
     assert [url for url in asked if not url.startswith(("file:", "data:", "blob:"))] == []

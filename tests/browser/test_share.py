@@ -6,7 +6,7 @@ from collections.abc import Callable
 from playwright.sync_api import Browser, Page, expect
 
 from tests.app.conftest import REST
-from tests.browser.conftest import Garment, Sheet, new_stage_page
+from tests.browser.conftest import Garment, Sheet, new_view_page
 
 NewSheet = Callable[[Garment], Sheet]
 
@@ -14,6 +14,7 @@ NewSheet = Callable[[Garment], Sheet]
 def test_the_page_of_a_link_plays_and_has_nothing_that_changes_the_document(page: Page, new_sheet: NewSheet) -> None:
     sheet = new_sheet("scarf")
     page.goto(sheet.page_url)
+    expect(page.locator(".hint-line")).to_contain_text("Drag corners")
     page.get_by_role("button", name="Share").click()
     link = page.get_by_role("textbox", name="Link")
     expect(link).to_have_value(re.compile(r"^http://.*/s/[\w-]+/d/\w+$"))
@@ -24,6 +25,7 @@ def test_the_page_of_a_link_plays_and_has_nothing_that_changes_the_document(page
     for name in ("Undo", "Redo", "Rename", "Share", "New", "Import"):
         expect(page.get_by_role("button", name=name, exact=True)).to_have_count(0)
     expect(page.locator("#rail")).to_have_count(0)
+    expect(page.locator(".hint-line")).to_be_empty()
     expect(page.get_by_role("button", name="Export", exact=True)).to_be_visible()
     before = sheet.state
     page.mouse.click(300, 300)
@@ -38,14 +40,14 @@ def test_the_3d_view_of_a_link_shows_the_robot_without_the_viewers_own_panel(
     """Nothing that the page asks for is refused, and it can be played."""
     sheet = new_sheet("scarf")
     link = REST.post(f"{sheet.path}/share").raise_for_status().json()["path"]
-    page = new_stage_page(browser)
+    page = new_view_page(browser)
     refused: list[str] = []
     page.on("response", lambda answer: refused.append(answer.url) if answer.status >= 400 else None)
     page.goto(f"{sheet.page_url.partition('/d/')[0]}{link}")
-    stage = page.frame_locator("#stage")
-    expect(stage.locator("#root canvas").first).to_be_visible()
-    expect(page.locator(".stage-cover")).to_be_hidden()
-    expect(stage.locator("[data-dock-root]").first).to_be_hidden()
+    view = page.frame_locator("#view3d")
+    expect(view.locator("#root canvas").first).to_be_visible()
+    expect(page.locator(".view3d-cover")).to_be_hidden()
+    expect(view.locator("[data-dock-root]").first).to_be_hidden()
     page.get_by_role("button", name="Play", exact=True).click()
     expect(page.get_by_role("button", name="Pause", exact=True)).to_be_visible()
 

@@ -112,7 +112,7 @@ def test_it_is_taken_over_from_where_the_drag_holds_it_out(towel: Plan, index: i
         assert grip.place == pytest.approx((near + 2 * depth, y, 0.02), abs=1e-4)
 
 
-def test_on_the_stage_it_is_held_out_level_and_lies_on_the_table_afterwards(towel: Plan):
+def test_in_the_3d_view_it_is_held_out_level_and_lies_on_the_table_afterwards(towel: Plan):
     dragged, folded = drag_and_fold(towel, 0)
     near = NEAR_X_M + dragged_x_m(towel, dragged)
     out = Timeline.of(towel).at(folded.start_s - 1e-6).cloth.vertices

@@ -1,7 +1,7 @@
 """The choice of a viewpoint; it moves only the camera of the visitor who chose it.
 
-Its buttons stand on the page, over the stage (`static/js/stage_views.js`). A page knows its own stage's visitor by no
-name but the one that viser gives the choice, which a node of the visitor's own scene tells it.
+Its buttons stand on the page, over the 3D view (`static/js/viewpoints.js`). A page knows its visitor only by the name
+that viser gives the choice, which a node of the visitor's own scene tells it.
 
 The robot's-eye camera follows the robot until the visitor moves it. A browser reports its camera with a delay: it
 counts as moved when it is at none of the viewpoints it was recently sent to.

@@ -36,7 +36,7 @@ export function drawingArea() {
 export function sheetsOf(scene) {
   const sheets = LAYERS.map((name) => {
     const sheet = new Sheet(scene, `layer-${name}`);
-    sheet.root.id = `board-${name}`; // the stage shows some of them too
+    sheet.root.id = `board-${name}`; // the 3D view shows some of them too
     return [name, sheet];
   });
   return /** @type {Record<LayerName, Sheet>} */ (Object.fromEntries(sheets));

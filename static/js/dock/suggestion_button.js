@@ -1,4 +1,4 @@
-/** A suggestion as a button: pointed at, its effect is shown on board and stage; pressed, it is done as one step. */
+/** A suggestion as a button: pointed at, its effect is shown on board and 3D view; pressed, it is done as one step. */
 
 import { button, element } from "../dom.js";
 import { say } from "../language/say.js";
@@ -11,7 +11,7 @@ import { capital, seconds } from "./words.js";
 /** @typedef {import("./suggestion_search.js").Suggestion} Suggestion */
 
 const LONGEST = 200;
-/** So long is pointed at a suggestion before the stage shows it (ms). */
+/** So long is pointed at a suggestion before the 3D view shows it (ms). */
 const POINTED_MS = 250;
 
 /**
@@ -44,18 +44,18 @@ export function offer(store, suggestion, made) {
   const { change, plan_id: plan } = suggestion;
   const what = suggestionWords(store, suggestion);
   let timer = 0;
-  let isOnStage = false;
+  let isOnView3D = false;
   const point = () => {
     store.setPreview(change);
     clearTimeout(timer);
-    if (plan && !isOnStage) timer = setTimeout(() => store.command({ do: "preview", plan }), POINTED_MS);
-    isOnStage = Boolean(plan);
+    if (plan && !isOnView3D) timer = setTimeout(() => store.command({ do: "preview", plan }), POINTED_MS);
+    isOnView3D = Boolean(plan);
   };
   const leave = () => {
     store.setPreview(null);
     clearTimeout(timer);
-    if (isOnStage) store.command({ do: "preview", plan: null });
-    isOnStage = false;
+    if (isOnView3D) store.command({ do: "preview", plan: null });
+    isOnView3D = false;
   };
   made.addEventListener("click", () => {
     leave();

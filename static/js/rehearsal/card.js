@@ -1,5 +1,5 @@
 /**
- * A card in the stage's corner, on a phone below what is said of the rehearsal: at the time that is shown, the cloth
+ * A card in the 3D view's corner, on a phone below what is said of the rehearsal: at the time that is shown, the cloth
  * from above beside its plan, and what the robot's camera saw last. From there can be planned.
  */
 
@@ -17,7 +17,7 @@ import { inAWord } from "./words.js";
 /** @import { Look, TraceStep } from "pleat" */
 
 const INSTANT_S = 1e-3;
-/** On a lower stage the pictures are folded away until they are asked for (px). */
+/** On a lower 3D view the pictures are folded away until they are asked for (px). */
 const OPEN_FROM_PX = 320;
 
 export class RehearsalCard {
@@ -41,7 +41,7 @@ export class RehearsalCard {
     this.root.setAttribute("aria-label", say("rehearsal.pictures"));
     this.phone = matchMedia(PHONE);
     const stand = () => {
-      (this.phone.matches ? box : byId("stage-pane")).append(this.root);
+      (this.phone.matches ? box : byId("view3d-pane")).append(this.root);
       this.draw();
     };
     this.phone.addEventListener("change", stand);
@@ -59,7 +59,7 @@ export class RehearsalCard {
   }
 
   get isOpen() {
-    return this.chosen ?? (this.phone.matches || byId("stage-pane").clientHeight >= OPEN_FROM_PX);
+    return this.chosen ?? (this.phone.matches || byId("view3d-pane").clientHeight >= OPEN_FROM_PX);
   }
 
   get steps() {

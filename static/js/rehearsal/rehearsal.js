@@ -163,7 +163,7 @@ export class Rehearsal extends EventTarget {
     this.tell();
   }
 
-  /** Have the stage show the cloth of the run that is looked at, or none. @param {boolean} isShown */
+  /** Have the 3D view show the cloth of the run that is looked at, or none. @param {boolean} isShown */
   showTrace(isShown) {
     this.store.command({ do: "show_trace", trace: isShown ? (this.run?.trace ?? null) : null });
   }

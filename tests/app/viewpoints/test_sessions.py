@@ -11,7 +11,7 @@ from app.drawing.draft import draft_of
 from app.drawing.garment_drawing import drawing_of
 from app.player import Player
 from app.ui.opening import opening
-from app.ui.stage import Stage
+from app.ui.view_3d import View3D
 from app.ui.viewpoints.presets import Preset
 from app.ui.viewpoints.sessions import Sessions
 from app.ui.viser_patches import start_private_viser
@@ -22,24 +22,25 @@ from tests.app.viewpoints.viewer import EYE, Viewer
 from tests.replay.planned import planned
 
 CARD = load_robot("pr2").card
+Opened = tuple[Document, View3D]
 
 
 @pytest.fixture(scope="module")
-def opened() -> Iterator[tuple[Document, Stage]]:
-    document, stage = Document(draft_of(towel_drawing())), Stage(CARD, Scene())
-    player = Player(document, stage, Sessions(document, stage.server, stage.opening))
-    yield document, stage
+def opened() -> Iterator[tuple[Document, View3D]]:
+    document, view = Document(draft_of(towel_drawing())), View3D(CARD, Scene())
+    player = Player(document, view, Sessions(document, view.server, view.opening))
+    yield document, view
     player.close()
-    stage.close()
+    view.close()
 
 
-def test_a_viewpoint_moves_the_camera_of_the_browser_that_chose_it_alone(opened: tuple[Document, Stage]) -> None:
-    _, stage = opened
-    with Viewer(stage) as viewer, Viewer(stage) as other:
+def test_a_viewpoint_moves_the_camera_of_the_browser_that_chose_it_alone(opened: tuple[Document, View3D]) -> None:
+    _, view = opened
+    with Viewer(view) as viewer, Viewer(view) as other:
         for each in (viewer, other):
             each.until(lambda each=each: each.channel is not None)
         assert viewer.channel != other.channel
-        opening = [stage.opening.position]  # what a new browser is told
+        opening = [view.opening.position]  # what a new browser is told
         assert viewer.camera == other.camera == opening
         viewer.choose(Preset.TOP)
         viewer.until(lambda: len(viewer.camera) == 2)
@@ -53,7 +54,9 @@ def test_a_viewpoint_moves_the_camera_of_the_browser_that_chose_it_alone(opened:
         assert len(viewer.camera) == 3
 
 
-def test_in_a_tall_picture_the_camera_begins_further_back_and_follows_its_shape(opened: tuple[Document, Stage]) -> None:
+def test_in_a_tall_picture_the_camera_begins_further_back_and_follows_its_shape(
+    opened: tuple[Document, View3D],
+) -> None:
     start, tall, taller = opened[1].opening, (390, 680), (312, 680)
     with Viewer(opened[1], (3.0, 3.0, 3.0), tall) as viewer:  # a browser's own place, before it is told of another
         viewer.until(lambda: viewer.channel is not None)
@@ -65,7 +68,7 @@ def test_in_a_tall_picture_the_camera_begins_further_back_and_follows_its_shape(
         assert viewer.camera[2] == pytest.approx(opening(Scene(), 312 / 680).position)
 
 
-def test_a_camera_that_somebody_has_moved_stays_where_it_is(opened: tuple[Document, Stage]) -> None:
+def test_a_camera_that_somebody_has_moved_stays_where_it_is(opened: tuple[Document, View3D]) -> None:
     start = opened[1].opening
     with Viewer(opened[1], start.position, (800, 500)) as viewer:
         viewer.until(lambda: viewer.channel is not None)
@@ -93,17 +96,17 @@ def test_what_goes_wrong_for_one_session_does_not_stop_the_others(caplog: pytest
 
 
 @pytest.fixture(scope="module")
-def driven() -> Iterator[tuple[Document, Stage]]:
-    """Open a document with a plan that drives to the table's left, and its stage."""
+def driven() -> Iterator[tuple[Document, View3D]]:
+    """Open a document with a plan that drives to the table's left, and its view."""
     plan = planned("jeans").answer
-    document, stage = Document(draft_of(drawing_of(plan.garment))), Stage(CARD, Scene())
+    document, view = Document(draft_of(drawing_of(plan.garment))), View3D(CARD, Scene())
     task = document.state.task
     assert task is not None
     document.settle(document.state.version, task, plan, "id")
-    player = Player(document, stage, Sessions(document, stage.server, stage.opening))
-    yield document, stage
+    player = Player(document, view, Sessions(document, view.server, view.opening))
+    yield document, view
     player.close()
-    stage.close()
+    view.close()
 
 
 def time_at_side(document: Document) -> float:
@@ -115,13 +118,13 @@ def time_at_side(document: Document) -> float:
 
 
 def test_the_robots_eye_goes_along_when_the_base_drives_until_somebody_moves_the_camera(
-    driven: tuple[Document, Stage],
+    driven: tuple[Document, View3D],
 ) -> None:
-    document, stage = driven
+    document, view = driven
     document.seek(0.0)
     shown = document.state.shown
     assert shown is not None
-    with Viewer(stage) as viewer:
+    with Viewer(view) as viewer:
         viewer.until(lambda: viewer.channel is not None)
         viewer.choose(Preset.ROBOT)
         viewer.until(lambda: len(viewer.camera) == 2)
@@ -139,11 +142,11 @@ def test_the_robots_eye_goes_along_when_the_base_drives_until_somebody_moves_the
 
 
 def test_a_camera_that_nobody_has_moved_looks_from_the_side_where_the_robot_does_not_stand(
-    driven: tuple[Document, Stage],
+    driven: tuple[Document, View3D],
 ) -> None:
-    document, stage = driven
+    document, view = driven
     document.seek(0.0)
-    with Viewer(stage, stage.opening.position) as viewer:
+    with Viewer(view, view.opening.position) as viewer:
         viewer.until(lambda: viewer.channel is not None)
         viewer.look(viewer.camera[-1], (800, 500))
         document.seek(at := time_at_side(document))
@@ -154,11 +157,11 @@ def test_a_camera_that_nobody_has_moved_looks_from_the_side_where_the_robot_does
 
 
 def test_a_camera_that_somebody_has_moved_stays_though_the_robot_stands_before_it(
-    driven: tuple[Document, Stage],
+    driven: tuple[Document, View3D],
 ) -> None:
-    document, stage = driven
+    document, view = driven
     document.seek(0.0)
-    with Viewer(stage) as viewer:
+    with Viewer(view) as viewer:
         viewer.until(lambda: viewer.channel is not None)
         moves = len(viewer.camera)
         document.seek(time_at_side(document))

@@ -8,7 +8,7 @@ import msgspec.msgpack
 import zstandard
 from websockets.sync.client import connect
 
-from app.ui.stage import Stage
+from app.ui.view_3d import View3D
 from app.ui.viewpoints.presets import Preset
 from app.ui.viewpoints.viewpoint_choice import CHANNEL
 from app.ui.viser_patches import LOOPBACK, SECRET_HEADER
@@ -27,11 +27,11 @@ class Viewer:
         camera: the places that the server has sent the camera to.
     """
 
-    def __init__(self, stage: Stage, eye: Point3 = EYE, size: tuple[int, int] = (800, 500)) -> None:
+    def __init__(self, view: View3D, eye: Point3 = EYE, size: tuple[int, int] = (800, 500)) -> None:
         self._socket = connect(
-            f"ws://{LOOPBACK}:{stage.port}",
+            f"ws://{LOOPBACK}:{view.port}",
             subprotocols=[SUBPROTOCOL],  # type: ignore[list-item]
-            additional_headers={SECRET_HEADER: stage.secret},
+            additional_headers={SECRET_HEADER: view.secret},
             proxy=None,
             max_size=None,
         )

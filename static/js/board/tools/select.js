@@ -1,6 +1,7 @@
 /** The tool `Select`: takes corners, edges, folds and their ends; drags them, nudges them, removes them. */
 
 import { inEnglish, say } from "../../language/say.js";
+import { isViewOnly } from "../../view_only.js";
 import { edgeFrom, edgePoints } from "../curves.js";
 import { removeFolds } from "../edits.js";
 import { Gesture } from "../gesture.js";
@@ -60,6 +61,7 @@ export class SelectTool extends Tool {
   }
 
   get hint() {
+    if (isViewOnly) return "";
     if (!this.board.isSpread) return say("hint.folded");
     if (!this.board.drawing.folds.length) return say("hint.first_fold");
     return say("hint.select");

@@ -4,11 +4,11 @@ from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 
-from planner.explain.correction import COLLISIONS_IGNORED, Candidate, Way
-from planner.explain.correction_amounts import LeastAmounts
-from planner.explain.correction_candidates import candidates
-from planner.explain.correction_trials import SpentError, Trials
-from planner.explain.relaxed import Relaxed
+from planner.explain.relaxation import COLLISIONS_IGNORED, Candidate, Relaxation
+from planner.explain.relaxation_amounts import LeastAmounts
+from planner.explain.relaxation_candidates import candidates
+from planner.explain.relaxation_trials import SpentError, Trials
+from planner.explain.relaxed_problem import RelaxedProblem
 from planner.planning.trial import Trial
 from planner.task.reason import Code, Reason
 
@@ -18,23 +18,23 @@ _MEMBERS_MAX = 3
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Member:
-    """A cause, the way in which it is removed, the amount, and other ways that are enough with the same amount."""
+    """A cause, the relaxation that removes it, the amount, and other kinds that are enough with this amount."""
 
     reason: Reason
-    way: Way
+    relaxation: Relaxation
     amount: float
     also: tuple[str, ...] = ()
 
     @property
     def told(self) -> Reason:
         """The reason to tell."""
-        return self.way.told(self.reason, self.amount)
+        return self.relaxation.told(self.reason, self.amount)
 
 
-class JointCorrections:
+class JointRelaxations:
     """The search for changes to one problem that are enough only together."""
 
-    def __init__(self, base: Relaxed, fold: int | None, folds: int, trials: Trials) -> None:
+    def __init__(self, base: RelaxedProblem, fold: int | None, folds: int, trials: Trials) -> None:
         """Take the problem, the fold to allow (None: the start), all folds it needs as a bit mask, and the trials."""
         self._base = base
         self._fold = fold
@@ -43,23 +43,24 @@ class JointCorrections:
         self._amounts = LeastAmounts(trials, folds)
 
     def together(
-        self, base: Relaxed, members: tuple[Member, ...], own: Sequence[Candidate]
+        self, base: RelaxedProblem, members: tuple[Member, ...], own: Sequence[Candidate]
     ) -> list[tuple[Member, ...]]:
         """Return sets that together are enough: remove one cause and look what still stands in the way.
 
         Arms that reach everything come first, since they soon show what else stands in the way.
         """
-        kinds = {member.way.kind for member in members}
-        onwards: list[tuple[tuple[Member, ...], Relaxed, Trial]] = []
-        firsts = [(one, one.ways[-1] if one.ways[-1].kind == "arms" else one.ways[0]) for one in own]
-        for candidate, way in sorted(firsts, key=lambda pair: pair[1].kind != "arms"):
-            if way.kind in kinds:
+        kinds = {member.relaxation.kind for member in members}
+        onwards: list[tuple[tuple[Member, ...], RelaxedProblem, Trial]] = []
+        ends = [(one, one.relaxations[0], one.relaxations[-1]) for one in own]
+        firsts = [(one, last if last.kind == "arms" else first) for one, first, last in ends]
+        for candidate, relaxation in sorted(firsts, key=lambda pair: pair[1].kind != "arms"):
+            if relaxation.kind in kinds:
                 continue
-            amount = way.most if way.needed is not None else next(iter(way.amounts), 0.0)
-            tried = self._trials(way, base, amount, self._folds, with_arms=False)
+            amount = relaxation.most if relaxation.needed is not None else next(iter(relaxation.amounts), 0.0)
+            tried = self._trials(relaxation, base, amount, self._folds, with_arms=False)
             if tried is None:
                 continue
-            chosen = (*members, Member(candidate.reason, way, amount))
+            chosen = (*members, Member(candidate.reason, relaxation, amount))
             if tried[1].is_possible:
                 return [self.least_of(self._shortened(chosen))]
             onwards.append((chosen, *tried))
@@ -77,10 +78,10 @@ class JointCorrections:
         with suppress(SpentError):
             for member in members:
                 rest = tuple(other for other in members if other is not member)
-                for others in _further(rest) if member.way.is_dream else [rest] if rest else []:
+                for others in _further(rest) if member.relaxation.is_hypothetical else [rest] if rest else []:
                     if self._trials.trial(self.applied_to_base(others), self._folds, with_arms=False).is_possible:
                         return self._shortened(others)
-            others = tuple(member for member in members if not member.way.is_dream)
+            others = tuple(member for member in members if not member.relaxation.is_hypothetical)
             if others and len(others) < len(members):
                 base = self.applied_to_base(others)
                 trial = self._trials.trial(base, self._folds, with_arms=False)
@@ -88,21 +89,21 @@ class JointCorrections:
                 return members if shifted is None else (*others, shifted)
         return members
 
-    def shifted(self, others: tuple[Member, ...], tried: tuple[Relaxed, Trial]) -> Iterator[Member]:
+    def shifted(self, others: tuple[Member, ...], tried: tuple[RelaxedProblem, Trial]) -> Iterator[Member]:
         """Yield the least shifts that are enough for what is out of reach once other causes are removed."""
-        kinds = {member.way.kind for member in others}
+        kinds = {member.relaxation.kind for member in others}
         far = [r for r in self._trials.measured(tried[1]) if r.fold == self._fold and r.code is Code.OUT_OF_REACH]
         for candidate in candidates(tried[1].context, tuple(far), self._fold):
-            for way in candidate.ways[:-1] if candidate.ways[-1].is_dream else ():
-                for amount in way.amounts if way.kind not in kinds else ():
-                    if self._amounts.is_enough(way, tried[0], amount, with_arms=False):
-                        yield Member(candidate.reason, way, amount)
+            for relaxation in candidate.relaxations[:-1] if candidate.relaxations[-1].is_hypothetical else ():
+                for amount in relaxation.amounts if relaxation.kind not in kinds else ():
+                    if self._amounts.is_enough(relaxation, tried[0], amount, with_arms=False):
+                        yield Member(candidate.reason, relaxation, amount)
                         break
 
     def least_of(self, members: tuple[Member, ...]) -> tuple[Member, ...]:
         """Reduce each member to the least with which the others are enough; add what the arms touch then."""
         least = self._halved(members, (0.0,) * len(members), with_arms=False)
-        if any(member.way.is_dream or member.way is COLLISIONS_IGNORED for member in members):
+        if any(member.relaxation.is_hypothetical or member.relaxation is COLLISIONS_IGNORED for member in members):
             return least
         trial = self._trials.trial(self.applied_to_base(least), self._folds, with_arms=True)
         if trial.is_possible:
@@ -118,26 +119,26 @@ class JointCorrections:
         """Reduce each member in turn to the least above its lower limit with which the others are enough."""
         settled = list(members)
         for number, (member, low) in enumerate(zip(members, lows, strict=True)):
-            if member.way.amounts:
+            if member.relaxation.amounts:
                 rest = self.applied_to_base([other for n, other in enumerate(settled) if n != number])
-                amount = self._amounts.settled(member.way, rest, low, member.amount, with_arms=with_arms)
+                amount = self._amounts.settled(member.relaxation, rest, low, member.amount, with_arms=with_arms)
                 settled[number] = replace(member, amount=amount)
         return tuple(settled)
 
-    def applied_to_base(self, members: Sequence[Member]) -> Relaxed:
+    def applied_to_base(self, members: Sequence[Member]) -> RelaxedProblem:
         """Return the problem with the causes of some members removed."""
         relaxed = self._base
         for member in members:
-            relaxed = member.way.applied(relaxed, member.amount)
+            relaxed = member.relaxation.applied(relaxed, member.amount)
         return relaxed
 
 
 def _further(members: tuple[Member, ...]) -> Iterator[tuple[Member, ...]]:
     """Yield causes removed by their amounts, and then by their larger amounts, as long as there are any."""
-    most = max((len(member.way.amounts) for member in members), default=0)
+    most = max((len(member.relaxation.amounts) for member in members), default=0)
     for number in range(most):
-        amounts = (member.way.amounts for member in members)
+        amounts = (member.relaxation.amounts for member in members)
         yield tuple(
-            replace(member, amount=max(member.amount, of_way[min(number, len(of_way) - 1)])) if of_way else member
-            for member, of_way in zip(members, amounts, strict=True)
+            replace(member, amount=max(member.amount, its[min(number, len(its) - 1)])) if its else member
+            for member, its in zip(members, amounts, strict=True)
         )

@@ -21,11 +21,11 @@ const DRAG_PX = 4;
 /** Where cloth is drawn, over the table (m). */
 const CLOTH_M = 0.0015;
 const NEAR_M = 0.005;
-/** What of the board is seen on the cloth; its cloth too where it is folded, since that of the stage is spread. @type {LayerName[]} */
+/** What of the board is seen on the cloth; its cloth too where it is folded, since that of the 3D view is spread. @type {LayerName[]} */
 const LAYERS = ["ghost", "folds", "handles", "tool", "cursor"];
 
 /** The board's plane as the camera sees it lie on the table. */
-class StageView extends View {
+class View3DProjection extends View {
   /** @param {Board} board */
   constructor(board) {
     super();
@@ -73,19 +73,19 @@ class StageView extends View {
   }
 }
 
-export class StageSurface {
-  /** @param {Board} board @param {HTMLIFrameElement} frame the stage's */
+export class Surface3D {
+  /** @param {Board} board @param {HTMLIFrameElement} frame the 3D view's */
   constructor(board, frame) {
     this.board = board;
     this.frame = frame;
-    this.view = new StageView(board);
+    this.view = new View3DProjection(board);
     /** @type {{id: number, px: Point, hasMoved: boolean}|null} */
     this.pressed = null;
     this.isOver = false;
-    this.copies = svg("g", { class: "stage-copies" });
+    this.copies = svg("g", { class: "view3d-copies" });
     for (const name of /** @type {LayerName[]} */ (["cloth", ...LAYERS]))
       this.copies.append(svg("use", { href: `#board-${name}`, class: `copy-${name}` }));
-    this.root = svg("svg", { class: "stage-surface", "aria-hidden": "true" });
+    this.root = svg("svg", { class: "view3d-surface", "aria-hidden": "true" });
     this.root.append(this.copies);
     this.root.toggleAttribute("hidden", true);
     frame.after(this.root);
@@ -115,7 +115,7 @@ export class StageSurface {
     return Boolean(board.state) && !board.store.isLost && !board.store.playback?.playing && this.view.look(this.scene);
   }
 
-  /** Whether the stage shows the cloth as it lies at the beginning. */
+  /** Whether the 3D view shows the cloth as it lies at the beginning. */
   get isAtStart() {
     return !this.board.store.playback?.t_s;
   }

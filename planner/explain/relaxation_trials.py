@@ -3,8 +3,8 @@
 from collections.abc import Callable
 
 from planner.errors import FoldingError
-from planner.explain.correction import Way
-from planner.explain.relaxed import Ask, Relaxed
+from planner.explain.relaxation import Relaxation
+from planner.explain.relaxed_problem import Ask, RelaxedProblem
 from planner.planning.trial import Trial
 from planner.task.reason import Reason
 
@@ -23,19 +23,19 @@ class Trials:
         self._ask = ask
         self._is_enough = is_enough
         self._left = ASKS_MAX
-        self._known: dict[tuple[Way, Relaxed, float, bool], tuple[Relaxed, Trial] | None] = {}
+        self._known: dict[tuple[Relaxation, RelaxedProblem, float, bool], tuple[RelaxedProblem, Trial] | None] = {}
 
     def __call__(
-        self, way: Way, base: Relaxed, amount: float, folds: int, *, with_arms: bool
-    ) -> tuple[Relaxed, Trial] | None:
+        self, relaxation: Relaxation, base: RelaxedProblem, amount: float, folds: int, *, with_arms: bool
+    ) -> tuple[RelaxedProblem, Trial] | None:
         """Return a problem with a cause removed and its trial; None where the change gives no valid problem."""
-        key = (way, base, amount, with_arms)
+        key = (relaxation, base, amount, with_arms)
         if key not in self._known:
-            changed = applied(way, base, amount)
+            changed = applied(relaxation, base, amount)
             self._known[key] = None if changed is None else (changed, self.trial(changed, folds, with_arms=with_arms))
         return self._known[key]
 
-    def trial(self, relaxed: Relaxed, folds: int, *, with_arms: bool) -> Trial:
+    def trial(self, relaxed: RelaxedProblem, folds: int, *, with_arms: bool) -> Trial:
         """Return the trial of a problem; without arms it is enough that all places are in reach."""
         if not self._left or self._is_enough():
             raise SpentError
@@ -49,9 +49,9 @@ class Trials:
         return trial.measured()
 
 
-def applied(way: Way, base: Relaxed, amount: float) -> Relaxed | None:
+def applied(relaxation: Relaxation, base: RelaxedProblem, amount: float) -> RelaxedProblem | None:
     """Return a problem with a cause removed; None where the change gives no valid problem."""
     try:
-        return way.applied(base, amount)
+        return relaxation.applied(base, amount)
     except FoldingError:
         return None

@@ -1,13 +1,13 @@
-"""Find candidate causes among the reasons that a search met, each with the ways to remove it."""
+"""Find candidate causes among the reasons that a search met, each with the relaxations that may remove it."""
 
 import math
 from collections.abc import Iterator
 from dataclasses import replace
 
-from planner.explain.correction import COLLISIONS_IGNORED, Candidate, Way, moved
-from planner.explain.correction_hands import hand_ways
-from planner.explain.correction_reach import reach_ways
-from planner.explain.relaxed import Relaxed
+from planner.explain.relaxation import COLLISIONS_IGNORED, Candidate, Relaxation, moved
+from planner.explain.relaxation_hands import hand_relaxations
+from planner.explain.relaxation_reach import reach_relaxations
+from planner.explain.relaxed_problem import RelaxedProblem
 from planner.explain.suggestion_grid import Room
 from planner.geometry.pose import Point3
 from planner.geometry.tolerance import LENGTH_M
@@ -37,28 +37,33 @@ def candidates(context: Context, measured: tuple[Reason, ...], fold: int | None)
         yield Candidate(slip, (_friction(context, slip),))
     told: set[Point3 | None] = set()
     for reason in sorted(mine, key=lambda reason: reason.short_by_m or 0.0):
-        ways = tuple(_ways(context, reason))
-        is_told = ways and ways[0].kind == "cloth" and reason.code is not Code.OUT_OF_REACH and reason.towards in told
-        if ways and not is_told:
+        relaxations = tuple(_relaxations(context, reason))
+        is_told = (
+            relaxations
+            and relaxations[0].kind == "cloth"
+            and reason.code is not Code.OUT_OF_REACH
+            and reason.towards in told
+        )
+        if relaxations and not is_told:
             told.add(reason.towards)
-            yield Candidate(reason, ways)
+            yield Candidate(reason, relaxations)
 
 
-def _ways(context: Context, reason: Reason) -> Iterator[Way]:
+def _relaxations(context: Context, reason: Reason) -> Iterator[Relaxation]:
     if reason.code in _GRIPS and reason.fold is not None:
-        yield from hand_ways(context, reason, reason.fold)
+        yield from hand_relaxations(context, reason, reason.fold)
     elif reason.code in (Code.LINE_OFF_TABLE, Code.NOT_A_G_STATE):
         yield from _cloth_moved(context, reason)
     elif reason.code is Code.OUT_OF_REACH:
-        yield from reach_ways(context, reason)
+        yield from reach_relaxations(context, reason)
     elif reason.code is Code.COLLISION:
         yield COLLISIONS_IGNORED
 
 
-def _friction(context: Context, slip: Reason) -> Way:
+def _friction(context: Context, slip: Reason) -> Relaxation:
     now = context.scene.friction
 
-    def applied(relaxed: Relaxed, amount: float) -> Relaxed:
+    def applied(relaxed: RelaxedProblem, amount: float) -> RelaxedProblem:
         return relaxed.with_scene(replace(relaxed.context.scene, friction=min(now + amount, FRICTION_MAX)))
 
     def told(reason: Reason, amount: float) -> Reason:
@@ -70,7 +75,7 @@ def _friction(context: Context, slip: Reason) -> Way:
 
     measured = () if slip.needed_friction is None else (slip.needed_friction - now,)
     amounts = (*(by for by in measured if now + by < FRICTION_MAX), FRICTION_MAX - now)
-    return Way("friction", amounts, applied, told, lambda trial: trial.needed_friction - now)
+    return Relaxation("friction", amounts, applied, told, lambda trial: trial.needed_friction - now)
 
 
 def _slips_on_the_way(context: Context, fold: int | None, needed: float | None = None) -> Reason:
@@ -80,20 +85,20 @@ def _slips_on_the_way(context: Context, fold: int | None, needed: float | None =
     return Reason(fold, Code.SLIPS, says, needed_friction=needed)
 
 
-def _cloth_moved(context: Context, reason: Reason) -> Iterator[Way]:
-    """Yield ways that move the cloth so that it lies as it must, or that let more cloth behind a line be carried."""
+def _cloth_moved(context: Context, reason: Reason) -> Iterator[Relaxation]:
+    """Yield moves of the cloth so that it lies as it must, or more cloth carried behind a line."""
     if reason.fold is None:
         yield from _onto_table(context)
     elif reason.shift_m is not None and reason.shift_towards is not None:
         yield moved("cloth", reason.shift_towards, reason.shift_m, _FURTHER_M)
     elif reason.short_by_m is not None and reason.point is None:
-        yield Way(
+        yield Relaxation(
             "behind", (reason.short_by_m,), lambda relaxed, by: relaxed.with_reach_behind(context.behind_max_m + by)
         )
 
 
-def _onto_table(context: Context) -> Iterator[Way]:
-    """Yield the way that moves the cloth until all of it lies on the table, or as far towards that as is enough."""
+def _onto_table(context: Context) -> Iterator[Relaxation]:
+    """Yield a move of the cloth until all of it lies on the table, or as far towards that as is enough."""
     room = Room.of(context.sequence.garment, context.placement, context.scene.table)
     x, y = room.nearest
     length = math.hypot(x, y)

@@ -1,15 +1,15 @@
 /**
- * The framed stage. Its own socket only looks for a lost server while it has the focus, so it is loaded anew. Until it
+ * The framed 3D view. Its own socket only looks for a lost server while it has the focus, so it is loaded anew. Until it
  * says that it is ready a quiet picture covers it.
  */
 
 import { svg } from "./board/sheet.js";
-import { StageSurface } from "./board/stage_surface.js";
+import { Surface3D } from "./board/surface_3d.js";
 import { byId, element } from "./dom.js";
 import { say } from "./language/say.js";
-import { StageViews } from "./stage_views.js";
+import { View3DViews } from "./viewpoints.js";
 
-/** What the frame says when it is ready, see app/api/stage_routes.py. */
+/** What the frame says when it is ready, see app/api/view_3d_routes.py. */
 const READY = "pleat-ready";
 /** A table, and cloth on it. */
 const TABLE = "M18 54L60 40L102 54L60 70ZM24 58V84M60 72V98M96 58V84";
@@ -17,7 +17,7 @@ const CLOTH = "M48 52L64 46L78 52L62 58Z";
 
 const BY_SOFTWARE = /swiftshader|llvmpipe|softpipe|software|basic render/i;
 
-/** Whether the browser has its processor draw 3-D, as far as it tells: the stage follows a hand less closely then. */
+/** Whether the browser has its processor draw 3-D, as far as it tells: the 3D view follows a hand less closely then. */
 function isDrawnBySoftware() {
   const gl = document.createElement("canvas").getContext("webgl");
   if (!gl) return false;
@@ -29,15 +29,15 @@ function isDrawnBySoftware() {
 
 /**
  * @param {import("./store.js").Store} store
- * @param {(event: KeyboardEvent) => void} onKey keys pressed while the stage has the focus
- * @param {import("./board/board.js").Board} board whose tools act on the stage too
+ * @param {(event: KeyboardEvent) => void} onKey keys pressed while the 3D view has the focus
+ * @param {import("./board/board.js").Board} board whose tools act on the 3D view too
  */
-export function mountStage(store, onKey, board) {
-  const frame = /** @type {HTMLIFrameElement} */ (byId("stage"));
-  new StageSurface(board, frame);
+export function mountView3D(store, onKey, board) {
+  const frame = /** @type {HTMLIFrameElement} */ (byId("view3d"));
+  new Surface3D(board, frame);
   const pace = isDrawnBySoftware() ? "by-software/" : "";
   const cover = picture();
-  const views = new StageViews(frame);
+  const views = new View3DViews(frame);
   frame.after(cover);
   addEventListener("message", ({ source, data }) => {
     if (source !== frame.contentWindow || data !== READY) return;
@@ -62,6 +62,6 @@ export function mountStage(store, onKey, board) {
 
 function picture() {
   const drawn = svg("svg", { viewBox: "0 0 120 104", "aria-hidden": "true" });
-  drawn.append(svg("path", { d: TABLE }), svg("path", { d: CLOTH, class: "stage-cover-cloth" }));
-  return element("div", "stage-cover", drawn, element("p", "", say("stage.being_set")));
+  drawn.append(svg("path", { d: TABLE }), svg("path", { d: CLOTH, class: "view3d-cover-cloth" }));
+  return element("div", "view3d-cover", drawn, element("p", "", say("view3d.being_set")));
 }

@@ -1,4 +1,4 @@
-"""Shapes on a stage: colours under its light, cloth that lies or hangs, lines on it, rotations."""
+"""Shapes in a 3D view: colours under its light, cloth that lies or hangs, lines on it, rotations."""
 
 import numpy as np
 import pytest

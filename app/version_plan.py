@@ -1,4 +1,4 @@
-"""A plan as the answer to a document's drawing, and what the stage shows of it."""
+"""The plan of one version of a document, and what the 3D view shows of it."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -11,8 +11,8 @@ from planner.task.task import Task
 
 
 @dataclass(frozen=True, eq=False)
-class Answer:
-    """A plan, and the task that it answers.
+class VersionPlan:
+    """A plan of a document, with its task and the version that it belongs to.
 
     Attributes:
         version: the document's version that it belongs to.

@@ -1,7 +1,7 @@
-"""The proxy to stages: page and websocket under `/viser/{document}`, passed on to the document's viser server.
+"""The proxy to 3D views: page and websocket under `/viser/{document}`, passed on to the document's viser server.
 
-The page is one file, the same for all stages. It works out where its websocket is from its own address less the
-trailing slash, so page and websocket differ by that slash alone. A page whose stage the processor draws asks for it
+The page is one file, the same for all 3D views. It works out where its websocket is from its own address less the
+trailing slash, so page and websocket differ by that slash alone. A page whose 3D view the processor draws asks for it
 under `/viser/{document}/by-software`.
 """
 
@@ -16,10 +16,10 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, WebSocketException
 from websockets.typing import Subprotocol
 
-from app.api.asked import workspace_of
+from app.api.request_parsing import workspace_of
 from app.api.shared import is_shared, until_revoked
-from app.ui.stage import Stage
-from app.ui.viser_patches import LOOPBACK, SECRET_HEADER, stage_page
+from app.ui.view_3d import View3D
+from app.ui.viser_patches import LOOPBACK, SECRET_HEADER, view_page
 from app.workspace import Workspace
 from planner.errors import FoldingError
 
@@ -31,15 +31,15 @@ _NOT_FOUND = 4404
 
 @router.get("/{name}/")
 @router.get("/{name}/by-software/")
-async def read_stage_page(request: Request, name: str) -> Response:
-    """Return the page that shows a stage."""
+async def read_view_page(request: Request, name: str) -> Response:
+    """Return the page that shows a 3D view."""
     await run_in_threadpool(workspace_of(request).opened, name)
-    return HTMLResponse(stage_page(has_session=not is_shared(request.scope)), headers={"cache-control": "no-cache"})
+    return HTMLResponse(view_page(has_session=not is_shared(request.scope)), headers={"cache-control": "no-cache"})
 
 
 @router.get("/{name}")
 @router.get("/{name}/by-software")
-async def redirect_to_stage_page(request: Request, name: str) -> Response:
+async def redirect_to_view_page(request: Request, name: str) -> Response:
     """Redirect to the page's address, which has a slash at the end."""
     await run_in_threadpool(workspace_of(request).opened, name)
     return RedirectResponse(request.url.path + "/")
@@ -47,15 +47,15 @@ async def redirect_to_stage_page(request: Request, name: str) -> Response:
 
 @router.websocket("/{name}")
 @router.websocket("/{name}/")
-async def connect_stage(websocket: WebSocket, name: str) -> None:
+async def connect_view(websocket: WebSocket, name: str) -> None:
     """Pass messages on, both ways, until either side closes."""
     await _connect(websocket, name, is_by_software=False)
 
 
 @router.websocket("/{name}/by-software")
 @router.websocket("/{name}/by-software/")
-async def connect_stage_by_software(websocket: WebSocket, name: str) -> None:
-    """Pass messages on as `connect_stage` does, for a page whose processor draws the stage."""
+async def connect_view_by_software(websocket: WebSocket, name: str) -> None:
+    """Pass messages on as `connect_view` does, for a page whose processor draws the 3D view."""
     await _connect(websocket, name, is_by_software=True)
 
 
@@ -68,17 +68,17 @@ async def _connect(websocket: WebSocket, name: str, *, is_by_software: bool) -> 
         return
     with opened.in_use(), contextlib.suppress(OSError, WebSocketException, WebSocketDisconnect):
         show = opened.show_to_visitors if is_shared(websocket.scope) else opened.show
-        stage = await run_in_threadpool(show)
-        async with _dial(stage, websocket.scope["subprotocols"]) as inner:
+        view = await run_in_threadpool(show)
+        async with _dial(view, websocket.scope["subprotocols"]) as inner:
             await websocket.accept(subprotocol=inner.subprotocol)
-            with stage.drawn_by_software() if is_by_software else contextlib.nullcontext():
+            with view.drawn_by_software() if is_by_software else contextlib.nullcontext():
                 await _pass_on(websocket, inner, workspace)
 
 
-def _dial(stage: Stage, subprotocols: list[str]) -> connect:
+def _dial(view: View3D, subprotocols: list[str]) -> connect:
     return connect(
-        f"ws://{LOOPBACK}:{stage.port}",
-        additional_headers={SECRET_HEADER: stage.secret},
+        f"ws://{LOOPBACK}:{view.port}",
+        additional_headers={SECRET_HEADER: view.secret},
         subprotocols=[Subprotocol(protocol) for protocol in subprotocols] or None,
         max_size=None,
         compression=None,
@@ -90,7 +90,7 @@ def _dial(stage: Stage, subprotocols: list[str]) -> connect:
 async def _pass_on(outer: WebSocket, inner: ClientConnection, workspace: Workspace) -> None:
     """Pass messages on in both directions, each sent before the next is taken, so that neither side is flooded.
 
-    Those of a visitor by a link are dropped: a stage sees no seat and no hand of one who may only look.
+    Those of a visitor by a link are dropped: a 3D view makes no session of one who may only look.
     """
     ways = [
         asyncio.create_task(_dropped(outer) if is_shared(outer.scope) else _inwards(outer, inner)),

@@ -40,7 +40,7 @@ DIRECTIONS: tuple[Point3, ...] = (
 
 
 @dataclass(frozen=True, slots=True)
-class Remedy:
+class ReachShift:
     """A shift that brings a whole attempt into reach.
 
     Attributes:
@@ -52,15 +52,15 @@ class Remedy:
     towards: Point3
 
 
-def remedy(context: Context, miss: Miss) -> Remedy | None:
+def least_shift(context: Context, miss: Miss) -> ReachShift | None:
     """Return the least shift tried that lets the arms follow an attempt; None if none does."""
     attempt = _Shifted(context, miss)
-    best: Remedy | None = None
+    best: ReachShift | None = None
     for towards in DIRECTIONS:
         limit = FURTHEST_M if best is None else best.distance_m - _FINEST_M
         distance = attempt.least(towards, limit)
         if distance is not None:
-            best = Remedy(distance, towards)
+            best = ReachShift(distance, towards)
     return best
 
 

@@ -1,7 +1,7 @@
-"""The stage: shows the samples of a timeline on a viser server of its own.
+"""The 3D view: shows the samples of a timeline on a viser server of its own.
 
-There may be several stages, one for each open document. One thread at a time writes to a stage; the browser follows. A
-stage knows no clock: its owner tells it which sample to show.
+There may be several, one for each open document. One thread at a time writes to a 3D view; the browser follows. A 3D
+view knows no clock: its owner tells it which sample to show.
 """
 
 import threading
@@ -40,7 +40,7 @@ _SQUARE = 1.0
 """Aspect assumed before a browser looks; what is whole in a square is whole in every wider picture."""
 
 
-class Stage:
+class View3D:
     """A 3-D view of one scene with its robot.
 
     Attributes:
@@ -81,17 +81,17 @@ class Stage:
 
     @property
     def has_watchers(self) -> bool:
-        """Whether any browser shows this stage now."""
+        """Whether any browser shows this 3D view now."""
         return bool(self._server.get_clients())
 
     @property
     def is_drawn_by_software(self) -> bool:
-        """Whether some browser draws the stage on its processor, which takes most of that processor's time."""
+        """Whether some browser draws the 3D view on its processor, which takes most of that processor's time."""
         return self._by_software > 0
 
     @contextmanager
     def drawn_by_software(self) -> Iterator[None]:
-        """Mark the stage, within the context, as shown by a browser without a graphics card."""
+        """Mark the 3D view, within the context, as shown by a browser without a graphics card."""
         with self._lock:
             self._by_software += 1
         try:

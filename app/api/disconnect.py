@@ -1,4 +1,4 @@
-"""Waiting for work in other processes, as long as a client waits for the answer."""
+"""Run work for a request, and stop it when the client disconnects."""
 
 import asyncio
 import contextlib
@@ -8,8 +8,8 @@ from typing import Any, ParamSpec, TypeVar
 
 from fastapi import Request
 
-from app.api.asked import workspace_of
 from app.api.problems import ClientGoneError
+from app.api.request_parsing import workspace_of
 from app.jobs.job_pool import Job, JobPool, ShouldStop
 
 Answer = TypeVar("Answer")

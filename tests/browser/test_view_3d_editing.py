@@ -1,4 +1,4 @@
-"""Editing in the stage of the real page with the mouse, tested through the stage's own scene."""
+"""Editing in the 3D view of the real page with the mouse, tested through the 3D view's own scene."""
 
 import time
 from collections.abc import Callable
@@ -10,13 +10,13 @@ from playwright.sync_api import Page, expect
 
 from planner.geometry.pose import Point2, Pose2
 from tests.app.conftest import Served
-from tests.browser.conftest import IN_STAGE, STAGE_PATIENCE_MS, Sheet
+from tests.browser.conftest import IN_VIEW, VIEW_PATIENCE_MS, Sheet
 
-CAMERA = f"() => {IN_STAGE}.camera.matrixWorld.elements.map((value) => value.toFixed(4)).join(' ')"
+CAMERA = f"() => {IN_VIEW}.camera.matrixWorld.elements.map((value) => value.toFixed(4)).join(' ')"
 TO_PICTURE = f"""(place) => {{
-  const viser = {IN_STAGE}, world = viser.nodeRefFromName[""];
+  const viser = {IN_VIEW}, world = viser.nodeRefFromName[""];
   const seen = world.position.clone().set(...place).applyMatrix4(world.matrixWorld).project(viser.camera);
-  const frame = document.getElementById("stage").getBoundingClientRect();
+  const frame = document.getElementById("view3d").getBoundingClientRect();
   const picture = viser.canvas.getBoundingClientRect();
   return [
     frame.x + picture.x + ((seen.x + 1) / 2) * picture.width,
@@ -26,12 +26,12 @@ TO_PICTURE = f"""(place) => {{
 
 
 @pytest.fixture
-def page(stage_page: Page) -> Page:
-    return stage_page
+def page(view_page: Page) -> Page:
+    return view_page
 
 
 def until(condition: Callable[[], Any]) -> None:
-    deadline = time.monotonic() + STAGE_PATIENCE_MS / 1000
+    deadline = time.monotonic() + VIEW_PATIENCE_MS / 1000
     while not condition():
         assert time.monotonic() < deadline
         time.sleep(0.05)
@@ -78,7 +78,7 @@ def test_a_corner_is_dragged_from_above_and_undone_and_the_camera_stays(page: Pa
     above = look_from_above(page)
     x, y = corner_in_picture(page, sheet, 0)
     page.mouse.move(x, y)
-    overlay = page.locator(".stage-surface")
+    overlay = page.locator(".view3d-surface")
     expect(overlay).to_be_visible()
     drag(page, (x, y), (x + 20, y - 12))
     until(lambda: sheet.state["gesture"] == "Move vertex")

@@ -1,4 +1,4 @@
-"""Ways in which hands can hold what a fold needs: wider grips, hands closer together, stiffer cloth, a third hand."""
+"""Relaxations of how hands hold what a fold needs: wider grips, hands closer together, stiffer cloth, a third hand."""
 
 import math
 from collections.abc import Iterator
@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from planner.explain.correction import Way
 from planner.explain.reason_grips import needed_radius
-from planner.explain.relaxed import Relaxed
+from planner.explain.relaxation import Relaxation
+from planner.explain.relaxed_problem import RelaxedProblem
 from planner.geometry.tolerance import LENGTH_M
 from planner.primitives.context import Context
 from planner.task.reason import Code, Reason
@@ -19,8 +19,8 @@ _THIRD_HAND_CORNERS_MAX = 12
 """Corners of the cloth above which the ways for three hands to hold it are too many."""
 
 
-def hand_ways(context: Context, reason: Reason, fold: int) -> Iterator[Way]:
-    """Yield ways: wider grips in the fold alone or in drags too, hands closer together, stiffer cloth, a third hand."""
+def hand_relaxations(context: Context, reason: Reason, fold: int) -> Iterator[Relaxation]:
+    """Yield wider grips in the fold alone or in drags too, hands closer together, stiffer cloth, a third hand."""
     if reason.needed_grip_radius_m is None:
         yield _blue(fold)
         return
@@ -30,17 +30,19 @@ def hand_ways(context: Context, reason: Reason, fold: int) -> Iterator[Way]:
     yield _grip_radius(context, fold, tuple(sorted({by_m, max(one_hands_m, by_m)})), needed, in_drags=True)
     if reason.code is Code.GRIPS_TOO_CLOSE and reason.short_by_m is not None:
         apart_m = context.grips_apart_m
-        yield Way("apart", (reason.short_by_m,), lambda relaxed, by: relaxed.with_grips_nearer(apart_m - by))
+        yield Relaxation("apart", (reason.short_by_m,), lambda relaxed, by: relaxed.with_grips_nearer(apart_m - by))
     if reason.code is Code.TOO_MANY_GRIPS:
         yield _stiffer(context, fold)
         if len(context.sequence.garment.outline) <= _THIRD_HAND_CORNERS_MAX:
             yield _third_hand(context, fold)
 
 
-def _grip_radius(context: Context, fold: int, amounts: tuple[float, ...], needed: float, *, in_drags: bool) -> Way:
+def _grip_radius(
+    context: Context, fold: int, amounts: tuple[float, ...], needed: float, *, in_drags: bool
+) -> Relaxation:
     now = context.sequence.folds[fold].grip_radius_m
 
-    def applied(relaxed: Relaxed, amount: float) -> Relaxed:
+    def applied(relaxed: RelaxedProblem, amount: float) -> RelaxedProblem:
         garment = relaxed.context.sequence.garment
         wider = replace(garment.folds[fold], grip_radius_m=now + amount)
         folds = (*garment.folds[:fold], wider, *garment.folds[fold + 1 :])
@@ -54,14 +56,14 @@ def _grip_radius(context: Context, fold: int, amounts: tuple[float, ...], needed
         says = worded("wider_grip", values, context.sequence.folds, fold)
         return replace(reason, says=says, short_by_m=amount, needed_grip_radius_m=now + amount)
 
-    return Way("grip_radius", amounts, applied, told)
+    return Relaxation("grip_radius", amounts, applied, told)
 
 
-def _stiffer(context: Context, fold: int) -> Way:
-    """Return the way of stiffer cloth, of which more holds itself."""
+def _stiffer(context: Context, fold: int) -> Relaxation:
+    """Return the relaxation to stiffer cloth, of which more holds itself."""
     now = context.scene.support_angle_rad
 
-    def applied(relaxed: Relaxed, amount: float) -> Relaxed:
+    def applied(relaxed: RelaxedProblem, amount: float) -> RelaxedProblem:
         angle = min(now + amount, SUPPORT_ANGLE_MAX_RAD)
         return relaxed.with_scene(replace(relaxed.context.scene, support_angle_rad=angle))
 
@@ -70,17 +72,17 @@ def _stiffer(context: Context, fold: int) -> Way:
         says = worded("stiffer_cloth", values, context.sequence.folds, fold)
         return replace(reason, says=says, short_by_m=None, needed_grip_radius_m=None)
 
-    return Way("support_angle", (SUPPORT_ANGLE_MAX_RAD - now,), applied, told, exact=math.radians(0.5))
+    return Relaxation("support_angle", (SUPPORT_ANGLE_MAX_RAD - now,), applied, told, exact=math.radians(0.5))
 
 
-def _third_hand(context: Context, fold: int) -> Way:
+def _third_hand(context: Context, fold: int) -> Relaxation:
     hands = len(context.reach.arm_names)
 
     def told(reason: Reason, _: float) -> Reason:
         says = worded("one_more_hand", {"hands": hands}, context.sequence.folds, fold)
         return replace(reason, says=says, needed_grip_radius_m=None)
 
-    return Way("hands", (), lambda relaxed, _: relaxed.with_more_hands(1), told, is_dream=True)
+    return Relaxation("hands", (), lambda relaxed, _: relaxed.with_more_hands(1), told, is_hypothetical=True)
 
 
 def _one_hands_radius(context: Context, fold: int) -> float:
@@ -90,10 +92,10 @@ def _one_hands_radius(context: Context, fold: int) -> float:
     return needed_radius(context.sequence.moving(fold), drawn.line, vertices, 1) if len(vertices) else 0.0
 
 
-def _blue(fold: int) -> Way:
-    def applied(relaxed: Relaxed, _: float) -> Relaxed:
+def _blue(fold: int) -> Relaxation:
+    def applied(relaxed: RelaxedProblem, _: float) -> RelaxedProblem:
         garment = relaxed.context.sequence.garment
         blue = replace(garment.folds[fold], kind="blue")
         return relaxed.with_garment(replace(garment, folds=(*garment.folds[:fold], blue, *garment.folds[fold + 1 :])))
 
-    return Way("blue", (), applied)
+    return Relaxation("blue", (), applied)

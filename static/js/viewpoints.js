@@ -1,5 +1,5 @@
 /**
- * The viewpoints, on the stage itself. The server moves the camera, as it rides along with the robot; which of its
+ * The viewpoints, in the 3D view itself. The server moves the camera, as it rides along with the robot; which of its
  * sessions this page's frame is, a node of the frame's scene says (`app/ui/viewpoints/viewpoint_choice.py`).
  */
 
@@ -11,14 +11,14 @@ const CHANNEL = "/session/";
 
 /** @typedef {{nodeRefFromName: Record<string, unknown>, sendMessage: (message: object) => void}} Viser */
 
-export class StageViews {
+export class View3DViews {
   /** @param {HTMLIFrameElement} frame */
   constructor(frame) {
     this.frame = frame;
-    this.root = byId("stage-views");
+    this.root = byId("viewpoints");
     this.root.replaceChildren(
       ...VIEWS.map((view) => {
-        const made = button("stage-view", () => this.look(view), say(view));
+        const made = button("viewpoint", () => this.look(view), say(view));
         made.title = say(`${view}_hint`);
         return made;
       }),

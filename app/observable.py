@@ -1,4 +1,4 @@
-"""An immutable value that is swapped under a lock, and those who are told of it.
+"""An immutable value that is replaced under a lock, and the listeners that are called after a change.
 
 A reader takes the value without the lock and never sees half a change; a listener is called outside of the lock, so
 that it may read and change the value itself.
@@ -13,11 +13,11 @@ T = TypeVar("T")
 Listener = Callable[[], None]
 
 
-class Watched(Generic[T]):
+class Observable(Generic[T]):
     """A value that several threads read and change."""
 
     def __init__(self, value: T) -> None:
-        """Start with a value that nobody is told of."""
+        """Start with a value and no listeners."""
         self._value = value
         self._lock = threading.Lock()
         self._listeners: list[Listener] = []

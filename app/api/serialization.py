@@ -1,4 +1,4 @@
-"""Messages to pages about a document: each is written as JSON once, for all of its pages."""
+"""Serialization of messages to pages about a document: each is written as JSON once, for all of its pages."""
 
 import json
 
@@ -20,7 +20,7 @@ def plan_text(opened: OpenDocument, state: DocumentState) -> str:
     return opened.texts.text("plan", _plan_key(state), lambda: json.dumps(plan_message(state)))
 
 
-class Telling:
+class SentState:
     """The state that one page has been sent."""
 
     def __init__(self, opened: OpenDocument, played: Document | VisitorsView) -> None:
@@ -31,20 +31,20 @@ class Telling:
         self._plan: object = None
         self._playback: object = None
 
-    def news(self, state: DocumentState) -> list[str]:
+    def updates(self, state: DocumentState) -> list[str]:
         """Return the messages that bring the page up to date, as JSON."""
-        told = []
+        messages = []
         document = (state.version, state.draft)
         if document != self._document:
-            told.append(document_text(self._opened, state))
+            messages.append(document_text(self._opened, state))
         plan = _plan_key(state)
         if plan != self._plan:
-            told.append(plan_text(self._opened, state))
+            messages.append(plan_text(self._opened, state))
         playback = (state.playback, state.shown)
         if playback != self._playback or state.playback.is_playing:
-            told.append(json.dumps(playback_message(state, self._played.t_s)))
+            messages.append(json.dumps(playback_message(state, self._played.t_s)))
         self._document, self._plan, self._playback = document, plan, playback
-        return told
+        return messages
 
 
 def _plan_key(state: DocumentState) -> object:

@@ -44,7 +44,7 @@ def client_of(request: Request) -> str:
     return "" if request.client is None else request.client.host
 
 
-def asked_garment(within: HasGarments, garment: str | Garment) -> Garment:
+def requested_garment(within: HasGarments, garment: str | Garment) -> Garment:
     """Return the garment of a request's field `garment`, by name or in full; raises `UnknownGarmentError`."""
     return within.garments.garment(garment) if isinstance(garment, str) else garment
 
@@ -67,7 +67,7 @@ class TimeLimit:
         return time.monotonic() > self._arrived_s + self.limit_s + grace_s
 
 
-def asked_task(within: HasGarments, wanted: PlanRequest, limit: TimeLimit) -> Task:
+def requested_task(within: HasGarments, wanted: PlanRequest, limit: TimeLimit) -> Task:
     """Return the task of a plan request, for a search that begins now; raises an error for the first wrong field."""
     require_name(wanted.robot)
     options = TaskOptions(
@@ -81,28 +81,28 @@ def asked_task(within: HasGarments, wanted: PlanRequest, limit: TimeLimit) -> Ta
     )
     if wanted.start_station is not None:
         options["start_station"] = wanted.start_station
-    task = task_for(asked_garment(within, wanted.garment), wanted.scene, **options)
-    return task if wanted.start is None else replace(task, start=asked_start(task, wanted.start))
+    task = task_for(requested_garment(within, wanted.garment), wanted.scene, **options)
+    return task if wanted.start is None else replace(task, start=requested_start(task, wanted.start))
 
 
-def asked_places(within: HasGarments, wanted: PlacementsRequest, limit: TimeLimit) -> Task:
+def requested_places(within: HasGarments, wanted: PlacementsRequest, limit: TimeLimit) -> Task:
     """Return the task whose garment a request wants to have planned wherever it can lie."""
-    garment = asked_garment(within, wanted.garment)
+    garment = requested_garment(within, wanted.garment)
     return Task.of(garment, time_limit_s=limit.left_s, work_limit_s=wanted.work_limit_s)
 
 
-def asked_start(task: Task, wanted: StartField) -> WorldState:
+def requested_start(task: Task, wanted: StartField) -> WorldState:
     """Return the state from which a request plans; fields left out have the task's defaults."""
     return WorldState(
         wanted.folds_done,
         wanted.placement or task.start.placement,
-        task.start.base if wanted.base is None else _asked_base(task.scene, wanted.base),
+        task.start.base if wanted.base is None else _requested_base(task.scene, wanted.base),
         wanted.held,
         wanted.dragged_m,
     )
 
 
-def _asked_base(scene: Scene, wanted: BaseField) -> BaseStop:
+def _requested_base(scene: Scene, wanted: BaseField) -> BaseStop:
     """Return the base's place: at a station, or at a given pose."""
     x_m, y_m, yaw_rad = wanted.x_m, wanted.y_m, wanted.yaw_rad
     if wanted.station is None:
@@ -113,8 +113,8 @@ def _asked_base(scene: Scene, wanted: BaseField) -> BaseStop:
     if wanted.station not in stations:
         raise RequestError("start.base.station", f"expected one of {', '.join(stations)}; got {wanted.station[:80]!r}")
     if wanted.back_off_m > scene.back_off_max_m:
-        told = f"{wanted.back_off_m} is more than {scene.back_off_max_m:g}, the furthest that the base may back off"
-        raise RequestError("start.base.back_off_m", told)
+        message = f"{wanted.back_off_m} is more than {scene.back_off_max_m:g}, the furthest that the base may back off"
+        raise RequestError("start.base.back_off_m", message)
     return BaseStop.at(wanted.station, stations[wanted.station], wanted.back_off_m)
 
 
