@@ -1,0 +1,35 @@
+"""The documents: links lead somewhere, and what they say is of today."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parent.parent
+PAGES = [*sorted(ROOT.glob("docs/*.md")), ROOT / "README.md", ROOT / "CHANGELOG.md"]
+LINK = re.compile(r"\]\((?!https?:)([^)#]*)(?:#([^)]*))?\)")
+HISTORY = re.compile(r"\b(since then|measured again|the version before)\b", re.IGNORECASE)
+
+
+def anchors(page: Path) -> set[str]:
+    """Return the anchors of a page's headings, named as on GitHub."""
+    headings = re.findall(r"^#+ (.*)$", page.read_text(encoding="utf-8"), re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_links_lead_to_files_and_headings(page: Path):
+    for file, anchor in LINK.findall(page.read_text(encoding="utf-8")):
+        target = page.parent / file if file else page
+        assert target.exists(), file
+        assert not anchor or anchor in anchors(target), f"{file}#{anchor}"
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_a_document_tells_no_history(page: Path):
+    assert not HISTORY.findall(" ".join(page.read_text(encoding="utf-8").split()))
+
+
+@pytest.mark.parametrize("page", sorted(ROOT.glob("docs/*.md")), ids=lambda page: page.name)
+def test_every_document_is_linked_from_the_readme(page: Path):
+    assert f"(docs/{page.name})" in (ROOT / "README.md").read_text(encoding="utf-8")
