@@ -29,7 +29,8 @@ BLIND_MAX = 1
 FOLDED_OVERLAP = 0.9
 """The overlap of the outline seen with a folded stack's; with less a fold counts as failed."""
 
-_WITHDRAW_S = 3.0
+WITHDRAW_S = 3.0
+"""The time that arms take to get out of the way (s)."""
 
 
 @dataclass
@@ -108,7 +109,7 @@ class Watch:
         if sight.unknown is None and not is_hidden and not self._is_failed(sight):
             return sight
         self.posture = self.eyes.withdrawn(self.posture)
-        self.world.perform(StepMotion(made, WITHDRAW, _WITHDRAW_S, ends=self.posture))
+        self.world.perform(StepMotion(made, WITHDRAW, WITHDRAW_S, ends=self.posture))
         clear = self.look(plan, ought, made, is_clear=True)
         if clear is None or (clear.unknown is not None and sight.unknown is None):
             return sight

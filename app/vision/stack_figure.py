@@ -216,8 +216,8 @@ class Figure:
             error_m: how far off the corners may be (m); None for what the outline alone tells.
             inside_m: how far inside of the outline each point seen is expected, shape (n,), m.
         """
-        distances, derivatives = self.residuals(row, seen)
-        pose = self.pose(row)
+        outside, derivatives = self.residuals(row, seen)
+        distances, pose = outside + inside_m, self.pose(row)
         if error_m is None:
             error_m = self._corner_error(covariance_of(distances, derivatives, self.edges.length), pose)
         residual_m = float(np.median(np.abs(distances)))
@@ -229,15 +229,14 @@ class Figure:
         )
 
     def _overlap(self, distances: FloatArray, inside_m: FloatArray | float) -> float:
-        """Return `StackFit.overlap` of points that are so far outside of the outline, shape (n,), m.
+        """Return `StackFit.overlap` of points that are so far outside of where they are expected, shape (n,), m.
 
         Each stands for as long a piece of the outline as the others, and for a strip as wide as it is off. That is just
         so where they are off by little; of cloth that sticks out it is more than its area, and of a corner that is
         missing .7 of it at least, since its hypotenuse is near to both legs.
         """
-        off_m = distances + inside_m
         expected = self.area - self.edges.length * float(np.mean(inside_m))
-        beyond, missing = (self.edges.length * float(np.maximum(side, 0.0).mean()) for side in (off_m, -off_m))
+        beyond, missing = (self.edges.length * float(np.maximum(side, 0.0).mean()) for side in (distances, -distances))
         return max(0.0, expected - missing) / (expected + beyond)
 
     def _spacing(self, seen: FloatArray) -> float:
