@@ -35,6 +35,7 @@ class StackFitAnswer(BaseModel):
     residual_m: float
     share_on_outline: float
     share_seen: float
+    overlap: float
     others: list[Pose2]
     known: bool
     reason: str | None

@@ -9,6 +9,7 @@ import numpy as np
 from app.physics.fingers import Box, FingerSize, around
 from app.physics.held_cloth import HeldCloth
 from app.physics.pinch import fingertip
+from app.rehearsal.finger_ends import reach_ahead
 from app.rehearsal.world import GripMotion, way_done
 from planner.geometry.pose import FloatArray
 from planner.geometry.table_top import TableTop
@@ -54,7 +55,10 @@ class HandWay:
         if not self.is_fold or self._ahead is None:
             return self.held
         done = float(np.interp(t_s, self.grip.times_s, self._done))
-        turned = self.held.turned(self._ahead, self.grip.turned_at(t_s), done * self._turn_rad)
+        if self._round_m and not self.held.hangs:
+            turned = self.held.turned_round(self._ahead, self._round_m, done * self._turn_rad)
+        else:
+            turned = self.held.turned(self._ahead, self.grip.turned_at(t_s), done * self._turn_rad)
         turned = replace(turned, hangs=self._ends_hanging)
         return turned.raised(self.rise_m * max(0.0, 2.0 * done - 1.0))  # from the apex on
 
@@ -75,6 +79,11 @@ class HandWay:
     @cached_property
     def _ahead(self) -> FloatArray | None:
         return ahead(self.grip)
+
+    @cached_property
+    def _round_m(self) -> float:
+        """How far ahead on its way are the ends of the fingers round which cloth turns over (m); 0 if it does not."""
+        return reach_ahead(self.grip)
 
     @cached_property
     def _done(self) -> FloatArray:

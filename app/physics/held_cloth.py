@@ -4,7 +4,8 @@ A mesh has no vertex just where fingers close. So the nearest vertices are held,
 beside them: there the cloth is not in the hand. It lies on one side of the fingers before a fold and on the other side
 after it, and held rigidly it would be put down beyond its place by twice as much. Layers whose edges do not
 reach the fingers' tip, or have no vertex there, would be pulled that far. A hand that rolls with the cloth turns what
-is between its fingers too.
+is between its fingers too; round the fingers of one that does not, and that points along its way, the cloth turns over
+at their ends.
 """
 
 from collections.abc import Mapping
@@ -67,6 +68,19 @@ class HeldCloth:
         """Return the height of its layers when they lie on one another, for the thickness of one (m)."""
         heights = np.sort((self.between + self.beside)[:, 2])
         return thickness_m * (1 + int((np.diff(heights) > thickness_m / 2.0).sum()))
+
+    def turned_round(self, way: FloatArray, ahead_m: float, cloth_rad: float) -> "HeldCloth":
+        """Return the cloth in a hand that does not roll, round whose finger ends what is beyond them has turned over.
+
+        Args:
+            way: the direction in which the hand is going, horizontal, of length 1, shape (2,).
+            ahead_m: how far its fingers reach that way (m).
+            cloth_rad: how far the cloth has turned over (rad): half a turn in a fold.
+        """
+        vertices = self.between + self.beside
+        beyond_m = np.maximum(vertices[:, :2] @ way - ahead_m, 0.0)
+        beyond = np.column_stack([beyond_m[:, None] * way, np.zeros(len(beyond_m))])
+        return replace(self, beside=self.beside + _turned(beyond, way, cloth_rad) - beyond)
 
     def turned(self, way: FloatArray, hand_rad: float, cloth_rad: float) -> "HeldCloth":
         """Return the cloth when the hand, and the cloth that hangs from it, have turned over on their way.

@@ -60,6 +60,9 @@ _BENT = 2.87
 From the elastica, along which sin(angle) grows with the square of the curvature.
 """
 
+_BALLS, _CLOSED_M = 3, 0.001
+"""The balls at the end of a finger, and by how much they are thinner than it on each side (m)."""
+
 _BESIDE = 0.2
 """How far beside the middle of two vertices the one between them may be, and they beside a thread, as a share of their
 distance."""
@@ -216,14 +219,26 @@ def _board(table: Table, fabric: Fabric, resolution: Resolution) -> str:
 
 
 def _boxes(fingers: Sequence[FingerSize]) -> str:
-    """Return two bodies for each hand, without friction, out of the way."""
-    touch = f'contype="{_FINGER}" conaffinity="0" condim="1" priority="3" {_STIFF}'
+    """Return two bodies for each hand, without friction, out of the way.
+
+    Triangles do not touch boxes: rows of balls keep them from cutting the fingers' ends, where cloth turns over.
+    """
+    touch = 'conaffinity="0" condim="1" priority="3"'
     return "".join(
         f'<body name="f{hand}_{finger}" mocap="true" pos="0 0 -9"><geom type="box" '
-        f'size="{size.length_m / 2.0} {size.width_m / 2.0} {size.thickness_m / 2.0}" {touch}/></body>'
+        f'size="{size.length_m / 2.0} {size.width_m / 2.0} {size.thickness_m / 2.0}" '
+        f'contype="{_FINGER}" {touch} {_STIFF}/>{_finger_end(size, f"{touch} {_STIFF}")}</body>'
         for hand, size in enumerate(fingers)
         for finger in range(2)
     )
+
+
+def _finger_end(size: FingerSize, touch: str) -> str:
+    """Return balls across the end of a finger that triangles touch, a little thinner than it: it is closed on them."""
+    radius = size.thickness_m / 2.0 - _CLOSED_M
+    places = np.linspace(radius - size.width_m / 2.0, size.width_m / 2.0 - radius, _BALLS).tolist()
+    ball = f'<geom type="sphere" size="{radius}" contype="{_CLOTH}" {touch}'
+    return "".join(f'{ball} pos="{size.length_m / 2.0 - radius} {place} 0"/>' for place in places)
 
 
 def _box(x: float, y: float, z: float, at_z: float) -> str:

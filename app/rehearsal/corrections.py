@@ -13,11 +13,11 @@ from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray, Point2, Point3, Pose2
 from planner.task.plan_step import PlanStep
 
-REGRASPS = 8
-"""Points round a grip at which a grasp that missed is tried again (paper, section 9)."""
+_TRIED = ((1 / 3, 0), (1 / 3, 1), (1 / 3, -1), (2 / 3, 0), (1, 0), (1, 1), (1, -1), (1, 4))
+"""How far from the grip, as a share of the radius, and at how many eighths of a turn from inwards it is tried.
 
-_NEAR = 1.0 / 3.0
-"""The share of the radius at which it is tried first: most fingers that miss have closed just beside an edge."""
+Near to it at first: most fingers that miss have closed just beside an edge, and what is beyond the fingers crumples.
+"""
 
 SHORT_M = 0.008
 """How far short of its place an edge is laid down where the same hands lift it again (m).
@@ -80,10 +80,9 @@ def regrasps(
         offsets: how far beside its grip each hand took the cloth at first (m).
         fold: the reflection of the cloth by the step's fold, table frame; None if it makes none.
     """
-    turns = [math.pi / 4.0 * ((number + 1) // 2) * (-1.0 if number % 2 else 1.0) for number in range(REGRASPS - 1)]
-    for away_m, turn in ((_NEAR * radius_m, 0.0), *((radius_m, turn) for turn in turns)):
+    for share, eighths in _TRIED:
         tried = {
-            grip.arm: _round(inwards.get(grip.arm) or _way(grip), away_m, turn)
+            grip.arm: _round(inwards.get(grip.arm) or _way(grip), share * radius_m, math.pi / 4.0 * eighths)
             for grip in motion.grips
             if grip.arm in arms
         }

@@ -25,6 +25,7 @@ from app.rehearsal.corrections import (
     still_beside,
 )
 from app.rehearsal.eyes import Picture
+from app.rehearsal.finger_ends import round_finger_ends
 from app.rehearsal.grasp_points import at_layered_corners, inside, inwards_at, laid_short, where_seen
 from app.rehearsal.judge import Gate, StepVerdict, judged
 from app.rehearsal.rest import rest_task
@@ -33,10 +34,11 @@ from app.rehearsal.step_motions import posture_at, step_motions
 from app.rehearsal.taut_way import taut
 from app.rehearsal.trace import ClothAfter, counterpart
 from app.rehearsal.trailing_flaps import flaps_beside, trailing
-from app.rehearsal.watch import Watch
-from app.rehearsal.world import Performed, StepMotion, World
+from app.rehearsal.watch import WITHDRAW_S, Watch
+from app.rehearsal.world import WITHDRAW, Performed, StepMotion, World
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Point2, Pose2
+from planner.robots.load_robot import robot_card_file
 from planner.task.plan import Plan
 from planner.task.plan_step import PlanStep
 from planner.task.task import Task
@@ -111,6 +113,7 @@ class Performer:
                     if reason:
                         return self._ended(reason)
                     motions, number, carried = self._anew()
+                    self.world.perform(StepMotion(self._made, WITHDRAW, WITHDRAW_S, ends=self._watch.posture))
                     continue
             else:
                 answer = self._held_on(corrected(motion, carried), step, carried)
@@ -130,9 +133,11 @@ class Performer:
 
     def _anew(self) -> tuple[tuple[StepMotion, ...], int, Isometry]:
         """Begin the plan: its motions, the number of the first, and how far the stack lies from its place."""
-        path = self.plan.trajectory
+        path, radius_m = self.plan.trajectory, self.plan.task.limits.comfort_radius_m
         self._watch.posture = None if path is None else posture_at(path, 0.0)
-        return step_motions(self.plan), 0, Isometry()
+        arms = robot_card_file(self.plan.task.robot).arms
+        thickness_m = {arm.name: arm.gripper.finger_thickness_m for arm in arms}
+        return tuple(round_finger_ends(step_motions(self.plan), thickness_m, radius_m)), 0, Isometry()
 
     def _after_drag(self, motion: StepMotion, step: PlanStep) -> Isometry:
         """Return how far from where it should be a stack lies after a drag; hands that hold on are beside it then.

@@ -26,10 +26,11 @@ from planner.task.world_state import WorldState
 BLIND_MAX = 1
 """Steps in a row that are made as planned though it is not known where the cloth lies."""
 
-FOLDED_SHARE = 0.9
-"""The share of the outline seen that lies within 1 cm of a folded stack's; with less a fold counts as failed."""
+FOLDED_OVERLAP = 0.9
+"""The overlap of the outline seen with a folded stack's; with less a fold counts as failed."""
 
-_WITHDRAW_S = 3.0
+WITHDRAW_S = 3.0
+"""The time that arms take to get out of the way (s)."""
 
 
 @dataclass
@@ -108,7 +109,7 @@ class Watch:
         if sight.unknown is None and not is_hidden and not self._is_failed(sight):
             return sight
         self.posture = self.eyes.withdrawn(self.posture)
-        self.world.perform(StepMotion(made, WITHDRAW, _WITHDRAW_S, ends=self.posture))
+        self.world.perform(StepMotion(made, WITHDRAW, WITHDRAW_S, ends=self.posture))
         clear = self.look(plan, ought, made, is_clear=True)
         if clear is None or (clear.unknown is not None and sight.unknown is None):
             return sight
@@ -117,15 +118,15 @@ class Watch:
 
     def _is_failed(self, sight: Sight) -> bool:
         """Return whether a fold of this run has left the cloth with another outline than it should have."""
-        return self.has_folded and sight.fit is not None and sight.fit.share_on_outline < FOLDED_SHARE
+        return self.has_folded and sight.fit is not None and sight.fit.overlap < FOLDED_OVERLAP
 
     def _failed(self, sight: Sight, when: str) -> str:
         assert sight.fit is not None
-        share = sight.fit.share_on_outline
-        self.decide("fold_failed", ("share_on_outline", share))
+        overlap = sight.fit.overlap
+        self.decide("fold_failed", ("overlap", overlap))
         return (
-            f"{when} only {share:.0%} of the cloth's outline is where the folded stack's should be "
-            f"({FOLDED_SHARE:.0%} needed): the last fold has failed; see the picture"
+            f"{when} the cloth's outline and that of the folded stack overlap by only {overlap:.0%} "
+            f"({FOLDED_OVERLAP:.0%} needed): the last fold has failed; see the picture"
         )
 
     def look(self, plan: Plan, ought: WorldState, made: int, *, is_clear: bool = False) -> Sight | None:
@@ -137,7 +138,7 @@ class Watch:
         if sight is None:
             return None
         fit = sight.fit
-        numbers = () if fit is None else (("error_m", fit.error_m), ("share_on_outline", fit.share_on_outline))
+        numbers = () if fit is None else (("error_m", fit.error_m), ("overlap", fit.overlap))
         self.decide("seen" if sight.unknown is None else "not_known", *numbers)
         picture = kept(made, ought, seen, sight, is_clear=is_clear)
         self.pictures += [] if picture is None else [picture]

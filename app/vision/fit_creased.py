@@ -8,7 +8,7 @@ minima the mean is told, each with its weight, and the error covers them.
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -18,9 +18,8 @@ from app.vision.crease_edges import CreaseEdges
 from app.vision.expected import Expected
 from app.vision.fit_fold import FoldedOutline
 from app.vision.fit_stack import thinned
-from app.vision.outline_edges import OutlineEdges
 from app.vision.seen_stack import SeenStack
-from app.vision.stack_figure import POINTS, Figure
+from app.vision.stack_figure import Figure
 from app.vision.stack_fit import StackFit
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.pose import FloatArray, Pose2
@@ -110,8 +109,9 @@ class Creased:
 
     def told(self, found: SeenStack) -> StackFit:
         """Return what is known of the placement from a fit, whose error covers whatever fits as well."""
+        figure, inside_m = self._figure(found.row[3:5]), 0.0 if self.folded is None else self._inside(found.row)
         error_m = found.placement_error_m
-        return self._figure(found.row[3:5]).told(found.row[:3], self.seen, [], is_ambiguous=False, error_m=error_m)
+        return figure.told(found.row[:3], self.seen, [], is_ambiguous=False, error_m=error_m, inside_m=inside_m)
 
     def _flat(self, pose: Pose2) -> FloatArray:
         """Return the row of a stack that lies there, its crease as expected."""
@@ -126,8 +126,7 @@ class Creased:
     def _figure(self, crease: FloatArray) -> Figure:
         if self.folded is None or not crease.any():
             return self.figure
-        edges = OutlineEdges.of(self.folded.region(float(crease[0]), float(crease[1])))
-        return replace(self.figure, edges=edges, spaced=edges.spaced(POINTS))
+        return self.figure.folded_to(self.folded.region(float(crease[0]), float(crease[1])))
 
     @property
     def _done(self) -> int:
@@ -156,7 +155,7 @@ class Creased:
     def _residuals(self, row: FloatArray) -> FloatArray:
         """Return how far the points seen are outside the outline (m), shape (n,)."""
         distances, _ = self._figure(row[3:5]).residuals(row[:3], self.seen)
-        return distances if self.folded is None else distances + row[5] * self._at_creases(row)
+        return distances if self.folded is None else distances + self._inside(row)
 
     def _derivatives(self, row: FloatArray) -> FloatArray:
         """Return the derivatives of the residuals, shape (n, 3 or 6)."""
@@ -168,6 +167,10 @@ class Creased:
             for step in np.diag(_STEPS)
         ]
         return np.column_stack([by_pose, *by_crease, self._at_creases(row)])
+
+    def _inside(self, row: FloatArray) -> FloatArray:
+        """Return how far inside of the outline each point seen should lie, shape (n,), m."""
+        return float(row[5]) * self._at_creases(row)
 
     def _at_creases(self, row: FloatArray) -> FloatArray:
         """Return 1 for each point seen that is of a crease, 0 for the others, shape (n,)."""

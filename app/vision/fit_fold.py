@@ -14,7 +14,6 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from app.vision.fit_stack import fit_stack, thinned
-from app.vision.outline_edges import OutlineEdges
 from app.vision.stack_figure import POINTS, Figure, Fitted, covariance_of
 from app.vision.stack_fit import FoldFit
 from planner.folds.fold_cloth import flap_silhouette
@@ -178,8 +177,7 @@ class _CreaseFit:
 
     def with_crease(self, crease: FloatArray) -> Figure:
         """Return the figure about the middle of the planned one that the fold leaves with another crease."""
-        edges = OutlineEdges.of(self.folded.region(float(crease[0]), float(crease[1])))
-        return replace(self.figure, edges=edges, spaced=edges.spaced(POINTS))
+        return self.figure.folded_to(self.folded.region(float(crease[0]), float(crease[1])))
 
     def residuals(self, row: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return how far the points seen are outside the folded outline (m), and the derivatives, shape (n, 5)."""

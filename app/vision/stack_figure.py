@@ -1,7 +1,7 @@
 """A stack's outline as a figure that is moved and turned until it lies on the points seen."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.optimize import least_squares
@@ -63,12 +63,14 @@ class Figure:
         edges: its edges.
         spaced: points evenly along it, shape (POINTS, 2), m.
         corners: the corners of its convex hull, shape (k, 2), m.
+        area: the area that it encloses (m^2).
     """
 
     middle: FloatArray
     edges: OutlineEdges
     spaced: FloatArray
     corners: FloatArray
+    area: float
 
     @staticmethod
     def of(stack: ClothState) -> "Figure":
@@ -80,7 +82,12 @@ class Figure:
         """Return the figure of an outline."""
         edges = OutlineEdges.of(outline)
         spaced = edges.spaced(POINTS)
-        return Figure(spaced.mean(axis=0), edges, spaced, outline.hull)
+        return Figure(spaced.mean(axis=0), edges, spaced, outline.hull, outline.area)
+
+    def folded_to(self, outline: Region) -> "Figure":
+        """Return the figure about the same middle, and with the same corners, that has another outline."""
+        edges = OutlineEdges.of(outline)
+        return replace(self, edges=edges, spaced=edges.spaced(POINTS), area=outline.area)
 
     def pose(self, row: FloatArray) -> Pose2:
         """Return the placement of the article frame."""
@@ -197,17 +204,40 @@ class Figure:
         *,
         is_ambiguous: bool,
         error_m: float | None = None,
+        inside_m: FloatArray | float = 0.0,
     ) -> StackFit:
-        """Return what is known of a placement; its error is that of the outline alone where none is given (m)."""
-        distances, derivatives = self.residuals(row, seen)
-        pose = self.pose(row)
+        """Return what is known of a placement.
+
+        Args:
+            row: the placement.
+            seen: the points seen, table frame, shape (n, 2), m.
+            others: placements that fit as well.
+            is_ambiguous: whether one of these may be the right one.
+            error_m: how far off the corners may be (m); None for what the outline alone tells.
+            inside_m: how far inside of the outline each point seen is expected, shape (n,), m.
+        """
+        outside, derivatives = self.residuals(row, seen)
+        distances, pose = outside + inside_m, self.pose(row)
         if error_m is None:
             error_m = self._corner_error(covariance_of(distances, derivatives, self.edges.length), pose)
         residual_m = float(np.median(np.abs(distances)))
         on = float((np.abs(distances) <= ON_OUTLINE_M).mean())
         is_seen = float((gaps(pose.to_outer(self.spaced), seen) <= ON_OUTLINE_M + self._spacing(seen)).mean())
         unknown = why_unknown(error_m, residual_m, on, is_seen, len(others), is_ambiguous=is_ambiguous)
-        return StackFit(pose, error_m, residual_m, on, is_seen, tuple(others), unknown)
+        return StackFit(
+            pose, error_m, residual_m, on, is_seen, self._overlap(distances, inside_m), tuple(others), unknown
+        )
+
+    def _overlap(self, distances: FloatArray, inside_m: FloatArray | float) -> float:
+        """Return `StackFit.overlap` of points that are so far outside of where they are expected, shape (n,), m.
+
+        Each stands for as long a piece of the outline as the others, and for a strip as wide as it is off. That is just
+        so where they are off by little; of cloth that sticks out it is more than its area, and of a corner that is
+        missing .7 of it at least, since its hypotenuse is near to both legs.
+        """
+        expected = self.area - self.edges.length * float(np.mean(inside_m))
+        beyond, missing = (self.edges.length * float(np.maximum(side, 0.0).mean()) for side in (distances, -distances))
+        return max(0.0, expected - missing) / (expected + beyond)
 
     def _spacing(self, seen: FloatArray) -> float:
         return self.edges.length / len(seen) / 2.0

@@ -24,6 +24,9 @@ class StackFit:
         residual_m: the median distance of the points seen from the fitted outline (m).
         share_on_outline: the share of the points seen that lie within 1 cm of it.
         share_seen: the share of the outline that has a point seen within 1 cm.
+        overlap: the area inside both the outline seen and the fitted one, as a share of what either encloses; what is
+            hidden counts as what is seen. Of a stack that was just folded the last crease, and how far creases lie
+            inside of their lines, count as they were fitted.
         others: further placements that fit as well, for a figure that is nearly symmetric.
         unknown: why the placement is not known; None where it is.
     """
@@ -33,6 +36,7 @@ class StackFit:
     residual_m: float
     share_on_outline: float
     share_seen: float
+    overlap: float
     others: tuple[Pose2, ...] = ()
     unknown: Message | None = None
 
@@ -49,6 +53,7 @@ class StackFit:
             "residual_m": self.residual_m,
             "share_on_outline": self.share_on_outline,
             "share_seen": self.share_seen,
+            "overlap": self.overlap,
             "others": [pose_json(pose) for pose in self.others],
             **unknown_json(self.unknown),
         }

@@ -53,7 +53,7 @@ function brokenOff({ decisions, replans }) {
   const last = decisions.at(-1);
   const step = (last?.step ?? 0) + 1;
   if (last?.code === "kept_blindly") return say("rehearsal.ended_blind", { step });
-  if (last?.code === "fold_failed") return say("rehearsal.ended_failed", { share: percent(last.share_on_outline ?? 0) });
+  if (last?.code === "fold_failed") return say("rehearsal.ended_failed", { share: percent(last.overlap ?? 0) });
   if (last?.code !== "replanned") return say("rehearsal.broken_off");
   if (replans <= REPLANS_MAX) return say("rehearsal.ended_off", { step });
   return say("rehearsal.ended_often", { step, count: REPLANS_MAX });

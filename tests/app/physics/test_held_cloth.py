@@ -8,7 +8,7 @@ import pytest
 
 from app.physics.hand_way import HandWay
 from app.physics.held_cloth import HeldCloth
-from app.physics.pinch import clamped, fingertip, nearest_weights, pinched
+from app.physics.pinch import PAD_M, clamped, fingertip, nearest_weights, pinched
 from app.rehearsal.world import GripMotion
 from planner.folds.fold_path import REST_HEIGHT_M
 from planner.geometry.table import Table
@@ -41,6 +41,15 @@ def test_cloth_between_the_fingers_turns_over_only_with_a_hand_that_rolls():
     rolls = HandWay(fold((0.0, math.pi / 2.0, math.pi)), between, is_fold=True, top=TOP)
     assert still.at(2.0)[7] == pytest.approx([-0.11, 0.0, 0.001])
     assert rolls.at(2.0)[7] == pytest.approx([-0.09, 0.0, -0.001])
+
+
+def test_cloth_turns_over_round_the_ends_of_fingers_that_point_along_the_way_and_do_not_roll():
+    # Fingers point from x = 10 cm to x = -10 cm and end PAD_M ahead of their tip: what is beyond lies under them then.
+    along = replace(fold(), heading_rad=math.pi)
+    for ahead, after in ((-0.005, -0.005), (-0.5 * PAD_M, -0.5 * PAD_M), (-0.02, 0.02 - 2.0 * PAD_M)):
+        way = HandWay(along, held((0.0, 0.0, 0.0), (ahead, 0.004, 0.0)), is_fold=True, top=TOP)
+        assert way.at(0.0)[7] == pytest.approx([0.1 + ahead, 0.004, 0.0])
+        assert way.at(2.0)[7] == pytest.approx([-0.1 + after, 0.004, 0.0], abs=1e-9)
 
 
 def test_nothing_turns_over_in_a_drag():

@@ -7,7 +7,7 @@ from app.rehearsal.camera_world import CameraWorld
 from app.rehearsal.judge import Gate
 from app.rehearsal.perform import Performance, Performer
 from app.rehearsal.planned_cloth import planned_positions
-from app.rehearsal.watch import FOLDED_SHARE, Watch
+from app.rehearsal.watch import FOLDED_OVERLAP, Watch
 from app.rehearsal.world import WITHDRAW, Observation, Performed, StepMotion, Truth
 from app.vision.look_at_stack import Sight
 from app.vision.stack_fit import StackFit
@@ -49,7 +49,7 @@ def test_a_fold_that_left_a_quarter_of_the_edge_behind_is_looked_at_again_and_en
     assert cloth.asked[-1].kind == WITHDRAW
     decision = done.decisions[-1]
     assert decision.code == "fold_failed"
-    assert dict(decision.numbers)["share_on_outline"] < FOLDED_SHARE
+    assert dict(decision.numbers)["overlap"] < FOLDED_OVERLAP
 
 
 def test_a_fold_as_planned_is_looked_at_once_and_is_done():
@@ -100,14 +100,14 @@ def test_no_step_is_made_after_a_fold_that_is_seen_to_have_failed(*, is_failed: 
         assert len(folds) > 1
 
 
-@pytest.mark.parametrize("shares", [(1.0, 0.79), (0.79, 1.0)])
+@pytest.mark.parametrize("overlaps", [(1.0, 0.79), (0.79, 1.0)])
 def test_a_fold_that_one_of_two_looks_sees_as_planned_has_not_failed(
-    shares: tuple[float, float], monkeypatch: pytest.MonkeyPatch
+    overlaps: tuple[float, float], monkeypatch: pytest.MonkeyPatch
 ):
     # In the first case it was looked at again for an edge that an arm had hidden.
     plan = towel_plan()
     (step,) = plan.steps
-    fits = (StackFit(step.before.placement, 0.001, 0.001, share, 1.0) for share in shares)
+    fits = (StackFit(step.before.placement, 0.001, 0.001, 1.0, 1.0, overlap) for overlap in overlaps)
     sights = [Sight(fit, np.empty((0, 2)), np.empty((0, 2)), None) for fit in fits]
     watch = Watch(OutlineWorld((np.empty((0, 2)),) * 2), plan.task, lambda *_: None, home(), has_folded=True)
     monkeypatch.setattr(watch, "look", lambda *_, is_clear=False: sights[is_clear])

@@ -10,11 +10,14 @@ from app.vision.expected import Expected
 from app.vision.fit_creased import Creased
 from app.vision.fit_fold import FoldedOutline
 from app.vision.fit_stack import fit_near
+from app.vision.outline_edges import OutlineEdges
 from app.vision.seen_stack import SeenStack
-from app.vision.stack_fit import LOOKS_ALIKE
+from app.vision.stack_figure import Figure
+from app.vision.stack_fit import LOOKS_ALIKE, StackFit
 from planner import load_garment
 from planner.folds.fold_sequence import FoldSequence, replayed
 from planner.geometry.pose import FloatArray, Pose2
+from planner.geometry.region import Region
 from planner.message import Message
 from tests.app.vision.outlines_seen import most_off, seen
 
@@ -130,3 +133,42 @@ def test_errors_told_cover_outlines_of_much_noise():
         off = np.hypot(*(stack.places(corners) - LIES.to_outer(corners)).T)
         covered += bool((off <= stack.errors(corners)).all())
     assert covered >= 11
+
+
+def told_of(seen_points: FloatArray, stack: Region) -> StackFit:
+    """Return what is known of a stack that is known to lie at `LIES`."""
+    figure = Figure.about(stack)
+    return figure.told(figure.fit_at(LIES).row, seen_points, [], is_ambiguous=False)
+
+
+def test_the_overlap_of_an_outline_that_ends_short_is_that_of_the_areas():
+    # A rectangle of .4 x .2 m of which .05 m are missing at one end, and one of which as much sticks out.
+    whole, short = (Region.polygon([(0.0, 0.0), (x, 0.0), (x, 0.2), (0.0, 0.2)]) for x in (0.4, 0.35))
+    assert told_of(seen(whole, LIES), whole).overlap > 0.98
+    assert told_of(seen(short, LIES), whole).overlap == pytest.approx(0.35 / 0.4, abs=0.03)
+    assert told_of(seen(whole, LIES), short).overlap == pytest.approx(0.35 / 0.4, abs=0.03)
+
+
+def test_a_flap_that_sticks_out_costs_more_than_its_area_of_the_overlap_and_a_corner_cut_off_most_of_it():
+    whole = Region.polygon([(0.0, 0.0), (0.4, 0.0), (0.4, 0.2), (0.0, 0.2)])
+    flap = Region.polygon([(0.2, 0.2), (0.3, 0.2), (0.3, 0.3), (0.2, 0.3)])  # 100 cm2 beside 800 cm2
+    assert told_of(seen(Region.union([whole, flap]), LIES), whole).overlap <= 0.08 / 0.09
+    corner = Region.polygon([(0.4, 0.0), (0.4, 0.2), (0.2, 0.2)])  # a corner of 200 cm2
+    overlap = told_of(seen(whole.difference(corner), LIES), whole).overlap  # .7 of the corner: 1 - .7 / 4 is .825
+    assert overlap <= 0.825
+
+
+def test_creases_inside_of_their_lines_take_nothing_off_the_overlap():
+    # Two creases of .4 m, each seen 12 mm inside: of the .4 x .14 m stack they take .0096 m2, a sixth.
+    sequence = replayed(load_garment("letter-towel"))
+    folds = (0, 1)
+    stack = sequence.cloth(0b11)
+    points = LIES.to_inner(seen(stack.silhouette, LIES))
+    edges = CreaseEdges.of(stack, sequence.garment.pattern)
+    distances, outwards = OutlineEdges.of(stack.silhouette).distances(points)
+    is_crease = edges.are_creases(points - distances[:, None] * outwards)
+    points[is_crease] -= 0.012 * outwards[is_crease]
+    contour = LIES.to_outer(points)
+    fit = Creased.of(contour, sequence, folds, Expected(NEAR)).told(fitted(contour, sequence, folds))
+    assert fit_near(contour, stack, NEAR).overlap < fit.overlap
+    assert fit.overlap > 0.95
