@@ -9,7 +9,6 @@ from app.document import Document
 from app.drawing.draft import draft_of
 from app.drawing.drawing import Drawing
 from app.drawing.garment_drawing import drawing_of
-from app.jobs.apart import start_template, template_problem
 from app.jobs.job_desk import JobDesk
 from app.jobs.job_kind import AnyKind, Stores
 from app.jobs.lanes import Lanes
@@ -27,6 +26,7 @@ from app.store.robot_repository import RobotRepository
 from app.store.share_repository import ShareRepository
 from app.store.study_store import StudyStore
 from app.store.trace_store import TraceStore
+from app.worker.template import start_template, template_problem
 from planner.errors import FoldingError
 from planner.robots.own_robots import use_robots_folder
 
@@ -84,7 +84,7 @@ class Workspace:
         self.lanes = Lanes()
         self.study_store = StudyStore(self.folder.studies, self.database)
         stores = Stores(self.garments, self.plans, self.study_store, self.traces, self.robots)
-        self.jobs = JobDesk(kinds, stores, JobRepository(self.database), self.lanes.jobs)
+        self.jobs = JobDesk(kinds, stores, JobRepository(self.database), self.lanes.jobs, self.lanes.background)
         self._of_client_max = settings.open_documents
         self._open: dict[str, OpenDocument] = {}
         self._lock = threading.RLock()

@@ -10,7 +10,8 @@ from fastapi import Request
 
 from app.api.asked import workspace_of
 from app.api.problems import ClientGoneError
-from app.jobs.job_pool import Job, JobPool, ShouldStop
+from app.jobs.job_pool import Job, JobPool
+from app.worker.stop import Stop
 
 Answer = TypeVar("Answer")
 P = ParamSpec("P")
@@ -20,7 +21,7 @@ async def quick_answer(request: Request, work: Callable[P, Answer], *arguments: 
     """Return the result of a short job, for which all long jobs yield."""
     lanes = workspace_of(request).lanes
 
-    def do(_: ShouldStop) -> Answer:
+    def do(_: Stop) -> Answer:
         with lanes.courtesy.short_work():
             return work(*arguments, **options)
 
@@ -28,7 +29,7 @@ async def quick_answer(request: Request, work: Callable[P, Answer], *arguments: 
 
 
 async def answer_of(
-    request: Request, pool: JobPool, work: Callable[[ShouldStop], Answer], begins_within_s: float | None = None
+    request: Request, pool: JobPool, work: Callable[[Stop], Answer], begins_within_s: float | None = None
 ) -> Answer:
     """Return the result of a job; stop it if the client disconnects first.
 

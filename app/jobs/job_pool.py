@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
 
 from app.jobs.courtesy import Courtesy, LongWork
+from app.worker.stop import Stop
 from planner.errors import FoldingError
 
 Answer = TypeVar("Answer")
@@ -43,6 +44,18 @@ class BusyError(FoldingError):
         return f"the server is busy; try again in {self.retry_after_s} s"
 
 
+class _CourteousStop(Stop):
+    """A stop of work that gives way whenever it asks."""
+
+    def __init__(self, long_work: LongWork) -> None:
+        super().__init__()
+        self._long_work = long_work
+
+    def __call__(self) -> bool:
+        self._long_work.give_way()
+        return super().__call__()
+
+
 class Job(Generic[Answer]):
     """A piece of work that is waiting, running or done.
 
@@ -50,12 +63,12 @@ class Job(Generic[Answer]):
         future: its answer.
     """
 
-    def __init__(self, work: Callable[[ShouldStop], Answer], courtesy: Courtesy) -> None:
+    def __init__(self, work: Callable[[Stop], Answer], courtesy: Courtesy) -> None:
         """Take the work, a function that calls its argument from time to time to ask whether to stop."""
         self.future: Future[Answer] = Future()
         self._work = work
         self._long_work = LongWork(courtesy)
-        self._stop = threading.Event()
+        self._stop = _CourteousStop(self._long_work)
 
     def stop(self) -> None:
         """Cancel the job."""
@@ -67,15 +80,11 @@ class Job(Generic[Answer]):
         if not self.future.set_running_or_notify_cancel():
             return
         try:
-            self.future.set_result(self._work(self._should_stop))
+            self.future.set_result(self._work(self._stop))
         except Exception as error:
             self.future.set_exception(error)
         finally:
             self._long_work.end()
-
-    def _should_stop(self) -> bool:
-        self._long_work.give_way()
-        return self._stop.is_set()
 
 
 class JobPool:
@@ -102,7 +111,7 @@ class JobPool:
         self._mean_s = 0.0
         self._ended = 0
 
-    def start(self, work: Callable[[ShouldStop], Answer]) -> Job[Answer]:
+    def start(self, work: Callable[[Stop], Answer]) -> Job[Answer]:
         """Queue a piece of work; raise `BusyError` if the queue is full.
 
         A closed pool stops the job at once: a new thread would take the end signal meant for another.
