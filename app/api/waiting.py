@@ -18,14 +18,8 @@ P = ParamSpec("P")
 
 
 async def quick_answer(request: Request, work: Callable[P, Answer], *arguments: P.args, **options: P.kwargs) -> Answer:
-    """Return the result of a short job, for which all long jobs yield."""
-    lanes = workspace_of(request).lanes
-
-    def do(_: Stop) -> Answer:
-        with lanes.courtesy.short_work():
-            return work(*arguments, **options)
-
-    return await answer_of(request, lanes.quick, do)
+    """Return the result of a short job, which waits for no long one."""
+    return await answer_of(request, workspace_of(request).lanes.quick, lambda _: work(*arguments, **options))
 
 
 async def answer_of(

@@ -1,11 +1,11 @@
 """Assigns work to lanes, so that short work never waits behind long work.
 
-- ``quick`` is for work of some hundredths of a second. All other lanes give way to it.
+- ``quick`` is for work of some hundredths of a second.
 - ``files`` is for work of up to some seconds: reading files, making them, sampling timelines.
 - ``robots`` is for reading robots, one at a time, in processes of their own: their meshes may take much memory.
 - ``searches`` is for plans, suggestions and maps, in the workers (`app.worker`).
 - ``jobs`` is for work of any length that nobody waits for, in processes of their own; a core is left to the others.
-- ``live`` plans the open documents, in threads: it keeps its results from plan to plan.
+- ``live`` is for the plans of the open documents, in the workers too.
 
 Each lane has its own workers and its own queue, which is limited where clients can add work.
 """
@@ -13,7 +13,6 @@ Each lane has its own workers and its own queue, which is limited where clients 
 import os
 import time
 
-from app.jobs.courtesy import Courtesy
 from app.jobs.job_pool import PATIENCE_S, JobPool
 from app.worker.workers import Workers
 
@@ -31,22 +30,20 @@ class Lanes:
     """The lanes of a server.
 
     Attributes:
-        courtesy: tracks the short work in progress.
         workers: the processes for work that somebody waits for.
         background: those for the rest: they have less right to the processor.
     """
 
     def __init__(self) -> None:
         """Start no thread before there is work."""
-        self.courtesy = Courtesy()
         self.workers = Workers()
         self.background = Workers(kept=1, niceness=BACKGROUND_NICENESS)
         self.quick = JobPool(waiting_max=QUICK_WAITING_MAX)
-        self.files = JobPool(waiting_max=FILES_WAITING_MAX, courtesy=self.courtesy)
+        self.files = JobPool(waiting_max=FILES_WAITING_MAX)
         self.robots = JobPool(workers=1, waiting_max=ROBOTS_WAITING_MAX)
         self.searches = JobPool(waiting_max=SEARCHES_WAITING_MAX)
         self.jobs = JobPool(workers=max(1, (os.cpu_count() or 1) - 1), waiting_max=JOBS_WAITING_MAX)
-        self.live = JobPool(courtesy=self.courtesy)
+        self.live = JobPool()
 
         self._pools = (self.quick, self.files, self.robots, self.searches, self.jobs, self.live)
 
