@@ -17,7 +17,6 @@ from app.drawing.draft import Draft
 from app.drawing.drawing import Drawing
 from app.drawing.edit import Edit, OvertakenError, StaleVersionError
 from app.held_folds import Checks, HeldFold
-from app.jobs.courtesy import Courtesy
 from app.language import Language
 from app.observable import Listener, Observable
 from app.playback import Playback
@@ -70,7 +69,6 @@ class Document:
         keep_start: KeepStart = lambda _start: None,
         reread: Callable[[], Saved] | None = None,
         clock: Callable[[], float] = time.monotonic,
-        courtesy: Courtesy | None = None,
     ) -> None:
         """Start with a drawing that has no plan yet.
 
@@ -83,7 +81,6 @@ class Document:
             keep_start: saves the world state from which the drawing is planned, in the same way.
             reread: reads the document as another server has saved it, once `keep` has raised `OvertakenError`.
             clock: the wall clock (s).
-            courtesy: makes searches wait while the drawing changes, since people see a change at once but a plan later.
         """
         self._clock = clock
         self._keep = keep
@@ -91,7 +88,6 @@ class Document:
         self._reread = reread
         self._edits = threading.Lock()
         self._has_ended = False
-        self._courtesy = courtesy or Courtesy()
         self._state = Observable(DocumentState(version, draft, start=start))
 
     @property
@@ -254,7 +250,7 @@ class Document:
 
     def _redraw(self, change: Callable[[Draft], Draft], base_version: int | None) -> DocumentState:
         """Change the draft; the lock `_edits` allows one change at a time, and only this method makes new versions."""
-        with self._edits, self._courtesy.short_work():
+        with self._edits:
             if self._has_ended:
                 raise EndedDocumentError
             version, draft = self.state.version, self.state.draft

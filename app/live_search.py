@@ -1,21 +1,16 @@
-"""Plans a document in the background while it is being drawn.
+"""Has a document planned in a worker while it is being drawn, and remembers the answers."""
 
-Usually the plan shown last still works for the new drawing, or a greedy search finds one. Both take much less time than
-finding the quickest plan, so the result is shown first, and replaced if the full search finds another.
-"""
-
-import threading
+import uuid
 from collections import OrderedDict
 from collections.abc import Callable
-from dataclasses import dataclass, replace
 from typing import Protocol
 
-from app.known_plans import KnownPlans
+from app.live_planning import Compiled, Found, Lasting, Mapped, plan_live, prepare_live
 from app.store.packed_plan import PackedPlan
-from planner import find_plan, quick_plan
-from planner.planning.found_plan import FoundPlan
+from app.worker.stop import Stop
+from app.worker.workers import Workers
 from planner.task.plan import Plan
-from planner.task.task import TIME_LIMIT_S, Task
+from planner.task.task import Task
 
 _REMEMBERED = 8
 """Number of tasks whose answers are remembered, packed: 0.1 MB each, as objects 0.3 to 0.7 MB (measured)."""
@@ -28,97 +23,80 @@ class Show(Protocol):
         """Show a plan; a quicker one may follow unless it is final."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Begun:
-    """A search in progress.
-
-    Attributes:
-        task: the task.
-        remembered: the answer, if it is known already.
-        known: a valid plan for the task, or None.
-        like: plans for other drawings.
-    """
-
-    task: Task
-    remembered: PackedPlan | None
-    known: FoundPlan | None
-    like: list[FoundPlan]
-
-
 class LiveSearch:
-    """Plans one document's drawings, and reuses results from plan to plan. Safe to use from any thread."""
+    """Plans one document's drawings, one after the other, in the worker that knows the plans before."""
 
-    def __init__(self) -> None:
+    def __init__(self, workers: Workers) -> None:
         """Start without known plans."""
-        self._lock = threading.Lock()
-        self._known = KnownPlans()
+        self._workers = workers
+        self._key = uuid.uuid4().hex
+        self._shown: Found | None = None
         self._remembered: OrderedDict[Task, PackedPlan] = OrderedDict()
 
-    def find_soon(self, task: Task, shown: Plan | None, show: Show, should_stop: Callable[[], bool]) -> Begun:
-        """Start planning a task, and show a plan derived from known ones if that is quick.
+    def close(self) -> None:
+        """Leave the worker to others."""
+        self._workers.forget(self._key)
+
+    def prepare(
+        self, robot: str, on_compiled: Callable[[], None], on_share: Callable[[float], None], stop: Stop
+    ) -> None:
+        """Compile the planner and map the robot's arms if nobody has yet; tell when it is compiled, and how far it is.
+
+        What has been done when this is stopped has to be done again. Raises as `Workers.run` does.
+        """
+
+        def hear(news: Compiled | Mapped) -> None:
+            if isinstance(news, Mapped):
+                on_share(news.share)
+            else:
+                on_compiled()
+
+        self._workers.run_for(self._key, prepare_live, stop, hear, robot)
+
+    def find(
+        self,
+        task: Task,
+        shown: Plan | None,
+        work_limit_s: float,
+        show: Show,
+        on_lasting: Callable[[], None],
+        stop: Stop,
+    ) -> None:
+        """Show a plan derived from known ones if that is quick, and then the quickest.
 
         Args:
             task: the task.
             shown: the plan on show for it, if any.
-            show: shows a plan.
-            should_stop: called often; true ends the search.
-        """
-        with self._lock:
-            remembered, known = self._remembered.get(task), self._known.of(shown)
-            like = [found for found in self._known.by_cost() if found.plan.task.robot == task.robot]
-        if remembered is None and known is None and not should_stop():
-            known = self._quick(task, like, show, should_stop)
-        return Begun(task, remembered, known, like)
-
-    def _quick(
-        self, task: Task, like: list[FoundPlan], show: Show, should_stop: Callable[[], bool]
-    ) -> FoundPlan | None:
-        """Show a plan derived from known ones with the same number of folds; return None if there is none soon.
-
-        With another number of folds, a full search usually finds the quickest plan just as soon.
-        """
-        same = [found for found in like if len(found.plan.garment.folds) == len(task.garment.folds)]
-        found = quick_plan(task, like=same, should_stop=should_stop) if same else None
-        if found is not None:
-            self._tell(found, show, should_stop)
-        return found
-
-    def find_quickest(self, begun: Begun, work_limit_s: float, show: Show, should_stop: Callable[[], bool]) -> None:
-        """Find and show the quickest plan; show nothing once the search should stop.
-
-        Args:
-            begun: the search that `find_soon` started.
             work_limit_s: the limit on the work (s, see `Limits`).
-            show: shows a plan.
-            should_stop: called often; true ends the search.
+            show: shows a plan; not called once the search is stopped.
+            on_lasting: called once what is found soon has been shown.
+            stop: stops the search.
+
+        Raises:
+            StoppedError: the search was stopped.
+            LostProcessError: the worker has ended.
+            Exception: whatever the planner raises.
         """
-        if begun.remembered is not None:
-            if not should_stop():
-                show(begun.remembered.plan(), is_final=True)
+        remembered = self._remembered.get(task)
+        if remembered is not None:
+            on_lasting()
+            if not stop():
+                show(remembered.plan(), is_final=True)
             return
-        limits = replace(begun.task.limits, time_limit_s=TIME_LIMIT_S[1], work_limit_s=work_limit_s)
-        found = find_plan(
-            replace(begun.task, limits=limits),
-            known=begun.known,
-            like=begun.like,
-            on_found=lambda better: self._tell(better, show, should_stop),
-            should_stop=should_stop,
-        )
-        if not should_stop():
-            if not found.plan.statistics.is_cut_short:  # more work may improve a plan that was cut short
-                self._remember(begun.task, found.plan)
-            self._tell(found, show, should_stop, is_final=True)
 
-    def _tell(self, found: FoundPlan, show: Show, should_stop: Callable[[], bool], *, is_final: bool = False) -> None:
-        if not should_stop():
-            with self._lock:
-                self._known.add(found)
-            show(found.plan, is_final=is_final)
+        def hear(news: Found | Lasting) -> None:
+            if isinstance(news, Lasting):
+                on_lasting()
+                return
+            self._shown = news
+            if news.packed is not None:
+                self._remember(task, news.packed)
+            show(news.plan, is_final=news.is_final)
 
-    def _remember(self, task: Task, plan: Plan) -> None:
-        """Remember an answer as a plan alone: what it was found with may take a hundred times the memory."""
-        packed = PackedPlan.of(plan)
-        with self._lock:
-            self._remembered[task] = packed
-            while len(self._remembered) > _REMEMBERED:
-                self._remembered.popitem(last=False)
+        known = self._shown.name if self._shown is not None and self._shown.plan is shown else None
+        self._workers.run_for(self._key, plan_live, stop, hear, self._key, task, known, work_limit_s)
+
+    def _remember(self, task: Task, packed: PackedPlan) -> None:
+        self._remembered[task] = packed
+        while len(self._remembered) > _REMEMBERED:
+            self._remembered.popitem(last=False)

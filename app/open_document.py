@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 from app.document import Document
-from app.jobs.job_pool import JobPool
+from app.jobs.lanes import Lanes
 from app.jobs.limits import CLIENT
 from app.player import Player
 from app.replanner import Replanner
@@ -29,14 +29,14 @@ class OpenDocument:
         visitors: the document as those see it who have a link to it.
     """
 
-    def __init__(self, document_id: str, document: Document, pool: JobPool, plans: PlanStore) -> None:
+    def __init__(self, document_id: str, document: Document, lanes: Lanes, plans: PlanStore) -> None:
         """Open a document and start planning it."""
         self.id = document_id
         self.document = document
         self.opened_by = CLIENT.get()
         self.texts = SharedTexts()
         self.visitors = VisitorsView(document)
-        self._replanner = Replanner(document, pool, plans)
+        self._replanner = Replanner(document, lanes.live, lanes.workers, plans)
         self._lock = threading.Lock()
         self._shown: tuple[View3D, Player] | None = None
         self._shown_to_visitors: tuple[View3D, Player] | None = None

@@ -3,24 +3,28 @@
 A new version stops the search for an older one, with one exception. During a gesture, new versions may arrive faster
 than any search finds a plan, so that no plan would ever appear. So a search then gets a little time to find its first
 plan, which is shown as a plan for an older version.
+
+Searches run in workers; here is only decided which of them is still wanted, at each change of the document.
 """
 
 import logging
 import threading
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import TypeAlias
 
 from app.document import Document
 from app.document_state import DocumentState
 from app.held_folds import held_folds
-from app.jobs.job_pool import Job, JobPool, ShouldStop
+from app.jobs.job_pool import JobPool
 from app.live_search import LiveSearch
 from app.store.plan_store import PlanStore
+from app.worker.stop import Stop, StoppedError
+from app.worker.workers import Workers
 from planner.errors import FoldingError, SceneError
-from planner.planning.warm_up import compile_kernels, must_compile
-from planner.robots.load_robot import prepare_robot, robot_card_file
+from planner.planning.warm_up import must_compile
+from planner.robots.load_robot import robot_card_file
 from planner.task.plan import Plan
 
 WORK_S, LONGER_WORK_S = 10.0, 60.0
@@ -46,13 +50,17 @@ class Searching:
 
     Attributes:
         asked: the document's state at its start.
-        job: the work.
         is_behind: whether a gesture has gone on since, so that the search has little time left.
+        began_s: when it was asked for, by the monotonic clock (s).
+        stop: stops it.
+        first: the plans of the version that are not final: the one on show at the start, and those found since.
     """
 
     asked: DocumentState
-    job: Job[None]
     is_behind: bool = False
+    began_s: float = field(default_factory=time.monotonic)
+    stop: Stop = field(default_factory=Stop)
+    first: list[Plan] = field(default_factory=list)
 
 
 Phase: TypeAlias = Resting | Searching
@@ -61,16 +69,17 @@ Phase: TypeAlias = Resting | Searching
 class Replanner:
     """Plans one document as it changes."""
 
-    def __init__(self, document: Document, pool: JobPool, plans: PlanStore) -> None:
-        """Start the first search at once, in the pool."""
+    def __init__(self, document: Document, pool: JobPool, workers: Workers, plans: PlanStore) -> None:
+        """Start the first search at once, in the workers; a thread of the pool waits for it."""
         self._document = document
         self._pool = pool
         self._plans = plans
-        self._search = LiveSearch()
+        self._search = LiveSearch(workers)
         self._of_previews: set[str] = set()
         self._lock = threading.RLock()
         self._phase: Phase = Resting()
         self._seen: DocumentState | None = None
+        self._closed = Stop()
         self._unsubscribe = document.subscribe(self._look)
         self._look()
 
@@ -79,6 +88,8 @@ class Replanner:
         self._unsubscribe()
         with self._lock:
             self._rest()
+        self._closed.set()
+        self._search.close()
 
     def _look(self) -> None:
         """React to a change of the document."""
@@ -93,94 +104,108 @@ class Replanner:
                 self._begin(state)
             elif is_redrawn or is_asked_again:
                 self._follow(state)
+            if isinstance(self._phase, Searching) and _is_needless(self._phase, state):
+                self._phase.stop.set()
 
     def _follow(self, state: DocumentState) -> None:
         """Continue with another version, or with one that needs its answer again."""
         match self._phase:
-            case Searching(asked, job) if state.task is not None and asked.task == state.task:
-                self._phase = Searching(asked, job, is_behind=False)
-            case Searching(asked, job) if state.draft.gesture is not None:
-                self._phase = Searching(asked, job, is_behind=True)
+            case Searching(asked) if state.task is not None and asked.task == state.task:
+                self._phase = replace(self._phase, is_behind=False)
+            case Searching(_, is_behind) if state.draft.gesture is not None:
+                self._phase = replace(self._phase, is_behind=True)
+                if not is_behind:
+                    self._be_patient(self._phase)
             case _:
                 self._begin(state)
+
+    def _be_patient(self, search: Searching) -> None:
+        """Stop a search that is behind once its time is over."""
+        left_s = max(0.0, search.began_s + PATIENCE_S - time.monotonic())
+        timer = threading.Timer(left_s, self._end_patience, (search.stop,))
+        timer.daemon = True
+        timer.start()
+
+    def _end_patience(self, stop: Stop) -> None:
+        with self._lock:
+            if isinstance(self._phase, Searching) and self._phase.stop is stop and self._phase.is_behind:
+                stop.set()
 
     def _begin(self, state: DocumentState) -> None:
         """Start the remaining work for a version, in place of the current work."""
         self._rest()
         if not _is_settled(state):
-            self._phase = Searching(state, self._pool.start(partial(self._work, state, time.monotonic())))
+            shown = state.plan_on_show
+            search = Searching(state, first=[] if shown is None else [shown])
+            self._phase = search
+            self._pool.start(partial(self._work, search))
 
     def _rest(self) -> None:
         if isinstance(self._phase, Searching):
-            self._phase.job.stop()
+            self._phase.stop.set()
         self._phase = Resting()
 
-    def _has_ended(self, state: DocumentState) -> None:
+    def _has_ended(self, search: Searching) -> None:
         """Start the next work after a search has ended."""
         with self._lock:
-            if isinstance(self._phase, Searching) and self._phase.asked is state:
+            if isinstance(self._phase, Searching) and self._phase.stop is search.stop:
                 self._begin(self._document.state)
 
-    def _is_behind(self, state: DocumentState) -> bool:
-        phase = self._phase
-        return isinstance(phase, Searching) and phase.asked is state and phase.is_behind
-
-    def _work(self, state: DocumentState, began_s: float, should_stop: ShouldStop) -> None:
-        first: list[Plan] = []
-
-        def is_unwanted() -> bool:
-            is_stopped = should_stop()
-            now = self._document.state
-            shown = now.answer if now.answer is not None and now.answer.version == state.version else None
-            is_kept = shown is not None and shown.is_final and any(plan is shown.plan for plan in first)
-            is_done = now.failure is not None or is_kept
-            if now.version == state.version and is_done:
-                return True
-            patience_s = PATIENCE_S if shown is None else 0.0
-            return is_stopped or (self._is_behind(state) and time.monotonic() - began_s > patience_s)
-
+    def _work(self, search: Searching, stop: Stop) -> None:
+        """Do a search, unless it or the pool's job is stopped."""
+        version, forget = search.asked.version, stop.then(search.stop.set)
         try:
-            self._plan(state, first, is_unwanted)
+            self._plan(search, stop)
+        except StoppedError:
+            pass
         except SceneError as error:
-            self._document.fail(state.version, str(error.within("scene")))
+            self._document.fail(version, str(error.within("scene")))
         except FoldingError as error:
-            self._document.fail(state.version, str(error))
+            self._document.fail(version, str(error))
         except Exception:
-            _log.exception("version %s could not be planned", state.version)
-            self._document.fail(state.version, "the planner failed")
-        self._has_ended(state)
+            _log.exception("version %s could not be planned", version)
+            self._document.fail(version, "the planner failed")
+        finally:
+            forget()
+        self._has_ended(search)
 
-    def _plan(self, state: DocumentState, first: list[Plan], is_unwanted: ShouldStop) -> None:
-        """Show plans for a version, each better than the previous one; append those that are not final to `first`."""
+    def _plan(self, search: Searching, stop: Stop) -> None:
+        """Show plans for a version, each better than the previous one."""
+        state = search.asked
+        if state.task is None:
+            self._check(state)
+            return
 
         def show(plan: Plan, *, is_final: bool) -> None:
             if not is_final:
-                first.append(plan)
+                search.first.append(plan)
             self._publish(state, plan, is_final=is_final)
 
-        task, begun = state.task, None
-        if task is not None:
-            self._prepare(task.robot)
-            shown = state.plan_on_show
-            first += [] if shown is None else [shown]
-            begun = self._search.find_soon(task, shown, show, is_unwanted)
-        self._check(state)
-        if begun is not None and not is_unwanted():
-            work_s = LONGER_WORK_S if state.is_thorough else self._document.state.work_s or WORK_S
-            self._search.find_quickest(begun, work_s, show, is_unwanted)
+        self._prepare(state.task.robot, stop)
+        work_s = LONGER_WORK_S if state.is_thorough else self._document.state.work_s or WORK_S
+        self._search.find(state.task, state.plan_on_show, work_s, show, partial(self._check, state), search.stop)
 
-    def _prepare(self, robot: str) -> None:
-        """Compile the kernels and map the robot's arms if nobody has yet, and tell that, and how far it is."""
-        if must_compile(robot):
+    def _prepare(self, robot: str, stop: Stop) -> None:
+        """Have the planner compiled and the robot's arms mapped, and tell that, and how far it is.
+
+        A new version does not stop this: it needs the same.
+        """
+        either = Stop()
+        forget = [one.then(either.set) for one in (stop, self._closed)]
+        is_compiling = must_compile(robot)
+        if is_compiling:
             self._document.compile(is_compiling=True)
-            try:
-                compile_kernels(robot)
-            finally:
-                self._document.compile(is_compiling=False)
         try:
-            prepare_robot(robot, self._document.prepare)
+            self._search.prepare(robot, self._has_compiled, self._document.prepare, either)
         finally:
+            for one in forget:
+                one()
+            self._has_compiled()
             self._document.prepare(None)
+
+    def _has_compiled(self) -> None:
+        if self._document.state.is_compiling:
+            self._document.compile(is_compiling=False)
 
     def _check(self, state: DocumentState) -> None:
         if state.checks is None or state.checks.version != state.version:
@@ -211,6 +236,16 @@ class Replanner:
             else:
                 self._plans.let_go(made)
             self._of_previews.discard(made)
+
+
+def _is_needless(search: Searching, now: DocumentState) -> bool:
+    """Return whether a search has nothing more to give: it has failed, or somebody keeps what it has shown."""
+    version, answer = search.asked.version, now.answer
+    shown = answer if answer is not None and answer.version == version else None
+    if search.is_behind and shown is not None:
+        return True
+    is_kept = shown is not None and shown.is_final and any(plan is shown.plan for plan in search.first)
+    return now.version == version and (now.failure is not None or is_kept)
 
 
 def _is_settled(state: DocumentState) -> bool:

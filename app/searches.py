@@ -1,7 +1,7 @@
-"""The functions that run in processes of their own; their arguments and results are picklable."""
+"""The functions that run in workers; their arguments and results are picklable."""
 
-import os
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -10,12 +10,12 @@ from app.files.crease_reading import Creases
 from app.files.import_file import Imported, import_file
 from app.files.robot_archive import unpack_robot
 from app.files.seam_allowance import Line
-from app.jobs.apart import Tell
-from app.jobs.bounded import bounded, one_at_a_time
 from app.jobs.job_kind import Progress
 from app.robot_warnings import warnings_of
 from app.store.packed_plan import PackedPlan
 from app.store.storage_error import storing
+from app.worker.bounded import bounded, one_at_a_time
+from app.worker.process import Caller
 from planner import make_plan
 from planner.cloth.garment import Garment
 from planner.errors import RobotError
@@ -48,31 +48,36 @@ class Tried:
     body: dict[str, Any]
 
 
-_NICENESS = 10
-"""Niceness of a search for suggestions: people who draw and the plans of their drawings come first."""
-
-
 _LAST_SHARE = 0.99
 """The share of a search for suggestions that is told at most before its end."""
 
 
-def plan(_: Tell, task: Task) -> PackedPlan:
+def plan(caller: Caller, task: Task) -> PackedPlan:
     """Plan a task, as `make_plan` does, and pack the plan here, so that the server has no work with it."""
-    return PackedPlan.of(make_plan(task))
+    return PackedPlan.of(make_plan(task, should_stop=caller.should_stop))
 
 
-def read_plan(_: Tell, data: dict[str, Any]) -> Plan:
+def read_plan(_: Caller, data: dict[str, Any]) -> Plan:
     """Read a plan file and replay the plan; raise the first error, naming the step."""
     plan = Plan.from_dict(data)
     require_replay(plan)
     return plan
 
 
-def suggest(tell: Tell, task: Task, known: Plan | None) -> bool:
+def suggest(caller: Caller, task: Task, known: Plan | None) -> bool:
     """Send None once the request is valid, then each trial and suggestion; return whether all were tried to the end."""
-    os.nice(_NICENESS)
+    return _suggest(task, known, caller.tell, caller.should_stop)
+
+
+def _suggest(
+    task: Task,
+    known: Plan | None,
+    tell: Callable[[Suggested | Tried | None], None],
+    should_stop: Callable[[], bool] | None = None,
+) -> bool:
     found = suggestions(
         task,
+        should_stop=should_stop,
         plan=known,
         on_trial=lambda trial: tell(Tried({"kind": trial.kind, "says": trial.says.to_dict()})),
         other_robots=robot_names(),
@@ -101,7 +106,7 @@ def all_suggestions(asked: tuple[Task, Plan | None], progress: Progress) -> tupl
         share = (time.monotonic() - began_s) / task.limits.time_limit_s
         progress(min(share, _LAST_SHARE), f"{len(found)} found")
 
-    return found, suggest(hear, task, known)
+    return found, _suggest(task, known, hear)
 
 
 def whole_map(asked: tuple[Task, float], progress: Progress) -> dict[str, Any]:
@@ -114,13 +119,13 @@ def whole_map(asked: tuple[Task, float], progress: Progress) -> dict[str, Any]:
     return placement_map(task, step_m=step_m, on_place=on_place).to_dict()
 
 
-def map_places(_: Tell, task: Task, step_m: float) -> PlacementMap:
+def map_places(caller: Caller, task: Task, step_m: float) -> PlacementMap:
     """Plan for every placement of the garment, as `placement_map` does."""
-    return placement_map(task, step_m=step_m)
+    return placement_map(task, step_m=step_m, should_stop=caller.should_stop)
 
 
 def read_file(
-    _: Tell,
+    _: Caller,
     filename: str,
     data: bytes,
     units: str | None,
@@ -156,15 +161,20 @@ def read_archive(folder: Path) -> tuple[Path, CardFile]:
     with storing("the robot could not be unpacked"):
         unpacked.mkdir()
         data = (folder / _ARRIVED).read_bytes()
-    return unpacked, read_robot(lambda _: None, unpacked, data)
+    return unpacked, _read_robot(unpacked, data)
 
 
-def robot_warnings(_: Tell, name: str) -> list[dict[str, Any]]:
+def robot_warnings(_: Caller, name: str) -> list[dict[str, Any]]:
     """Return the warnings about the card of a robot that is known by its name."""
     return warnings_of(read_known(name))
 
 
-def read_robot(_: Tell, folder: Path, given: bytes | CardFile) -> CardFile:
+def read_robot(_: Caller, folder: Path, given: bytes | CardFile) -> CardFile:
+    """Return a robot's card once all that it names is there, as `_read_robot` does."""
+    return _read_robot(folder, given)
+
+
+def _read_robot(folder: Path, given: bytes | CardFile) -> CardFile:
     """Return a robot's card once all that it names is there: that of an archive, unpacked into a folder, or a card.
 
     Robots are read one at a time. A process that takes more than `READING_CPU_S` is ended by the system.

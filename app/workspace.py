@@ -9,7 +9,6 @@ from app.document import Document
 from app.drawing.draft import draft_of
 from app.drawing.drawing import Drawing
 from app.drawing.garment_drawing import drawing_of
-from app.jobs.apart import start_template, template_problem
 from app.jobs.job_desk import JobDesk
 from app.jobs.job_kind import AnyKind, Stores
 from app.jobs.lanes import Lanes
@@ -26,6 +25,7 @@ from app.store.robot_repository import RobotRepository
 from app.store.share_repository import ShareRepository
 from app.store.study_store import StudyStore
 from app.store.trace_store import TraceStore
+from app.worker.template import template_problem
 from planner.errors import FoldingError
 from planner.robots.own_robots import use_robots_folder
 
@@ -36,8 +36,8 @@ UNUSED_S = 60.0
 OPEN_MAX, CROWDED_S = 32, 5.0
 """Number of documents beyond which unused ones are closed sooner, and the time after which (s).
 
-An open document holds its plans and what they were found with: 0.3 to 5 MB (measured). The time is for clients that go
-from document to document and wait for each plan.
+An open document holds its plans, and a worker what they were found with: 0.3 to 5 MB (measured). The time is for
+clients that go from document to document and wait for each plan.
 """
 
 _LOOK_EVERY_S = 2.0
@@ -83,7 +83,7 @@ class Workspace:
         self.lanes = Lanes()
         self.study_store = StudyStore(self.folder.studies, self.database)
         stores = Stores(self.garments, self.plans, self.study_store, self.traces, self.robots)
-        self.jobs = JobDesk(kinds, stores, JobRepository(self.database), self.lanes.jobs)
+        self.jobs = JobDesk(kinds, stores, JobRepository(self.database), self.lanes.jobs, self.lanes.background)
         self._of_client_max = settings.open_documents
         self._open: dict[str, OpenDocument] = {}
         self._lock = threading.RLock()
@@ -110,7 +110,6 @@ class Workspace:
             self.opened(self.first()).show()
         except FoldingError as error:
             _log.error("no document could be opened: %s", error)
-        start_template()
         try:
             self.jobs.resume()
         except FoldingError as error:
@@ -229,9 +228,8 @@ class Workspace:
             keep=kept.keeper.keep,
             keep_start=kept.keeper.keep_start,
             reread=partial(self.documents.reread, kept.keeper),
-            courtesy=self.lanes.courtesy,
         )
-        self._open[document_id] = OpenDocument(document_id, document, self.lanes.live, self.plans)
+        self._open[document_id] = OpenDocument(document_id, document, self.lanes, self.plans)
         return self._open[document_id]
 
     def _look_after(self) -> None:

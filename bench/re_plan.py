@@ -29,6 +29,7 @@ from app.jobs.job_pool import JobPool
 from app.replanner import Replanner
 from app.store.database import Database
 from app.store.plan_store import PlanStore
+from bench.in_thread import InThread
 from bench.paper import TABLE_2
 from bench.report import Report, Row
 from planner import load_garment
@@ -124,7 +125,7 @@ def _planned(drawing: Drawing) -> Iterator[tuple[Document, JobPool]]:
     """Yield a document and the pool of its planner, both at rest."""
     document, pool = Document(draft_of(drawing)), JobPool()
     with TemporaryDirectory() as folder, closing(Database(Path(folder) / "pleat.db")) as database:
-        replanner = Replanner(document, pool, PlanStore(database))
+        replanner = Replanner(document, pool, InThread(), PlanStore(database))
         try:
             _rest(document, pool)
             yield document, pool

@@ -19,7 +19,7 @@ from app.studies.answer import Answer
 from app.studies.cell import Cell
 from app.studies.executor_workers import cluster
 from app.studies.garment_entries import Sources
-from app.studies.process_pool import ProcessPool
+from app.studies.local_workers import LocalWorkers
 from app.studies.results import Results
 from app.studies.run_study import run_study
 from app.studies.study import Study
@@ -103,7 +103,7 @@ def small_study(cells: int) -> Study:
 
 def in_processes(asked: Study, workers: int) -> Run:
     """Run a study in processes of its own."""
-    return whole_study(asked, ProcessPool(workers))
+    return whole_study(asked, LocalWorkers(workers))
 
 
 def on_a_cluster(asked: Study, workers: int) -> Run:

@@ -265,10 +265,11 @@ def test_more_stations_stand_beside_the_table_and_face_it(count: int):
 def test_growth_is_measured_and_drawn(tmp_path: Path):
     report = growth([], 1)
     rows = {(row["grows"], row["series"]): row for row in written(report, tmp_path)["rows"]}
-    # Nothing but two folds to be done, one after the other: two states are expanded, 9 s each.
+    # Nothing but two folds to be done, one after the other: a search expands two states, and there are two of
+    # them, since hands come late to the first path.
     chained = rows["folds", "ribbon rolled up"]
-    assert (chained["status"], chained["expanded"]) == ("solved", 2)
-    assert chained["cost_s"] == pytest.approx(18.0)
+    assert (chained["status"], chained["expanded"]) == ("solved", 4)
+    assert chained["cost_s"] == pytest.approx(22.09, abs=0.01)
     assert {grows for grows, _ in rows} == {"folds", "stations", "comfort radius [cm]"}
     words = [element.text for element in ET.fromstring(report.figure).iter() if element.tag.endswith("text")]
     assert {"search time [s]", "states expanded", "comfort radius [cm]", "ribbon rolled up"} <= set(words)

@@ -179,3 +179,13 @@ def test_no_module_is_named_for_being_handy():
     handy = {"utils", "util", "helpers", "helper", "manager", "base", "common", "misc"}
     wrong = [str(path.relative_to(ROOT)) for path in SOURCES.values() if path.stem in handy]
     assert not wrong, f"a module is named for its noun or its verb: {wrong}"
+
+
+STARTERS = ("multiprocessing", "subprocess", "concurrent.futures.process")
+
+
+def test_only_the_workers_start_processes():
+    starts = [one for one in all_imports() if any(is_within(one.target, starter) for starter in STARTERS)]
+    assert {one.module.rpartition(".")[0] for one in starts} == {"app.worker"}, [*map(str, starts)]
+    pools = [str(path) for path in SOURCES.values() if "ProcessPoolExecutor" in path.read_text(encoding="utf-8")]
+    assert not pools, pools

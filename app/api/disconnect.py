@@ -10,25 +10,20 @@ from fastapi import Request
 
 from app.api.problems import ClientGoneError
 from app.api.request_parsing import workspace_of
-from app.jobs.job_pool import Job, JobPool, ShouldStop
+from app.jobs.job_pool import Job, JobPool
+from app.worker.stop import Stop
 
 Answer = TypeVar("Answer")
 P = ParamSpec("P")
 
 
 async def quick_answer(request: Request, work: Callable[P, Answer], *arguments: P.args, **options: P.kwargs) -> Answer:
-    """Return the result of a short job, for which all long jobs yield."""
-    lanes = workspace_of(request).lanes
-
-    def do(_: ShouldStop) -> Answer:
-        with lanes.courtesy.short_work():
-            return work(*arguments, **options)
-
-    return await answer_of(request, lanes.quick, do)
+    """Return the result of a short job, which waits for no long one."""
+    return await answer_of(request, workspace_of(request).lanes.quick, lambda _: work(*arguments, **options))
 
 
 async def answer_of(
-    request: Request, pool: JobPool, work: Callable[[ShouldStop], Answer], begins_within_s: float | None = None
+    request: Request, pool: JobPool, work: Callable[[Stop], Answer], begins_within_s: float | None = None
 ) -> Answer:
     """Return the result of a job; stop it if the client disconnects first.
 

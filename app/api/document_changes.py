@@ -94,13 +94,12 @@ async def _changed(request: Request, document_id: str, change: Callable[[Documen
 
     def work() -> Response:
         opened = workspace.opened(document_id)
-        with workspace.lanes.courtesy.short_work():
-            try:
-                state = change(opened.document)
-            except StaleVersionError as error:
-                current = document_message(opened.id, opened.document.state)
-                return ProblemResponse(409, str(error), members={"state": current})
-            return Response(document_text(opened, state), media_type="application/json")
+        try:
+            state = change(opened.document)
+        except StaleVersionError as error:
+            current = document_message(opened.id, opened.document.state)
+            return ProblemResponse(409, str(error), members={"state": current})
+        return Response(document_text(opened, state), media_type="application/json")
 
     return await run_in_threadpool(work)
 

@@ -26,9 +26,10 @@ from app.files.import_file import ENDINGS, SCALES, Imported, largest
 from app.files.recording import DEFAULT_RATE_HZ, RATES_HZ
 from app.files.seam_allowance import Line
 from app.files.sketch_size import UNITS_M
-from app.jobs.apart import ignore, run_apart
-from app.jobs.job_pool import ShouldStop
 from app.templates.catalogue import find_template
+from app.worker.process import ignore
+from app.worker.stop import Stop
+from app.worker.workers import Workers
 from planner.cloth.garment import Garment
 from planner.errors import UnknownGarmentError
 
@@ -162,9 +163,10 @@ async def post_import(
     """
     known = None if like is None else await run_in_threadpool(_liked, workspace_of(request), like)
     data = await read_bytes(request, largest(filename))
-    work = partial(_read, filename, data, units, scale, creases, measured, known, line, size)
+    lanes = workspace_of(request).lanes
+    work = partial(_read, lanes.workers, filename, data, units, scale, creases, measured, known, line, size)
     try:
-        return JSONResponse(_imported(await answer_of(request, workspace_of(request).lanes.files, work)))
+        return JSONResponse(_imported(await answer_of(request, lanes.files, work)))
     except UnitsNeededError as error:
         field = {"field": "units", "message": str(error), "says": error.why.to_dict()}
         return ProblemResponse(422, str(error), [field], None, {"sizes": error.sizes})
@@ -203,6 +205,7 @@ async def read_file(request: Request, document_id: str, what: What, rate_hz: Rat
 
 
 def _read(
+    workers: Workers,
     filename: str,
     data: bytes,
     units: str | None,
@@ -212,10 +215,10 @@ def _read(
     like: str | Garment | None,
     line: Line | None,
     size: str | None,
-    should_stop: ShouldStop,
+    stop: Stop,
 ) -> Imported:
     asked = (filename, data, units, scale, creases, measured, like, line, size)
-    return run_apart(searches.read_file, should_stop, ignore, *asked)
+    return workers.run_alone(searches.read_file, stop, ignore, *asked)
 
 
 def _liked(within: HasGarments, name: str) -> str | Garment:
@@ -228,7 +231,7 @@ def _liked(within: HasGarments, name: str) -> str | Garment:
         raise ImportedFileError("like", f"there is no template and no garment {name!r}") from None
 
 
-def _made(export: Export, state: DocumentState, rate_hz: float, should_stop: ShouldStop) -> bytes:
+def _made(export: Export, state: DocumentState, rate_hz: float, should_stop: Stop) -> bytes:
     return export.file(state, rate_hz, should_stop)
 
 

@@ -18,10 +18,11 @@ from app.api.overlay_answers import OverlaysAnswer, PlacesAnswer
 from app.api.problems import ProblemResponse
 from app.api.request_parsing import TimeLimit, workspace_of
 from app.document_state import DocumentState
-from app.jobs.apart import ignore, run_apart
-from app.jobs.job_pool import ShouldStop
 from app.overlays.moment import Moment, NoClothError, moment_as_drawn, moment_of_plan
 from app.overlays.overlays import OVERLAYS, overlays
+from app.worker.process import ignore
+from app.worker.stop import Stop
+from app.workspace import Workspace
 from planner.errors import RequestError, SceneError
 from planner.explain.suggestion_map import Cell
 from planner.geometry.pose import Pose2
@@ -73,7 +74,7 @@ async def post_places(request: Request, document_id: str, wanted: PlacesRequestB
     if state.task is None:
         return ProblemResponse(409, "The drawing is not finished, so no placement can be tried.")
     limit = TimeLimit(wanted.time_limit_s)
-    work = partial(_places, state, wanted, limit)
+    work = partial(_places, workspace_of(request), state, wanted, limit)
     with opened.in_use():
         return JSONResponse(await answer_of(request, workspace_of(request).lanes.searches, work, limit.limit_s))
 
@@ -102,12 +103,14 @@ def _overlays(
         raise error.within("scene") from None
 
 
-def _places(state: DocumentState, wanted: PlacesRequest, limit: TimeLimit, should_stop: ShouldStop) -> dict[str, Any]:
+def _places(
+    workspace: Workspace, state: DocumentState, wanted: PlacesRequest, limit: TimeLimit, stop: Stop
+) -> dict[str, Any]:
     assert state.task is not None, "what has no task is not planned"
     task = replace(
         state.task, limits=replace(state.task.limits, time_limit_s=limit.left_s, work_limit_s=wanted.work_limit_s)
     )
-    found = run_apart(searches.map_places, should_stop, ignore, task, wanted.step_m)
+    found = workspace.lanes.workers.run(searches.map_places, stop, ignore, task, wanted.step_m)
     here = task.start.placement
     return {
         "version": state.version,

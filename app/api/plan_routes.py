@@ -16,8 +16,8 @@ from app.api.disconnect import answer_of, quick_answer
 from app.api.messages import DagRequest, PlanRequest
 from app.api.request_parsing import TimeLimit, requested_garment, requested_task, within_request, workspace_of
 from app.files.import_file import LARGEST_PLAN_FILE
-from app.jobs.apart import ignore, run_apart
-from app.jobs.job_pool import ShouldStop
+from app.worker.process import ignore
+from app.worker.stop import Stop
 from app.workspace import Workspace
 from planner import Plan, Timeline, fold_dag
 from planner.errors import UnsolvedPlanError
@@ -152,8 +152,8 @@ def _pictures(plan: Plan) -> list[dict[str, Any]]:
     ]
 
 
-def _imported(workspace: Workspace, data: dict[str, Any], should_stop: ShouldStop) -> dict[str, Any]:
-    plan = run_apart(searches.read_plan, should_stop, ignore, data)
+def _imported(workspace: Workspace, data: dict[str, Any], stop: Stop) -> dict[str, Any]:
+    plan = workspace.lanes.workers.run_alone(searches.read_plan, stop, ignore, data)
     return plan_answer(workspace.plans.add(plan), plan)
 
 
@@ -164,19 +164,19 @@ def _dag(workspace: Workspace, wanted: DagRequest) -> dict[str, Any]:
     return answer
 
 
-def _plan(workspace: Workspace, wanted: PlanRequest, limit: TimeLimit, should_stop: ShouldStop) -> bytes:
+def _plan(workspace: Workspace, wanted: PlanRequest, limit: TimeLimit, stop: Stop) -> bytes:
     task = requested_task(workspace, wanted, limit)
     with within_request():
-        return planned(workspace, task, should_stop)
+        return planned(workspace, task, stop)
 
 
-def planned(workspace: Workspace, task: Task, should_stop: ShouldStop) -> bytes:
-    """Plan a task in a process of its own, keep the plan, and return it in its REST form, as JSON."""
-    packed = run_apart(searches.plan, should_stop, ignore, task)
+def planned(workspace: Workspace, task: Task, stop: Stop) -> bytes:
+    """Plan a task in a worker, keep the plan, and return it in its REST form, as JSON."""
+    packed = workspace.lanes.workers.run(searches.plan, stop, ignore, task)
     return b'{"id":"%b",%b' % (workspace.plans.add_packed(packed).encode(), packed.answer.removeprefix(b"{"))
 
 
-def _timeline(plan: Plan, rate_hz: float, should_stop: ShouldStop) -> bytes:
+def _timeline(plan: Plan, rate_hz: float, should_stop: Stop) -> bytes:
     """Yield the timeline as JSON, sample by sample, so that other threads get their turn in between."""
     samples = []
     for frame in Timeline.of(plan).samples(rate_hz):

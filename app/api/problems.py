@@ -16,7 +16,6 @@ from starlette.responses import Response
 from app.api.answers import Says
 from app.api.methods import allowed_methods
 from app.document import EndedDocumentError
-from app.jobs.apart import PlannerNotLoadedError, StoppedError
 from app.jobs.job_desk import ForeignJobError
 from app.jobs.job_pool import BusyError
 from app.jobs.limits import TooManyError
@@ -27,6 +26,8 @@ from app.store.plan_store import UnknownPlanError
 from app.store.storage_error import ForbiddenStorageError, FullStorageError, StorageError, storage_error
 from app.store.study_store import UnknownStudyError
 from app.store.trace_store import UnknownTraceError
+from app.worker.stop import StoppedError
+from app.worker.template import PlannerNotLoadedError
 from planner.errors import (
     FieldError,
     FoldingError,

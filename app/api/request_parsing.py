@@ -62,10 +62,6 @@ class TimeLimit:
         """The time that is left (s)."""
         return max(SHORTEST_S, self.limit_s - (time.monotonic() - self._arrived_s))
 
-    def is_over_by(self, grace_s: float) -> bool:
-        """Whether the time has been up for so long (s)."""
-        return time.monotonic() > self._arrived_s + self.limit_s + grace_s
-
 
 def requested_task(within: HasGarments, wanted: PlanRequest, limit: TimeLimit) -> Task:
     """Return the task of a plan request, for a search that begins now; raises an error for the first wrong field."""

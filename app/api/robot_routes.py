@@ -18,9 +18,11 @@ from app.api.job_routes import begun
 from app.api.request_parsing import workspace_of
 from app.files.robot_archive import PACKED_BYTES_MAX
 from app.job_kinds.robots import ROBOTS
-from app.jobs.apart import LostProcessError, ignore, run_apart
-from app.jobs.job_pool import ShouldStop
 from app.store.robot_repository import RobotRepository
+from app.worker.process import ignore
+from app.worker.stop import Stop
+from app.worker.template import LostProcessError
+from app.workspace import Workspace
 from planner.errors import RobotError
 from planner.robots.card_file import CardFile
 from planner.robots.described_robot import robot_entry, shipped_card
@@ -78,7 +80,7 @@ async def post_robot_import(request: Request, prefer: Prefer = None) -> JSONResp
     workspace = workspace_of(request)
     if _ASYNC in (prefer or "").replace(" ", "").lower().split(","):
         return await _as_job(request, workspace.robots, data)
-    work = partial(_imported, workspace.robots, data)
+    work = partial(_imported, workspace, data)
     card, is_new = await answer_of(request, workspace.lanes.robots, work)
     return JSONResponse(robot_entry(card), status_code=201 if is_new else 200)
 
@@ -99,10 +101,12 @@ async def read_robot_warnings(request: Request, name: AnyName) -> list[dict[str,
     """
     await run_in_threadpool(card_of, name)
 
-    def warned(should_stop: ShouldStop) -> list[dict[str, Any]]:
-        return run_apart(searches.robot_warnings, should_stop, ignore, name)
+    lanes = workspace_of(request).lanes
 
-    return await answer_of(request, workspace_of(request).lanes.files, warned)
+    def warned(stop: Stop) -> list[dict[str, Any]]:
+        return lanes.workers.run_alone(searches.robot_warnings, stop, ignore, name)
+
+    return await answer_of(request, lanes.files, warned)
 
 
 @router.put(
@@ -117,7 +121,7 @@ async def save_robot_card(request: Request, name: OwnName, card: CardBody) -> JS
     if card.name != name:
         raise RobotError("name", f"is {card.name!r}, but the address says {name!r}")
     workspace = workspace_of(request)
-    is_new = await answer_of(request, workspace.lanes.robots, partial(_saved, workspace.robots, card))
+    is_new = await answer_of(request, workspace.lanes.robots, partial(_saved, workspace, card))
     return JSONResponse(card.to_dict(), status_code=201 if is_new else 200)
 
 
@@ -140,21 +144,21 @@ async def _as_job(request: Request, robots: RobotRepository, data: bytes) -> JSO
     return answer
 
 
-def _imported(robots: RobotRepository, data: bytes, should_stop: ShouldStop) -> tuple[CardFile, bool]:
-    with robots.beside() as unpacked:
-        card = _looked_at(should_stop, unpacked, data)
-        return card, robots.take(card.name, unpacked)
+def _imported(workspace: Workspace, data: bytes, stop: Stop) -> tuple[CardFile, bool]:
+    with workspace.robots.beside() as unpacked:
+        card = _looked_at(workspace, stop, unpacked, data)
+        return card, workspace.robots.take(card.name, unpacked)
 
 
-def _saved(robots: RobotRepository, card: CardFile, should_stop: ShouldStop) -> bool:
-    _looked_at(should_stop, robots.place(card.name), card)
-    return robots.save(card)
+def _saved(workspace: Workspace, card: CardFile, stop: Stop) -> bool:
+    _looked_at(workspace, stop, workspace.robots.place(card.name), card)
+    return workspace.robots.save(card)
 
 
-def _looked_at(should_stop: ShouldStop, folder: FilePath, given: bytes | CardFile) -> CardFile:
+def _looked_at(workspace: Workspace, stop: Stop, folder: FilePath, given: bytes | CardFile) -> CardFile:
     """Return the card of an archive or a card as it stands in a folder; raise `RobotError` if it is not valid."""
     try:
-        return run_apart(searches.read_robot, should_stop, ignore, folder, given)
+        return workspace.lanes.workers.run_alone(searches.read_robot, stop, ignore, folder, given)
     except LostProcessError:
         said = f"cannot be read: the program that read it has ended; {searches.READING_LIMITS}"
         raise RobotError("urdf", said) from None

@@ -17,9 +17,9 @@ from app.api.disconnect import answer_of
 from app.api.plan_routes import planned
 from app.api.request_parsing import workspace_of
 from app.job_kinds.studies import STUDY_FILES
-from app.jobs.job_pool import ShouldStop
 from app.store.study_store import UnknownStudyError
 from app.studies.study import Study
+from app.worker.stop import Stop
 from app.workspace import Workspace
 from planner.errors import RequestError
 
@@ -53,11 +53,11 @@ async def post_cell_plan(request: Request, study_id: str, cell: Annotated[int, P
     return Response(told, media_type="application/json")
 
 
-def _plan(workspace: Workspace, study_id: str, cell: int, should_stop: ShouldStop) -> bytes:
+def _plan(workspace: Workspace, study_id: str, cell: int, stop: Stop) -> bytes:
     study = Study.from_dict(json.loads(workspace.study_store.content(study_id)))
     if cell >= study.product:
         raise RequestError("cell", f"is {cell}, but the study's cells are 0 to {study.product - 1}")
     found = study.cell(cell)
     if found.task is None:
         raise RequestError("cell", f"has no plan: {found.error}")
-    return planned(workspace, found.task, should_stop)
+    return planned(workspace, found.task, stop)

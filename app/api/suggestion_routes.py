@@ -22,9 +22,10 @@ from app.api.disconnect import answer_of, until
 from app.api.messages import PlacementsRequest, PlanRequest
 from app.api.request_parsing import TimeLimit, requested_places, requested_task, within_request, workspace_of
 from app.api.suggestion_events import STREAM
-from app.jobs.apart import StoppedError, ignore, run_apart
-from app.jobs.job_pool import Job, ShouldStop
+from app.jobs.job_pool import Job
 from app.store.plan_store import UnknownPlanError
+from app.worker.process import ignore
+from app.worker.stop import LimitedStop, Stop, StoppedError
 from app.workspace import Workspace
 from planner.geometry.pose import Pose2
 from planner.planning.budget import longest_wait_s
@@ -113,24 +114,24 @@ class SuggestionSearch:
         finally:
             self._job.stop()
 
-    def _search(self, should_stop: ShouldStop) -> bool:
+    def _search(self, stop: Stop) -> bool:
         task = requested_task(self._workspace, self._wanted, self._limit)
         known = self._known
         if known is not None and replace(known.task, limits=task.limits) != task:
             known = None
+        with LimitedStop(stop, longest_wait_s(self._limit.limit_s) + _GRACE_S) as limited, within_request():
 
-        longest_s = longest_wait_s(self._limit.limit_s) - self._limit.limit_s + _GRACE_S
+            def hear(news: searches.Suggested | searches.Tried | None) -> None:
+                if news is None:
+                    limited.begin()
+                self._hear(news)
 
-        def is_unwanted() -> bool:
-            return should_stop() or (self._begun.done() and self._limit.is_over_by(longest_s))
-
-        try:
-            with within_request():
-                return run_apart(searches.suggest, is_unwanted, self._hear, task, known)
-        except StoppedError:
-            if should_stop():
-                raise
-            return False  # it took too long over something; what it has found by then is told
+            try:
+                return self._workspace.lanes.background.run(searches.suggest, limited, hear, task, known)
+            except StoppedError:
+                if stop():
+                    raise
+                return False  # it took too long over something; what it has found by then is told
 
     def _hear(self, news: searches.Suggested | searches.Tried | None) -> None:
         if news is None:
@@ -203,10 +204,8 @@ async def post_placements(request: Request, wanted: PlacementsRequestBody) -> JS
     return JSONResponse(await answer_of(request, workspace.lanes.searches, work, limit.limit_s))
 
 
-def _placements(
-    workspace: Workspace, wanted: PlacementsRequest, limit: TimeLimit, should_stop: ShouldStop
-) -> dict[str, Any]:
+def _placements(workspace: Workspace, wanted: PlacementsRequest, limit: TimeLimit, stop: Stop) -> dict[str, Any]:
     task = requested_places(workspace, wanted, limit)
     with within_request():
-        found = run_apart(searches.map_places, should_stop, ignore, task, wanted.step_m)
+        found = workspace.lanes.workers.run(searches.map_places, stop, ignore, task, wanted.step_m)
     return found.to_dict()

@@ -12,7 +12,7 @@ from rich.progress import Progress as Bar
 
 from app.cli.program import blaming, cli, errors, failure, output, refusing
 from app.studies.executor_workers import cluster
-from app.studies.process_pool import ProcessPool
+from app.studies.local_workers import LocalWorkers
 from app.studies.report import FILE as REPORT
 from app.studies.results import Results
 from app.studies.run_study import Progress, run_study
@@ -101,7 +101,7 @@ def _workers(count: int | None, scheduler: str | None) -> Iterator[Workers]:
             yield team
         return
     processes = count or os.cpu_count() or 1
-    yield InProcess() if processes == 1 else ProcessPool(processes)
+    yield InProcess() if processes == 1 else LocalWorkers(processes)
 
 
 def _run(asked: Study, results: Results, team: Workers, keep_plans: bool) -> Progress:

@@ -15,13 +15,15 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
 
-from app.jobs.apart import LostProcessError, StoppedError, run_apart
 from app.jobs.job_kind import AnyKind, Stores
-from app.jobs.job_pool import Job, JobPool, ShouldStop
+from app.jobs.job_pool import Job, JobPool
 from app.jobs.job_work import Progressed, do_job
 from app.jobs.limits import TooManyError
 from app.store.job_repository import JobRepository, JobStatus, StoredJob
 from app.store.storage_error import StorageError
+from app.worker.stop import Stop, StoppedError
+from app.worker.template import LostProcessError
+from app.worker.workers import Workers
 from planner.errors import FoldingError
 
 OPEN_OF_CLIENT_MAX = 16
@@ -68,12 +70,20 @@ class _OpenJob:
 class JobDesk:
     """The jobs of a server; safe to use from any thread."""
 
-    def __init__(self, kinds: Mapping[str, AnyKind], stores: Stores, repository: JobRepository, pool: JobPool) -> None:
+    def __init__(
+        self,
+        kinds: Mapping[str, AnyKind],
+        stores: Stores,
+        repository: JobRepository,
+        pool: JobPool,
+        workers: Workers,
+    ) -> None:
         """Take up no job before `resume`."""
         self._kinds = kinds
         self._stores = stores
         self._repository = repository
         self._pool = pool
+        self._workers = workers
         self._open: dict[str, _OpenJob] = {}
         self._lock = threading.RLock()
 
@@ -181,12 +191,12 @@ class JobDesk:
                 del self._open[stored.id]
                 raise
 
-    def _run(self, job_id: str, kind: AnyKind, asked: object, should_stop: ShouldStop) -> None:
+    def _run(self, job_id: str, kind: AnyKind, asked: object, stop: Stop) -> None:
         """Have a job done in a process of its own, and keep its end."""
         try:
             begun = self._open[job_id].stored.begun + 1
             self._change(job_id, is_saved=True, status="running", started_s=time.time(), begun=begun)
-            answer = run_apart(do_job, should_stop, partial(self._hear, job_id), kind.work, asked)
+            answer = self._workers.run_alone(do_job, stop, partial(self._hear, job_id), kind.work, asked)
             self._end(job_id, "done", "", kind.finish(self._stores, answer))
         except StoppedError:
             if self._open[job_id].is_cancelled:

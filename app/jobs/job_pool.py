@@ -13,7 +13,7 @@ from concurrent.futures import Future
 from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
 
-from app.jobs.courtesy import Courtesy, LongWork
+from app.worker.stop import Stop
 from planner.errors import FoldingError
 
 Answer = TypeVar("Answer")
@@ -50,12 +50,11 @@ class Job(Generic[Answer]):
         future: its answer.
     """
 
-    def __init__(self, work: Callable[[ShouldStop], Answer], courtesy: Courtesy) -> None:
+    def __init__(self, work: Callable[[Stop], Answer]) -> None:
         """Take the work, a function that calls its argument from time to time to ask whether to stop."""
         self.future: Future[Answer] = Future()
         self._work = work
-        self._long_work = LongWork(courtesy)
-        self._stop = threading.Event()
+        self._stop = Stop()
 
     def stop(self) -> None:
         """Cancel the job."""
@@ -67,33 +66,23 @@ class Job(Generic[Answer]):
         if not self.future.set_running_or_notify_cancel():
             return
         try:
-            self.future.set_result(self._work(self._should_stop))
+            self.future.set_result(self._work(self._stop))
         except Exception as error:
             self.future.set_exception(error)
-        finally:
-            self._long_work.end()
-
-    def _should_stop(self) -> bool:
-        self._long_work.give_way()
-        return self._stop.is_set()
 
 
 class JobPool:
     """Runs jobs in the order in which they arrive."""
 
-    def __init__(
-        self, workers: int | None = None, waiting_max: int | None = None, courtesy: Courtesy | None = None
-    ) -> None:
+    def __init__(self, workers: int | None = None, waiting_max: int | None = None) -> None:
         """Start no thread before the first job.
 
         Args:
             workers: the number of jobs to run at once; by default the number of cores.
             waiting_max: the number of jobs that may wait; None for no limit.
-            courtesy: tells when the jobs have to wait for short work.
         """
         self._workers = workers or os.cpu_count() or 1
         self._waiting_max = waiting_max
-        self._courtesy = courtesy or Courtesy()
         self._jobs: queue.SimpleQueue[Job[Any] | None] = queue.SimpleQueue()
         self._open: dict[Future[Any], Job[Any]] = {}
         self._threads: list[threading.Thread] = []
@@ -102,12 +91,12 @@ class JobPool:
         self._mean_s = 0.0
         self._ended = 0
 
-    def start(self, work: Callable[[ShouldStop], Answer]) -> Job[Answer]:
+    def start(self, work: Callable[[Stop], Answer]) -> Job[Answer]:
         """Queue a piece of work; raise `BusyError` if the queue is full.
 
         A closed pool stops the job at once: a new thread would take the end signal meant for another.
         """
-        job = Job(work, self._courtesy)
+        job = Job(work)
         with self._lock:
             if self._is_closed:
                 job.stop()

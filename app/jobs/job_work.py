@@ -1,18 +1,14 @@
 """Does the work of a job; runs in a process of its own."""
 
-import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TypeVar
 
-from app.jobs.apart import Tell
 from app.jobs.job_kind import Progress
+from app.worker.process import Caller
 
 Asked = TypeVar("Asked")
 Answer = TypeVar("Answer")
-
-_NICENESS = 10
-"""Niceness of a job: people who draw, and those who wait for an answer, come first."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,7 +19,6 @@ class Progressed:
     message: str
 
 
-def do_job(tell: Tell, work: Callable[[Asked, Progress], Answer], asked: Asked) -> Answer:
+def do_job(caller: Caller, work: Callable[[Asked, Progress], Answer], asked: Asked) -> Answer:
     """Do the work of a job, and send its progress on."""
-    os.nice(_NICENESS)
-    return work(asked, lambda share, message: tell(Progressed(min(max(share, 0.0), 1.0), message)))
+    return work(asked, lambda share, message: caller.tell(Progressed(min(max(share, 0.0), 1.0), message)))

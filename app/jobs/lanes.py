@@ -1,11 +1,11 @@
 """Assigns work to lanes, so that short work never waits behind long work.
 
-- ``quick`` is for work of some hundredths of a second. All other lanes give way to it.
+- ``quick`` is for work of some hundredths of a second.
 - ``files`` is for work of up to some seconds: reading files, making them, sampling timelines.
 - ``robots`` is for reading robots, one at a time, in processes of their own: their meshes may take much memory.
-- ``searches`` is for plans, suggestions and maps, in processes of their own.
+- ``searches`` is for plans, suggestions and maps, in the workers (`app.worker`).
 - ``jobs`` is for work of any length that nobody waits for, in processes of their own; a core is left to the others.
-- ``live`` plans the open documents, in threads: it keeps its results from plan to plan.
+- ``live`` is for the plans of the open documents, in the workers too.
 
 Each lane has its own workers and its own queue, which is limited where clients can add work.
 """
@@ -13,8 +13,8 @@ Each lane has its own workers and its own queue, which is limited where clients 
 import os
 import time
 
-from app.jobs.courtesy import Courtesy
 from app.jobs.job_pool import PATIENCE_S, JobPool
+from app.worker.workers import Workers
 
 QUICK_WAITING_MAX = 64
 FILES_WAITING_MAX = 16
@@ -22,23 +22,28 @@ ROBOTS_WAITING_MAX = 8
 SEARCHES_WAITING_MAX = 32
 JOBS_WAITING_MAX = 64
 
+BACKGROUND_NICENESS = 10
+"""Niceness of jobs and of searches for suggestions: people who draw, and the plans of their drawings, come first."""
+
 
 class Lanes:
     """The lanes of a server.
 
     Attributes:
-        courtesy: tracks the short work in progress.
+        workers: the processes for work that somebody waits for.
+        background: those for the rest: they have less right to the processor.
     """
 
     def __init__(self) -> None:
         """Start no thread before there is work."""
-        self.courtesy = Courtesy()
+        self.workers = Workers()
+        self.background = Workers(kept=1, niceness=BACKGROUND_NICENESS)
         self.quick = JobPool(waiting_max=QUICK_WAITING_MAX)
-        self.files = JobPool(waiting_max=FILES_WAITING_MAX, courtesy=self.courtesy)
+        self.files = JobPool(waiting_max=FILES_WAITING_MAX)
         self.robots = JobPool(workers=1, waiting_max=ROBOTS_WAITING_MAX)
         self.searches = JobPool(waiting_max=SEARCHES_WAITING_MAX)
         self.jobs = JobPool(workers=max(1, (os.cpu_count() or 1) - 1), waiting_max=JOBS_WAITING_MAX)
-        self.live = JobPool(courtesy=self.courtesy)
+        self.live = JobPool()
 
         self._pools = (self.quick, self.files, self.robots, self.searches, self.jobs, self.live)
 
@@ -58,3 +63,5 @@ class Lanes:
         deadline_s = time.monotonic() + PATIENCE_S
         for pool in self._pools:
             pool.close(max(0.0, deadline_s - time.monotonic()))
+        self.workers.close()
+        self.background.close()

@@ -1,14 +1,12 @@
-"""Rehearse a plan: perform it in simulated worlds, several side by side in processes, and count how often it holds."""
+"""Rehearse a plan: perform it in simulated worlds, several side by side in workers, and count how often it holds."""
 
 import os
-from collections.abc import Callable, Iterator
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
-from contextlib import contextmanager
+from collections.abc import Callable
+from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass, field, replace
+from functools import partial
 from importlib.util import find_spec
-from multiprocessing import get_context
 from time import process_time
-from typing import Any
 
 import numpy as np
 
@@ -16,6 +14,9 @@ from app.physics.fabric import Fabric, Resolution
 from app.rehearsal.judge import Gate
 from app.rehearsal.noise import NOISE, Noise
 from app.rehearsal.result import RehearsalResult, Run
+from app.worker.process import Caller
+from app.worker.stop import Stop
+from app.worker.workers import Workers
 from planner.errors import FoldingError, RequestError, UnsolvedPlanError
 from planner.geometry.pose import Pose2
 from planner.task.plan import Plan
@@ -198,21 +199,9 @@ def _share(progress: Callable[[float], None], before: int, runs: int) -> Callabl
     return lambda fraction: progress((before + fraction) / runs)
 
 
-_shared: dict[str, Any] = {}
-"""The data of a worker process, set when it starts: plan, options, the event that cancels, the progress."""
-
-
-def _begin(plan: Plan, options: RehearsalOptions, cancelled: Any, shares: Any) -> None:  # noqa: ANN401
-    _shared.update(plan=plan, options=options, cancelled=cancelled, shares=shares)
-
-
-def _work(number: int, seed: int) -> Run:
-    shares = _shared["shares"]
-
-    def told(fraction: float) -> None:
-        shares[number] = fraction
-
-    return one_run(_shared["plan"], _shared["options"], seed, told, _shared["cancelled"].is_set)
+def _run(caller: Caller, plan: Plan, options: RehearsalOptions, seed: int) -> Run:
+    """Perform a plan once, in a worker."""
+    return one_run(plan, options, seed, caller.tell, caller.should_stop)
 
 
 def _side_by_side(
@@ -223,24 +212,23 @@ def _side_by_side(
     progress: Callable[[float], None],
     is_cancelled: Callable[[], bool],
 ) -> tuple[Run, ...]:
-    context = get_context("spawn")
-    cancelled, shares = context.Event(), context.Array("d", len(seeds), lock=False)
-    with _pool(workers, context, (plan, options, cancelled, shares)) as pool:
-        runs = [pool.submit(_work, number, seed) for number, seed in enumerate(seeds)]
+    stop, shares = Stop(), [0.0] * len(seeds)
+    with Workers(kept=workers) as team, ThreadPoolExecutor(workers) as threads:
+
+        def run(number: int) -> Run:
+            return team.run(_run, stop, partial(shares.__setitem__, number), plan, options, seeds[number])
+
+        runs = [threads.submit(run, number) for number in range(len(seeds))]
         left: set[Future[Run]] = set(runs)
-        while left:
-            _, left = wait(left, _LOOK_S, FIRST_COMPLETED)
-            progress(sum(shares) / len(seeds))
-            if is_cancelled():
-                cancelled.set()
-                raise CancelledError
-        return tuple(run.result() for run in runs)
-
-
-@contextmanager
-def _pool(workers: int, context: Any, told: tuple[Any, ...]) -> Iterator[ProcessPoolExecutor]:  # noqa: ANN401
-    pool = ProcessPoolExecutor(workers, context, _begin, told)
-    try:
-        yield pool
-    finally:
-        pool.shutdown(cancel_futures=True)
+        try:
+            while left:
+                ended, left = wait(left, _LOOK_S, FIRST_COMPLETED)
+                progress(sum(shares) / len(seeds))
+                for one in ended:
+                    one.result()
+                if is_cancelled():
+                    raise CancelledError
+        finally:
+            stop.set()
+            threads.shutdown(cancel_futures=True)
+        return tuple(one.result() for one in runs)

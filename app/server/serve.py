@@ -19,6 +19,7 @@ from app.server.websocket_protocol import WebSocketProtocol
 from app.settings import Settings
 from app.store.access_token import AccessToken, file_token, kept_token
 from app.store.data_folder import DataFolder
+from app.worker.template import start_template
 
 _LARGEST_MESSAGE = 4 << 20
 """Largest websocket message (bytes)."""
@@ -29,8 +30,8 @@ _GRACE_S = 1
 _SWITCH_S = 0.0001
 """Time for which a thread keeps the interpreter (s).
 
-A request changes threads several times and waits that long for a running search each time; Python's default of 5 ms
-would be noticeable.
+A request changes threads several times and waits that long each time for one that works, as at an export; Python's
+default of 5 ms would be noticeable.
 """
 
 
@@ -77,6 +78,7 @@ def serve(settings: Settings, announce: Callable[[str, str | None], None]) -> No
     signal.signal(signal.SIGTERM, _end)  # uvicorn raises the signal again once it has ended
     address = _address(settings)
     with DataFolder(settings.data).held() as tell_others, _listening(address) as listener:
+        start_template()
         token, made = _token(settings, address)
         bound = settings.model_copy(update={"port": listener.getsockname()[1]})
         with logging_to(standard_error(), as_json=settings.log_json):

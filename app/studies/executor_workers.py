@@ -1,25 +1,21 @@
 """Any executor of `concurrent.futures` as workers, and so a Dask cluster.
 
-Cells go out in batches, because a cluster's scheduler takes about a millisecond for each piece of work. A batch whose
-worker is lost comes back cell by cell, once; a cell that is lost alone has that as its answer.
+Cells go out in batches, because a cluster's scheduler takes about a millisecond for each piece of work. It tries a lost
+batch again by itself.
 """
 
 from collections.abc import Generator, Iterable, Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
+from concurrent.futures import Executor
 from contextlib import contextmanager
-from functools import partial
-from itertools import islice
 
-from app.studies.answer import Answer, MakePlan, answered, failed
+from app.studies.answer import Answer, MakePlan, answered
 from app.studies.cell import Cell
+from app.studies.handing_out import answers_of
 from app.studies.study_error import StudyError
 from app.studies.workers import planner
 
 BATCH = 4
 """Cells in a batch: some tenths of a second of work."""
-
-_AHEAD = 2
-"""Batches given out for each worker, so that none waits for the next."""
 
 _CONNECT_S = 10.0
 """Time for the scheduler to answer (s)."""
@@ -38,34 +34,19 @@ class ExecutorWorkers:
             batch: the number of cells in a batch.
         """
         self._executor = executor
-        self._in_flight = _AHEAD * workers
+        self._count = workers
         self._make_plan = make_plan
         self._batch = batch
 
     def answers(self, cells: Iterable[Cell], *, keep_plans: bool = False) -> Generator[Answer]:
         """Yield the answers as they come."""
-        waiting, alone = iter(cells), list[Cell]()
-        work = partial(_answers, make_plan=self._make_plan, keep_plans=keep_plans)
-        under_way: dict[Future[list[Answer]], Sequence[Cell]] = {}
-        try:
-            while True:
-                while len(under_way) < self._in_flight and (
-                    batch := [alone.pop()] if alone else list(islice(waiting, self._batch))
-                ):
-                    under_way[self._executor.submit(work, batch)] = batch
-                if not under_way:
-                    return
-                for future in wait(under_way, return_when=FIRST_COMPLETED).done:
-                    batch, error = list(under_way.pop(future)), future.exception()
-                    if error is None:
-                        yield from future.result()
-                    elif len(batch) == 1:
-                        yield failed(batch[0], f"its worker was lost: {type(error).__name__}: {error}")
-                    else:
-                        alone.extend(batch)
-        finally:
-            for future in under_way:
-                future.cancel()
+        yield from answers_of(
+            cells,
+            lambda batch: self._executor.submit(_answers, batch, self._make_plan, keep_plans),
+            self._count,
+            batch=self._batch,
+            tries=1,
+        )
 
 
 @contextmanager

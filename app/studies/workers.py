@@ -1,4 +1,4 @@
-"""The protocol of workers that plan a study's cells: in this process, in a pool of processes, or on a cluster."""
+"""The protocol of workers that plan a study's cells: in this process, in processes of this machine, or on a cluster."""
 
 from collections.abc import Generator, Iterable
 from functools import cache

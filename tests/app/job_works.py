@@ -9,7 +9,6 @@ from contextlib import contextmanager
 from pathlib import Path
 from unittest.mock import patch
 
-from app.jobs.apart import Tell
 from app.jobs.job_desk import JobDesk
 from app.jobs.job_kind import AnyKind, JobKind, Progress, Stores, as_it_is
 from app.jobs.job_pool import JobPool
@@ -21,6 +20,8 @@ from app.store.plan_store import PlanStore
 from app.store.robot_repository import RobotRepository
 from app.store.study_store import StudyStore
 from app.store.trace_store import TraceStore
+from app.worker.process import Caller
+from app.worker.workers import Workers
 from planner.errors import RequestError
 from planner.strict_model import StrictModel
 from planner.task.plan import Plan
@@ -65,16 +66,16 @@ def not_json(_: int, __: Progress) -> float:
     return float("nan")
 
 
-def suggest_with_own_robot(tell: Tell, task: Task, known: Plan | None) -> bool:
+def suggest_with_own_robot(caller: Caller, task: Task, known: Plan | None) -> bool:
     """Look for suggestions as `app.searches.suggest` does, but with no other robot: to load one takes many seconds."""
     with patch("app.searches.robot_names", lambda: ()):
-        return suggest(tell, task, known)
+        return suggest(caller, task, known)
 
 
-def suggest_and_hang(tell: Tell, _: Task, __: Plan | None) -> bool:
+def suggest_and_hang(caller: Caller, _: Task, __: Plan | None) -> bool:
     """Look for suggestions as `app.searches.suggest` does, and never come to an end over the first change."""
-    tell(None)
-    tell(Tried({"kind": "robot", "says": {"code": "other_robot", "robot": "pr2", "title": "PR2"}}))
+    caller.tell(None)
+    caller.tell(Tried({"kind": "robot", "says": {"code": "other_robot", "robot": "pr2", "title": "PR2"}}))
     time.sleep(FOR_EVER_S)
     return True
 
@@ -102,7 +103,7 @@ def desk(folder: Path, *, workers: int = 2, waiting_max: int | None = None) -> I
     studies, robots = StudyStore(folder / "studies", database), RobotRepository(folder / "robots", database)
     stores = Stores(GarmentRepository(database), PlanStore(database), studies, TraceStore(database), robots)
     try:
-        yield JobDesk(KINDS, stores, JobRepository(database), pool)
+        yield JobDesk(KINDS, stores, JobRepository(database), pool, Workers())
     finally:
         pool.close()
         database.close()

@@ -16,6 +16,7 @@ from app.jobs.job_pool import JobPool
 from app.replanner import Replanner
 from app.store.database import Database
 from app.store.plan_store import PlanStore
+from bench.in_thread import InThread
 from planner import find_plan
 from planner.cloth.garment import Garment
 from tests.app.drawing.drawings import pulled
@@ -32,7 +33,7 @@ class Desk:
         self.pool = JobPool()
         self.plans = PlanStore(database)
         self.document = Document(draft_of(TOWEL))
-        self.replanner = Replanner(self.document, self.pool, self.plans)
+        self.replanner = Replanner(self.document, self.pool, InThread(), self.plans)
 
     def until(self, condition: Callable[[], bool]) -> None:
         deadline = time.monotonic() + PATIENCE_S

@@ -1,5 +1,3 @@
-import threading
-import time
 from dataclasses import dataclass, replace
 
 import pytest
@@ -12,7 +10,6 @@ from app.drawing.edit import Edit, Phase, StaleVersionError
 from app.drawing.garment_drawing import drawing_of
 from app.drawing.solve import solve
 from app.held_folds import Checks
-from app.jobs.courtesy import GIVE_WAY_S, Courtesy
 from planner import Plan, load_garment, make_plan
 from planner.cloth.garment import Garment
 from tests.app.drawing.drawings import outlined, pulled
@@ -281,23 +278,3 @@ def test_an_ended_document_is_changed_no_more() -> None:
     ended.end()
     with pytest.raises(EndedDocumentError):
         ended.edit(Edit("Move", moved(1)))
-
-
-def test_who_plans_waits_while_the_drawing_is_being_changed_but_not_for_ever() -> None:
-    begun, go = threading.Event(), threading.Event()
-
-    def hold(*_: object) -> None:
-        begun.set()
-        assert go.wait(60.0)
-
-    courtesy = Courtesy()
-    held = Document(TOWEL, keep=hold, courtesy=courtesy)
-    editing = threading.Thread(target=lambda: held.edit(Edit("Move", moved(1))))
-    editing.start()
-    assert begun.wait(60.0)
-    start = time.monotonic()
-    courtesy.give_way()
-    assert time.monotonic() - start >= GIVE_WAY_S / 2
-    threading.Timer(0.05, go.set).start()
-    editing.join()
-    assert held.state.version == 2

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from app.api.create_app import create_app
 from app.settings import Settings
+from app.worker.workers import Workers
 from tests.app.conftest import OWN_URL
 from tests.app.samples import towel
 
@@ -159,7 +160,7 @@ async def test_a_bug_is_a_problem_without_a_trace(client: httpx.AsyncClient, mon
     def fail(*_: object, **__: object) -> None:
         raise RuntimeError("secret")
 
-    monkeypatch.setattr("app.api.plan_routes.run_apart", fail)
+    monkeypatch.setattr(Workers, "run", fail)
     answer = await client.post("/api/plans", json={"garment": "tie"})
     assert_problem(answer, 500)
     assert "secret" not in answer.text

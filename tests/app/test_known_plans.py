@@ -13,25 +13,24 @@ def test_the_latest_plan_of_each_way_is_known_and_the_quickest_comes_first() -> 
     left = found_plan(cloth, start_station="left")
     assert front.plan.cost_s < left.plan.cost_s, "the drive from the left comes on top"
     known = KnownPlans()
-    for found in (front, left, again):
-        known.add(found)
+    for name, found in (("front", front), ("left", left), ("again", again)):
+        known.add(name, found)
     assert known.by_cost() == [again, left]
     assert known.by_cost()[0] is again
-    assert known.of(again.plan) is again and known.of(left.plan) is left
-    assert known.of(front.plan) is None, "another one took its place"
-    assert known.of(None) is None
+    assert known.named("again") is again and known.named("left") is left
+    assert known.named("front") is None, "another one took its place"
 
 
 @pytest.mark.long
 def test_what_is_no_plan_is_not_known() -> None:
     known = KnownPlans()
-    known.add(found_plan(load_garment("scarf-halved")))
+    known.add("none", found_plan(load_garment("scarf-halved")))
     assert known.by_cost() == []
 
 
 def test_ways_not_met_for_long_are_forgotten() -> None:
     plans = [found_plan(load_garment(name)) for name in ("hand-towel", "vest", "jeans", "skirt", "letter-towel")]
     known = KnownPlans()
-    for found in (*plans[:4], plans[0], plans[4]):
-        known.add(found)
+    for number, found in enumerate((*plans[:4], plans[0], plans[4])):
+        known.add(str(number), found)
     assert {found.plan.garment.name for found in known.by_cost()} == {"hand-towel", "jeans", "skirt", "letter-towel"}

@@ -12,11 +12,12 @@ import httpx
 import pytest
 
 from app.api.request_parsing import SHORTEST_S, TimeLimit
-from app.jobs.apart import PlannerNotLoadedError
 from app.jobs.job_pool import BusyError, JobPool
 from app.jobs.lanes import SEARCHES_WAITING_MAX
+from app.worker.template import PlannerNotLoadedError
+from app.worker.workers import Workers
 from bench.growth_cases import tabs_on_two_sides
-from tests.app.conftest import Served
+from tests.app.conftest import REST, Served
 from tests.app.processes import descendants, is_alive, wait_until
 from tests.app.samples import towel
 
@@ -87,8 +88,7 @@ async def test_where_the_planner_cannot_be_loaded_every_search_ends_with_that(
     def refuse(*_: object) -> None:
         raise PlannerNotLoadedError
 
-    for module in ("plan_routes", "suggestion_routes"):
-        monkeypatch.setattr(f"app.api.{module}.run_apart", refuse)
+    monkeypatch.setattr(Workers, "run", refuse)
     for path in ("plans", "suggestions", "placements"):
         answer = await client.post(f"/api/{path}", json={"garment": "hand-towel"})
         assert answer.status_code == 503, path
@@ -123,23 +123,25 @@ def test_a_queue_has_an_end_and_what_was_stopped_makes_room() -> None:
     pool.close()
 
 
-def only_the_template(server: Served) -> bool:
-    """Return whether only the template process and the resource tracker are left below a server."""
-    return len(descendants(server.process.pid)) <= 2
+def is_running(server: Served, lane: str) -> bool:
+    """Return whether a server's lane has work."""
+    return f'pleat_lane_running{{lane="{lane}"}} 0.0' not in REST.get(f"{server.url}/metrics").text
 
 
-async def test_a_client_that_goes_away_ends_the_process_that_works_for_it(served: Served) -> None:
+async def test_a_client_that_goes_away_ends_the_work_for_it_and_the_workers_stay(served: Served) -> None:
     polygon = " ".join(f"{(i * 7919) % 100_003} {(i * 104_729) % 99_991}" for i in range(150_000))
     knot = f'<svg xmlns="http://www.w3.org/2000/svg"><path d="M {polygon} Z"/></svg>'.encode()[: 2 << 20]
+    endless = (("files", "imports?filename=a.svg&units=mm", {"content": knot}), ("searches", "plans", {"json": SLOW}))
     async with httpx.AsyncClient(base_url=served.url, timeout=120.0) as client:
         assert (await client.post("/api/plans", json={"garment": "hand-towel"})).status_code in (200, 503)
-        await asyncio.to_thread(wait_until, lambda: only_the_template(served))
-        for path, body in (("imports?filename=a.svg&units=mm", {"content": knot}), ("plans", {"json": SLOW})):
+        warm = descendants(served.process.pid)
+        for lane, path, body in endless:
             sent = asyncio.create_task(client.post(f"/api/{path}", **body))
-            await asyncio.to_thread(wait_until, lambda: not only_the_template(served))
+            await asyncio.to_thread(wait_until, lambda lane=lane: is_running(served, lane))
             sent.cancel()
             await asyncio.gather(sent, return_exceptions=True)
-            await asyncio.to_thread(wait_until, lambda: only_the_template(served))
+            await asyncio.to_thread(wait_until, lambda lane=lane: not is_running(served, lane))
+            assert len(descendants(served.process.pid)) <= len(warm), path
 
 
 def post_and_leave(url: str, body: dict[str, Any]) -> None:

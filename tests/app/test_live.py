@@ -9,6 +9,7 @@ import pytest
 
 from app.api.live_messages import document_message
 from app.document_state import DocumentState
+from app.live_search import LiveSearch
 from app.workspace import Workspace
 from tests.app.document_requests import created, moved, put
 from tests.app.websocket import Listener
@@ -145,8 +146,7 @@ async def test_what_failed_is_planned_again_when_a_page_asks_for_it(
         raise RuntimeError("a bug")
 
     with monkeypatch.context() as patch:
-        patch.setattr("app.live_search.find_plan", fail)
-        patch.setattr("app.live_search.quick_plan", fail)
+        patch.setattr(LiveSearch, "find", fail)
         await move(client, state, -0.01)
         await page.until("plan", status="failed", version=2)
     page.say({"do": "plan"})

@@ -5,6 +5,8 @@ import gc
 import pytest
 
 from app.live_search import LiveSearch
+from app.worker.stop import Stop
+from bench.in_thread import InThread
 from planner import Plan, Task
 from planner.primitives.context import Context
 from tests.planning.provoked import hammer, strip
@@ -17,8 +19,7 @@ def answer_to(search: LiveSearch, task: Task) -> list[Plan]:
     def show(plan: Plan, *, is_final: bool) -> None:
         told.append(plan)
 
-    begun = search.find_soon(task, None, show, lambda: False)
-    search.find_quickest(begun, 10.0, show, lambda: False)
+    search.find(task, None, 10.0, show, lambda: None, Stop())
     return told
 
 
@@ -29,14 +30,14 @@ def contexts_of(task: Task) -> int:
 
 @pytest.mark.long
 def test_a_no_is_remembered_without_what_it_was_found_with() -> None:
-    search, task = LiveSearch(), Task.of(hammer(), max_expanded=50)
+    search, task = LiveSearch(InThread()), Task.of(hammer(), max_expanded=50)
     *_, first = answer_to(search, task)
     assert not first.is_solved
     assert contexts_of(task) == 0
 
 
 def test_what_was_planned_is_not_planned_again_and_its_cloth_is_kept_for_the_next_drawing() -> None:
-    search, task = LiveSearch(), Task.of(strip(-0.3, 0.3, 0.1))
+    search, task = LiveSearch(InThread()), Task.of(strip(-0.3, 0.3, 0.1))
     *_, first = answer_to(search, task)
     assert first.is_solved
     (again,) = answer_to(search, task)

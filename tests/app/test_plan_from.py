@@ -13,7 +13,7 @@ from app.document import Document
 from app.drawing.draft import draft_of
 from app.drawing.edit import Edit
 from app.drawing.garment_drawing import drawing_of
-from app.live_search import Begun, LiveSearch
+from app.live_search import LiveSearch
 from app.store.database import Database
 from app.store.document_repository import DocumentRepository
 from app.store.schema import DocumentRow
@@ -141,12 +141,13 @@ async def test_a_page_hears_that_the_start_was_taken_back_before_anything_is_pla
 ) -> None:
     _, page, _ = await planned(client)
     may_plan = threading.Event()
+    find = LiveSearch.find
 
-    def waiting(_: LiveSearch, task: Task, *__: object) -> Begun:
+    def waiting(search: LiveSearch, *asked: Any) -> None:
         assert may_plan.wait(60.0)
-        return Begun(task, None, None, [])
+        find(search, *asked)
 
-    monkeypatch.setattr(LiveSearch, "find_soon", waiting)
+    monkeypatch.setattr(LiveSearch, "find", waiting)
     page.say({"do": "plan_from", "step": 0})
     assert (await page.until("plan", status="planning"))["start"]["folds_done"] == [0]
     page.say({"do": "plan_from", "step": None})

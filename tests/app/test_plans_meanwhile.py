@@ -36,7 +36,7 @@ def test_the_plan_before_is_shown_as_it_is_for_the_drawing_now_while_a_quicker_o
         assert may_end.wait(PATIENCE_S)
         return find_plan(*arguments, **options)  # type: ignore[arg-type]
 
-    monkeypatch.setattr("app.live_search.find_plan", waiting)
+    monkeypatch.setattr("app.live_planning.find_plan", waiting)
     desk.document.edit(Edit("Move", moved(20)))
     desk.until(lambda: desk.is_answered and desk.has_film)
     first = desk.document.state.answer
@@ -54,7 +54,7 @@ def test_who_stops_the_search_for_a_quicker_plan_keeps_the_one_shown(
 ) -> None:
     desk.rest()
     endless = Endless(is_once=False)
-    monkeypatch.setattr("app.live_search.find_plan", endless)
+    monkeypatch.setattr("app.live_planning.find_plan", endless)
     desk.document.edit(Edit("Move", moved(20)))
     assert endless.begun.wait(PATIENCE_S)
     shown = desk.document.state.answer
@@ -144,7 +144,7 @@ def test_who_looks_longer_keeps_the_plan_on_show_until_a_quicker_one_is_found(
         statistics = replace(found.plan.statistics, bound_s=1.0, is_cut_short=True)
         return replace(found, plan=replace(found.plan, statistics=statistics))
 
-    monkeypatch.setattr("app.live_search.find_plan", unproven)
+    monkeypatch.setattr("app.live_planning.find_plan", unproven)
     desk.rest()
     desk.document.edit(Edit("Move", moved(20)))
     desk.rest()

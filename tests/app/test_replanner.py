@@ -8,11 +8,11 @@ from dataclasses import replace
 import pytest
 
 from app.api.live_messages import plan_message, status_text
-from app.document_state import DocumentState
 from app.drawing.edit import Edit, Phase
-from app.replanner import Replanner
+from app.replanner import Replanner, Searching
 from app.store.plan_store import PlanStore, UnknownPlanError
 from app.version_plan import VersionPlan
+from app.worker.stop import Stop
 from planner import Plan
 from planner.task.grip import Holding
 from tests.app.drawing.drawings import crease, outlined
@@ -190,7 +190,7 @@ def test_a_bug_in_the_planner_is_told_of_and_the_next_edit_is_planned(
     def fail(*_: object, **__: object) -> None:
         raise RuntimeError("a bug")
 
-    monkeypatch.setattr("app.live_search.find_plan", fail)
+    monkeypatch.setattr("app.live_planning.find_plan", fail)
     desk.document.edit(Edit("Move", moved(1)))
     desk.until(lambda: desk.document.state.failure is not None)
     assert status_text(desk.document.state) == "No plan: the planner failed"
@@ -203,7 +203,7 @@ def test_a_bug_in_the_planner_is_told_of_and_the_next_edit_is_planned(
 def test_a_committed_edit_stops_the_search_for_the_one_before(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
     desk.rest()
     endless = Endless()
-    monkeypatch.setattr("app.live_search.find_plan", endless)
+    monkeypatch.setattr("app.live_planning.find_plan", endless)
     desk.document.edit(Edit("Move", moved(1)))
     assert endless.begun.wait(PATIENCE_S)
     desk.document.edit(Edit("Move", moved(2)))
@@ -217,8 +217,8 @@ def test_who_stops_planning_is_told_so_and_the_next_edit_is_planned(
     desk.rest()
     endless = Endless(is_once=False)
     with monkeypatch.context() as patch:
-        patch.setattr("app.live_search.find_plan", endless)
-        patch.setattr("app.live_search.quick_plan", nothing)
+        patch.setattr("app.live_planning.find_plan", endless)
+        patch.setattr("app.live_planning.quick_plan", nothing)
         desk.document.edit(Edit("Move", moved(1)))
         assert endless.begun.wait(PATIENCE_S)
         desk.document.stop_planning()
@@ -239,7 +239,7 @@ def test_who_stops_planning_is_told_so_and_the_next_edit_is_planned(
 def test_a_search_that_takes_long_gives_way_to_the_next_preview(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
     desk.rest()
     endless = Endless()
-    monkeypatch.setattr("app.live_search.find_plan", endless)
+    monkeypatch.setattr("app.live_planning.find_plan", endless)
     desk.document.edit(Edit("Drag", moved(1), Phase.PREVIEW))
     assert endless.begun.wait(PATIENCE_S)
     desk.document.edit(Edit("Drag", moved(2), Phase.PREVIEW))
@@ -256,12 +256,12 @@ def test_who_drags_back_to_what_was_just_given_up_gets_its_plan_all_the_same(
     begun, given_up, go = threading.Event(), threading.Event(), threading.Event()
     plan = Replanner._plan
 
-    def gives_up(self: Replanner, state: DocumentState, first: list[Plan], is_unwanted: Callable[[], bool]) -> None:
+    def gives_up(self: Replanner, search: Searching, stop: Stop) -> None:
         if given_up.is_set():
-            plan(self, state, first, is_unwanted)
+            plan(self, search, stop)
             return
         begun.set()
-        while not is_unwanted():
+        while not search.stop():
             time.sleep(0.001)
         given_up.set()
         assert go.wait(PATIENCE_S)
@@ -288,7 +288,7 @@ def test_a_robot_whose_arms_must_be_mapped_first_is_told_with_how_far_that_is(
         for share in (0.25, 0.251, 0.75):
             progress(share)
 
-    monkeypatch.setattr("app.replanner.prepare_robot", prepare)
+    monkeypatch.setattr("app.live_planning.prepare_robot", prepare)
     desk.document.subscribe(lambda: told.append(plan_message(desk.document.state)["prepared"]))
     desk.document.edit(Edit("Move", moved(20)))
     desk.rest()
@@ -302,7 +302,7 @@ def test_that_the_planner_is_compiled_first_is_told_until_it_is(desk: Desk, monk
     desk.rest()
     told: list[bool] = []
     monkeypatch.setattr("app.replanner.must_compile", lambda _: True)
-    monkeypatch.setattr("app.replanner.compile_kernels", lambda _: None)
+    monkeypatch.setattr("app.live_planning.compile_kernels", lambda _: None)
     desk.document.subscribe(lambda: told.append(plan_message(desk.document.state)["is_compiling"]))
     desk.document.edit(Edit("Move", moved(20)))
     desk.rest()

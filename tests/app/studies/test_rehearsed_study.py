@@ -8,7 +8,7 @@ from app.rehearsal.rehearse import PhysicsMissingError, rehearse
 from app.studies import rehearsed as rehearsed_module
 from app.studies.answer import answered
 from app.studies.findings import Findings
-from app.studies.process_pool import ProcessPool
+from app.studies.local_workers import LocalWorkers
 from app.studies.results import Results
 from app.studies.run_study import run_study
 from app.studies.study import Study
@@ -32,7 +32,7 @@ def test_noise_is_an_axis_and_every_solved_plan_is_performed_with_it(tmp_path: P
     asked = study(**REHEARSED)
     with Results(tmp_path) as results:
         results.begin(asked, resume=True)
-        run_study(asked, results, ProcessPool(2), lambda _: None)
+        run_study(asked, results, LocalWorkers(2), lambda _: None)
         findings = Findings(asked, results)
     table = parquet.read_table(tmp_path / PARQUET).to_pylist()
     assert [row["rehearsal.noise"] for row in table] == ["none", "real"] * 2

@@ -5,9 +5,9 @@ from typing import Any
 
 import pytest
 
-from app.studies import executor_workers, process_pool
+from app.studies import executor_workers, handing_out, local_workers
 from app.studies.executor_workers import ExecutorWorkers, cluster
-from app.studies.process_pool import ProcessPool
+from app.studies.local_workers import LocalWorkers
 from app.studies.study_error import StudyError
 from app.studies.workers import InProcess, Workers
 from tests.app.studies.planners import deadly, deadly_once, fake_plan, hanging, raising
@@ -25,12 +25,12 @@ def answers(workers: Workers, asked: Any = None) -> dict[int, Any]:
 
 def test_a_worker_that_dies_is_replaced_and_its_cell_begun_once_more(tmp_path: Path):
     marker = tmp_path / "died"
-    assert answers(ProcessPool(1, partial(deadly_once, marker))) == answers(InProcess(fake_plan))
+    assert answers(LocalWorkers(1, partial(deadly_once, marker))) == answers(InProcess(fake_plan))
     assert marker.exists()
 
 
 def test_a_cell_that_kills_its_worker_twice_is_a_row_and_the_others_are_answered():
-    found = answers(ProcessPool(2, deadly), MANY)
+    found = answers(LocalWorkers(2, deadly), MANY)
     assert found[25]["status"] == "failed"
     assert "-9" in found[25]["error"]
     expected = answers(InProcess(raising), MANY)
@@ -38,9 +38,8 @@ def test_a_cell_that_kills_its_worker_twice_is_a_row_and_the_others_are_answered
 
 
 def test_a_cell_that_hangs_is_ended(monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setattr(process_pool, "_GRACE_S", 0.0)
-    monkeypatch.setattr(process_pool, "_LOOK_EVERY_S", 0.05)
-    found = answers(ProcessPool(2, hanging), study(limits={"time_limit_s": 0.5}))
+    monkeypatch.setattr(local_workers, "_GRACE_S", 0.0)
+    found = answers(LocalWorkers(2, hanging), study(limits={"time_limit_s": 0.5}))
     assert [found[index]["status"] for index in range(4)] == ["solved", "failed", "infeasible", "infeasible"]
     assert "time limit" in found[1]["error"]
 
@@ -53,16 +52,16 @@ def test_cells_are_made_only_as_they_are_needed():
             taken.append(cell.index)
             yield cell
 
-    running = ProcessPool(1, fake_plan).answers(cells())
+    running = LocalWorkers(1, fake_plan).answers(cells())
     next(running)
-    assert len(taken) <= 2 + process_pool.IN_HAND
+    assert len(taken) <= 2 + handing_out.AHEAD
     running.close()
 
 
 def test_workers_that_all_die_end_the_study(monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setattr(process_pool, "DEATHS_MAX", 2)
-    with pytest.raises(process_pool.WorkersLostError, match="-9"):
-        answers(ProcessPool(1, deadly), study(table={"height_m": 0.75}, scene={"friction": [0.1, 0.2, 0.3]}))
+    monkeypatch.setattr(handing_out, "LOST_MAX", 2)
+    with pytest.raises(handing_out.WorkersLostError, match="-9"):
+        answers(LocalWorkers(1, deadly), study(table={"height_m": 0.75}, scene={"friction": [0.1, 0.2, 0.3]}))
 
 
 def test_an_executor_answers_as_one_process_does():

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from tests.patience import PATIENCE_S
 
-BEGIN = "import sys; from pathlib import Path; from app.jobs.bounded import bounded, one_at_a_time\n"
+BEGIN = "import sys; from pathlib import Path; from app.worker.bounded import bounded, one_at_a_time\n"
 
 
 def ran(program: str, *arguments: object) -> "subprocess.CompletedProcess[str]":

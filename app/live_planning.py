@@ -1,0 +1,124 @@
+"""Plans the versions of a document; runs in a worker, which keeps what was found for the next version.
+
+Usually the plan shown last still works for the new drawing, or a greedy search finds one. Both take much less time than
+finding the quickest plan, so the result is told first, and another if the full search finds one.
+"""
+
+import uuid
+from collections import OrderedDict
+from dataclasses import dataclass, replace
+
+from app.known_plans import KnownPlans
+from app.store.packed_plan import PackedPlan
+from app.worker.process import Caller
+from planner import find_plan, quick_plan
+from planner.planning.found_plan import FoundPlan
+from planner.planning.warm_up import compile_kernels
+from planner.robots.load_robot import prepare_robot
+from planner.task.plan import Plan
+from planner.task.task import TIME_LIMIT_S, Task
+
+_DOCUMENTS_MAX = 16
+"""Number of documents whose plans a worker knows, with what they were found with: 0.3 to 5 MB each (measured)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Compiled:
+    """News: the planner is compiled for a robot."""
+
+
+@dataclass(frozen=True, slots=True)
+class Mapped:
+    """News: how far the robot's arms are mapped (0 to 1)."""
+
+    share: float
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """News: a plan.
+
+    Attributes:
+        plan: the plan.
+        name: its name in the worker that found it.
+        is_final: whether the search has ended.
+        packed: the plan, packed, if more search cannot improve it.
+    """
+
+    plan: Plan
+    name: str
+    is_final: bool = False
+    packed: PackedPlan | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Lasting:
+    """News: what is found soon has been told; the search goes on."""
+
+
+_known: OrderedDict[str, KnownPlans] = OrderedDict()
+"""The plans that this process knows, by document."""
+
+
+def prepare_live(caller: Caller, robot: str) -> None:
+    """Compile the kernels and map the robot's arms if nobody has yet, and tell that, and how far it is."""
+    compile_kernels(robot)
+    caller.tell(Compiled())
+    prepare_robot(robot, lambda share: caller.tell(Mapped(share)))
+
+
+def plan_live(caller: Caller, document: str, task: Task, shown: str | None, work_limit_s: float) -> None:
+    """Tell plans for a task, each better than the one before, the quickest at last.
+
+    Args:
+        caller: who is told.
+        document: the key of the document.
+        task: the task.
+        shown: the name of the plan on show for it, if any.
+        work_limit_s: the limit on the work (s, see `Limits`).
+    """
+    plans = _plans_of(document)
+    known = None if shown is None else plans.named(shown)
+    like = [found for found in plans.by_cost() if found.plan.task.robot == task.robot]
+
+    def tell(found: FoundPlan) -> None:
+        if not caller.should_stop():
+            caller.tell(Found(found.plan, _remembered(plans, found)))
+
+    if known is None:
+        known = _soon(caller, task, like)
+        if known is not None:
+            tell(known)
+    caller.tell(Lasting())
+    limits = replace(task.limits, time_limit_s=TIME_LIMIT_S[1], work_limit_s=work_limit_s)
+    found = find_plan(
+        replace(task, limits=limits), known=known, like=like, on_found=tell, should_stop=caller.should_stop
+    )
+    if not caller.should_stop():
+        is_cut_short = found.plan.statistics.is_cut_short
+        packed = None if is_cut_short else PackedPlan.of(found.plan)
+        caller.tell(Found(found.plan, _remembered(plans, found), is_final=True, packed=packed))
+
+
+def _soon(caller: Caller, task: Task, like: list[FoundPlan]) -> FoundPlan | None:
+    """Return a plan derived from known ones with the same number of folds; None if there is none soon.
+
+    With another number of folds, a full search usually finds the quickest plan just as soon.
+    """
+    same = [found for found in like if len(found.plan.garment.folds) == len(task.garment.folds)]
+    return quick_plan(task, like=same, should_stop=caller.should_stop) if same else None
+
+
+def _plans_of(document: str) -> KnownPlans:
+    plans = _known.setdefault(document, KnownPlans())
+    _known.move_to_end(document)
+    while len(_known) > _DOCUMENTS_MAX:
+        _known.popitem(last=False)
+    return plans
+
+
+def _remembered(plans: KnownPlans, found: FoundPlan) -> str:
+    """Remember a plan, and return the name under which it is known in this process, and in no other."""
+    name = uuid.uuid4().hex
+    plans.add(name, found)
+    return name
