@@ -70,19 +70,23 @@ def regrasps(
     offsets: Mapping[str, Point2],
     fold: Isometry | None,
 ) -> Iterator[StepMotion]:
-    """Yield the step with some hands at other points round their grips, first at those further into the cloth.
+    """Yield the step with some hands at other points round those where they missed, first further into the cloth.
 
     Args:
         motion: the step.
         arms: the arms that found no cloth.
-        radius_m: how far from their grips at most (m): within the comfort radius everything is in reach.
+        radius_m: how far from there, and from their grips, at most (m): within the comfort radius all is in reach.
         inwards: for some arms the direction into the cloth, table frame; the others' is that of their way.
         offsets: how far beside its grip each hand took the cloth at first (m).
         fold: the reflection of the cloth by the step's fold, table frame; None if it makes none.
     """
     for share, eighths in _TRIED:
         tried = {
-            grip.arm: _round(inwards.get(grip.arm) or _way(grip), share * radius_m, math.pi / 4.0 * eighths)
+            grip.arm: _within(
+                radius_m,
+                offsets.get(grip.arm, (0.0, 0.0)),
+                _round(inwards.get(grip.arm) or _way(grip), share * radius_m, math.pi / 4.0 * eighths),
+            )
             for grip in motion.grips
             if grip.arm in arms
         }
@@ -195,6 +199,13 @@ def _round(inwards: Point2, radius_m: float, turn_rad: float) -> Point2:
     """Return a point round a grip, from it (m); at a turn of 0 it is the one inwards."""
     angle = math.atan2(inwards[1], inwards[0]) + turn_rad
     return radius_m * math.cos(angle), radius_m * math.sin(angle)
+
+
+def _within(radius_m: float, first: Point2, second: Point2) -> Point2:
+    """Return the sum of two vectors, no longer than a radius (m)."""
+    x, y = first[0] + second[0], first[1] + second[1]
+    share = min(1.0, radius_m / max(math.hypot(x, y), radius_m))
+    return share * x, share * y
 
 
 def _turned(isometry: Isometry, vector: Point2) -> Point2:

@@ -221,6 +221,15 @@ def test_a_fold_taken_at_another_point_lands_where_the_fold_brings_that_point():
         assert trial.grips[1] == motion.grips[1]
 
 
+def test_a_hand_that_missed_where_the_cloth_was_seen_tries_again_round_there_within_the_radius_of_its_grip():
+    (motion,) = step_motions(towel_plan())
+    grip = motion.grips[0]
+    trials = list(regrasps(motion, frozenset({grip.arm}), 0.03, {grip.arm: (1.0, 0.0)}, {grip.arm: (0.0, 0.02)}, None))
+    beside = [np.subtract(trial.grips[0].points[0][:2], grip.points[0][:2]) for trial in trials]
+    assert beside[0] == pytest.approx([0.01, 0.02])
+    assert max(float(np.hypot(*gone)) for gone in beside) <= 0.03 + 1e-9
+
+
 def test_a_hand_that_took_the_cloth_beside_its_grip_holds_it_there_in_the_red_fold_after_it():
     plan = make_plan(Task.of(load_garment("letter-towel")))
     world = NotedWorld(evenly_along(plan.task.start.placement.to_outer(plan.garment.pattern.ring), 0.01), misses=1)
