@@ -1,8 +1,8 @@
-from pathlib import Path
-
 import httpx
 import pytest
 
+from app.store.schema import GarmentRow
+from app.workspace import Workspace
 from tests.app.samples import towel
 
 pytestmark = pytest.mark.anyio
@@ -64,11 +64,10 @@ async def test_a_name_that_is_not_there_is_not_found(client: httpx.AsyncClient, 
         assert answer.headers["content-type"] == "application/problem+json"
 
 
-async def test_a_spoilt_file_does_not_spoil_the_list(client: httpx.AsyncClient, tmp_path: Path) -> None:
-    folder = tmp_path / "garments"
-    folder.mkdir()
-    (folder / "spoilt.json").write_text("{")
-    client._transport.app.state.workspace.prepare()  # type: ignore[attr-defined]
+async def test_a_spoilt_garment_does_not_spoil_the_list(client: httpx.AsyncClient) -> None:
+    workspace: Workspace = client._transport.app.state.workspace  # type: ignore[attr-defined]
+    with workspace.database.writing("try") as session:
+        session.add(GarmentRow(name="spoilt", content="{"))
     assert (await client.get("/api/garments")).status_code == 200
     assert (await client.get("/api/garments/spoilt")).status_code == 422
 

@@ -10,6 +10,7 @@ from app.camera.posture import Posture
 from app.rehearsal.deflection import deflected
 from planner.geometry.pose import FloatArray, Pose2
 from planner.robots.load_robot import load_robot
+from tests.sweep import sweep
 
 
 def home(robot: str) -> Posture:
@@ -29,7 +30,7 @@ def tools(robot: str, posture: Posture) -> list[FloatArray]:
     return found
 
 
-@pytest.mark.parametrize("robot", ["pr2", "panda-pair", "so101-pair", "tiago-pro"])
+@sweep("robot", ["pr2", "panda-pair", "so101-pair", "tiago-pro"], quick=["pr2", "so101-pair"])
 def test_tools_come_to_be_beside_their_places_by_small_turns_of_all_joints(robot: str):
     posture, arms = home(robot), load_robot(robot).card.arms
     beside = {arm.name: np.array([0.003, -0.002 * number]) for number, arm in enumerate(arms)}
