@@ -1,23 +1,27 @@
 """The tables that the command line prints."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rich.table import Table
 
-from app.comparison import Comparison
 from app.step_words import step_words
-from planner.cloth.garment import Garment
-from planner.explain.garment_check import FoldCheck, GarmentCheck
-from planner.explain.suggestion import Suggestion
 from planner.explain.vertex_check import Support
-from planner.geometry.pose import Point2
-from planner.robots.card_file import CardFile
-from planner.robots.table_reach import TableReach
-from planner.task.plan import Plan
-from planner.task.plan_step import PlanStep
 from planner.task.reason import Code
 from planner.words.catalogue import sentence
+
+if TYPE_CHECKING:  # the tables of a command need not import what the others show
+    from app.comparison import Comparison
+    from planner.cloth.garment import Garment
+    from planner.explain.garment_check import FoldCheck, GarmentCheck
+    from planner.explain.suggestion import Suggestion
+    from planner.geometry.pose import Point2
+    from planner.robots.card_file import CardFile
+    from planner.robots.table_reach import TableReach
+    from planner.task.plan import Plan
+    from planner.task.plan_step import PlanStep
 
 _POINTS_SHOWN = 4
 """Number of points printed before the rest is only counted."""

@@ -1,36 +1,10 @@
-"""The command line: ``pleat serve``, ``plan``, ``show``, ``timeline``, ``export``, ``dag``, ``check``, ``see``...
+"""The command line: ``pleat serve``, ``plan``, ``show``, ``timeline``, ``export``, ``dag``, ``check``, ``see``..."""
 
-Modules stay, so the garbage collector does not look through them while they are imported: that takes a fifth of the
-time in which the program starts.
-"""
-
-import gc
 import os
 
-is_collecting = gc.isenabled()
-gc.disable()
+from app.cli.commands import cli
 
-from app.cli import backup, compare, export, garment, plan, rehearse, robots, see, serve, study  # noqa: E402
-from app.cli.program import cli  # noqa: E402
-
-if is_collecting:
-    gc.freeze()
-    gc.enable()
-
-__all__ = [
-    "backup",
-    "cli",
-    "compare",
-    "export",
-    "garment",
-    "main",
-    "plan",
-    "rehearse",
-    "robots",
-    "see",
-    "serve",
-    "study",
-]
+__all__ = ["cli", "main"]
 
 
 def main() -> None:

@@ -1,5 +1,7 @@
 """The program's shared options, output and exit codes.
 
+What takes long to import is imported where it is used: not every command needs the planner.
+
 Exit status: 0 done; 2 bad input or usage; 3 there is no plan, or a fold cannot be held; 4 the search ran out of time.
 """
 
@@ -7,30 +9,24 @@ import json
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from rich.console import Console
 
-from planner.cloth.garment import Garment
+from app.cli.commands import cli as cli
 from planner.errors import FieldError, FoldingError, RequestError
-from planner.planning.warm_up import must_compile
 from planner.robots.own_robots import ROBOTS, use_robots_folder
-from planner.task.plan import Plan
-from planner.task.plan_files import load
-from planner.task.task import DEFAULT_ROBOT
+
+if TYPE_CHECKING:
+    from planner.cloth.garment import Garment
+    from planner.task.plan import Plan
 
 BAD_INPUT, NO_PLAN, OUT_OF_BUDGET = 2, 3, 4
 STANDARD_OUTPUT = "-"
 
 _OPTION_OF = {"start_station": "start"}
 
-cli = typer.Typer(
-    help="Plan how a robot can really fold a garment, and show it.",
-    no_args_is_help=True,
-    add_completion=False,
-    pretty_exceptions_enable=False,
-)
 errors = Console(stderr=True, highlight=False, soft_wrap=True, markup=False)
 output = Console(highlight=False, markup=False)
 
@@ -66,14 +62,18 @@ DatabaseOption = Annotated[
 ]
 
 
-def garment_of(source: str) -> Garment:
+def garment_of(source: str) -> "Garment":
     """Return the garment by name, from a garment file or from a plan file; exit the program if there is none."""
+    from planner.task.plan import Plan
+
     found = load_source(source)
     return found.garment if isinstance(found, Plan) else found
 
 
-def load_source(source: str) -> Garment | Plan:
+def load_source(source: str) -> "Garment | Plan":
     """Return the garment or the plan by name or file; exit the program if there is none."""
+    from planner.task.plan_files import load
+
     with blaming(source):
         return load(source)
 
@@ -104,6 +104,9 @@ def refusing(target: object) -> Iterator[None]:
 
 def tell_of_compiling(*robots: str) -> None:
     """Say on standard error that the planner is compiled first, where it is: nothing else is seen for a minute."""
+    from planner.planning.warm_up import must_compile
+    from planner.task.task import DEFAULT_ROBOT
+
     if any(must_compile(robot) for robot in robots or (DEFAULT_ROBOT,)):
         errors.print("Compiling the planner (first use): about a minute...")
 

@@ -10,7 +10,7 @@ from importlib import import_module
 NICENESS = 5
 """Niceness of the work: the server comes first, because users wait for it while they drag."""
 
-_HELD = ("app.cli", "app.searches", "app.live_planning")
+_HELD = ("app.cli", "app.searches", "app.live_planning", "app.job_kinds.kinds", "app.files.import_file")
 """Modules to load. The program's main module imports `app.cli`, and every worker runs that again."""
 
 

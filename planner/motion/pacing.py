@@ -5,7 +5,6 @@ evenly. What accelerations take is up to `planner.motion.path_timing`.
 """
 
 import numpy as np
-from scipy.optimize import brentq
 
 from planner.geometry.pose import FloatArray
 
@@ -43,5 +42,7 @@ def paced_s(nominal_s: FloatArray, least_s: FloatArray, rest_s: float = 0.0) -> 
 
     def excess(pace: float) -> float:
         return float(np.maximum(least_s, pace * nominal_s).sum()) - total
+
+    from scipy.optimize import brentq  # slow to import, and seldom needed
 
     return np.asarray(np.maximum(least_s, brentq(excess, 0.0, 1.0) * nominal_s))

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from planner.geometry.pose import Approach, FloatArray, wrapped_angle
 from planner.geometry.tolerance import ANGLE_RAD, EDGE_RAD, nearest_whole
@@ -61,6 +60,8 @@ class _Turn(NamedTuple):
     def rotations(self, shares: FloatArray) -> FloatArray:
         """Return the tool's axes in the base frame at shares of the turn, shape (n, 1) -> (n, 3, 3)."""
         start, goal = np.array(self.start), np.array(self.goal)
+        from scipy.spatial.transform import Rotation  # slow to import, and needed only where hands turn
+
         return np.asarray(Rotation.from_euler("ZYX", start + shares * (goal - start)).as_matrix())
 
 

@@ -9,8 +9,8 @@ from dataclasses import replace
 from itertools import accumulate, pairwise
 
 import numpy as np
-from scipy.interpolate import CubicHermiteSpline
 
+from planner.geometry.keyframes import rate_at, values_at
 from planner.geometry.pose import FloatArray
 from planner.geometry.ramps import ramps
 from planner.geometry.table_top import TableTop
@@ -72,8 +72,9 @@ def _gripper_track(arm: ArmCard, times_s: Sequence[float], openings_m: Sequence[
         knots = np.array(run.times_s) if start == end else np.linspace(0.0, until - begin, _FINGER_KNOTS + 1)
         since = np.union1d(run.times_s, knots)[1:]
         since = since[np.append(np.diff(since) > TIME_S, True)]
-        curve = CubicHermiteSpline(run.times_s, run.fractions, run.rates)
-        opened, faster = start + curve(since) * (end - start), curve(since, 1) * (end - start)
+        way = np.array(run.times_s), np.array(run.fractions), np.array(run.rates)
+        opened = start + values_at(*way, since) * (end - start)
+        faster = np.array([rate_at(run.times_s, run.fractions, run.rates, t) for t in since.tolist()]) * (end - start)
         opened[-1] = end  # but for rounding it is there
         keyframes += zip((begin + since).tolist(), opened.tolist(), faster.tolist(), strict=True)
     times, openings, rates = (tuple(column) for column in zip(*keyframes, strict=True))

@@ -3,7 +3,6 @@
 from itertools import pairwise
 
 import numpy as np
-from scipy.optimize import brentq
 
 from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import TIME_S
@@ -43,6 +42,8 @@ def _middle(transits: TransitPaths, start: FloatArray, end: FloatArray, before_s
     def hurry(share: float) -> float:
         middle = start + share * (end - start)
         return _least_s(transits, start, middle) * after_s - _least_s(transits, middle, end) * before_s
+
+    from scipy.optimize import brentq  # slow to import, and seldom needed
 
     return np.asarray(start + brentq(hurry, 0.0, 1.0) * (end - start))
 

@@ -2,9 +2,10 @@
 
 from io import BytesIO
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-import trimesh
-from trimesh.units import unit_conversion
+if TYPE_CHECKING:
+    import trimesh
 
 _STL_HEAD, _STL_TRIANGLE = 84, 50
 """Bytes before the triangles of a binary STL file, the last four of which are their number, and of each triangle."""
@@ -14,7 +15,7 @@ class MeshError(ValueError):
     """A file that cannot be read as a mesh."""
 
 
-def read_mesh_file(path: Path) -> trimesh.Trimesh:
+def read_mesh_file(path: Path) -> "trimesh.Trimesh":
     """Return the mesh in a file, its parts where their scene has them, without triangles that have no area.
 
     A COLLADA file's lengths are brought to metres by the unit that it declares. Which axis it calls up does not count:
@@ -24,6 +25,9 @@ def read_mesh_file(path: Path) -> trimesh.Trimesh:
         MeshError: the file is no mesh of the format by whose name it ends.
         OSError: it cannot be read.
     """
+    import trimesh  # slow to import, and needed only where shapes are made
+    from trimesh.units import unit_conversion
+
     data = path.read_bytes()
     if b"<!DOCTYPE" in data[:10_000]:
         raise MeshError(f"{path.name} declares a document type, which could declare entities")

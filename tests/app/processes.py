@@ -26,8 +26,15 @@ def descendants(pid: int) -> set[int]:
 
 
 def is_alive(pid: int) -> bool:
-    stat = Path(f"/proc/{pid}/stat")
-    return stat.exists() and stat.read_text().rpartition(")")[2].split()[0] != "Z"
+    """Return whether any thread of a process still runs: as long as one does, its files are open."""
+    return any(_is_running(task) for task in Path(f"/proc/{pid}/task").glob("*/stat"))
+
+
+def _is_running(task: Path) -> bool:
+    try:
+        return task.read_text().rpartition(")")[2].split()[0] not in ("Z", "X")
+    except (FileNotFoundError, ProcessLookupError):  # it has just ended
+        return False
 
 
 def cpu_s(pid: int) -> float:

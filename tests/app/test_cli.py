@@ -5,9 +5,11 @@ import sys
 from pathlib import Path
 
 import pytest
+from typer.main import get_group
 from typer.testing import CliRunner, Result
 
 from app.cli import cli
+from app.cli.commands import COMMANDS, loaded
 from tests.app.samples import towel
 
 
@@ -182,12 +184,27 @@ def test_a_data_path_that_is_none_is_said_before_any_address(tmp_path: Path, ins
     assert str(data) in result.stderr.replace("\n", "")
 
 
+def test_what_is_listed_of_a_command_is_the_first_sentence_of_its_help() -> None:
+    for name, listed in COMMANDS.items():
+        assert str(loaded(name).help).partition("\n\n")[0].replace("\n", " ") == listed.does
+    assert set(COMMANDS) == set(get_group(cli).commands)
+
+
+def test_commands_are_listed_without_the_planner() -> None:
+    heavy = {"numpy", "planner.cloth", "sqlalchemy", "viser"}
+    script = f"import sys; import app.cli; print(sorted({heavy} & set(sys.modules)))"
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
+
+
 def test_the_garbage_collector_rests_while_the_program_is_imported_and_looks_at_what_comes_later():
     script = """
 import gc
 begun = []
 gc.callbacks.append(lambda phase, told: begun.append(told) if phase == "start" else None)
-import app.cli
+from app.cli.commands import loaded
+begun.clear()
+loaded("study")
 print(len(begun) < 3, gc.isenabled(), gc.get_freeze_count() > 100_000)
 """
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)

@@ -6,7 +6,6 @@ from pathlib import Path
 import httpx
 import pytest
 
-from app.cli import robots
 from planner.robots.described_robot import shipped_card, shipped_robots
 from planner.robots.table_reach import TableReach
 from tests.app.test_cli import pleat
@@ -18,7 +17,7 @@ SHIPPED = {"pr2", "ur5e-pair", "panda-pair", "tiago-pro", "baxter", "so101-pair"
 def reach_known(monkeypatch: pytest.MonkeyPatch) -> None:
     """Spare the reach maps: that they are right is shown elsewhere."""
     known = TableReach({"left": 0.75, "right": 0.5}, 1.0, 0.25)
-    monkeypatch.setattr(robots, "table_reach", lambda robot, progress: known)
+    monkeypatch.setattr("planner.robots.table_reach.table_reach", lambda robot, progress: known)
 
 
 @pytest.mark.anyio

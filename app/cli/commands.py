@@ -1,0 +1,99 @@
+"""The commands by name. A command's module is imported when the command is run; to list them takes none."""
+
+import gc
+from importlib import import_module
+from typing import Any, NamedTuple
+
+import typer
+from typer.core import TyperCommand, TyperGroup
+from typer.main import get_group_from_info
+from typer.models import TyperInfo
+
+
+class _Command(NamedTuple):
+    """A command: its module in `app.cli`, and what it does."""
+
+    module: str
+    does: str
+
+
+COMMANDS = {
+    "plan": _Command("plan", "Plan a garment's folds, and print the plan."),
+    "show": _Command("plan", "Print the plan in a plan file, or why there is none."),
+    "timeline": _Command("plan", "Sample a plan from its start to its end: base, joints, velocities, grippers."),
+    "compare": _Command(
+        "compare",
+        "Plan a garment for several robots, each at its own table: who can fold it, how long it takes, what it would"
+        " take.",
+    ),
+    "dag": _Command("garment", "Print which fold waits for which."),
+    "check": _Command(
+        "garment",
+        "Check that a garment file is good, its folds are legal, and each can be held by the robot's grippers.",
+    ),
+    "export": _Command(
+        "export", "Make a file of a plan, or of a garment, which is planned first where the kind needs that."
+    ),
+    "rehearse": _Command("rehearse", "Perform a plan in simulated physics, and say of every step whether it holds."),
+    "see": _Command(
+        "see", "Read a garment from a picture: its outline, where it lies, how sure that is; or how far it is folded."
+    ),
+    "robots": _Command("robots", "Print the robots that are shipped, and your own."),
+    "robot": _Command("robots", "Look at the card of a robot."),
+    "study": _Command(
+        "study", "Plan the product of garments, robots, tables, placements and limits: one table, one report."
+    ),
+    "study-plan": _Command("study", "Make the plan of one cell of a study again, and write it as a plan file."),
+    "serve": _Command("serve", "Serve the designer until Ctrl-C."),
+    "backup": _Command("backup", "Write a data folder and its database to one file; the server may be running."),
+    "restore": _Command("backup", "Make a data folder and a database of a backup; both must be new or empty."),
+}
+
+
+class _Listed(TyperCommand):
+    """A command as it is listed; to be run it is imported."""
+
+    def make_context(self, *arguments: Any, **options: Any) -> Any:  # noqa: ANN401
+        """Return the context of the command that is to be run."""
+        return loaded(str(self.name)).make_context(*arguments, **options)
+
+
+class _Commands(TyperGroup):
+    """The program: all of `COMMANDS`."""
+
+    def __init__(self, **options: Any) -> None:  # noqa: ANN401
+        """Take the commands as they are listed."""
+        listed = {name: _Listed(name, help=command.does) for name, command in COMMANDS.items()}
+        super().__init__(**{**options, "commands": listed})
+
+
+cli = typer.Typer(
+    cls=_Commands,
+    help="Plan how a robot can really fold a garment, and show it.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+)
+
+
+@cli.callback()
+def _program() -> None:
+    """Have commands, none of which is imported yet."""
+
+
+def loaded(name: str) -> Any:  # noqa: ANN401
+    """Import a command and return it."""
+    # Modules stay, so the garbage collector does not look through them meanwhile: that takes a fifth of the time.
+    is_collecting = gc.isenabled()
+    gc.disable()
+    import_module(f"app.cli.{COMMANDS[name].module}")
+    if is_collecting:
+        gc.freeze()
+        gc.enable()
+    program = get_group_from_info(
+        TyperInfo(cli, cls=TyperGroup),
+        suggest_commands=False,
+        pretty_exceptions_short=cli.pretty_exceptions_short,
+        rich_markup_mode=cli.rich_markup_mode,
+    )
+    return program.commands[name]
