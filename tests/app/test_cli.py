@@ -182,7 +182,7 @@ def test_a_data_path_that_is_none_is_said_before_any_address(tmp_path: Path, ins
     assert str(data) in result.stderr.replace("\n", "")
 
 
-def test_the_garbage_collector_rests_while_the_program_is_imported_and_looks_at_what_comes_later():
+def test_the_garbage_collector_rests_while_the_program_is_imported_and_looks_at_what_comes_later() -> None:
     script = """
 import gc
 begun = []

@@ -327,7 +327,7 @@ def test_where_a_graphics_card_draws_it_the_3d_view_follows_a_hand_at_once(
         player.close()
 
 
-def test_a_plan_that_is_pointed_at_is_shown_to_its_end_and_then_the_own_one_again(plan: Plan, monkeypatch):
+def test_a_plan_that_is_pointed_at_is_shown_to_its_end_and_then_the_own_one_again(plan: Plan, monkeypatch) -> None:
     monkeypatch.setattr(player_module, "PREVIEW_S", 0.2)
     document, view = towel_document(), CountingView3D(has_watchers=True)
     answer(document, plan)

@@ -50,7 +50,7 @@ def length_m(segments: NDArray[np.float64]) -> float:
     return float(np.linalg.norm(segments[:, 1] - segments[:, 0], axis=1).sum())
 
 
-def test_a_blue_line_is_drawn_through_and_a_red_one_as_dashes_and_dots(view: View3D, letter: Plan):
+def test_a_blue_line_is_drawn_through_and_a_red_one_as_dashes_and_dots(view: View3D, letter: Plan) -> None:
     view.show(Timeline.of(letter).at(0.0))
     assert length_m(line(view, BLUE)) == pytest.approx(0.4)
     # Dash 0.045, gap 0.012, dot 0.006, gap 0.012: of 0.075 m 0.051 are drawn. 0.4 m are five times that and a
@@ -58,7 +58,7 @@ def test_a_blue_line_is_drawn_through_and_a_red_one_as_dashes_and_dots(view: Vie
     assert length_m(line(view, RED)) == pytest.approx(5 * 0.051 + 0.025)
 
 
-def test_the_two_kinds_have_the_two_colours_of_the_theme(view: View3D):
+def test_the_two_kinds_have_the_two_colours_of_the_theme(view: View3D) -> None:
     for is_dark, palette in ((False, LIGHT), (True, DARK)):
         view.set_theme(is_dark=is_dark)
         for index, wanted in ((BLUE, palette.fold_blue), (RED, palette.fold_red)):
@@ -67,7 +67,7 @@ def test_the_two_kinds_have_the_two_colours_of_the_theme(view: View3D):
             assert tuple(handle.colors) == tuple(ink(wanted))
 
 
-def test_a_red_line_lies_where_it_will_be_folded_on_the_cloth_as_it_is(view: View3D, letter: Plan):
+def test_a_red_line_lies_where_it_will_be_folded_on_the_cloth_as_it_is(view: View3D, letter: Plan) -> None:
     # 0.39 m from the near edge. One layer lies there before the blue fold, two after it.
     blue = performed(letter, BLUE)
     folded_s = blue.end_s - 1e-6
@@ -79,7 +79,7 @@ def test_a_red_line_lies_where_it_will_be_folded_on_the_cloth_as_it_is(view: Vie
         assert drawn[..., 2] == pytest.approx(np.full(drawn.shape[:2], layers * LAYER_GAP_M + ABOVE_M), abs=1e-6)
 
 
-def test_once_folded_a_line_is_gone(view: View3D, letter: Plan):
+def test_once_folded_a_line_is_gone(view: View3D, letter: Plan) -> None:
     red = performed(letter, RED)
     view.show(Timeline.of(letter).at(red.start_s + red.duration_s / 2))
     assert len(line(view, BLUE)) == 0 and len(line(view, RED)) > 0
@@ -87,7 +87,7 @@ def test_once_folded_a_line_is_gone(view: View3D, letter: Plan):
     assert len(line(view, RED)) == 0
 
 
-def test_while_a_red_fold_is_made_the_cloth_under_its_flap_lies_still(view: View3D, letter: Plan):
+def test_while_a_red_fold_is_made_the_cloth_under_its_flap_lies_still(view: View3D, letter: Plan) -> None:
     red = performed(letter, RED)
     shown = []
     # At first the wrists may turn in their grips: then nothing has been folded yet.

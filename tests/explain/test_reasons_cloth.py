@@ -16,7 +16,7 @@ BEHIND = Scene(stations=(("front", Pose2(-1.2, 0.0, 0.0)),), back_off_max_m=0.0)
 """A scene in which the robot stands still, 0.4 m from the table's near edge at x = -0.8 m."""
 
 
-def test_a_fold_after_which_too_much_hangs_names_the_friction_that_would_hold_it():
+def test_a_fold_after_which_too_much_hangs_names_the_friction_that_would_hold_it() -> None:
     # 0.4 m wide, from x = -0.9 to -0.6. Folded at -0.75 the far half lies on the near one, from -0.9 to -0.75: of both
     # layers 0.1 m hang and 0.05 m lie. So 2 x 0.4 x 0.1 = 0.08 m^2 pull and half of that holds: friction 2.
     towel = _towel(fold((0.0, 0.15), (0.4, 0.15)), 0.3, x_m=-0.9)
@@ -29,7 +29,7 @@ def test_a_fold_after_which_too_much_hangs_names_the_friction_that_would_hold_it
     assert not is_gone(reason, refused(towel, replace(BEHIND, friction=reason.needed_friction - 0.01)))
 
 
-def test_a_fold_that_would_cover_a_corner_says_how_far_it_covers_it():
+def test_a_fold_that_would_cover_a_corner_says_how_far_it_covers_it() -> None:
     # The table ends at x = -0.5 and y = 0.3. The cloth hangs from -0.55 to -0.5; folded over y = 0.2 its part below
     # lands between y = 0.2 and 0.4, and the corner is 0.05 m from its edge at x = -0.55.
     scene = Scene(
@@ -49,7 +49,7 @@ def test_a_fold_that_would_cover_a_corner_says_how_far_it_covers_it():
     assert is_gone(reason, make_plan(fixed, scene, time_limit_s=60.0))
 
 
-def test_a_flap_that_would_hang_by_its_neck_says_which_corner_is_loose():
+def test_a_flap_that_would_hang_by_its_neck_says_which_corner_is_loose() -> None:
     # The hammer's head is 0.3 m wide, its neck 0.1 m. Folded over y = 0.1 the head lands from y = -0.3 to -0.2;
     # the edge is at y = -0.15, so the head's upper corners hang 0.05 m below it with nothing above them.
     reason, *dragged = refused(hammer(), HAMMER_SCENE).reasons
@@ -63,7 +63,7 @@ def test_a_flap_that_would_hang_by_its_neck_says_which_corner_is_loose():
     assert is_gone(reason, make_plan(fixed, HAMMER_SCENE, time_limit_s=60.0))
 
 
-def test_a_part_that_reaches_behind_the_lines_extension_says_how_far():
+def test_a_part_that_reaches_behind_the_lines_extension_says_how_far() -> None:
     # A hook: an arm to the right of x = 0.4, bent down, its tip back to x = 0.3.
     def hook(tip_m: float) -> Garment:
         outline = ((0, 0.2), (0.4, 0.2), (0.4, 0.3), (0.5, 0.3), (0.5, 0.1), (tip_m, 0.1))
@@ -78,7 +78,7 @@ def test_a_part_that_reaches_behind_the_lines_extension_says_how_far():
     assert is_gone(reason, make_plan(hook(0.3 + reason.short_by_m), time_limit_s=60.0))
 
 
-def test_a_line_beside_the_table_says_how_far_it_is_from_it():
+def test_a_line_beside_the_table_says_how_far_it_is_from_it() -> None:
     # From x = -1.0 to -0.5; the line is at -0.9, 0.1 m beyond the edge. 0.2 m hang and 0.3 m lie.
     towel = _towel(fold((0.4, 0.1), (0.0, 0.1)), 0.5, x_m=-1.0)
     (reason,) = refused(towel, BEHIND).reasons
@@ -91,7 +91,7 @@ def test_a_line_beside_the_table_says_how_far_it_is_from_it():
     assert not is_gone(reason, refused(not_yet, BEHIND))
 
 
-def test_cloth_that_covers_a_corner_at_the_start_says_so_of_no_fold():
+def test_cloth_that_covers_a_corner_at_the_start_says_so_of_no_fold() -> None:
     over = fold((0.4, 0.2), (0.0, 0.2))
     cloth = garment(rectangle_points(0.4, 0.4), over, placement=Pose2(0.6, 0.28, 0.0))
     (reason,) = refused(cloth).reasons
@@ -105,7 +105,7 @@ def test_cloth_that_covers_a_corner_at_the_start_says_so_of_no_fold():
 
 
 @pytest.mark.long
-def test_cloth_that_slips_at_the_start_says_what_hangs_and_what_lies():
+def test_cloth_that_slips_at_the_start_says_what_hangs_and_what_lies() -> None:
     # 0.4 m wide, from y = 0.39 to 1.19 where the table ends at 0.49: 0.1 m lie and 0.7 m hang.
     over = fold((0.4, 0.4), (0.0, 0.4))
     cloth = garment(rectangle_points(0.4, 0.8), over, placement=Pose2(-0.2, 0.39, 0.0))
@@ -119,7 +119,7 @@ def test_cloth_that_slips_at_the_start_says_what_hangs_and_what_lies():
 
 
 @pytest.mark.long
-def test_cloth_beside_the_table_says_how_far_it_is_from_it():
+def test_cloth_beside_the_table_says_how_far_it_is_from_it() -> None:
     cloth = garment(rectangle_points(0.4, 0.4), fold((0.4, 0.2), (0.0, 0.2)), placement=Pose2(1.0, -0.2, 0.0))
     (reason,) = refused(cloth).reasons
     # The table ends at x = 0.8.
@@ -128,7 +128,7 @@ def test_cloth_beside_the_table_says_how_far_it_is_from_it():
     assert "nothing of the cloth lies on the table: it is 0.20 m beside it" in reason.message
 
 
-def test_a_sheet_larger_than_the_table_is_told_so():
+def test_a_sheet_larger_than_the_table_is_told_so() -> None:
     sheet = garment(rectangle_points(3.0, 3.0), fold((3.0, 1.5), (0.0, 1.5)))
     (reason,) = refused(sheet).reasons
     assert reason.message.endswith("it is too large for the table")

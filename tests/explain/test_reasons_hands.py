@@ -30,7 +30,7 @@ def house(radius_m: float, *more):
     return garment(HOUSE, roof, *more, placement=Pose2(-0.42, 0.2, BACK))
 
 
-def test_three_corners_need_a_hand_too_many_until_one_holds_two_of_them():
+def test_three_corners_need_a_hand_too_many_until_one_holds_two_of_them() -> None:
     # Both eaves and the tip must be held. A hand in the middle of a slope is half of it from its two ends.
     answer = refused(house(0.08), fixed())
     (reason,) = answer.reasons
@@ -44,7 +44,7 @@ def test_three_corners_need_a_hand_too_many_until_one_holds_two_of_them():
     assert [r.code for r in too_small.reasons] == [Code.TOO_MANY_GRIPS]
 
 
-def test_two_grips_too_close_need_a_radius_of_half_their_distance():
+def test_two_grips_too_close_need_a_radius_of_half_their_distance() -> None:
     def ribbon(radius_m: float):
         line = fold((0.08, 0.15), (0.0, 0.15), radius_m=radius_m)
         return garment(rectangle_points(0.08, 0.3), line, placement=Pose2(-0.7, 0.04, BACK))
@@ -62,7 +62,7 @@ def test_two_grips_too_close_need_a_radius_of_half_their_distance():
     assert [r.code for r in refused(ribbon(0.039), fixed()).reasons][:1] == [Code.GRIPS_TOO_CLOSE]
 
 
-def test_a_red_fold_whose_corner_no_hand_holds_any_more_needs_a_wider_grip():
+def test_a_red_fold_whose_corner_no_hand_holds_any_more_needs_a_wider_grip() -> None:
     # The roof, folded up, is held at an eave and in the middle of the other slope. The red fold takes its tip, which is
     # half a slope from the hand there; the hand at the eave is not on the part that moves.
     def tipped(radius_m: float, tip: str = "red"):
@@ -78,7 +78,7 @@ def test_a_red_fold_whose_corner_no_hand_holds_any_more_needs_a_wider_grip():
     assert is_gone(reason, make_plan(tipped(reason.needed_grip_radius_m), NEARBY, time_limit_s=60.0))
 
 
-def test_a_red_fold_on_whose_part_no_hand_is_says_so():
+def test_a_red_fold_on_whose_part_no_hand_is_says_so() -> None:
     # Only the uppermost 2 cm of the tip: the hands at an eave and in the middle of a slope are all below.
     tip = fold((0.16, 0.18), (0.24, 0.18), "red", name="tip")
     (reason,) = refused(house(0.112, tip), NEARBY).reasons
@@ -88,7 +88,7 @@ def test_a_red_fold_on_whose_part_no_hand_is_says_so():
     )
 
 
-def test_a_red_fold_that_would_tear_is_bad_input_that_says_how_much():
+def test_a_red_fold_that_would_tear_is_bad_input_that_says_how_much() -> None:
     # The right half comes over the left one. To fold its upper half down would pull 0.2 m of the crease along.
     side, up = fold((0.3, 0.0), (0.3, 0.4), name="side"), fold((0.3, 0.2), (0.0, 0.2), "red", name="down")
     cloth = garment(rectangle_points(0.6, 0.4), replace(side, start=side.end, end=side.start), up)
@@ -97,7 +97,7 @@ def test_a_red_fold_that_would_tear_is_bad_input_that_says_how_much():
     assert caught.value.field == "folds[1].start"
 
 
-def test_the_needed_radius_is_that_of_an_exhaustive_search():
+def test_the_needed_radius_is_that_of_an_exhaustive_search() -> None:
     rng = np.random.default_rng(4)
     for _ in range(30):
         turns = np.sort(rng.uniform(0.1, math.pi - 0.1, rng.integers(3, 8)))

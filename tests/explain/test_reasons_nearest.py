@@ -34,7 +34,7 @@ START = (0.0, 0.0)
 
 
 @sweep("name", PROBLEMS, ("sheet",))
-def test_no_attempt_came_closer(name):
+def test_no_attempt_came_closer(name) -> None:
     context = _met(name)
     places = Places(context, ())
     nearest = nearest_miss(context, 0, {0}, places)
@@ -53,7 +53,7 @@ def test_no_attempt_came_closer(name):
 
 
 @sweep("name", PROBLEMS, ("sheet",))
-def test_the_robot_can_bring_the_cloth_to_where_it_came_closest(name):
+def test_the_robot_can_bring_the_cloth_to_where_it_came_closest(name) -> None:
     context = _met(name)
     nearest = nearest_miss(context, 0, {0}, Places(context, ()))
     assert nearest is not None
@@ -66,7 +66,7 @@ def test_the_robot_can_bring_the_cloth_to_where_it_came_closest(name):
     assert is_at_start or any({(h.arm, h.point) for h in after.held} == held for after in led_to)
 
 
-def test_displaced_by_what_it_is_short_the_point_is_in_reach_and_by_less_nowhere():
+def test_displaced_by_what_it_is_short_the_point_is_in_reach_and_by_less_nowhere() -> None:
     # What is held may be held in any approach, so the reason's point must not be in reach in any.
     reason = _answer("sheet").plan.reasons[0]
     assert "and held on to" in reason.message and "orientation" not in reason.message
@@ -83,7 +83,7 @@ def test_displaced_by_what_it_is_short_the_point_is_in_reach_and_by_less_nowhere
 
 
 @pytest.mark.parametrize("name", ["scarf", "low"])
-def test_turned_as_the_reason_says_the_hand_lacks_what_it_says_and_no_less(name):
+def test_turned_as_the_reason_says_the_hand_lacks_what_it_says_and_no_less(name) -> None:
     (reason, *_) = _answer(name).plan.reasons
     context = _met(name)
     arm, approaches = context.reach.arm_names.index(reason.arm), list(context.reach.approaches)
@@ -96,7 +96,7 @@ def test_turned_as_the_reason_says_the_hand_lacks_what_it_says_and_no_less(name)
     assert is_there[-1] and not is_there[lengths < reason.short_by_m - 0.002].any()
 
 
-def test_with_the_drag_taken_back_the_point_is_over_the_cloth_as_it_starts():
+def test_with_the_drag_taken_back_the_point_is_over_the_cloth_as_it_starts() -> None:
     # One hand takes the middle of the scarf's near end, 0.254 / 2 m from both corners, and lays it 1.524 m further on.
     # It rises as far as it has gone, until it is over the fold line, and comes down as far as it goes on.
     scarf = load_garment("scarf-halved")
@@ -112,7 +112,7 @@ def test_with_the_drag_taken_back_the_point_is_over_the_cloth_as_it_starts():
 
 
 @pytest.mark.long
-def test_a_reason_is_the_same_every_time():
+def test_a_reason_is_the_same_every_time() -> None:
     again = refused(*PROBLEMS["scarf"])
     assert again.to_dict()["reasons"] == _answer("scarf").plan.to_dict()["reasons"]
 

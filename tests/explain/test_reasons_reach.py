@@ -35,7 +35,7 @@ from tests.planning.provoked import (
 from tests.replay.planned import planned
 
 
-def test_a_grip_too_far_ahead_is_short_by_what_it_is_beyond_the_straight_arm():
+def test_a_grip_too_far_ahead_is_short_by_what_it_is_beyond_the_straight_arm() -> None:
     # The comfort circle's furthest point must be in reach too.
     cloth = strip(FURTHEST_X - COMFORT_M + 0.05, 0.3, 0.1)
     (reason,) = refused(cloth, fixed()).reasons
@@ -54,14 +54,14 @@ def test_a_grip_too_far_ahead_is_short_by_what_it_is_beyond_the_straight_arm():
 
 
 @pytest.mark.parametrize("by_m", [0.001, -0.003])
-def test_moved_by_what_it_is_short_and_no_less_it_is_in_reach(by_m):
+def test_moved_by_what_it_is_short_and_no_less_it_is_in_reach(by_m) -> None:
     cloth = strip(FURTHEST_X - COMFORT_M + 0.05, 0.3, 0.1)
     (reason,) = refused(cloth, fixed()).reasons
     for moved, scene in (_moved_cloth(cloth, reason, by_m), _moved_station(cloth, reason, by_m)):
         assert is_in_reach(found_plan(moved, scene, time_limit_s=60.0), 0) == (by_m > 0.0)
 
 
-def test_a_grip_that_lacks_only_comfort_says_how_much_it_has():
+def test_a_grip_that_lacks_only_comfort_says_how_much_it_has() -> None:
     # 14 mm further than comfort allows: 16 mm of the circle's 30 mm are left.
     cloth = strip(FURTHEST_X - 0.016, 0.3, 0.1)
     answer = met(cloth, fixed())
@@ -75,7 +75,7 @@ def test_a_grip_that_lacks_only_comfort_says_how_much_it_has():
     assert not is_in_reach(found_plan(cloth, fixed(), comfort_radius_m=reason.comfort_m + 0.002, time_limit_s=60.0), 0)
 
 
-def test_a_path_rises_as_high_as_the_part_that_moves_is_deep():
+def test_a_path_rises_as_high_as_the_part_that_moves_is_deep() -> None:
     # Straight down, a hand hangs from a forearm that the wrist's limit of 1.994 rad lets rise by 1.994 - pi / 2 at
     # most, from an elbow that the shoulder's lift lets rise by 0.3536 rad. The apex is D + 0.02 over the table, and the
     # wrist 0.18 m over that.
@@ -99,7 +99,7 @@ def test_a_path_rises_as_high_as_the_part_that_moves_is_deep():
     assert is_gone(reason, make_plan(less, scene, time_limit_s=60.0))
 
 
-def test_a_grip_at_the_shoulders_foot_is_too_near_for_the_elbow():
+def test_a_grip_at_the_shoulders_foot_is_too_near_for_the_elbow() -> None:
     # Fingers ahead: approach cone 0. From the pan axis, 0.05 m behind the base's middle, the grip is 0.1 m ahead and
     # the wrist 0.18 cos(p) behind it and 0.18 (1 - sin p) below the shoulder, at pitches of 15 to 90 degrees.
     cloth = garment(
@@ -121,7 +121,7 @@ def test_a_grip_at_the_shoulders_foot_is_too_near_for_the_elbow():
     assert is_in_reach(found_plan(moved, changed, time_limit_s=60.0), 0)
 
 
-def test_a_grip_behind_the_shoulder_is_beyond_the_limit_of_its_pan():
+def test_a_grip_behind_the_shoulder_is_beyond_the_limit_of_its_pan() -> None:
     # From the left shoulder the grip is 0.05 m behind and 0.288 m to the right: at -100 degrees, and a left shoulder
     # pans to -0.5646 rad, -32 degrees. To go ahead hardly changes how far it is, only where. At a table as low as this
     # it is further below the shoulder than what its lift keeps it from.
@@ -142,7 +142,7 @@ def test_a_grip_behind_the_shoulder_is_beyond_the_limit_of_its_pan():
     assert "joint limit, shoulder pan limit" in reason.message
 
 
-def test_what_is_far_away_is_short_by_at_least_its_distance():
+def test_what_is_far_away_is_short_by_at_least_its_distance() -> None:
     # The arm is 1.001 m long from pan axis to tool, and the far end 2.0 m ahead of the left shoulder. With the hand
     # straight down, the elbow as straight as it goes, and room for comfort, the arm gets as far as its wrist does.
     table = Table(depth_m=4.0, height_m=LEVEL_M)
@@ -157,14 +157,14 @@ def test_what_is_far_away_is_short_by_at_least_its_distance():
 
 
 @pytest.mark.long
-def test_where_no_shift_would_do_the_reason_says_so():
+def test_where_no_shift_would_do_the_reason_says_so() -> None:
     (reason, *_) = planned("scarf-halved").answer.reasons
     assert reason.shift_m is None
     assert "make a smaller fold" in reason.message
 
 
 @pytest.mark.parametrize(("height_m", "up"), [(0.35, 0.0), (1.5, -1.0)])
-def test_shifted_as_the_reason_says_all_that_both_hands_do_is_in_reach(height_m, up):
+def test_shifted_as_the_reason_says_all_that_both_hands_do_is_in_reach(height_m, up) -> None:
     towel = garment(rectangle_points(0.4, 0.4), fold((0.0, 0.3), (0.4, 0.3)), placement=Pose2(-0.7, 0.2, BACK))
     reason = but_for_collisions(refused(towel, fixed(height_m)))
     assert reason.shift_towards[2] == pytest.approx(up)
@@ -187,7 +187,7 @@ def _moved_station(cloth, reason: Reason, by_m: float):
     return cloth, replace(fixed(), stations=stations)
 
 
-def test_a_reason_is_told_with_what_is_known_once_nobody_waits_any_more():
+def test_a_reason_is_told_with_what_is_known_once_nobody_waits_any_more() -> None:
     """No move that would help is looked for then."""
     context = find_plan(Task.of(hammer(), HAMMER_SCENE), with_reasons=False).context
     shifts = []

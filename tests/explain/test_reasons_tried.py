@@ -27,7 +27,7 @@ def with_friction(cloth: Garment, scene: Scene, friction: float) -> Plan:
 
 
 @pytest.mark.parametrize("friction", [0.0, 1e-6, 0.05])
-def test_a_strip_in_balance_that_a_fold_brings_out_of_it_slips_and_is_nowhere_beside_the_table(friction: float):
+def test_a_strip_in_balance_that_a_fold_brings_out_of_it_slips_and_is_nowhere_beside_the_table(friction: float) -> None:
     # 0.11 m hang on each side. Folded over x = 0.3, what hung on the left lies: 0.11 m pull and 1.09 m of layers hold.
     strip = garment(rectangle_points(1.2, 0.2), fold((0.3, 0.0), (0.3, 0.2)), placement=Pose2(-0.6, 0.6, BACK))
     (reason,) = refused(strip, Scene(friction=friction)).reasons
@@ -38,7 +38,7 @@ def test_a_strip_in_balance_that_a_fold_brings_out_of_it_slips_and_is_nowhere_be
 
 
 @pytest.mark.long
-def test_a_line_a_centimetre_off_the_table_is_what_is_wrong_with_it():
+def test_a_line_a_centimetre_off_the_table_is_what_is_wrong_with_it() -> None:
     # Across the table the cloth lies from y = 1 to -1; its line is at y = 0.5, and the table ends at 0.49.
     sheet = garment(rectangle_points(2.0, 0.3), fold((0.5, 0.0), (0.5, 0.3)), placement=Pose2(-0.6, 1.0, BACK))
     reason = refused(sheet).reasons[0]
@@ -49,7 +49,7 @@ def test_a_line_a_centimetre_off_the_table_is_what_is_wrong_with_it():
     assert reason.change is None or planned_with(reason.change, sheet).is_solved
 
 
-def test_what_moving_the_cloth_does_not_fix_is_not_told_to_be_moved_and_friction_that_would_is_told():
+def test_what_moving_the_cloth_does_not_fix_is_not_told_to_be_moved_and_friction_that_would_is_told() -> None:
     # Dragged by 0.1 m the towel ends at the edge, and its near end is still to be laid down 0.07 m too far away;
     # dragged by 0.2 m, 0.1 m of it hang and 0.5 m lie.
     over, back = fold((0.3, 0.4), (0.0, 0.4)), fold((0.0, 0.6), (0.3, 0.6), "red")
@@ -65,14 +65,14 @@ def test_what_moving_the_cloth_does_not_fix_is_not_told_to_be_moved_and_friction
         assert reach.set != slip.set
 
 
-def test_what_no_shift_brings_into_reach_is_the_cause_all_the_same():
+def test_what_no_shift_brings_into_reach_is_the_cause_all_the_same() -> None:
     reason, *waiting = planned("scarf-halved").answer.reasons
     assert (reason.code, reason.gives, reason.change) == (Code.OUT_OF_REACH, "fold", None)
     assert {other.code for other in waiting} == {Code.WAITS_FOR_FOLD}
 
 
 @pytest.mark.long
-def test_between_the_places_of_drags_a_small_move_does_what_no_drag_does():
+def test_between_the_places_of_drags_a_small_move_does_what_no_drag_does() -> None:
     # A tie halved nearer to its end is in reach from the side while its end hangs no deeper than hands come down beside
     # the table, and no less than brings the place within reach where it is laid down. Drags go by 0.1 m, and from here
     # they leave it 2.5 cm too deep, or 7.5 cm higher than wanted, where its place is out of reach: 3 cm would do.
@@ -95,7 +95,7 @@ def apron(radius_m: float, in_drags_m: float) -> Garment:
     return replace(garment(outline, half, placement=Pose2(-0.375, 0.3, BACK)), grip_radius_m=in_drags_m)
 
 
-def test_the_grip_radius_that_is_told_is_the_least_though_the_cloth_must_be_dragged():
+def test_the_grip_radius_that_is_told_is_the_least_though_the_cloth_must_be_dragged() -> None:
     # With 0.197 m in the fold alone the arms touch something on all ways; dragged nearer, which takes as wide grips,
     # they do not. With 0.4 m one hand would hold the whole edge.
     (reason,) = refused(apron(0.127, 0.127)).reasons
@@ -106,7 +106,7 @@ def test_the_grip_radius_that_is_told_is_the_least_though_the_cloth_must_be_drag
     assert not planned_with({}, apron(less_m, less_m)).is_solved
 
 
-def test_cloth_far_out_of_reach_is_told_the_least_move_that_brings_it_there():
+def test_cloth_far_out_of_reach_is_told_the_least_move_that_brings_it_there() -> None:
     # Its point is 0.8 m out of reach, further than shifts of the hands' way are looked for; drags do the rest.
     alone = Scene(stations=(("front", Pose2(-0.95, 0.0, 0.0)),))
     towel = garment(rectangle_points(0.4, 0.5), fold((0.4, 0.25), (0.0, 0.25)), placement=Pose2(0.2, 0.4, BACK))
@@ -133,7 +133,7 @@ def random_task(seed: int) -> tuple[Garment, Scene]:
 
 
 @pytest.mark.parametrize("seed", range(100 if settings.get_current_profile_name() == LONG else 24))
-def test_what_reasons_say_would_do_does_and_a_bit_less_does_not(seed: int):
+def test_what_reasons_say_would_do_does_and_a_bit_less_does_not(seed: int) -> None:
     cloth, scene = random_task(seed)
     answer = make_plan(cloth, scene, time_limit_s=60.0)
     sets: dict[int, list[Reason]] = {}
@@ -180,7 +180,7 @@ def a_bit_less(reason: Reason, cloth: Garment, scene: Scene) -> dict[str, object
 
 
 @pytest.mark.long
-def test_a_change_after_which_the_arms_collide_is_only_a_part_of_what_it_takes():
+def test_a_change_after_which_the_arms_collide_is_only_a_part_of_what_it_takes() -> None:
     # Two Pandas lack a millimetre of reach margin for the big towel; with less an arm is in the other's first link.
     towel = shrunk(load_garment("big-towel"), LONGEST_M)
     answer = make_plan(task_for(towel, robot="panda-pair", time_limit_s=60.0))

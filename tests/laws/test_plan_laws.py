@@ -42,31 +42,31 @@ def require_same(seed: int, image: Callable[[Problem], Problem], rel: float = 0.
 @law("plan", short=2, long=300)
 @example(169)  # a grip .3 mm beside the middle of the robot, which either arm may take
 @example(174)  # a hand that turns by half a turn in its grip
-def test_a_mirror_image_has_the_same_answer(seed: int):
+def test_a_mirror_image_has_the_same_answer(seed: int) -> None:
     require_same(seed, mirrored)
 
 
 @given(SEEDS)
 @law("plan", short=5, long=300)
-def test_turned_about_the_table_a_task_has_the_same_answer(seed: int):
+def test_turned_about_the_table_a_task_has_the_same_answer(seed: int) -> None:
     require_same(seed, turned)
 
 
 @given(SEEDS, st.floats(-math.pi, math.pi), st.tuples(st.floats(-1.0, 1.0), st.floats(-1.0, 1.0)))
 @law("plan", short=5, long=300)
-def test_drawn_elsewhere_and_turned_in_the_drawing_a_task_has_the_same_answer(seed: int, turn_rad, by):
+def test_drawn_elsewhere_and_turned_in_the_drawing_a_task_has_the_same_answer(seed: int, turn_rad, by) -> None:
     require_same(seed, lambda problem: redrawn(problem, turn_rad, by), rel=A_THOUSANDTH)
 
 
 @given(SEEDS)
 @law("plan", short=5, long=300)
-def test_its_folds_given_in_another_order_a_task_has_the_same_answer(seed: int):
+def test_its_folds_given_in_another_order_a_task_has_the_same_answer(seed: int) -> None:
     require_same(seed, lambda problem: reordered(problem, Random(seed)))
 
 
 @given(SEEDS)
 @law("plan", short=5, long=300)
-def test_searched_without_a_heuristic_a_task_has_the_same_answer(seed: int):
+def test_searched_without_a_heuristic_a_task_has_the_same_answer(seed: int) -> None:
     problem = plain_task(Random(seed))
     plan, plainly = problem.plan(), problem.plan("zero")
     assert plainly.status == plan.status
@@ -97,7 +97,7 @@ def widened(problem: Problem, what: str, rng: Random) -> Problem:
 @pytest.mark.parametrize("what", ["friction", "approach_cone_rad", "back_off_max_m", "comfort"])
 @given(SEEDS)
 @law("plan", short=5, long=300)
-def test_with_more_room_a_task_is_never_proven_to_take_longer(what: str, seed: int):
+def test_with_more_room_a_task_is_never_proven_to_take_longer(what: str, seed: int) -> None:
     rng = Random(seed)
     problem = plain_task(rng)
     require_no_slower(widened(problem, what, rng).plan(), problem.plan())
@@ -114,7 +114,7 @@ WIDER = {
 
 @pytest.mark.parametrize("what", WIDER)
 @sweep("name", SOLVABLE, ("vest", "letter-towel"))
-def test_a_shipped_garment_never_takes_longer_with_more_room(name: str, what: str):
+def test_a_shipped_garment_never_takes_longer_with_more_room(name: str, what: str) -> None:
     cost_s = math.inf
     for fields, comfort_m in WIDER[what]:
         plan = make_plan(
@@ -126,7 +126,7 @@ def test_a_shipped_garment_never_takes_longer_with_more_room(name: str, what: st
 
 
 @pytest.mark.long
-def test_the_scarf_and_the_tie_take_no_longer_than_with_less_room():
+def test_the_scarf_and_the_tie_take_no_longer_than_with_less_room() -> None:
     # Of more ways the first few were worse: 22.6 s against 22.443 s in a narrower cone, 33.478 s against 33.4 s with
     # more comfort asked for.
     scarf, tie = load_garment("scarf"), load_garment("tie")

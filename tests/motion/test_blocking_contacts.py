@@ -41,7 +41,7 @@ def waypoints(
 
 
 @pytest.mark.parametrize("arm", [0, 1])
-def test_fingers_in_the_table_top_are_in_it_by_their_own_half_and_its(arm):
+def test_fingers_in_the_table_top_are_in_it_by_their_own_half_and_its(arm) -> None:
     # The top is 3 cm thick and the hand's axis in its middle, 45 cm inside the edge: to be outside it must go up or
     # down by 1.5 cm and half the height of what is in there, which is that of the fingers or more, of the palm at most.
     side = 0.3 if arm == 0 else -0.3
@@ -53,11 +53,11 @@ def test_fingers_in_the_table_top_are_in_it_by_their_own_half_and_its(arm):
     assert contact.parts[1] == "table top"
 
 
-def test_where_every_moment_has_a_free_posture_nothing_is_said():
+def test_where_every_moment_has_a_free_posture_nothing_is_said() -> None:
     assert SNAGS.of(waypoints((EDGE_M + 0.45, 0.3, 0.10), (EDGE_M + 0.50, 0.3, 0.20))) is None
 
 
-def test_two_hands_in_one_place_are_in_each_others_way():
+def test_two_hands_in_one_place_are_in_each_others_way() -> None:
     place = (EDGE_M + 0.45, 0.0, 0.25)
     contact = SNAGS.of(waypoints(place, other=place))
     assert contact is not None
@@ -65,7 +65,7 @@ def test_two_hands_in_one_place_are_in_each_others_way():
     assert contact.point == pytest.approx(place)
 
 
-def test_arms_that_would_have_to_cross_are_the_reason_and_further_to_the_middle_they_need_not():
+def test_arms_that_would_have_to_cross_are_the_reason_and_further_to_the_middle_they_need_not() -> None:
     # Both grips lie on a line straight ahead, far to the right: the left arm comes to one of them over the right one's
     # shoulder. Still further right its pan limit, 0.565 rad to the right, leaves it too little comfort as well. Ahead
     # of the robot's middle the arms come from both sides. The hands rise by no more than 0.1 m: within its limits an

@@ -28,11 +28,11 @@ def require_unstretched(plan: Plan) -> None:
 
 
 @pytest.mark.parametrize("name", ["hand-towel", "big-towel", "letter-towel"])
-def test_the_cloth_keeps_its_area_while_it_is_folded_dragged_and_let_hang(name: str):
+def test_the_cloth_keeps_its_area_while_it_is_folded_dragged_and_let_hang(name: str) -> None:
     require_unstretched(planned(name).answer)
 
 
-def test_a_narrow_flap_stands_as_high_as_it_is_deep():
+def test_a_narrow_flap_stands_as_high_as_it_is_deep() -> None:
     # The flap is 5 cm deep; the tools over it, at their apex, are 2 cm higher than its edge.
     strip = garment(rectangle_points(0.3, 0.2), fold((0.3, 0.05), (0.0, 0.05)), placement=Pose2(-0.6, 0.15, -np.pi / 2))
     plan = make_plan(strip, time_limit_s=60.0)

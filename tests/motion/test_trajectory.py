@@ -42,14 +42,14 @@ def is_holding(segment: Segment, arm: int) -> bool:
 
 
 @pytest.mark.parametrize("name", NAMES[1:])
-def test_between_some_runs_the_base_drives(name: str):
+def test_between_some_runs_the_base_drives(name: str) -> None:
     # Else the tests that follow say little.
     phases = [segment.phase for segment in trajectory_of(name).segments]
     assert any(phase.motion is None and phase.base[0] != phase.base[1] for phase in phases)
 
 
 @each_name
-def test_the_arms_touch_nothing_all_through(name: str):
+def test_the_arms_touch_nothing_all_through(name: str) -> None:
     plan, trajectory = planned(name).answer, trajectory_of(name)
     collisions = OpenedCollisions(ROBOT, plan.scene.table, plan.scene.torso_m)
     for t in np.arange(0.0, plan.cost_s, 1.0 / RATE_HZ):
@@ -60,7 +60,7 @@ def test_the_arms_touch_nothing_all_through(name: str):
 
 
 @each_name
-def test_segments_follow_one_another_without_a_gap_and_last_as_long_as_the_plan(name: str):
+def test_segments_follow_one_another_without_a_gap_and_last_as_long_as_the_plan(name: str) -> None:
     plan, trajectory = planned(name).answer, trajectory_of(name)
     assert trajectory.duration_s == plan.cost_s
     assert trajectory.segments[0].start_s == 0.0
@@ -77,7 +77,7 @@ def test_segments_follow_one_another_without_a_gap_and_last_as_long_as_the_plan(
 
 
 @each_name
-def test_a_steps_segments_lead_from_the_world_before_it_to_the_world_after_it(name: str):
+def test_a_steps_segments_lead_from_the_world_before_it_to_the_world_after_it(name: str) -> None:
     plan, trajectory = planned(name).answer, trajectory_of(name)
     for number, step in enumerate(plan.steps):
         last = trajectory.of_step(number)[-1]
@@ -90,7 +90,7 @@ def test_a_steps_segments_lead_from_the_world_before_it_to_the_world_after_it(na
 
 
 @each_name
-def test_no_joint_is_faster_from_keyframe_to_keyframe_than_it_can_be(name: str):
+def test_no_joint_is_faster_from_keyframe_to_keyframe_than_it_can_be(name: str) -> None:
     arms = trajectory_of(name).arms
     limits = np.array([arm.speeds_rad_s for arm in ROBOT.card.arms]).ravel()
     speeds = np.abs(np.diff(arms.positions, axis=0)) / np.diff(arms.times_s)[:, None]
@@ -98,7 +98,7 @@ def test_no_joint_is_faster_from_keyframe_to_keyframe_than_it_can_be(name: str):
 
 
 @each_name
-def test_grippers_are_shut_while_they_hold_cloth_and_open_at_the_start_and_the_end(name: str):
+def test_grippers_are_shut_while_they_hold_cloth_and_open_at_the_start_and_the_end(name: str) -> None:
     plan, trajectory = planned(name).answer, trajectory_of(name)
     assert [track.arm for track in trajectory.grippers] == [arm.name for arm in ROBOT.card.arms]
     for track in trajectory.grippers:
@@ -117,12 +117,12 @@ def test_grippers_are_shut_while_they_hold_cloth_and_open_at_the_start_and_the_e
 
 
 @each_name
-def test_arms_begin_at_home(name: str):
+def test_arms_begin_at_home(name: str) -> None:
     assert joints_at(trajectory_of(name), 0.0) == pytest.approx(HOME)
 
 
 @each_name
-def test_every_actuated_joint_is_told_at_every_moment_and_its_velocity(name: str):
+def test_every_actuated_joint_is_told_at_every_moment_and_its_velocity(name: str) -> None:
     plan, trajectory = planned(name).answer, trajectory_of(name)
     assert trajectory.torso_m == plan.scene.torso_m
     frames = list(Timeline.of(plan).samples(10.0))
@@ -135,7 +135,7 @@ def test_every_actuated_joint_is_told_at_every_moment_and_its_velocity(name: str
 
 
 @each_name
-def test_velocities_are_those_with_which_the_joints_go_on(name: str):
+def test_velocities_are_those_with_which_the_joints_go_on(name: str) -> None:
     # A cubic is at its middle as fast as from end to end, but for a twenty-fourth of its third derivative.
     plan, trajectory = planned(name).answer, trajectory_of(name)
     knots = np.unique([*trajectory.arms.times_s, *(t for track in trajectory.grippers for t in track.times_s)])
@@ -148,7 +148,7 @@ def test_velocities_are_those_with_which_the_joints_go_on(name: str):
     assert set(trajectory.velocities_at(plan.cost_s + 1.0).values()) == {0.0}
 
 
-def test_a_track_is_a_cubic_between_keyframes_and_rests_at_its_ends():
+def test_a_track_is_a_cubic_between_keyframes_and_rests_at_its_ends() -> None:
     track = JointTrajectory.at_rest(HOME, arms=2)
     still = np.zeros((2, len(HOME)))
     track.add(Keyframes(np.array([1.0, 2.0]), np.array([HOME + 0.4, HOME]), still))
@@ -158,7 +158,7 @@ def test_a_track_is_a_cubic_between_keyframes_and_rests_at_its_ends():
     assert JointTrajectory.at_rest(HOME, arms=2).joints_at(np.array([0.5])) == pytest.approx(HOME[None])
 
 
-def test_keyframes_that_come_too_late_are_left_out():
+def test_keyframes_that_come_too_late_are_left_out() -> None:
     track = JointTrajectory.at_rest(HOME, arms=2)
     late = Keyframes(np.array([1.0, 1.0, 0.5]), np.array([HOME + 0.4, HOME + 0.8, HOME]), np.zeros((3, len(HOME))))
     track.add(late)
@@ -166,7 +166,7 @@ def test_keyframes_that_come_too_late_are_left_out():
     assert track.joints_at(np.array([1.0])) == pytest.approx(HOME[None] + 0.4)
 
 
-def test_fingers_close_and_open_evenly_and_when_they_are_told():
+def test_fingers_close_and_open_evenly_and_when_they_are_told() -> None:
     track = JointTrajectory.at_rest(HOME, arms=2)
     track.close(1, 1.5, 2.0)
     track.open(1, 3.0, 3.5)
@@ -174,7 +174,7 @@ def test_fingers_close_and_open_evenly_and_when_they_are_told():
     assert track.openings(0) == ([0.0], [OPEN_M])
 
 
-def test_fingers_are_led_along_their_links_while_they_close_and_open():
+def test_fingers_are_led_along_their_links_while_they_close_and_open() -> None:
     # The joint, which swings, is at each keyframe where the opening has it.
     plan = planned("hand-towel").answer
     assert plan.trajectory is not None
@@ -185,7 +185,7 @@ def test_fingers_are_led_along_their_links_while_they_close_and_open():
             assert track.position_at(t) == pytest.approx(arm.gripper.angle(track.opening_at(t)), abs=0.002)
 
 
-def test_cloth_that_lies_still_is_one_surface_and_what_is_folded_another():
+def test_cloth_that_lies_still_is_one_surface_and_what_is_folded_another() -> None:
     plan = planned("hand-towel").answer
     timeline = Timeline.of(plan)
     moving = [primitive.start_s + 0.5 * primitive.duration_s for primitive in plan.primitives]
@@ -195,7 +195,7 @@ def test_cloth_that_lies_still_is_one_surface_and_what_is_folded_another():
     assert len({id(surface) for surface in [still, *surfaces]}) == len(moving) + 1
 
 
-def test_hands_that_rest_through_a_phase_for_which_there_is_no_time_take_none():
+def test_hands_that_rest_through_a_phase_for_which_there_is_no_time_take_none() -> None:
     # The grips lie nearer to the fold line than the far corner does, so they rest while the cloth begins to rise; and
     # between two stands of the base that takes no time in a way that is tried, slower as a whole than 1 ms.
     towel = garment(

@@ -10,7 +10,7 @@ from planner.primitives.g_fold import GFold
 from planner.robots.openings import OPENING_M
 
 
-def test_a_transit_path_is_searched_for_once_and_known_to_the_next_plan(monkeypatch: pytest.MonkeyPatch):
+def test_a_transit_path_is_searched_for_once_and_known_to_the_next_plan(monkeypatch: pytest.MonkeyPatch) -> None:
     asked: list[object] = []
     free = TransitPaths._is_free
     monkeypatch.setattr(TransitPaths, "_is_free", lambda self, *about: asked.append(about) or free(self, *about))
@@ -27,7 +27,7 @@ def test_a_transit_path_is_searched_for_once_and_known_to_the_next_plan(monkeypa
     assert led() == first and len(asked) == count
 
 
-def test_paths_that_differ_in_their_cloth_or_its_room_are_others():
+def test_paths_that_differ_in_their_cloth_or_its_room_are_others() -> None:
     problem = Problem.of(Task.of(load_garment("hand-towel")))
     transits, base = problem.maker.transits, problem.context.base_pose(0, 0)
     start = transits.home
@@ -45,7 +45,7 @@ def test_paths_that_differ_in_their_cloth_or_its_room_are_others():
     assert searched().misses == before + 2
 
 
-def test_a_path_is_found_again_whole_turns_away_though_turns_are_not_exact():
+def test_a_path_is_found_again_whole_turns_away_though_turns_are_not_exact() -> None:
     problem = Problem.of(Task.of(load_garment("hand-towel")))
     transits, base = problem.maker.transits, problem.context.base_pose(0, 0)
     cloth, near = problem.maker._cloths.of(problem.start), transits.at_grips
@@ -66,7 +66,7 @@ def _far(problem: Problem):
     return type(state)(state.done, (0.1, 0.0), state.station, state.standoff)
 
 
-def test_a_motion_beside_a_driving_base_is_tested_once(monkeypatch: pytest.MonkeyPatch):
+def test_a_motion_beside_a_driving_base_is_tested_once(monkeypatch: pytest.MonkeyPatch) -> None:
     problem = Problem.of(Task.of(load_garment("hand-towel")))
     transits, cloth = problem.maker.transits, problem.maker._cloths.of(problem.start)
     asked: list[object] = []

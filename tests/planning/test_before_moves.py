@@ -54,7 +54,7 @@ def quickest(problem: Problem, *, leaves_out: bool = True) -> SearchResult:
 
 
 @pytest.mark.parametrize("placement", PLACES)
-def test_no_end_left_out_would_make_a_plan_quicker(placement: Pose2, monkeypatch: pytest.MonkeyPatch):
+def test_no_end_left_out_would_make_a_plan_quicker(placement: Pose2, monkeypatch: pytest.MonkeyPatch) -> None:
     task = Task.of(poncho(placement))
     lean = quickest(Problem.of(task).firm())
     monkeypatch.setattr(FoldQuery, "ends", lambda query, begun, *_: (query.every_end(begun), IMPOSSIBLE))
@@ -64,7 +64,7 @@ def test_no_end_left_out_would_make_a_plan_quicker(placement: Pose2, monkeypatch
     assert lean.cost == pytest.approx(full.cost, abs=1e-6)
 
 
-def test_fewer_ways_never_have_a_lower_bound():
+def test_fewer_ways_never_have_a_lower_bound() -> None:
     problem = Problem.of(Task.of(poncho(PLACES[0]))).firm()
     narrow = problem.restricted(scene=replace(problem.context.scene, approach_cone_rad=0.5))
     found = quickest(problem)

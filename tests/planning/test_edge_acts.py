@@ -25,7 +25,7 @@ EDGES = {"hand-towel": 8, "t-shirt": 7, "vest": 0}
 
 
 @pytest.fixture(autouse=True)
-def _kernels():
+def _kernels() -> None:
     compile_kernels()  # plans for that are no part of what is counted here
 
 
@@ -35,14 +35,14 @@ def moved(name: str, ahead_m: float, left_m: float = 0.0) -> Garment:
 
 
 @pytest.mark.parametrize("name", EDGES)
-def test_the_search_itself_finds_hands_at_edges(monkeypatch: pytest.MonkeyPatch, name: str):
+def test_the_search_itself_finds_hands_at_edges(monkeypatch: pytest.MonkeyPatch, name: str) -> None:
     monkeypatch.setattr(EdgeHands, "held", lambda self, plan_segments, is_over: plan_segments)
     plan = found_plan(moved(name, AHEAD_M[name]), time_limit_s=60.0).plan
     assert plan.is_proven
     assert [grip.kind for step in plan.steps for grip in step.grips].count("edge") == EDGES[name]
 
 
-def test_where_hands_hold_edges_no_others_are_led_along_the_path(monkeypatch: pytest.MonkeyPatch):
+def test_where_hands_hold_edges_no_others_are_led_along_the_path(monkeypatch: pytest.MonkeyPatch) -> None:
     def unwanted(*_: object) -> None:
         raise AssertionError("a path for hands that open widely was looked for")
 
@@ -50,7 +50,7 @@ def test_where_hands_hold_edges_no_others_are_led_along_the_path(monkeypatch: py
     assert found_plan(moved("hand-towel", 0.2), time_limit_s=60.0).plan.is_proven
 
 
-def test_hands_that_come_late_to_an_edge_hold_otherwise(monkeypatch: pytest.MonkeyPatch):
+def test_hands_that_come_late_to_an_edge_hold_otherwise(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(EdgeHands, "held", lambda self, plan_segments, is_over: plan_segments)
     rounds: list[float | None] = []
     late: list[bool] = []
@@ -73,7 +73,7 @@ def test_hands_that_come_late_to_an_edge_hold_otherwise(monkeypatch: pytest.Monk
     assert not any(plan_segment.late_s > 0.0 for plan_segment in found.plan_segments)
 
 
-def test_hands_that_come_late_to_edges_are_shown_before_others_are_looked_for(monkeypatch: pytest.MonkeyPatch):
+def test_hands_that_come_late_to_edges_are_shown_before_others_are_looked_for(monkeypatch: pytest.MonkeyPatch) -> None:
     events: list[str] = []
     wide = TransferPlanner.first_valid
 

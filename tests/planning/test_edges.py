@@ -20,7 +20,7 @@ def edges_of(context: Context, *, are_spares_wanted: bool = False) -> Edges:
 
 
 @pytest.mark.parametrize("name", ["tie", "scarf", "big-towel"])
-def test_what_is_left_out_makes_no_plan_dearer(name: str):
+def test_what_is_left_out_makes_no_plan_dearer(name: str) -> None:
     case = planned(name).found
     problem = Problem.of(case.plan.task)
     start, goal, bound = problem.start, problem.is_goal, arm_time(problem.context)
@@ -42,7 +42,7 @@ def test_what_is_left_out_makes_no_plan_dearer(name: str):
     assert max(left_out) > 0, "else nothing is tested"
 
 
-def test_from_a_standoff_passed_on_the_way_only_the_base_moves_on():
+def test_from_a_standoff_passed_on_the_way_only_the_base_moves_on() -> None:
     case = planned("tie").found
     context = case.context
     edges = edges_of(context)

@@ -18,7 +18,7 @@ from tests.sweep import sweep
 NINE = ("t-shirt", "jeans", "shirt", "tie", "scarf", "vest", "skirt", "big-towel", "hand-towel")
 
 
-def test_it_counts_three_motions_a_blue_fold_two_a_red_one_and_one_less_while_dragged():
+def test_it_counts_three_motions_a_blue_fold_two_a_red_one_and_one_less_while_dragged() -> None:
     blue, red = fold((0.4, 0.12), (0.0, 0.12)), fold((0.0, 0.2), (0.4, 0.2), "red")
     towel = garment(rectangle_points(0.4, 0.3), blue, red)
     bound = arm_time(context(towel))
@@ -30,7 +30,7 @@ def test_it_counts_three_motions_a_blue_fold_two_a_red_one_and_one_less_while_dr
 
 
 @sweep("name", NINE, ("jeans", "vest", "hand-towel"))
-def test_no_edge_lowers_the_bound_by_more_than_it_costs(name: str):
+def test_no_edge_lowers_the_bound_by_more_than_it_costs(name: str) -> None:
     case = planned(name)
     problem: Context = case.found.context
     kinds = [GFold(problem), GDrag(problem), BaseMove(problem)]
@@ -49,7 +49,7 @@ def test_no_edge_lowers_the_bound_by_more_than_it_costs(name: str):
 
 
 @sweep("name", NINE, ("jeans", "vest", "hand-towel"))
-def test_without_a_heuristic_the_plan_costs_the_same(name: str):
+def test_without_a_heuristic_the_plan_costs_the_same(name: str) -> None:
     blind = make_plan(load_garment(name), heuristic="zero", time_limit_s=60.0)
     assert blind.status == "solved"
     assert blind.cost_s == pytest.approx(planned(name).answer.cost_s, abs=1e-6)

@@ -61,7 +61,7 @@ def tall_hood() -> Garment:
 
 
 @pytest.mark.slow
-def test_more_stations_never_cost_more():
+def test_more_stations_never_cost_more() -> None:
     front = Scene(stations=(("front", DEFAULT_STATIONS["front"]),))
     many, one = planned(tall_hood()), planned(tall_hood(), front)
     assert many.is_solved and one.is_solved
@@ -70,7 +70,7 @@ def test_more_stations_never_cost_more():
 
 
 @pytest.mark.slow
-def test_independent_folds_given_in_another_order_cost_the_same():
+def test_independent_folds_given_in_another_order_cost_the_same() -> None:
     one = hood(0.367, 0.2609, 0.3997, 0.248, 0.088, 0.1884)
     one = replace(one, placement=Pose2(-0.63198, 0.17753, -math.pi / 2))
     left, right, side, other_side, half = one.folds
@@ -78,7 +78,7 @@ def test_independent_folds_given_in_another_order_cost_the_same():
     assert planned(other).cost_s == pytest.approx(planned(one).cost_s, abs=1e-5)
 
 
-def test_the_rest_of_a_plan_after_a_drag_that_holds_costs_what_is_left():
+def test_the_rest_of_a_plan_after_a_drag_that_holds_costs_what_is_left() -> None:
     # A poncho a tenth larger, here, is folded from another station: the arms' soft limits leave no room for a drag.
     wide, cut, low, side = 0.518, 0.096, 0.2477, 0.3233
     right: list[Point2] = [(wide - cut, 0.0), (wide, cut), (wide, wide - cut), (wide - cut, wide)]
@@ -93,7 +93,7 @@ def test_the_rest_of_a_plan_after_a_drag_that_holds_costs_what_is_left():
     assert rest.cost_s == pytest.approx(plan.cost_s - plan.steps[0].end_s, abs=1e-5)
 
 
-def test_a_bound_minds_no_arm_that_may_be_elsewhere():
+def test_a_bound_minds_no_arm_that_may_be_elsewhere() -> None:
     # The shirt's third fold at standoff 0 brings the right arm where the left one is at home, not in that fold. Without
     # the folds after that one all four can be done there, in three arm motions each.
     shirt = load_garment("shirt")
@@ -106,13 +106,13 @@ def test_a_bound_minds_no_arm_that_may_be_elsewhere():
     assert not plan.is_proven or plan.cost_s == pytest.approx(36.0)
 
 
-def test_with_arms_apart_a_place_beside_the_other_arm_at_home_is_out_of_reach():
+def test_with_arms_apart_a_place_beside_the_other_arm_at_home_is_out_of_reach() -> None:
     problem = Problem.of(Task.of(load_garment("shirt")))
     (apart,) = with_arms_apart(problem)
     assert apart.context.reach is not problem.context.reach
     assert apart.context.reach.comfort_m == problem.context.reach.comfort_m
 
 
-def test_a_robot_that_minds_no_arms_has_no_task_with_arms_apart():
+def test_a_robot_that_minds_no_arms_has_no_task_with_arms_apart() -> None:
     problem = Problem.of(Task.of(load_garment("hand-towel")))
     assert not list(with_arms_apart(replace(problem, robot=RemadeRobot())))

@@ -113,7 +113,7 @@ class Eager:
 )
 def test_a_plan_costs_what_the_search_finds_that_makes_every_run_real_at_once(
     monkeypatch, folds, back_off_max_m, arm_motion_s
-):
+) -> None:
     # Both try the same ways for each run: tighter tasks, in which others come first that may be quicker, are left out,
     # and so are other ways to which hands come sooner, and more tries.
     for name in ("with_arms_apart", "with_more_comfort", "with_narrower_cones"):
@@ -184,7 +184,7 @@ def barred(monkeypatch: pytest.MonkeyPatch, is_barred: IsBarred) -> None:
     monkeypatch.setattr(problem, "load_robot", lambda name: robot)
 
 
-def test_an_arm_that_is_barred_at_one_station_makes_the_plan_use_the_other(monkeypatch):
+def test_an_arm_that_is_barred_at_one_station_makes_the_plan_use_the_other(monkeypatch) -> None:
     # To turn, the base must be 0.47 m away from the table; it stands 0.15 m from it.
     open_way = planned(napkin(HALF), scene(IDLE_S, ROOM_TO_TURN_M))
     assert {p.base.station for p in open_way.primitives} == {"front"}
@@ -195,7 +195,7 @@ def test_an_arm_that_is_barred_at_one_station_makes_the_plan_use_the_other(monke
     assert folding.base.station == "side"
 
 
-def test_an_arm_that_is_barred_where_it_stands_first_makes_the_base_back_off(monkeypatch):
+def test_an_arm_that_is_barred_where_it_stands_first_makes_the_base_back_off(monkeypatch) -> None:
     # Barred at the station itself only: it backs off by a step of 0.05 m, at 0.25 m/s.
     barred(monkeypatch, lambda arm, base: abs(base.x_m + 0.95) < 0.01 and base.y_m == 0.0)
     plan = planned(napkin(HALF), scene(IDLE_S))
@@ -204,7 +204,7 @@ def test_an_arm_that_is_barred_where_it_stands_first_makes_the_base_back_off(mon
     assert folding.base.back_off_m == pytest.approx(0.05)
 
 
-def test_what_one_arm_cannot_do_the_other_does(monkeypatch):
+def test_what_one_arm_cannot_do_the_other_does(monkeypatch) -> None:
     # One grip holds a corner, at x = -0.3, y = -0.15, 0.65 m ahead of the base.
     corner = fold((0.2, 0.3), (0.3, 0.2), name="corner")
     cloth = napkin(corner)
@@ -218,7 +218,7 @@ def test_what_one_arm_cannot_do_the_other_does(monkeypatch):
 
 
 @pytest.mark.parametrize("back_off_max_m", [0.0, 0.1])
-def test_where_an_arm_is_barred_everywhere_the_reason_is_a_collision(monkeypatch, back_off_max_m):
+def test_where_an_arm_is_barred_everywhere_the_reason_is_a_collision(monkeypatch, back_off_max_m) -> None:
     barred(monkeypatch, lambda arm, base: arm == 0)
     plan = planned(napkin(HALF, QUARTER), scene(IDLE_S, back_off_max_m))
     assert plan.status == "infeasible"
@@ -231,7 +231,7 @@ def give_up_after(monkeypatch: pytest.MonkeyPatch, failures: int) -> None:
         monkeypatch.setattr(search, name, replace(getattr(search, name), failures=failures))
 
 
-def test_what_the_same_arms_fail_at_again_and_again_they_try_no_more(monkeypatch):
+def test_what_the_same_arms_fail_at_again_and_again_they_try_no_more(monkeypatch) -> None:
     validators = []
 
     class Seen(validator.MotionValidator):
@@ -253,20 +253,20 @@ def test_what_the_same_arms_fail_at_again_and_again_they_try_no_more(monkeypatch
     assert max(many.values()) > 1
 
 
-def test_what_the_arms_have_failed_at_from_one_station_they_try_from_another(monkeypatch):
+def test_what_the_arms_have_failed_at_from_one_station_they_try_from_another(monkeypatch) -> None:
     give_up_after(monkeypatch, 1)
     barred(monkeypatch, lambda arm, base: base.x_m < -0.9)
     assert planned(napkin(HALF), scene(IDLE_S, ROOM_TO_TURN_M)).is_solved
 
 
-def test_a_fold_whose_hands_hold_on_is_to_blame_for_the_red_one_that_waits_for_it(monkeypatch):
+def test_a_fold_whose_hands_hold_on_is_to_blame_for_the_red_one_that_waits_for_it(monkeypatch) -> None:
     barred(monkeypatch, lambda arm, base: True)
     plan = planned(napkin(OVER, BACK_OVER), scene(IDLE_S))
     assert plan.status == "infeasible"
     assert [(r.fold, r.code) for r in plan.reasons] == [(0, Code.COLLISION), (1, Code.WAITS_FOR_FOLD)]
 
 
-def test_where_another_way_is_as_good_the_rest_are_found_only_once_a_path_takes_longer(monkeypatch):
+def test_where_another_way_is_as_good_the_rest_are_found_only_once_a_path_takes_longer(monkeypatch) -> None:
     found = found_plan(napkin(HALF), scene(IDLE_S, ROOM_TO_TURN_M))
     problem, (step,) = Problem.of(found.plan.task), found.plan_segments[0].steps
     maker, start = problem.maker, problem.start

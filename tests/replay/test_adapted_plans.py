@@ -71,7 +71,7 @@ def way(found: FoundPlan) -> list[tuple[object, ...]]:
 
 
 @each_solvable
-def test_adapted_to_the_garment_it_is_for_a_plan_is_what_it_was(name: str):
+def test_adapted_to_the_garment_it_is_for_a_plan_is_what_it_was(name: str) -> None:
     before = planned(name)
     after = soon(load_garment(name), before.found)
     assert after is not None and after.plan.cost_s == pytest.approx(before.answer.cost_s, abs=1e-9)
@@ -80,7 +80,7 @@ def test_adapted_to_the_garment_it_is_for_a_plan_is_what_it_was(name: str):
 
 
 @each_solvable
-def test_what_is_adapted_to_a_garment_with_a_vertex_moved_by_a_centimetre_replays(name: str):
+def test_what_is_adapted_to_a_garment_with_a_vertex_moved_by_a_centimetre_replays(name: str) -> None:
     before, adapted = planned(name).found, []
     for vertex in free_vertices(before.plan.garment)[::2]:
         # None of these leaves a sliver narrower than a millimetre, which the checker would not follow.
@@ -94,7 +94,7 @@ def test_what_is_adapted_to_a_garment_with_a_vertex_moved_by_a_centimetre_replay
 
 
 @sweep("name", SOLVABLE, ("jeans", "scarf"))
-def test_the_arms_can_follow_what_is_adapted_again_and_again(name: str):
+def test_the_arms_can_follow_what_is_adapted_again_and_again(name: str) -> None:
     # A centimetre, millimetre by millimetre: each plan's joints are near to those of the plan before.
     found = planned(name).found
     vertex = free_vertices(found.plan.garment)[-1]
@@ -106,14 +106,14 @@ def test_the_arms_can_follow_what_is_adapted_again_and_again(name: str):
     require_clear(timeline, Table(), every_s=1.7)
 
 
-def test_most_centimetres_ask_for_no_other_plan():
+def test_most_centimetres_ask_for_no_other_plan() -> None:
     before = planned("t-shirt").found
     moves = [(vertex, CENTIMETRE[vertex % 4]) for vertex in range(len(before.plan.garment.outline))]
     after = [soon(moved("t-shirt", *move), before) for move in moves]
     assert sum(found is not None and way(found) == way(before) for found in after) >= 0.8 * len(moves)
 
 
-def test_what_more_is_to_be_folded_is_folded_after_what_is_known():
+def test_what_more_is_to_be_folded_is_folded_after_what_is_known() -> None:
     once, twice = napkin(HALF), napkin(HALF, QUARTER)
     known = found_plan(once)
     found = soon(twice, known)
@@ -122,13 +122,13 @@ def test_what_more_is_to_be_folded_is_folded_after_what_is_known():
     assert found.plan.cost_s >= make_plan(twice).cost_s - 1e-9
 
 
-def test_what_is_not_to_be_folded_any_more_is_left_out():
+def test_what_is_not_to_be_folded_any_more_is_left_out() -> None:
     once, twice = napkin(HALF), napkin(HALF, QUARTER)
     found = soon(once, found_plan(twice))
     assert way(found) == way(found_plan(once))
 
 
-def test_a_plan_whose_hands_let_go_does_not_do_for_folds_between_which_they_hold_on():
+def test_a_plan_whose_hands_let_go_does_not_do_for_folds_between_which_they_hold_on() -> None:
     over, back = fold((0.3, 0.12), (0.0, 0.12), name="over"), fold((0.0, 0.2), (0.3, 0.2), "red", name="back")
     red, blue = napkin(over, back), napkin(over, replace(back, kind="blue"))
     for cloth, other in ((red, blue), (blue, red)):
@@ -140,11 +140,11 @@ def test_a_plan_whose_hands_let_go_does_not_do_for_folds_between_which_they_hold
 
 
 @pytest.mark.parametrize("name", IMPOSSIBLE)
-def test_where_there_is_no_plan_none_is_found_soon(name: str):
+def test_where_there_is_no_plan_none_is_found_soon(name: str) -> None:
     assert soon(load_garment(name), planned(name.removesuffix("-halved")).found) is None
 
 
-def test_a_plan_that_is_known_is_the_answer_if_none_is_quicker():
+def test_a_plan_that_is_known_is_the_answer_if_none_is_quicker() -> None:
     known = soon(moved("jeans", 2, (0.0, 0.01)), planned("jeans").found)
     after = find_plan(known.plan.task, known=known).plan
     plainly = make_plan(known.plan.task)
@@ -152,7 +152,7 @@ def test_a_plan_that_is_known_is_the_answer_if_none_is_quicker():
     assert after.statistics.bound_s == pytest.approx(after.cost_s, abs=1e-9), "that is proved now"
 
 
-def test_a_plan_that_is_known_is_the_answer_when_time_runs_out():
+def test_a_plan_that_is_known_is_the_answer_when_time_runs_out() -> None:
     jeans = load_garment("jeans")
     known = soon(jeans, planned("jeans").found)
     task = Task.of(jeans, max_expanded=1)
@@ -162,7 +162,7 @@ def test_a_plan_that_is_known_is_the_answer_when_time_runs_out():
     assert after.statistics.bound_s < after.cost_s, "whether it is the quickest is not known"
 
 
-def test_a_slower_plan_that_is_known_gives_way_to_the_quickest():
+def test_a_slower_plan_that_is_known_gives_way_to_the_quickest() -> None:
     towel = load_garment("hand-towel")
     slow = found_plan(towel, start_station="left")
     assert find_plan(Task.of(towel), known=slow).plan.cost_s == pytest.approx(

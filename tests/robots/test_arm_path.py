@@ -77,12 +77,12 @@ def require_followed(path: ToolPath, joints: FloatArray, arm: int = 0) -> None:
 
 @pytest.mark.parametrize("arm", [0, 1])
 @pytest.mark.parametrize("pitch_deg", PITCHES_DEG)
-def test_the_tool_is_on_its_path_at_every_pose(pitch_deg, arm):
+def test_the_tool_is_on_its_path_at_every_pose(pitch_deg, arm) -> None:
     path = across(pitch_deg) if arm == 0 else mirrored(across(pitch_deg))
     require_followed(path, found(path, arm=arm), arm)
 
 
-def test_so_it_is_on_random_lines():
+def test_so_it_is_on_random_lines() -> None:
     rng, followed = np.random.default_rng(11), 0
     for _ in range(30):
         start, end = rng.uniform((0.4, 0.0, 0.82), (0.8, 0.5, 1.2)), rng.uniform((0.4, 0.0, 0.82), (0.8, 0.5, 1.2))
@@ -96,7 +96,7 @@ def test_so_it_is_on_random_lines():
     assert followed > 15
 
 
-def test_a_hand_that_turns_over_is_followed_too():
+def test_a_hand_that_turns_over_is_followed_too() -> None:
     path = line((0.6, 0.3, 0.9), (0.6, 0.3, 1.1), 30)
     turns = np.linspace(0.0, math.pi, len(path.positions))
     about_x = np.array([[[1, 0, 0], [0, math.cos(a), -math.sin(a)], [0, math.sin(a), math.cos(a)]] for a in turns])
@@ -104,7 +104,7 @@ def test_a_hand_that_turns_over_is_followed_too():
     require_followed(rolled, found(rolled))
 
 
-def test_a_path_that_leaves_the_reach_is_blocked_where_it_is_outside():
+def test_a_path_that_leaves_the_reach_is_blocked_where_it_is_outside() -> None:
     # The arm is 0.1 + 0.4 + 0.321 + 0.18 m long and its shoulder 0.05 m behind the base's middle: 0.951 m ahead. The
     # path goes on to 1 m; of its 41 poses, 1 cm apart from 0.6 m on, every third and the last are looked at.
     blocked = found(line((0.6, 0.188, 0.9), (1.0, 0.188, 0.9), 30)).blocked
@@ -113,11 +113,11 @@ def test_a_path_that_leaves_the_reach_is_blocked_where_it_is_outside():
     )
 
 
-def test_where_everything_collides_every_pose_that_is_looked_at_is_blocked():
+def test_where_everything_collides_every_pose_that_is_looked_at_is_blocked() -> None:
     assert found(across(45), nowhere).blocked.tolist() == [*range(0, 29, 3), 29]
 
 
-def test_poses_before_and_after_the_core_are_not_told_but_may_be_all_that_is_in_the_way():
+def test_poses_before_and_after_the_core_are_not_told_but_may_be_all_that_is_in_the_way() -> None:
     # Of the 41 poses those from 0.88 m on, the 29th and later, may be out of reach, those to the 27th are not.
     path = line((0.6, 0.188, 0.9), (1.0, 0.188, 0.9), 30)
     nearer, farther = (found(replace(path, core=core)) for core in ((0, 27), (30, 41)))
@@ -125,7 +125,7 @@ def test_poses_before_and_after_the_core_are_not_told_but_may_be_all_that_is_in_
     assert {6, 9, 10} <= set(farther.blocked) <= {0, 3, 6, 9, 10} and farther.is_core
 
 
-def test_an_arm_goes_round_what_the_calmest_path_would_run_into():
+def test_an_arm_goes_round_what_the_calmest_path_would_run_into() -> None:
     path = across(45)
     wall_rad = 0.6
 
@@ -138,7 +138,7 @@ def test_an_arm_goes_round_what_the_calmest_path_would_run_into():
     assert other[:, 0].max() < wall_rad
 
 
-def test_an_arm_goes_round_what_stands_in_its_way_for_a_while_only():
+def test_an_arm_goes_round_what_stands_in_its_way_for_a_while_only() -> None:
     path = across(45)
     middle = len(path.positions) // 2
 
@@ -151,7 +151,7 @@ def test_an_arm_goes_round_what_stands_in_its_way_for_a_while_only():
     assert other[middle - 2 : middle + 3, 0].max() < 0.5
 
 
-def test_of_what_is_only_not_certain_to_collide_a_path_may_be_made():
+def test_of_what_is_only_not_certain_to_collide_a_path_may_be_made() -> None:
     # With `certain` nothing is free: samples may be rejected for that only where the path found collides.
     path = across(45)
 
@@ -162,25 +162,25 @@ def test_of_what_is_only_not_certain_to_collide_a_path_may_be_made():
 
 
 @pytest.mark.parametrize("pitch_deg", PITCHES_DEG)
-def test_the_mirror_image_of_a_path_has_the_mirror_image_of_its_joints(pitch_deg):
+def test_the_mirror_image_of_a_path_has_the_mirror_image_of_its_joints(pitch_deg) -> None:
     path = across(pitch_deg)
     np.testing.assert_allclose(found(mirrored(path), arm=1), found(path) * MIRROR, atol=1e-9)
 
 
-def test_so_has_what_goes_round_a_wall():
+def test_so_has_what_goes_round_a_wall() -> None:
     path = across(45)
     left = found(path, lambda _, joints, is_certain: joints[:, 0] < 0.6)
     right = found(mirrored(path), lambda _, joints, is_certain: joints[:, 0] > -0.6, arm=1)
     np.testing.assert_allclose(right, left * MIRROR, atol=1e-9)
 
 
-def test_elbows_stay_above_the_table_where_they_can():
+def test_elbows_stay_above_the_table_where_they_can() -> None:
     for pitch_deg in PITCHES_DEG:
         joints = found(across(pitch_deg))
         assert min(ROBOT.elbow_height(0, at, TORSO_M) for at in joints) > TABLE_M
 
 
-def test_where_known_joints_still_do_they_are_kept():
+def test_where_known_joints_still_do_they_are_kept() -> None:
     path = across(45)
     known = found(path)
     shifted = replace(path, positions=path.positions + np.array([0.004, 0.003, 0.002]))
@@ -190,7 +190,7 @@ def test_where_known_joints_still_do_they_are_kept():
 
 
 @pytest.mark.parametrize("arm", [0, 1])
-def test_where_known_joints_no_longer_do_there_are_none_near_to_them(arm):
+def test_where_known_joints_no_longer_do_there_are_none_near_to_them(arm) -> None:
     path = across(45) if arm == 0 else mirrored(across(45))
     known = found(path, arm=arm)
     barred = known[-1, 0]
@@ -203,7 +203,7 @@ def test_where_known_joints_no_longer_do_there_are_none_near_to_them(arm):
     require_followed(path, found(path, is_free, arm), arm)
 
 
-def test_what_is_out_of_reach_is_near_to_nothing():
+def test_what_is_out_of_reach_is_near_to_nothing() -> None:
     path = across(45)
     beyond = replace(path, positions=path.positions + np.array([1.0, 0.0, 0.0]))
     assert found_near(beyond, found(path)) is None

@@ -80,14 +80,14 @@ class Between:
 APART = (line((0.6, 0.4, 0.9), (0.7, 0.2, 0.9), 0.0), line((0.6, -0.4, 0.9), (0.7, -0.2, 0.9), 0.0))
 
 
-def test_arms_that_are_not_in_each_others_way_go_as_they_would_alone():
+def test_arms_that_are_not_in_each_others_way_go_as_they_would_alone() -> None:
     joints = along(APART)
     require_followed(APART, joints)
     np.testing.assert_array_equal(joints, alone(APART))
 
 
 @pytest.mark.parametrize("gap_m", [0.12, 0.16])
-def test_hands_that_cross_over_the_middle_find_a_way_past_each_other(gap_m: float):
+def test_hands_that_cross_over_the_middle_find_a_way_past_each_other(gap_m: float) -> None:
     # The left hand goes to the right and the right one to the left, one behind the other.
     paths = (
         line((0.62 + gap_m, 0.25, 0.9), (0.62 + gap_m, -0.1, 0.9), 0.0),
@@ -97,7 +97,7 @@ def test_hands_that_cross_over_the_middle_find_a_way_past_each_other(gap_m: floa
     require_followed(paths, along(paths))
 
 
-def test_where_neither_can_go_as_it_would_alone_both_give_way():
+def test_where_neither_can_go_as_it_would_alone_both_give_way() -> None:
     # Elbows by the arms' pans: what both together may have is less than either has by itself.
     calm = along(APART)
     room = [np.abs(calm[:, arm, 0]).max() for arm in (0, 1)]
@@ -112,7 +112,7 @@ def test_where_neither_can_go_as_it_would_alone_both_give_way():
     assert (np.abs(joints[:, :, 0]) < most).all()
 
 
-def test_the_room_that_one_needs_is_left_to_it_by_the_other():
+def test_the_room_that_one_needs_is_left_to_it_by_the_other() -> None:
     # Together the pans may not be wider than a little less than what both would take: each alone could keep its own.
     calm = along(APART)
     most = 0.9 * (calm[:, 0, 0] - calm[:, 1, 0]).max()
@@ -121,13 +121,13 @@ def test_the_room_that_one_needs_is_left_to_it_by_the_other():
     assert (joints[:, 0, 0] - joints[:, 1, 0] < most).all()
 
 
-def test_where_they_touch_whatever_they_do_every_pose_that_was_asked_is_blocked():
+def test_where_they_touch_whatever_they_do_every_pose_that_was_asked_is_blocked() -> None:
     found = along(APART, Between(lambda left, right: False))
     assert isinstance(found, NoPath)
     assert len(found.blocked) and found.is_core
 
 
-def test_where_one_arm_has_no_way_by_itself_that_is_told():
+def test_where_one_arm_has_no_way_by_itself_that_is_told() -> None:
     # An arm is 0.951 m long ahead of the base's middle at most (see `test_arm_path`).
     paths = (line((0.6, 0.188, 0.9), (1.0, 0.188, 0.9), 0.0), APART[1])
     found = along(paths)
@@ -135,7 +135,7 @@ def test_where_one_arm_has_no_way_by_itself_that_is_told():
     assert {36, 39, 40} <= set(found.blocked.tolist())
 
 
-def test_arms_of_eight_and_seven_joints_cross_as_those_of_seven_do():
+def test_arms_of_eight_and_seven_joints_cross_as_those_of_seven_do() -> None:
     paths = (line((0.74, 0.25, 0.9), (0.74, -0.1, 0.9), 0.0), line((NEAR_M, -0.25, 0.9), (NEAR_M, 0.1, 0.9), 0.0))
     real = UNLIKE.collisions(Table(), TORSO_M)
 
@@ -150,7 +150,7 @@ def test_arms_of_eight_and_seven_joints_cross_as_those_of_seven_do():
     np.testing.assert_array_equal(without, along(paths))
 
 
-def test_three_arms_go_as_they_would_alone_or_one_pair_after_the_other_gives_way():
+def test_three_arms_go_as_they_would_alone_or_one_pair_after_the_other_gives_way() -> None:
     aside = np.array([0.0, 0.45, 0.0])
     crossing = (line((0.74, 0.25, 0.9), (0.74, -0.1, 0.9), 0.0), line((NEAR_M, -0.25, 0.9), (NEAR_M, 0.1, 0.9), 0.0))
     outer = line((0.6, 0.4, 0.9), (0.7, 0.2, 0.9), 0.0)

@@ -19,21 +19,21 @@ def urdf() -> yourdfpy.URDF:
     return yourdfpy.URDF.load(str(CARD.urdf_path), load_meshes=False, build_scene_graph=True)
 
 
-def test_joint_values_name_every_actuated_joint(urdf):
+def test_joint_values_name_every_actuated_joint(urdf) -> None:
     values = CARD.joint_values(0.1, [arm.home for arm in CARD.arms], [0.0, 0.05])
     assert set(values) == set(urdf.actuated_joint_names)
     assert len(values) == 20
     assert all(type(value) is float for value in values.values())
 
 
-def test_joint_values_want_joints_for_each_arm():
+def test_joint_values_want_joints_for_each_arm() -> None:
     with pytest.raises(ValueError, match="shorter"):
         CARD.joint_values(0.1, [np.zeros(7)], [0.0, 0.0])
 
 
 @pytest.mark.parametrize("opening_m", [0.0, 0.01, 0.05, 0.09])
 @pytest.mark.parametrize("arm", [0, 1])
-def test_fingertips_are_the_opening_apart(urdf, arm, opening_m):
+def test_fingertips_are_the_opening_apart(urdf, arm, opening_m) -> None:
     prefix = "lr"[arm]
     closed = _fingertip_distance(urdf, prefix, 0.0)
     assert _fingertip_distance(urdf, prefix, opening_m) - closed == pytest.approx(opening_m, abs=1e-9)
@@ -45,13 +45,13 @@ def _fingertip_distance(urdf, prefix: str, opening_m: float) -> float:
     return float(np.linalg.norm(tips[0] - tips[1]))
 
 
-def test_an_opening_out_of_range_is_kept_in_range():
+def test_an_opening_out_of_range_is_kept_in_range() -> None:
     gripper = CARD.arms[0].gripper
     assert gripper.angle(1.0) == gripper.angle(gripper.opening_max_m)
     assert gripper.angle(-1.0) == 0.0
 
 
-def test_two_kinematics_libraries_agree_on_the_tools(urdf):
+def test_two_kinematics_libraries_agree_on_the_tools(urdf) -> None:
     rng = np.random.default_rng(3)
     for _ in range(30):
         joints = [random_joints(CARD, arm, rng) for arm in (0, 1)]
@@ -65,7 +65,7 @@ def test_two_kinematics_libraries_agree_on_the_tools(urdf):
 
 
 @pytest.mark.parametrize("torso_m", [0.0, 0.31])
-def test_the_arms_at_home_are_above_the_table_and_clear_of_the_head(urdf, torso_m):
+def test_the_arms_at_home_are_above_the_table_and_clear_of_the_head(urdf, torso_m) -> None:
     urdf.update_cfg(CARD.joint_values(torso_m, [arm.home for arm in CARD.arms], [0.0, 0.0]))
     for prefix in "lr":
         assert urdf.get_transform(f"{prefix}_gripper_tool_frame")[2, 3] > 1.0
@@ -75,7 +75,7 @@ def test_the_arms_at_home_are_above_the_table_and_clear_of_the_head(urdf, torso_
             assert abs(place[1]) > 0.35
 
 
-def test_home_is_within_the_soft_limits():
+def test_home_is_within_the_soft_limits() -> None:
     safe = {
         joint.get("name"): joint.find("safety_controller")
         for joint in ElementTree.parse(CARD.urdf_path).getroot().findall("joint")
@@ -86,7 +86,7 @@ def test_home_is_within_the_soft_limits():
             assert low is None or float(low) < value < float(high)
 
 
-def test_the_arms_are_mirror_images():
+def test_the_arms_are_mirror_images() -> None:
     left, right = (limits(CARD, arm) for arm in (0, 1))
     mirror = np.array([-1, 1, -1, 1, -1, 1, -1])
     low, high = (
@@ -99,12 +99,12 @@ def test_the_arms_are_mirror_images():
     assert CARD.arms[0].is_continuous == CARD.arms[1].is_continuous == tuple(np.isinf(left[0]))
 
 
-def test_an_unknown_robot_is_refused():
+def test_an_unknown_robot_is_refused() -> None:
     with pytest.raises(RequestError, match="nobody"):
         load_robot("nobody")
 
 
-def test_a_missing_description_is_named(monkeypatch):
+def test_a_missing_description_is_named(monkeypatch) -> None:
     monkeypatch.setattr(description, "_DISTRIBUTION", "no-such-robot-data")
     with pytest.raises(FoldingError, match="no-such-robot-data"):
         description.urdf_path()

@@ -19,20 +19,20 @@ def changed(folder: Path, change, name: str = "panda-pair") -> DescribedRobot:
 
 
 @pytest.mark.parametrize("name", ["panda-pair", "ur5e-single"])
-def test_a_shipped_card_leaves_no_doubt(name: str):
+def test_a_shipped_card_leaves_no_doubt(name: str) -> None:
     assert name in shipped_robots()
     assert card_doubts(read_robot(name)) == ()
 
 
-def test_arms_that_are_mounted_in_one_place_are_told(tmp_path: Path):
-    def change(card):
+def test_arms_that_are_mounted_in_one_place_are_told(tmp_path: Path) -> None:
+    def change(card) -> None:
         card["mounts"][1] = card["mounts"][0] | {"name": card["mounts"][1]["name"]}
 
     assert card_doubts(changed(tmp_path, change)) == (ArmsTogether(("left", "right"), 0.0),)
 
 
-def test_arms_that_are_not_named_from_left_to_right_are_told(tmp_path: Path):
-    def change(card):
+def test_arms_that_are_not_named_from_left_to_right_are_told(tmp_path: Path) -> None:
+    def change(card) -> None:
         for mount in card["mounts"]:
             mount["y_m"] *= -1.0
 
@@ -40,8 +40,8 @@ def test_arms_that_are_not_named_from_left_to_right_are_told(tmp_path: Path):
 
 
 @pytest.mark.parametrize("yaw_rad", [math.pi, -2.0, 1.8])
-def test_a_base_that_turns_its_back_on_the_table_is_told(tmp_path: Path, yaw_rad: float):
-    def change(card):
+def test_a_base_that_turns_its_back_on_the_table_is_told(tmp_path: Path, yaw_rad: float) -> None:
+    def change(card) -> None:
         card["scene"]["stations"]["edge"]["yaw_rad"] = yaw_rad
 
     assert card_doubts(changed(tmp_path, change)) == (StationFacesAway("edge", pytest.approx(abs(yaw_rad))),)
@@ -59,13 +59,13 @@ ARM = """<robot name="arm">
 
 
 @pytest.mark.parametrize(("scale", "size_m"), [("1 1 1", 360.0), ("0.1 0.1 0.1", 36.0), ("0.000001 " * 3, 0.00036)])
-def test_a_part_in_another_unit_is_told_with_its_size(tmp_path: Path, scale: str, size_m: float):
+def test_a_part_in_another_unit_is_told_with_its_size(tmp_path: Path, scale: str, size_m: float) -> None:
     assert card_doubts(bench(tmp_path, scale)) == (
         OddPart("forearm", pytest.approx(size_m), pytest.approx(0.4, abs=0.2)),
     )
 
 
-def test_a_part_in_its_own_unit_is_not(tmp_path: Path):
+def test_a_part_in_its_own_unit_is_not(tmp_path: Path) -> None:
     assert card_doubts(bench(tmp_path, "0.001 0.001 0.001")) == ()
 
 

@@ -22,19 +22,19 @@ def card_json() -> dict:
     return read_robot("panda-pair").card.to_dict()
 
 
-def test_the_robots_that_people_have_are_shipped():
+def test_the_robots_that_people_have_are_shipped() -> None:
     assert shipped_robots() == SHIPPED
 
 
 @pytest.mark.parametrize("name", SHIPPED)
-def test_a_card_reads_back_from_its_json(name):
+def test_a_card_reads_back_from_its_json(name) -> None:
     card = read_robot(name).card
     assert CardFile.from_dict(json.loads(json.dumps(card.to_dict()))) == card
     assert card.name == name
 
 
 @pytest.mark.parametrize("name", SHIPPED)
-def test_two_kinematics_libraries_agree_on_every_tool(name, tmp_path):
+def test_two_kinematics_libraries_agree_on_every_tool(name, tmp_path) -> None:
     robot, rng = read_robot(name), np.random.default_rng(7)
     path = tmp_path / "robot.urdf"
     path.write_text(robot.urdf)
@@ -52,7 +52,7 @@ def test_two_kinematics_libraries_agree_on_every_tool(name, tmp_path):
             np.testing.assert_allclose(pose[:3, :3] @ tool.closing, rotation[:, 1], atol=1e-9)
 
 
-def test_the_card_of_the_pr2_says_what_its_planner_takes():
+def test_the_card_of_the_pr2_says_what_its_planner_takes() -> None:
     robot, known = read_robot("pr2"), load_robot("pr2").card
     assert robot.lift_limits_m == known.lift_limits_m
     assert robot.card.base.radius_m == known.base_radius_m
@@ -92,7 +92,7 @@ def test_the_card_of_the_pr2_says_what_its_planner_takes():
         ),
     ],
 )
-def test_a_card_that_is_wrong_is_refused_by_its_field(path, value, field):
+def test_a_card_that_is_wrong_is_refused_by_its_field(path, value, field) -> None:
     data = card_json()
     inner = data
     for part in path[:-1]:
@@ -103,7 +103,7 @@ def test_a_card_that_is_wrong_is_refused_by_its_field(path, value, field):
     assert caught.value.field.startswith(field)
 
 
-def test_a_fixed_base_has_one_station():
+def test_a_fixed_base_has_one_station() -> None:
     data = card_json()
     data["scene"]["stations"]["behind"] = {"x_m": 1.0, "y_m": 0.0, "yaw_rad": 0.0}
     with pytest.raises(RobotError, match="one station"):
@@ -159,7 +159,7 @@ def test_a_fixed_base_has_one_station():
         (lambda d: d["urdf"].__setitem__("package", None), "urdf.path", "no file"),
     ],
 )
-def test_what_the_urdf_lacks_is_told_by_name(change, field, said, tmp_path):
+def test_what_the_urdf_lacks_is_told_by_name(change, field, said, tmp_path) -> None:
     data = card_json()
     change(data)
     with pytest.raises(RobotError) as caught:
@@ -168,20 +168,20 @@ def test_what_the_urdf_lacks_is_told_by_name(change, field, said, tmp_path):
     assert said in caught.value.message
 
 
-def test_mounts_without_names_of_their_own_are_refused(tmp_path):
+def test_mounts_without_names_of_their_own_are_refused(tmp_path) -> None:
     data = read_robot("ur5e-single").card.to_dict()
     data["tools"].append(data["tools"][0])
     with pytest.raises(RobotError, match="two links are called 'gripper_base_link'"):
         read_robot(str(_written(tmp_path, data)))
 
 
-def test_an_unknown_robot_is_told_with_the_known_ones():
+def test_an_unknown_robot_is_told_with_the_known_ones() -> None:
     with pytest.raises(RobotError, match="ur5e-pair"):
         read_robot("r2d2")
 
 
 @pytest.mark.parametrize("text", ["", "{", "[" * 100_000, "\xff", '{"pleat_robot": NaN}'])
-def test_a_file_that_is_no_card_is_refused(text, tmp_path):
+def test_a_file_that_is_no_card_is_refused(text, tmp_path) -> None:
     path = tmp_path / "card.json"
     path.write_text(text)
     with pytest.raises(RobotError):
@@ -194,7 +194,7 @@ def _written(folder: Path, data: dict) -> Path:
     return path
 
 
-def test_a_camera_on_a_link_that_is_not_there_is_refused_by_its_field():
+def test_a_camera_on_a_link_that_is_not_there_is_refused_by_its_field() -> None:
     with pytest.raises(RobotError) as refused:
         DescribedRobot.of(replace(shipped_card("ur5e-pair"), camera=CameraFile(link="nowhere")), Path())
     assert refused.value.field == "camera.link"

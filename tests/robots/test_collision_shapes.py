@@ -65,13 +65,13 @@ def distances(points: np.ndarray, hull: RoundedHull) -> np.ndarray:
     return np.maximum(found, 0.0)
 
 
-def test_every_link_with_a_mesh_belongs_to_a_part():
+def test_every_link_with_a_mesh_belongs_to_a_part() -> None:
     without = {link.name for link in hulls.bodies() if part_of(link.name) is None}
     assert not without
 
 
 @pytest.mark.parametrize("level", range(len(OPENINGS_M)))
-def test_every_vertex_of_every_mesh_is_inside_its_parts_shape(parts, level):
+def test_every_vertex_of_every_mesh_is_inside_its_parts_shape(parts, level) -> None:
     rng = np.random.default_rng(level)
     for posture in random_postures(2, level):
         torso_m, opening_m = rng.uniform(0.0, 0.31), rng.uniform(0.0, OPENINGS_M[level])
@@ -87,7 +87,7 @@ def test_every_vertex_of_every_mesh_is_inside_its_parts_shape(parts, level):
             assert outside <= LENGTH_M, f"{link.name} stands {outside:.5f} m out of {parts.names[part]}"
 
 
-def test_a_shape_stands_out_from_its_meshes_hull_by_little(parts):
+def test_a_shape_stands_out_from_its_meshes_hull_by_little(parts) -> None:
     posture = random_postures(1, 5)[0]
     hulls.robot().update_cfg(CARD.joint_values(0.1, posture, [0.0, 0.0]))
     poses = part_poses(parts, 0.1, posture)
@@ -105,7 +105,7 @@ def test_a_shape_stands_out_from_its_meshes_hull_by_little(parts):
         assert distances(corners, meshes).max() <= ASYMMETRY_M, parts.names[part]
 
 
-def test_all_pairs_that_the_srdf_asks_for_are_compared():
+def test_all_pairs_that_the_srdf_asks_for_are_compared() -> None:
     """The description's SRDF disables neighbours, and what never touches in its samples of the meshes."""
     srdf = ElementTree.parse(CARD.urdf_path.parent.parent / "srdf" / "pr2.srdf").getroot()
     disabled = {frozenset((one.get("link1"), one.get("link2"))) for one in srdf.iter("disable_collisions")}
@@ -122,7 +122,7 @@ def test_all_pairs_that_the_srdf_asks_for_are_compared():
             assert (outer % EACH, inner % EACH) in in_arm, pair
 
 
-def test_shapes_read_from_the_cache_are_those_made(cache, parts):
+def test_shapes_read_from_the_cache_are_those_made(cache, parts) -> None:
     (path,) = cache.glob("*.npz")
     made, read = path.read_bytes(), part_shapes(MODEL, GRIPPER, cache)
     assert path.read_bytes() == made
@@ -142,7 +142,7 @@ def _flipped(content: bytes) -> bytes:
 
 
 @pytest.mark.parametrize("spoil", [_cut_short, _flipped, lambda _: b"", lambda _: b"not shapes at all"])
-def test_a_spoilt_cache_is_made_anew(cache, parts, tmp_path, spoil):
+def test_a_spoilt_cache_is_made_anew(cache, parts, tmp_path, spoil) -> None:
     (path,) = cache.glob("*.npz")
     spoilt = tmp_path / path.name
     spoilt.write_bytes(spoil(path.read_bytes()))
@@ -152,14 +152,14 @@ def test_a_spoilt_cache_is_made_anew(cache, parts, tmp_path, spoil):
     assert list(tmp_path.iterdir()) == [spoilt]
 
 
-def test_shapes_are_made_even_where_no_cache_can_be(parts, tmp_path):
+def test_shapes_are_made_even_where_no_cache_can_be(parts, tmp_path) -> None:
     in_the_way = tmp_path / "file"
     in_the_way.write_text("no directory")
     shapes = part_shapes(MODEL, GRIPPER, in_the_way)
     np.testing.assert_array_equal(shapes["base"].corners, parts.hulls[0][2 * EACH].corners)
 
 
-def test_a_rounded_hull_of_a_box_is_the_box():
+def test_a_rounded_hull_of_a_box_is_the_box() -> None:
     box = np.array([(x, y, z) for x in (0.0, 0.3) for y in (0.0, 0.2) for z in (0.0, 0.1)])
     rng = np.random.default_rng(1)
     hull = rounded_hull(np.vstack([box, rng.uniform((0, 0, 0), (0.3, 0.2, 0.1), (50, 3))]), 0.001)
@@ -180,19 +180,19 @@ def test_a_rounded_hull_of_a_box_is_the_box():
         (np.zeros((4, 3)), np.zeros((4, 3), np.int32), -0.1),
     ],
 )
-def test_what_is_no_hull_is_refused(corners, faces, radius_m):
+def test_what_is_no_hull_is_refused(corners, faces, radius_m) -> None:
     with pytest.raises(ValueError, match=r"hull|faces|radius"):
         RoundedHull(corners, faces, radius_m)
 
 
-def test_the_bodys_shapes_are_their_own_mirror_images(parts):
+def test_the_bodys_shapes_are_their_own_mirror_images(parts) -> None:
     for part, hull in enumerate(parts.hulls[0][2 * EACH :]):
         here = distances(hull.corners, hull.mirrored())
         assert here.max() <= LENGTH_M, parts.names[2 * EACH + part]
 
 
 @pytest.mark.parametrize("corners", [3, 4, 7, 400])
-def test_a_prism_over_a_polygon_of_many_corners_is_a_body_that_can_be_compared(corners: int):
+def test_a_prism_over_a_polygon_of_many_corners_is_a_body_that_can_be_compared(corners: int) -> None:
     around = np.linspace(0.0, 2.0 * np.pi, corners, endpoint=False)
     hull = prism(0.4 * np.column_stack([np.cos(around), np.sin(around)]), 0.03)
     a, b, c = (hull.corners[hull.faces[:, k]] for k in range(3))

@@ -79,7 +79,7 @@ class ArmQuery:
 
 
 @pytest.mark.parametrize("share_allowed", [0.2, 0.5, 1.0])
-def test_no_pair_of_chains_is_cheaper(share_allowed: float):
+def test_no_pair_of_chains_is_cheaper(share_allowed: float) -> None:
     solved = 0
     for seed in range(12):
         query = ArmQuery(seed, share_allowed)
@@ -91,7 +91,7 @@ def test_no_pair_of_chains_is_cheaper(share_allowed: float):
     assert solved > 0
 
 
-def test_where_all_pairs_are_allowed_each_chain_is_what_it_is_alone():
+def test_where_all_pairs_are_allowed_each_chain_is_what_it_is_alone() -> None:
     for seed in range(12):
         query = ArmQuery(seed, 1.1)
         alone = [
@@ -101,7 +101,7 @@ def test_where_all_pairs_are_allowed_each_chain_is_what_it_is_alone():
             np.testing.assert_array_equal(query.found(), alone)
 
 
-def test_without_a_pair_at_one_pose_there_is_no_way():
+def test_without_a_pair_at_one_pose_there_is_no_way() -> None:
     query = ArmQuery(3, 1.1)
     assert query.found().shape == (2, POSES)
     query.is_allowed[2] = False

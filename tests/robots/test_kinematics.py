@@ -12,7 +12,7 @@ CARD = ROBOT.card
 
 
 @pytest.mark.parametrize("arm", [0, 1])
-def test_the_tool_is_where_pinocchio_says(arm):
+def test_the_tool_is_where_pinocchio_says(arm) -> None:
     rng = np.random.default_rng(1)
     for _ in range(200):
         joints, torso_m = random_joints(CARD, arm, rng), rng.uniform(*CARD.lift_limits_m)
@@ -23,7 +23,7 @@ def test_the_tool_is_where_pinocchio_says(arm):
 
 
 @pytest.mark.parametrize("arm", [0, 1])
-def test_joints_found_bring_the_tool_to_the_pose_within_limits(arm):
+def test_joints_found_bring_the_tool_to_the_pose_within_limits(arm) -> None:
     rng = np.random.default_rng(2)
     low, high = limits(CARD, arm)
     for _ in range(500):
@@ -38,7 +38,7 @@ def test_joints_found_bring_the_tool_to_the_pose_within_limits(arm):
 
 
 @pytest.mark.parametrize("arm", [0, 1])
-def test_the_joints_nearest_to_a_solution_are_that_solution(arm):
+def test_the_joints_nearest_to_a_solution_are_that_solution(arm) -> None:
     rng = np.random.default_rng(4)
     for _ in range(300):
         joints = random_joints(CARD, arm, rng)
@@ -46,7 +46,7 @@ def test_the_joints_nearest_to_a_solution_are_that_solution(arm):
         np.testing.assert_allclose(found, joints, atol=1e-6)
 
 
-def test_no_other_solution_is_much_nearer():
+def test_no_other_solution_is_much_nearer() -> None:
     rng = np.random.default_rng(5)
     for _ in range(100):
         near, other = random_joints(CARD, 0, rng), random_joints(CARD, 0, rng)
@@ -55,12 +55,12 @@ def test_no_other_solution_is_much_nearer():
         assert np.linalg.norm(found - near) <= np.linalg.norm(other - near) + 1e-6
 
 
-def test_out_of_reach_there_are_no_joints():
+def test_out_of_reach_there_are_no_joints() -> None:
     assert ROBOT.joints_near(0, np.array([2.0, 0.0, 1.0]), np.eye(3), 0.1, ROBOT.home(0)) is None
 
 
 @pytest.mark.parametrize("arm", [0, 1])
-def test_small_steps_of_the_tool_are_small_steps_of_the_joints_unless_one_is_at_its_limit(arm):
+def test_small_steps_of_the_tool_are_small_steps_of_the_joints_unless_one_is_at_its_limit(arm) -> None:
     rng = np.random.default_rng(6)
     low, high = limits(CARD, arm)
     smooth = 0
@@ -85,7 +85,7 @@ def _path_along_a_line(arm: int, rng: np.random.Generator) -> list[np.ndarray]:
 
 
 @pytest.mark.parametrize("torso_m", [0.0, 0.3])
-def test_mirrored_poses_have_mirrored_joints(torso_m):
+def test_mirrored_poses_have_mirrored_joints(torso_m) -> None:
     rng = np.random.default_rng(7)
     mirror = np.array([1.0, -1.0, 1.0])
     sides = np.array([-1, 1, -1, 1, -1, 1, -1])

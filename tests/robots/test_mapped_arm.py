@@ -40,7 +40,7 @@ def poses():
     return points, np.array([ALL_ROUND[number].rotation for number in chosen])
 
 
-def test_the_map_of_a_pr2_answers_as_its_closed_form(cache, poses):
+def test_the_map_of_a_pr2_answers_as_its_closed_form(cache, poses) -> None:
     arm, reference = mapped(cache), load_robot("pr2")
     found, true = arm.can_reach(*poses, TORSO_M), reference.can_reach(0, *poses, TORSO_M)
     assert true.sum() > 300
@@ -48,7 +48,7 @@ def test_the_map_of_a_pr2_answers_as_its_closed_form(cache, poses):
     assert (found & true).sum() >= 0.998 * true.sum()
 
 
-def test_every_yes_has_joints_within_limits_that_take_the_pose(cache, poses):
+def test_every_yes_has_joints_within_limits_that_take_the_pose(cache, poses) -> None:
     arm, chain = mapped(cache), read_robot("pr2").arms[0].chain
     found, joints = arm.joints(*poses, TORSO_M)
     names = read_robot("pr2").card.arms[0].joints
@@ -61,7 +61,7 @@ def test_every_yes_has_joints_within_limits_that_take_the_pose(cache, poses):
         np.testing.assert_allclose(rotation[:, 0], poses[1][number][:, 0], atol=1e-4)
 
 
-def test_joints_nearby_lead_to_the_whole_pose(cache, poses):
+def test_joints_nearby_lead_to_the_whole_pose(cache, poses) -> None:
     arm = mapped(cache)
     found, joints = arm.joints(*poses, TORSO_M)
     for row in joints[found][:40]:
@@ -71,7 +71,7 @@ def test_joints_nearby_lead_to_the_whole_pose(cache, poses):
         np.testing.assert_allclose(near, row, atol=1e-4)
 
 
-def test_a_map_is_built_once_and_then_read(tmp_path, poses):
+def test_a_map_is_built_once_and_then_read(tmp_path, poses) -> None:
     told: list[float] = []
     built = mapped(tmp_path, told.append)
     assert told
@@ -82,7 +82,7 @@ def test_a_map_is_built_once_and_then_read(tmp_path, poses):
     np.testing.assert_array_equal(built.can_reach(*poses, TORSO_M), read.can_reach(*poses, TORSO_M))
 
 
-def test_a_short_arm_reaches_what_random_joints_reach():
+def test_a_short_arm_reaches_what_random_joints_reach() -> None:
     # Its reach at a steep pitch is a thin shell, narrower than a cell of the map.
     robot = read_robot("so101-pair")
     arm, chain = mapped_arm(robot, 0), robot.arms[0].chain
@@ -97,7 +97,7 @@ def test_a_short_arm_reaches_what_random_joints_reach():
     assert found.mean() >= 0.998
 
 
-def test_what_is_asked_above_or_below_a_map_is_looked_for_in_layers_of_it(cache, poses, monkeypatch):
+def test_what_is_asked_above_or_below_a_map_is_looked_for_in_layers_of_it(cache, poses, monkeypatch) -> None:
     monkeypatch.setattr(reach_maps, "user_cache_path", lambda _: cache)
     arm, reference = mapped(cache), load_robot("pr2")
     before = arm.can_reach(*poses, TORSO_M)
@@ -121,7 +121,7 @@ def unknown(arm: DescribedArm, heights_m: tuple[float, float]) -> ReachMap:
     return ReachMap(grid, starts, np.zeros((0, len(arm.chain.low)), dtype=np.int8))
 
 
-def test_no_layer_is_built_below_the_floor_or_beyond_the_arms_length(monkeypatch):
+def test_no_layer_is_built_below_the_floor_or_beyond_the_arms_length(monkeypatch) -> None:
     monkeypatch.setattr("planner.robots.posture_layers.kept_map", lambda *_: pytest.fail("a layer was built"))
     described = read_robot("pr2").arms[0]
     floor_m = -float(described.root[2]) - TORSO_M
@@ -131,14 +131,14 @@ def test_no_layer_is_built_below_the_floor_or_beyond_the_arms_length(monkeypatch
 
 
 @pytest.mark.long
-def test_a_map_that_cannot_be_read_is_built_again(tmp_path, poses):
+def test_a_map_that_cannot_be_read_is_built_again(tmp_path, poses) -> None:
     built = mapped(tmp_path)
     for path in (tmp_path / "postures").iterdir():
         path.write_bytes(b"broken")
     np.testing.assert_array_equal(built.can_reach(*poses, TORSO_M), mapped(tmp_path).can_reach(*poses, TORSO_M))
 
 
-def test_maps_that_were_not_used_lately_are_dropped(tmp_path, monkeypatch):
+def test_maps_that_were_not_used_lately_are_dropped(tmp_path, monkeypatch) -> None:
     monkeypatch.setattr(reach_maps, "_KEPT_MAX", 1)
     old = tmp_path / "postures" / "old.npz"
     old.parent.mkdir()

@@ -127,20 +127,20 @@ def random_lines(bench: Bench, count: int, length_m: float) -> list[ToolPath]:
 
 
 @pytest.mark.long
-def test_an_arm_of_six_joints_is_on_its_path_at_every_pose(ur5e):
+def test_an_arm_of_six_joints_is_on_its_path_at_every_pose(ur5e) -> None:
     for pitch_deg in (30, 60, 90):
         path = line(before(ur5e, 0.5, -0.15, 0.03), before(ur5e, 0.6, 0.15, 0.1), pitch_deg)
         ur5e.require_followed(path, ur5e.found(path))
 
 
-def test_an_arm_of_five_joints_is_on_its_path_with_the_pitch_that_is_asked(so101):
+def test_an_arm_of_five_joints_is_on_its_path_with_the_pitch_that_is_asked(so101) -> None:
     for pitch_deg in (45, 60, 75):
         path = line(before(so101, 0.2, -0.08, 0.02), before(so101, 0.25, 0.08, 0.04), pitch_deg)
         so101.require_followed(path, so101.found(path))
 
 
 @pytest.mark.parametrize(("name", "length_m"), [("ur5e-pair", 0.3), ("so101-pair", 0.12)])
-def test_nearly_every_line_within_reach_has_joints(benches, name, length_m):
+def test_nearly_every_line_within_reach_has_joints(benches, name, length_m) -> None:
     bench, followed = benches[name], 0
     for path in random_lines(bench, 40, length_m):
         joints = bench.found(path)
@@ -150,7 +150,7 @@ def test_nearly_every_line_within_reach_has_joints(benches, name, length_m):
     assert followed >= 38, "of 40; whether the others have any is a question for a denser search"
 
 
-def test_samples_of_a_pose_take_it_with_the_fingers_either_way_round(ur5e):
+def test_samples_of_a_pose_take_it_with_the_fingers_either_way_round(ur5e) -> None:
     pose = line(before(ur5e, 0.5, 0.0, 0.05), before(ur5e, 0.5, 0.01, 0.05), 60)
     position, rotation = pose.positions[0], pose.rotations[0]
     able = free_postures(ur5e.arm, position, rotation, 0.0, lambda joints: np.ones(len(joints), dtype=bool))
@@ -167,7 +167,7 @@ def test_samples_of_a_pose_take_it_with_the_fingers_either_way_round(ur5e):
     assert (low[:, 2] < 0.0).all()
 
 
-def test_near_to_known_joints_there_are_joints_for_a_path_nearby(ur5e):
+def test_near_to_known_joints_there_are_joints_for_a_path_nearby(ur5e) -> None:
     path = line(before(ur5e, 0.5, -0.15, 0.03), before(ur5e, 0.6, 0.15, 0.1), 60)
     known = ur5e.found(path)
     shifted = replace(path, positions=path.positions + np.array([0.004, 0.003, 0.002]))
@@ -178,7 +178,7 @@ def test_near_to_known_joints_there_are_joints_for_a_path_nearby(ur5e):
     assert near_path(ur5e.arm, beyond, 0.0, everywhere, known) is None
 
 
-def test_an_arm_goes_round_what_the_calmest_path_would_run_into(ur5e):
+def test_an_arm_goes_round_what_the_calmest_path_would_run_into(ur5e) -> None:
     path = line(before(ur5e, 0.5, -0.15, 0.03), before(ur5e, 0.6, 0.15, 0.1), 60)
     side = np.sign(ur5e.found(path)[:, 2])
     other = ur5e.found(path, lambda poses, joints, is_certain: np.sign(joints[:, 2]) != side[poses])
@@ -186,14 +186,14 @@ def test_an_arm_goes_round_what_the_calmest_path_would_run_into(ur5e):
     assert (np.sign(other[:, 2]) != side).all()
 
 
-def test_a_hand_rolls_as_far_as_its_last_joint_has_turns_and_no_farther(ur5e):
+def test_a_hand_rolls_as_far_as_its_last_joint_has_turns_and_no_farther(ur5e) -> None:
     place = before(ur5e, 0.5, 0.0, 0.05)
     path = turning(place, 60, 1.6)
     ur5e.require_followed(path, ur5e.found(path))
     assert isinstance(ur5e.found(turning(place, 60, 2.4)), NoPath), "the last joint has two turns"
 
 
-def test_a_chain_is_wound_up_within_the_limits_wherever_it_begins(ur5e):
+def test_a_chain_is_wound_up_within_the_limits_wherever_it_begins(ur5e) -> None:
     rng = np.random.default_rng(5)
     smooth = np.cumsum(rng.uniform(-0.2, 0.2, (50, 6)), axis=0)
     wrapped = smooth + rng.uniform(-3.0, 3.0, 6)
@@ -216,7 +216,7 @@ class UnlikeSides:
         return first[:, 1][:, None] * second[:, 2] < 0.0
 
 
-def test_arms_of_unlike_joints_samples_and_strides_give_way_to_each_other(so101, ur5e):
+def test_arms_of_unlike_joints_samples_and_strides_give_way_to_each_other(so101, ur5e) -> None:
     assert so101.arm.stride < ur5e.arm.stride
     small = line(before(so101, 0.2, -0.08, 0.02), before(so101, 0.25, 0.08, 0.04), 60)
     large = line(before(ur5e, 0.5, -0.08, 0.02), before(ur5e, 0.55, 0.08, 0.04), 60)
@@ -228,7 +228,7 @@ def test_arms_of_unlike_joints_samples_and_strides_give_way_to_each_other(so101,
     ur5e.require_followed(large, found[:, 5:])
 
 
-def test_a_pose_half_a_turn_off_is_not_taken_for_the_pose(ur5e):
+def test_a_pose_half_a_turn_off_is_not_taken_for_the_pose(ur5e) -> None:
     joints = ur5e.found(line(before(ur5e, 0.5, 0.0, 0.05), before(ur5e, 0.5, 0.1, 0.05), 60))
     points, rotations = tool_poses(ur5e.chain, joints)
     for over in (HALF_TURN, np.diag([-1.0, 1.0, -1.0]), np.diag([-1.0, -1.0, 1.0])):

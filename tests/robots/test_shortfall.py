@@ -31,14 +31,14 @@ STANDS = np.arange(5)[:, None] * np.array([0.05, 0.0, 0.0])
 """The displacements of points, as the base sees them, when it backs off in steps of 5 cm."""
 
 
-def test_the_approach_called_forward_is_that():
+def test_the_approach_called_forward_is_that() -> None:
     approach = APPROACHES[FORWARD[0]]
     assert (approach.heading_rad, approach.pitch_rad) == (0.0, pytest.approx(np.pi / 6))
 
 
 @pytest.mark.parametrize("approaches", [EVERY_APPROACH, FORWARD])
 @pytest.mark.parametrize("arm", [0, 1])
-def test_displaced_by_what_it_is_short_a_point_is_in_comfort(arm, approaches):
+def test_displaced_by_what_it_is_short_a_point_is_in_comfort(arm, approaches) -> None:
     reach = ROBOT.reach(TORSO_M, COMFORT_M)
     for point, found in _displaced(reach, arm, approaches):
         there = point + (found.short_by_m + 0.001) * np.array(found.towards)
@@ -47,7 +47,7 @@ def test_displaced_by_what_it_is_short_a_point_is_in_comfort(arm, approaches):
 
 @pytest.mark.parametrize("approaches", [EVERY_APPROACH, FORWARD])
 @pytest.mark.parametrize("arm", [0, 1])
-def test_no_smaller_displacement_brings_a_point_into_comfort(arm, approaches):
+def test_no_smaller_displacement_brings_a_point_into_comfort(arm, approaches) -> None:
     reach = ROBOT.reach(TORSO_M, COMFORT_M)
     for point, found in _displaced(reach, arm, approaches):
         distances = _shells(found.short_by_m - 0.001)
@@ -56,7 +56,7 @@ def test_no_smaller_displacement_brings_a_point_into_comfort(arm, approaches):
 
 
 @pytest.mark.parametrize("arm", [0, 1])
-def test_seen_from_several_places_of_the_base_the_nearest_counts(arm):
+def test_seen_from_several_places_of_the_base_the_nearest_counts(arm) -> None:
     reach = ROBOT.reach(TORSO_M, COMFORT_M)
     places = [point + STANDS for point in _points(np.random.default_rng(36), 40)]
     together = [reach.shortfall(arm, seen, EVERY_APPROACH) for seen in places]
@@ -70,7 +70,7 @@ def test_seen_from_several_places_of_the_base_the_nearest_counts(arm):
 
 
 @pytest.mark.parametrize("arm", [0, 1])
-def test_places_to_be_had_in_one_approach_are_short_by_the_worst_in_the_best(arm):
+def test_places_to_be_had_in_one_approach_are_short_by_the_worst_in_the_best(arm) -> None:
     reach = ROBOT.reach(TORSO_M, COMFORT_M)
     rng = np.random.default_rng(37)
     ways = [_points(rng, 3)[:, None] + STANDS for _ in range(16)]
@@ -94,7 +94,7 @@ def test_places_to_be_had_in_one_approach_are_short_by_the_worst_in_the_best(arm
 
 
 @pytest.mark.parametrize("arm", [0, 1])
-def test_the_lower_bound_is_one_and_mostly_tells(arm):
+def test_the_lower_bound_is_one_and_mostly_tells(arm) -> None:
     reach = ROBOT.reach(TORSO_M, COMFORT_M)
     rng = np.random.default_rng(38)
     ways = np.stack([_points(rng, 2) for _ in range(60)])
@@ -106,7 +106,7 @@ def test_the_lower_bound_is_one_and_mostly_tells(arm):
 
 
 @pytest.mark.parametrize("arm", [0, 1])
-def test_what_is_within_reach_has_no_lower_bound_behind_the_shoulder_either(arm):
+def test_what_is_within_reach_has_no_lower_bound_behind_the_shoulder_either(arm) -> None:
     reach = ROBOT.reach(TORSO_M, 0.0)
     points = np.random.default_rng(40).uniform((-0.9, -1.0, 0.2), (0.6, 1.0, 1.9), (2000, 3))
     is_within_margin = reach.from_anywhere(arm, points, EVERY_APPROACH, 1, 0.0)
@@ -117,7 +117,7 @@ def test_what_is_within_reach_has_no_lower_bound_behind_the_shoulder_either(arm)
 
 
 @pytest.mark.parametrize("arm", [0, 1])
-def test_a_search_that_is_over_ends_with_a_lower_bound(arm, monkeypatch):
+def test_a_search_that_is_over_ends_with_a_lower_bound(arm, monkeypatch) -> None:
     monkeypatch.setattr(shortfall, "PIECE_QUERIES", 1)
     reach, cut_short = ROBOT.reach(TORSO_M, COMFORT_M), 0
     for point, whole in _displaced(reach, arm, EVERY_APPROACH):
@@ -129,7 +129,7 @@ def test_a_search_that_is_over_ends_with_a_lower_bound(arm, monkeypatch):
 
 
 @pytest.mark.parametrize("arm", [0, 1])
-def test_of_places_to_be_had_together_only_the_approaches_examined_in_time_count(arm, monkeypatch):
+def test_of_places_to_be_had_together_only_the_approaches_examined_in_time_count(arm, monkeypatch) -> None:
     monkeypatch.setattr(reach_module, "PIECE_QUERIES", 1)
     reach, cut_short = ROBOT.reach(TORSO_M, COMFORT_M), 0
     rng = np.random.default_rng(41)
@@ -144,7 +144,7 @@ def test_of_places_to_be_had_together_only_the_approaches_examined_in_time_count
     assert cut_short >= 3
 
 
-def test_a_straight_arm_lacks_exactly_what_the_bones_lack():
+def test_a_straight_arm_lacks_exactly_what_the_bones_lack() -> None:
     # Fingers ahead, 30 degrees down, at the height at which the wrist is level with the shoulder: it is ahead of the
     # lift axis by 0.4 and 0.321 m at most, with an elbow that stays bent by its soft limit of 0.15 rad. That axis is
     # 0.1 m ahead of the pan axis, which is 5 cm behind the base's middle. The tool is 0.18 m from the wrist.
@@ -159,7 +159,7 @@ def test_a_straight_arm_lacks_exactly_what_the_bones_lack():
         assert found.short_by_m == pytest.approx(0.2 + comfort_m, abs=0.0015)
 
 
-def test_where_only_the_body_is_in_the_way_it_is_to_blame():
+def test_where_only_the_body_is_in_the_way_it_is_to_blame() -> None:
     reach = ROBOT.reach(TORSO_M, COMFORT_M)
     alone = Pr2Reach(("left",), (MirroredArm(read_arm(MODEL), is_mirrored=False),), TORSO_M, COMFORT_M)
     # An elbow at its soft limit of 2.1213 rad keeps the wrist 0.36 m from the lift axis, at 1.08 m: nearer than that a
@@ -175,7 +175,7 @@ def test_where_only_the_body_is_in_the_way_it_is_to_blame():
 
 @pytest.mark.parametrize("comfort_m", [0.0, COMFORT_M])
 @pytest.mark.parametrize("arm", [0, 1])
-def test_there_is_no_shortfall_exactly_in_comfort(arm, comfort_m):
+def test_there_is_no_shortfall_exactly_in_comfort(arm, comfort_m) -> None:
     reach = ROBOT.reach(TORSO_M, comfort_m)
     points = _points(np.random.default_rng(31), 100)
     in_comfort = reach.from_anywhere(arm, points, EVERY_APPROACH, 1, 0.0).any(axis=0)
@@ -183,7 +183,7 @@ def test_there_is_no_shortfall_exactly_in_comfort(arm, comfort_m):
     assert [reach.shortfall(arm, point, EVERY_APPROACH) is None for point in points] == list(in_comfort)
 
 
-def test_mirror_images_are_short_by_the_same():
+def test_mirror_images_are_short_by_the_same() -> None:
     reach = ROBOT.reach(TORSO_M, COMFORT_M)
     by_direction = {(a.heading_rad, a.pitch_rad): i for i, a in enumerate(APPROACHES)}
     mirrored = np.array([by_direction[-a.heading_rad, a.pitch_rad] for a in APPROACHES])
@@ -198,7 +198,7 @@ def test_mirror_images_are_short_by_the_same():
 
 
 @pytest.mark.parametrize("arm", [0, 1])
-def test_only_comfort_is_missing_exactly_where_the_point_itself_is_reachable(arm):
+def test_only_comfort_is_missing_exactly_where_the_point_itself_is_reachable(arm) -> None:
     comfortable, bare = ROBOT.reach(TORSO_M, COMFORT_M), ROBOT.reach(TORSO_M, 0.0)
     causes = []
     for point in _points(np.random.default_rng(33), 150):
@@ -210,7 +210,7 @@ def test_only_comfort_is_missing_exactly_where_the_point_itself_is_reachable(arm
 
 
 @pytest.mark.parametrize("approaches", [EVERY_APPROACH, FORWARD])
-def test_with_comfort_only_lacking_the_largest_circle_is_told(approaches):
+def test_with_comfort_only_lacking_the_largest_circle_is_told(approaches) -> None:
     reach = ROBOT.reach(TORSO_M, COMFORT_M)
     asked = [(p, reach.shortfall(0, p, approaches)) for p in _points(np.random.default_rng(34), 400)]
     short = [(p, found) for p, found in asked if found is not None and found.cause == "comfort_only"]
@@ -221,7 +221,7 @@ def test_with_comfort_only_lacking_the_largest_circle_is_told(approaches):
         assert not beyond.from_anywhere(0, point[None], approaches, 1, 0.0).any()
 
 
-def test_two_metres_ahead_is_too_far_for_any_joint():
+def test_two_metres_ahead_is_too_far_for_any_joint() -> None:
     found = ROBOT.reach(TORSO_M, COMFORT_M).shortfall(0, np.array([2.0, 0.0, TABLE_M]), EVERY_APPROACH)
     assert found is not None
     assert (found.cause, found.joint) == ("too_far", None)
@@ -231,7 +231,7 @@ def test_two_metres_ahead_is_too_far_for_any_joint():
     assert found.towards[0] < -0.9
 
 
-def test_a_little_too_far_ahead_is_short_backwards():
+def test_a_little_too_far_ahead_is_short_backwards() -> None:
     reach = ROBOT.reach(TORSO_M, COMFORT_M)
     # The straight arm leads 0.901 m from the lift axis, so the wrist of a forward tool is at most at x = 0.771 m.
     found = reach.shortfall(0, np.array([1.2, 0.188, 1.0]), FORWARD)
@@ -239,7 +239,7 @@ def test_a_little_too_far_ahead_is_short_backwards():
     assert (found.cause, found.joint, found.towards[0]) == ("too_far", None, pytest.approx(-1.0))
 
 
-def test_a_place_at_the_shoulders_foot_is_too_near():
+def test_a_place_at_the_shoulders_foot_is_too_near() -> None:
     reach = ROBOT.reach(TORSO_M, COMFORT_M)
     for arm, (x, y, _) in enumerate(reach.shoulders):
         found = reach.shortfall(arm, np.array([x, y, TABLE_M]), FORWARD)
@@ -248,7 +248,7 @@ def test_a_place_at_the_shoulders_foot_is_too_near():
         assert found.joint in JOINT_NAMES
 
 
-def test_a_place_high_above_is_too_far_and_must_come_down():
+def test_a_place_high_above_is_too_far_and_must_come_down() -> None:
     reach = ROBOT.reach(TORSO_M, COMFORT_M)
     found = reach.shortfall(0, np.array([0.5, 0.188, 1.75]), FORWARD)
     assert found is not None
@@ -256,14 +256,14 @@ def test_a_place_high_above_is_too_far_and_must_come_down():
     assert found.towards[2] == -1.0
 
 
-def test_far_to_the_other_side_the_shoulders_pan_limits():
+def test_far_to_the_other_side_the_shoulders_pan_limits() -> None:
     """A left arm cannot turn far to the right: its pan ends at -41 degrees."""
     found = ROBOT.reach(TORSO_M, COMFORT_M).shortfall(0, np.array([0.1, -0.75, 1.0]), np.array([13]))
     assert found is not None
     assert found.joint == "shoulder pan"
 
 
-def test_the_joints_slacks_are_those_of_the_kernel():
+def test_the_joints_slacks_are_those_of_the_kernel() -> None:
     shape = read_arm(MODEL)
     rng = np.random.default_rng(35)
     compared = 0
@@ -278,14 +278,14 @@ def test_the_joints_slacks_are_those_of_the_kernel():
     assert compared > 300
 
 
-def test_queries_and_time_are_counted():
+def test_queries_and_time_are_counted() -> None:
     reach = ROBOT.reach(TORSO_M, COMFORT_M)
     reach.shortfall(0, np.array([0.0, 0.188, TABLE_M]), EVERY_APPROACH)
     assert reach.queries > len(EVERY_APPROACH)
     assert reach.query_time_s > 0.0
 
 
-def test_asking_in_no_approach_is_refused():
+def test_asking_in_no_approach_is_refused() -> None:
     with pytest.raises(ValueError, match="approach"):
         ROBOT.reach(TORSO_M, COMFORT_M).shortfall(0, np.zeros(3), np.array([], dtype=int))
 
@@ -301,7 +301,7 @@ def test_asking_in_no_approach_is_refused():
         {"comfort_m": 0.01},
     ],
 )
-def test_a_shortfall_that_is_none_is_refused(wrong):
+def test_a_shortfall_that_is_none_is_refused(wrong) -> None:
     right = {"cause": "too_far", "joint": None, "short_by_m": 0.1, "is_at_least": False, "towards": (1.0, 0.0, 0.0)}
     right |= {"approach": 0, "seen_from": 0}
     assert Shortfall(**right)

@@ -15,7 +15,7 @@ BALL_M = 0.3
 class Ball:
     """An arm that reaches all that is near to its root, from straight above alone."""
 
-    def __init__(self, root):
+    def __init__(self, root) -> None:
         self.root = root
 
     def can_reach(self, positions, rotations, torso_m):
@@ -24,12 +24,12 @@ class Ball:
 
 
 @pytest.fixture
-def balls(monkeypatch):
+def balls(monkeypatch) -> None:
     monkeypatch.setattr(module, "all_arms", lambda robot, progress: [Ball(arm.root) for arm in robot.arms])
 
 
 @pytest.mark.usefixtures("balls")
-def test_shares_are_those_of_the_points_in_reach():
+def test_shares_are_those_of_the_points_in_reach() -> None:
     robot = read_robot("so101-pair")
     scene = robot.card.scene
     station = scene.stations[0][1]
@@ -47,12 +47,12 @@ def test_shares_are_those_of_the_points_in_reach():
 
 
 @pytest.mark.usefixtures("balls")
-def test_one_arm_never_reaches_with_two():
+def test_one_arm_never_reaches_with_two() -> None:
     assert table_reach(read_robot("ur5e-single")).two_arms == 0.0
 
 
 @pytest.mark.slow
-def test_two_small_arms_reach_the_middle_of_their_table_together():
+def test_two_small_arms_reach_the_middle_of_their_table_together() -> None:
     shares = []
     found = table_reach(read_robot("so101-pair"), shares.append)
     assert 0.2 < found.two_arms < found.any_arm <= 1.0

@@ -82,7 +82,7 @@ def robot(folder: Path, jaws: tuple[str, ...], offset_m: tuple[float, float, flo
 
 
 @pytest.mark.parametrize("jaws", [TWO, ONE])
-def test_fingers_are_where_their_boxes_are(tmp_path: Path, jaws: tuple[str, ...]):
+def test_fingers_are_where_their_boxes_are(tmp_path: Path, jaws: tuple[str, ...]) -> None:
     [found] = tool_points(robot(tmp_path, jaws, (0.01, 0.001, 0.0)))
     assert found.beyond_m == pytest.approx(0.0)
     assert found.beside_m == pytest.approx(0.0)
@@ -90,26 +90,28 @@ def test_fingers_are_where_their_boxes_are(tmp_path: Path, jaws: tuple[str, ...]
 
 
 @pytest.mark.parametrize("jaws", [TWO, ONE])
-def test_a_tool_point_19_mm_short_and_9_mm_aside_is_told_with_both_numbers(tmp_path: Path, jaws: tuple[str, ...]):
+def test_a_tool_point_19_mm_short_and_9_mm_aside_is_told_with_both_numbers(
+    tmp_path: Path, jaws: tuple[str, ...]
+) -> None:
     [found] = tool_points(robot(tmp_path, jaws, (0.01 - SHORT_M, 0.010, 0.0)))
     assert found == ToolPoint("left", pytest.approx(SHORT_M), pytest.approx(-0.009))
     assert found.is_off
 
 
-def test_what_nothing_meets_has_no_plane(tmp_path: Path):
+def test_what_nothing_meets_has_no_plane(tmp_path: Path) -> None:
     jaws = (palm(("0.02 0 0", "0.02 0.02 0.02")), ONE[1])
     [found] = tool_points(robot(tmp_path, jaws, (0.01, 0.0, 0.0)))
     assert found.beside_m is None and not found.is_off
 
 
 @pytest.mark.parametrize("name", shipped_robots())
-def test_the_shipped_robots_have_their_tool_points_between_the_fingertips(name: str):
+def test_the_shipped_robots_have_their_tool_points_between_the_fingertips(name: str) -> None:
     points = tool_points(read_robot(name))
     assert [point.arm for point in points] == [arm.name for arm in read_robot(name).card.arms]
     assert all(-0.015 <= point.beyond_m < 0.02 and abs(point.beside_m or 0.0) < 0.005 for point in points)
 
 
-def test_a_shipped_card_whose_tool_point_is_taken_back_is_off_by_as_much(tmp_path: Path):
+def test_a_shipped_card_whose_tool_point_is_taken_back_is_off_by_as_much(tmp_path: Path) -> None:
     card = json.loads(shipped_path("panda-pair").read_text())
     for arm in card["arms"]:
         arm["tool"]["offset_m"] = [0.0, 0.0, -SHORT_M]

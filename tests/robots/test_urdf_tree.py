@@ -41,19 +41,19 @@ def read(folder, text) -> Element:
         (LIMIT, LIMIT + '<mimic joint="grip" offset="nan"/>', "joint 'elbow': mimic has offset 'nan'"),
     ],
 )
-def test_what_makes_no_tree_is_refused_by_name(tmp_path, old, new, said):
+def test_what_makes_no_tree_is_refused_by_name(tmp_path, old, new, said) -> None:
     with pytest.raises(RobotError) as caught:
         read(tmp_path, ARM.replace(old, new, 1))
     assert caught.value.field == "urdf"
     assert said in caught.value.message
 
 
-def test_a_robot_without_links_is_refused(tmp_path):
+def test_a_robot_without_links_is_refused(tmp_path) -> None:
     with pytest.raises(RobotError, match="has no link"):
         read(tmp_path, "<robot/>")
 
 
-def test_numbers_that_planning_does_not_need_may_be_missing_or_wrong(tmp_path):
+def test_numbers_that_planning_does_not_need_may_be_missing_or_wrong(tmp_path) -> None:
     mass = '<link name="hand"><inertial><mass value="much"/></inertial></link>'
     text = ARM.replace('<link name="hand"/>', mass).replace(' velocity="2" effort="3"', "")
     found = read(tmp_path, text)
@@ -61,7 +61,7 @@ def test_numbers_that_planning_does_not_need_may_be_missing_or_wrong(tmp_path):
     assert found.find("joint/limit").attrib == {"lower": "-1", "upper": "1", "effort": "0.0", "velocity": "0.0"}
 
 
-def test_a_joint_of_many_turns_has_no_end(tmp_path):
+def test_a_joint_of_many_turns_has_no_end(tmp_path) -> None:
     kinds = [
         read(tmp_path, ARM.replace('lower="-1"', f'lower="{low}"', 1)).find("joint").get("type")
         for low in (-12.6, -1e16)
@@ -69,7 +69,7 @@ def test_a_joint_of_many_turns_has_no_end(tmp_path):
     assert kinds == ["revolute", "continuous"]
 
 
-def test_a_joint_that_mimics_one_that_mimics_follows_the_one_that_is_driven(tmp_path):
+def test_a_joint_that_mimics_one_that_mimics_follows_the_one_that_is_driven(tmp_path) -> None:
     # third = 2 second + .1 = 2 (-3 elbow + .2) + .1 = -6 elbow + .5
     joints = "".join(
         f'<link name="of {name}"/><joint name="{name}" type="revolute"><parent link="body"/><child link="of {name}"/>'
@@ -84,7 +84,7 @@ def test_a_joint_that_mimics_one_that_mimics_follows_the_one_that_is_driven(tmp_
 
 
 @pytest.mark.parametrize("driver", ["nobody", "rigid"])
-def test_a_joint_that_mimics_what_does_not_move_rests(tmp_path, driver):
+def test_a_joint_that_mimics_what_does_not_move_rests(tmp_path, driver) -> None:
     rigid = '<link name="nail"/><joint name="rigid" type="fixed"><parent link="body"/><child link="nail"/></joint>'
     mimic = LIMIT + f'<mimic joint="{driver}"/>'
     found = read(tmp_path, ARM.replace(LIMIT, mimic, 1).replace("</robot>", rigid + "</robot>"))

@@ -33,11 +33,11 @@ def film(page: str) -> dict[str, Any]:
     return msgspec.msgpack.decode(whole[8 : 8 + length])
 
 
-def test_the_recording_lasts_as_long_as_the_plan_and_a_moment_more(plan: Plan, film: dict[str, Any]):
+def test_the_recording_lasts_as_long_as_the_plan_and_a_moment_more(plan: Plan, film: dict[str, Any]) -> None:
     assert film["durationSeconds"] == pytest.approx(plan.cost_s + HOLD_S)
 
 
-def test_there_is_a_frame_at_each_time_asked_for_and_one_at_the_end(plan: Plan, film: dict[str, Any]):
+def test_there_is_a_frame_at_each_time_asked_for_and_one_at_the_end(plan: Plan, film: dict[str, Any]) -> None:
     times = {round(t, 6) for t, _ in film["messages"]}
     frames = {round(number / 2.0, 6) for number in range(math.ceil(2.0 * plan.cost_s))}
     assert times <= frames | {round(plan.cost_s, 6)}
@@ -45,14 +45,14 @@ def test_there_is_a_frame_at_each_time_asked_for_and_one_at_the_end(plan: Plan, 
     assert len(times) > 0.9 * len(frames)
 
 
-def test_robot_and_cloth_are_in_it_and_the_camera(film: dict[str, Any]):
+def test_robot_and_cloth_are_in_it_and_the_camera(film: dict[str, Any]) -> None:
     names = {message.get("name") for _, message in film["messages"]}
     kinds = {message["type"] for _, message in film["messages"]}
     assert {"/cloth/front", "/robot"} <= names
     assert "SetCameraPositionMessage" in kinds
 
 
-def test_each_step_is_told_in_a_caption_while_it_goes_on(plan: Plan, film: dict[str, Any]):
+def test_each_step_is_told_in_a_caption_while_it_goes_on(plan: Plan, film: dict[str, Any]) -> None:
     told = [
         (t_s, text)
         for t_s, message in film["messages"]
@@ -66,13 +66,13 @@ def test_each_step_is_told_in_a_caption_while_it_goes_on(plan: Plan, film: dict[
         assert step.kind in text
 
 
-def test_the_page_is_one_file_with_the_garments_title_that_asks_for_nothing_elsewhere(page: str):
+def test_the_page_is_one_file_with_the_garments_title_that_asks_for_nothing_elsewhere(page: str) -> None:
     assert "<title>Hand towel - Pleat</title>" in page
     assert not re.search(r'<(?:script|link|img)[^>]+(?:src|href)="(?!data:)', page)
     assert "darkMode:true" in page
 
 
-def test_it_stops_between_frames_when_nobody_wants_it_any_more(plan: Plan):
+def test_it_stops_between_frames_when_nobody_wants_it_any_more(plan: Plan) -> None:
     asked = []
 
     def should_stop() -> bool:

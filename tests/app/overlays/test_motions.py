@@ -44,7 +44,7 @@ def at(document: Document, t_s: float) -> Moment:
     return moment_of_plan(document.state, t_s)
 
 
-def test_a_fold_takes_its_grips_from_corner_to_corner_of_the_cloth(towel: tuple[Document, Plan]):
+def test_a_fold_takes_its_grips_from_corner_to_corner_of_the_cloth(towel: tuple[Document, Plan]) -> None:
     # The towel is 0.686 m by 0.419 m; its near corners (0, 0) and (0.686, 0) come onto the far ones. On the way they
     # stand 0.2095 m over the line, and the tools 2 cm more.
     half = paths_overlay(at(towel[0], 0.0))[0]
@@ -54,7 +54,9 @@ def test_a_fold_takes_its_grips_from_corner_to_corner_of_the_cloth(towel: tuple[
     assert np.allclose(left["points"], [(0, 0, 0.02), (0, 0.2095, 0.2295), (0, 0.419, 0.02)], atol=1e-6)
 
 
-def test_the_bases_way_begins_where_the_robot_starts_and_ends_where_the_plan_leaves_it(shirt: tuple[Document, Plan]):
+def test_the_bases_way_begins_where_the_robot_starts_and_ends_where_the_plan_leaves_it(
+    shirt: tuple[Document, Plan],
+) -> None:
     document, plan = shirt
     moment = at(document, 0.0)
     told = base_overlay(moment)
@@ -66,14 +68,14 @@ def test_the_bases_way_begins_where_the_robot_starts_and_ends_where_the_plan_lea
     assert told["gone"] == 1
 
 
-def test_more_and_more_of_the_way_is_gone(shirt: tuple[Document, Plan]):
+def test_more_and_more_of_the_way_is_gone(shirt: tuple[Document, Plan]) -> None:
     document, plan = shirt
     gone = [base_overlay(at(document, t_s))["gone"] for t_s in np.linspace(0.0, plan.cost_s, 40)]
     assert gone == sorted(gone)
     assert gone[-1] >= len(base_overlay(at(document, 0.0))["way"]) - 1
 
 
-def test_the_base_is_between_the_points_gone_and_the_next(jeans: tuple[Document, Plan]):
+def test_the_base_is_between_the_points_gone_and_the_next(jeans: tuple[Document, Plan]) -> None:
     document, plan = jeans
     move = next(primitive for primitive in plan.primitives if primitive.kind == "move")
     moment = at(document, move.start_s + 0.5 * move.duration_s)
@@ -83,7 +85,7 @@ def test_the_base_is_between_the_points_gone_and_the_next(jeans: tuple[Document,
     assert math.dist(before, base) + math.dist(base, after) == pytest.approx(math.dist(before, after), abs=1e-4)
 
 
-def test_a_moment_knows_the_folds_done_and_the_station(shirt: tuple[Document, Plan]):
+def test_a_moment_knows_the_folds_done_and_the_station(shirt: tuple[Document, Plan]) -> None:
     document, plan = shirt
     start, end = at(document, 0.0), at(document, plan.cost_s)
     assert (start.done, start.station, start.back_off_m) == ((), "front", 0.0)
@@ -94,13 +96,13 @@ def test_a_moment_knows_the_folds_done_and_the_station(shirt: tuple[Document, Pl
     assert len(end.cloth.layers) == len(plan.final_layers)
 
 
-def test_a_base_on_its_way_round_the_table_is_at_no_station(jeans: tuple[Document, Plan]):
+def test_a_base_on_its_way_round_the_table_is_at_no_station(jeans: tuple[Document, Plan]) -> None:
     document, plan = jeans
     assert plan.primitives[0].kind == "move"
     assert at(document, 0.6 * plan.primitives[0].duration_s).station is None
 
 
-def test_the_cloth_goes_along_with_a_drag():
+def test_the_cloth_goes_along_with_a_drag() -> None:
     document, plan = planned("big-towel")
     drag = plan.primitives[0]
     assert drag.kind == "drag"
@@ -108,7 +110,7 @@ def test_the_cloth_goes_along_with_a_drag():
     assert before.placement.x_m - after.placement.x_m == pytest.approx(drag.to_dict()["distance_m"])
 
 
-def test_without_a_plan_the_article_lies_as_drawn_and_the_robot_waits():
+def test_without_a_plan_the_article_lies_as_drawn_and_the_robot_waits() -> None:
     document = Document(draft_of(drawing_of(load_garment("t-shirt"))))
     moment = moment_of_plan(document.state, 5.0)
     assert (moment.plan, moment.station, moment.placement) == (None, "front", load_garment("t-shirt").placement)
@@ -116,7 +118,7 @@ def test_without_a_plan_the_article_lies_as_drawn_and_the_robot_waits():
     assert paths_overlay(moment) is None
 
 
-def test_a_robot_backs_off_from_a_station_against_where_it_looks():
+def test_a_robot_backs_off_from_a_station_against_where_it_looks() -> None:
     document = Document(draft_of(drawing_of(load_garment("t-shirt"))))
     moment = moment_as_drawn(document.state, "left", 0.2)
     # `left` is at (0.45, 0.64) and looks towards -y.
@@ -127,7 +129,7 @@ def test_a_robot_backs_off_from_a_station_against_where_it_looks():
         moment_as_drawn(document.state, "attic", 0.0)
 
 
-def test_where_an_arm_reaches_is_worked_out_once_for_all_moments(shirt: tuple[Document, Plan]):
+def test_where_an_arm_reaches_is_worked_out_once_for_all_moments(shirt: tuple[Document, Plan]) -> None:
     document, plan = shirt
     overlays(document.state, at(document, 0.0), OVERLAYS)
     before = reach_regions.cache_info()

@@ -26,7 +26,7 @@ def bare() -> tuple[Region, ...]:
     return reach_regions(load_robot("pr2"), TORSO_M, 0.0, HEIGHT_M)
 
 
-def test_a_disc_is_found_to_a_sixteenth_of_the_grid():
+def test_a_disc_is_found_to_a_sixteenth_of_the_grid() -> None:
     middle, radius = np.array([0.411, -0.137]), 0.5
 
     def is_in_disc(points: FloatArray) -> np.ndarray:
@@ -40,7 +40,7 @@ def test_a_disc_is_found_to_a_sixteenth_of_the_grid():
     assert found.area == pytest.approx(math.pi * radius**2, rel=0.01)
 
 
-def test_holes_and_separate_parts_are_kept():
+def test_holes_and_separate_parts_are_kept() -> None:
     def is_in(points: FloatArray) -> np.ndarray:
         away = np.hypot(*(points - [0.4, 0.0]).T)
         return ((away > 0.2) & (away < 0.4)) | (np.hypot(*(points - [0.4, 0.9]).T) < 0.1)
@@ -51,12 +51,12 @@ def test_holes_and_separate_parts_are_kept():
     assert not found.contains((0.4, 0.0))
 
 
-def test_where_nothing_can_be_reached_the_region_is_empty():
+def test_where_nothing_can_be_reached_the_region_is_empty() -> None:
     assert region_where(lambda points: np.zeros(len(points), dtype=bool), GRID).area == 0.0
 
 
 @pytest.mark.parametrize(("torso_m", "height_m"), [(0.29, 0.79), (0.02, 0.5)])
-def test_what_is_left_out_as_too_far_is_out_of_reach(torso_m: float, height_m: float):
+def test_what_is_left_out_as_too_far_is_out_of_reach(torso_m: float, height_m: float) -> None:
     reach = load_robot("pr2").reach(torso_m, 0.02)
     for arm in range(2):
         asked = partial(takeable, reach, arm, height_m)
@@ -65,14 +65,16 @@ def test_what_is_left_out_as_too_far_is_out_of_reach(torso_m: float, height_m: f
         assert quick.difference(plain).area + plain.difference(quick).area == 0.0
 
 
-def test_both_arms_reach_mirror_images(bare: tuple[Region, ...]):
+def test_both_arms_reach_mirror_images(bare: tuple[Region, ...]) -> None:
     left, right = bare
     mirrored = right.moved(Isometry.reflection(Segment((0.0, 0.0), (1.0, 0.0))))
     # But for what the body and the other arm hinder, which is not quite the same on both sides.
     assert left.difference(mirrored).area + mirrored.difference(left).area < 0.02 * left.area
 
 
-def test_with_comfort_an_arm_reaches_less_and_nothing_more(comfortable: tuple[Region, ...], bare: tuple[Region, ...]):
+def test_with_comfort_an_arm_reaches_less_and_nothing_more(
+    comfortable: tuple[Region, ...], bare: tuple[Region, ...]
+) -> None:
     for little, much in zip(comfortable, bare, strict=True):
         assert 0.3 < little.area < much.area
         assert little.difference(much).area < 0.002
@@ -80,7 +82,7 @@ def test_with_comfort_an_arm_reaches_less_and_nothing_more(comfortable: tuple[Re
 
 def test_what_is_well_inside_can_be_reached_by_the_arms_joints_and_what_is_far_outside_cannot(
     bare: tuple[Region, ...],
-):
+) -> None:
     robot, approaches = load_robot("pr2"), load_robot("pr2").reach(TORSO_M, 0.0).approaches
     rotations = np.array([approach.rotation for approach in approaches])
     rng = np.random.default_rng(5)
@@ -94,7 +96,7 @@ def test_what_is_well_inside_can_be_reached_by_the_arms_joints_and_what_is_far_o
             assert is_near or not bare[0].contains((x, y))
 
 
-def test_whatever_a_plan_picks_up_with_free_hands_lies_in_the_region(comfortable: tuple[Region, ...]):
+def test_whatever_a_plan_picks_up_with_free_hands_lies_in_the_region(comfortable: tuple[Region, ...]) -> None:
     plan = make_plan(load_garment("t-shirt"))
     arms = {arm.name: number for number, arm in enumerate(load_robot(plan.task.robot).card.arms)}
     picked = 0

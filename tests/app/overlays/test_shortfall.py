@@ -42,7 +42,9 @@ def near(lacking: Lack) -> NearReach:
 
 
 @pytest.mark.parametrize(("point", "approach"), [FAR_AHEAD, FAR_ASIDE])
-def test_the_edge_is_as_far_from_the_point_as_it_is_said_to_be_short(point: tuple[float, float, float], approach: int):
+def test_the_edge_is_as_far_from_the_point_as_it_is_said_to_be_short(
+    point: tuple[float, float, float], approach: int
+) -> None:
     lacking = lack(point, approach)
     found = near(lacking)
     start, along = np.array(point[:2]), towards(lacking)[:2]
@@ -56,7 +58,7 @@ def test_the_edge_is_as_far_from_the_point_as_it_is_said_to_be_short(point: tupl
     assert min(gaps) < 0.01
 
 
-def test_what_is_straight_too_high_has_no_reach_at_that_height_that_could_hide_it():
+def test_what_is_straight_too_high_has_no_reach_at_that_height_that_could_hide_it() -> None:
     point, approach = TOO_HIGH
     lacking = lack(point, approach)
     assert towards(lacking)[2] == -1.0
@@ -68,7 +70,7 @@ def test_what_is_straight_too_high_has_no_reach_at_that_height_that_could_hide_i
     assert found.beyond.area == pytest.approx(whole, rel=1e-4)
 
 
-def test_beyond_the_edge_the_hand_cannot_be_whatever_its_joints_and_before_it_it_can():
+def test_beyond_the_edge_the_hand_cannot_be_whatever_its_joints_and_before_it_it_can() -> None:
     point, approach = FAR_AHEAD
     robot = load_robot("pr2")
     lacking = lack(point, approach)

@@ -30,7 +30,7 @@ def least_from_line_m(grip: GripMotion) -> float:
     return float(np.hypot(places[:, 0], places[:, 2] - REST_M).min())
 
 
-def test_hands_keep_their_cloth_longer_and_end_where_they_should():
+def test_hands_keep_their_cloth_longer_and_end_where_they_should() -> None:
     planned = folding("left", FAR_M, 0.0)
     (kept,) = taut(fold(planned), math.inf).grips
     assert least_from_line_m(planned) == pytest.approx(FAR_M / math.sqrt(2.0), abs=1e-3)
@@ -39,7 +39,7 @@ def test_hands_keep_their_cloth_longer_and_end_where_they_should():
         assert kept.at(t_s) == pytest.approx(planned.at(t_s), abs=1e-6)
 
 
-def test_the_cloth_between_two_hands_stays_longer_too():
+def test_the_cloth_between_two_hands_stays_longer_too() -> None:
     planned = fold(folding("left", FAR_M, 0.0), folding("right", NEAR_M, 0.0))
 
     def least_apart_m(motion: StepMotion) -> float:
@@ -50,14 +50,14 @@ def test_the_cloth_between_two_hands_stays_longer_too():
     assert least_apart_m(taut(planned, math.inf)) > 0.82 * (FAR_M - NEAR_M)
 
 
-def test_hands_leave_their_paths_no_further_than_is_in_reach():
+def test_hands_leave_their_paths_no_further_than_is_in_reach() -> None:
     planned, most_m = folding("left", FAR_M, 0.0), 0.01
     (kept,) = taut(fold(planned), most_m).grips
     left_m = max(float(np.linalg.norm(kept.at(t_s) - planned.at(t_s))) for t_s in np.linspace(0.0, 2.0, 201))
     assert left_m == pytest.approx(most_m, rel=0.05)
 
 
-def test_hands_that_hold_on_and_steps_that_do_not_fold_keep_their_paths():
+def test_hands_that_hold_on_and_steps_that_do_not_fold_keep_their_paths() -> None:
     held, drag = fold(folding("left", FAR_M, 0.0, opens=False)), fold(folding("left", FAR_M, 0.0), kind="drag")
     assert taut(held, math.inf) is held
     assert taut(drag, math.inf) is drag

@@ -57,7 +57,7 @@ def height_m(frame: np.ndarray) -> float:
     return UNIT_M * float(frame[:, 2].mean())
 
 
-def test_a_film_runs_along_the_plan_and_is_still_while_nothing_is_held(letter: Plan):
+def test_a_film_runs_along_the_plan_and_is_still_while_nothing_is_held(letter: Plan) -> None:
     told: list[float] = []
     world = filmed(letter, told.append)
     for motion in step_motions(letter):
@@ -75,7 +75,7 @@ def test_a_film_runs_along_the_plan_and_is_still_while_nothing_is_held(letter: P
     assert height_m(world.frames[-1][1]) > lies + 0.05
 
 
-def test_of_a_step_that_is_tried_again_the_last_time_is_kept_and_nothing_after_another_plan(letter: Plan):
+def test_of_a_step_that_is_tried_again_the_last_time_is_kept_and_nothing_after_another_plan(letter: Plan) -> None:
     world, motion = filmed(letter), step_motions(letter)[0]
     world.perform(motion)
     once, ends = len(world.frames), height_m(world.frames[-1][1])
@@ -88,7 +88,7 @@ def test_of_a_step_that_is_tried_again_the_last_time_is_kept_and_nothing_after_a
     assert len(world.frames) == kept
 
 
-def test_a_run_of_a_towel_is_traced_from_where_it_lies_to_where_the_plan_has_it():
+def test_a_run_of_a_towel_is_traced_from_where_it_lies_to_where_the_plan_has_it() -> None:
     plan = towel_plan()
     options = RehearsalOptions(1, resolution=COARSE, workers=1, traced=1)
     (run,) = rehearse(plan, options).runs
@@ -115,12 +115,12 @@ def test_a_run_of_a_towel_is_traced_from_where_it_lies_to_where_the_plan_has_it(
 
 
 @pytest.mark.long
-def test_runs_beyond_those_that_are_traced_have_no_trace():
+def test_runs_beyond_those_that_are_traced_have_no_trace() -> None:
     options = RehearsalOptions(2, resolution=replace(COARSE, edge_m=0.06, settle_s=0.1), workers=1, traced=1)
     assert [run.trace is None for run in rehearse(towel_plan(), options).runs] == [False, True]
 
 
-def test_a_step_of_another_plan_stands_for_the_one_that_leaves_the_same_folded(letter: Plan):
+def test_a_step_of_another_plan_stands_for_the_one_that_leaves_the_same_folded(letter: Plan) -> None:
     assert [counterpart(letter, step) for step in letter.steps] == list(range(len(letter.steps)))
     again = make_plan(replace(letter.task, start=letter.state_after(-1)))
     assert [counterpart(letter, step) for step in again.steps] == [
@@ -131,7 +131,7 @@ def test_a_step_of_another_plan_stands_for_the_one_that_leaves_the_same_folded(l
     assert looked_before(letter, letter.end) is None
 
 
-def test_of_long_runs_frames_are_left_out_evenly(monkeypatch: pytest.MonkeyPatch):
+def test_of_long_runs_frames_are_left_out_evenly(monkeypatch: pytest.MonkeyPatch) -> None:
     plan = towel_plan()
     lies = Lifted(plan, lambda: None).truth()
     film = [(float(t_s), rounded(lies.positions + np.array([0.0, 0.0, 0.01 * t_s]))) for t_s in range(9)]

@@ -18,7 +18,7 @@ BASES = [Pose2(-0.95, 0.0, 0.0), Pose2(-0.4, 0.75, -math.pi / 2), Pose2(0.4, -0.
 
 @pytest.mark.parametrize("work", WORK)
 @pytest.mark.parametrize("base", BASES)
-def test_the_robot_is_never_between_camera_and_work(base: Pose2, work: tuple[float, float]):
+def test_the_robot_is_never_between_camera_and_work(base: Pose2, work: tuple[float, float]) -> None:
     (x, y, z), look_at, _ = _parts(Following(), base, work)
     assert look_at[:2] == pytest.approx(work)
     to_camera = math.atan2(y - work[1], x - work[0])
@@ -27,7 +27,7 @@ def test_the_robot_is_never_between_camera_and_work(base: Pose2, work: tuple[flo
     assert z > 0.5
 
 
-def test_the_camera_goes_after_the_work_without_a_jump():
+def test_the_camera_goes_after_the_work_without_a_jump() -> None:
     following = Following()
     before = np.array(following.view(BASES[0], WORK[0], LENS).position)
     for _ in range(120):
@@ -37,7 +37,7 @@ def test_the_camera_goes_after_the_work_without_a_jump():
     assert now == pytest.approx(Following().view(BASES[1], WORK[2], LENS).position, abs=0.01)
 
 
-def test_the_work_is_where_the_hands_are_and_at_the_end_still_there():
+def test_the_work_is_where_the_hands_are_and_at_the_end_still_there() -> None:
     plan: Plan = make_plan(load_garment("hand-towel"))
     shown = ShownPlan(1, plan, Timeline.of(plan))
     for step in plan.steps:
