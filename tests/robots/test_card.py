@@ -10,8 +10,10 @@ from planner.errors import FoldingError, RequestError
 from planner.robots import description
 from planner.robots.load_robot import load_robot
 from tests.robots.model import limits, pin_tool_pose, random_joints
+from tests.robots.required import required
 
 CARD = load_robot("pr2").card
+HOMES = [np.array(arm.home) for arm in CARD.arms]
 
 
 @pytest.fixture(scope="module")
@@ -19,8 +21,8 @@ def urdf() -> yourdfpy.URDF:
     return yourdfpy.URDF.load(str(CARD.urdf_path), load_meshes=False, build_scene_graph=True)
 
 
-def test_joint_values_name_every_actuated_joint(urdf) -> None:
-    values = CARD.joint_values(0.1, [arm.home for arm in CARD.arms], [0.0, 0.05])
+def test_joint_values_name_every_actuated_joint(urdf: yourdfpy.URDF) -> None:
+    values = CARD.joint_values(0.1, HOMES, [0.0, 0.05])
     assert set(values) == set(urdf.actuated_joint_names)
     assert len(values) == 20
     assert all(type(value) is float for value in values.values())
@@ -33,14 +35,14 @@ def test_joint_values_want_joints_for_each_arm() -> None:
 
 @pytest.mark.parametrize("opening_m", [0.0, 0.01, 0.05, 0.09])
 @pytest.mark.parametrize("arm", [0, 1])
-def test_fingertips_are_the_opening_apart(urdf, arm, opening_m) -> None:
+def test_fingertips_are_the_opening_apart(urdf: yourdfpy.URDF, arm: int, opening_m: float) -> None:
     prefix = "lr"[arm]
     closed = _fingertip_distance(urdf, prefix, 0.0)
     assert _fingertip_distance(urdf, prefix, opening_m) - closed == pytest.approx(opening_m, abs=1e-9)
 
 
-def _fingertip_distance(urdf, prefix: str, opening_m: float) -> float:
-    urdf.update_cfg(CARD.joint_values(0.0, [arm.home for arm in CARD.arms], [opening_m, opening_m]))
+def _fingertip_distance(urdf: yourdfpy.URDF, prefix: str, opening_m: float) -> float:
+    urdf.update_cfg(CARD.joint_values(0.0, HOMES, [opening_m, opening_m]))
     tips = [urdf.get_transform(f"{prefix}_gripper_{f}_finger_tip_link")[:3, 3] for f in "lr"]
     return float(np.linalg.norm(tips[0] - tips[1]))
 
@@ -51,7 +53,7 @@ def test_an_opening_out_of_range_is_kept_in_range() -> None:
     assert gripper.angle(-1.0) == 0.0
 
 
-def test_two_kinematics_libraries_agree_on_the_tools(urdf) -> None:
+def test_two_kinematics_libraries_agree_on_the_tools(urdf: yourdfpy.URDF) -> None:
     rng = np.random.default_rng(3)
     for _ in range(30):
         joints = [random_joints(CARD, arm, rng) for arm in (0, 1)]
@@ -65,8 +67,8 @@ def test_two_kinematics_libraries_agree_on_the_tools(urdf) -> None:
 
 
 @pytest.mark.parametrize("torso_m", [0.0, 0.31])
-def test_the_arms_at_home_are_above_the_table_and_clear_of_the_head(urdf, torso_m) -> None:
-    urdf.update_cfg(CARD.joint_values(torso_m, [arm.home for arm in CARD.arms], [0.0, 0.0]))
+def test_the_arms_at_home_are_above_the_table_and_clear_of_the_head(urdf: yourdfpy.URDF, torso_m: float) -> None:
+    urdf.update_cfg(CARD.joint_values(torso_m, HOMES, [0.0, 0.0]))
     for prefix in "lr":
         assert urdf.get_transform(f"{prefix}_gripper_tool_frame")[2, 3] > 1.0
         for link in ("elbow_flex", "forearm_roll", "wrist_flex"):
@@ -82,8 +84,8 @@ def test_home_is_within_the_soft_limits() -> None:
     }
     for arm in CARD.arms:
         for name, value in zip(arm.joint_names, arm.home, strict=True):
-            low, high = (safe[name].get(f"soft_{end}_limit") for end in ("lower", "upper"))
-            assert low is None or float(low) < value < float(high)
+            low, high = (required(safe[name]).get(f"soft_{end}_limit") for end in ("lower", "upper"))
+            assert low is None or float(low) < value < float(required(high))
 
 
 def test_the_arms_are_mirror_images() -> None:
@@ -104,7 +106,7 @@ def test_an_unknown_robot_is_refused() -> None:
         load_robot("nobody")
 
 
-def test_a_missing_description_is_named(monkeypatch) -> None:
+def test_a_missing_description_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(description, "_DISTRIBUTION", "no-such-robot-data")
     with pytest.raises(FoldingError, match="no-such-robot-data"):
         description.urdf_path()

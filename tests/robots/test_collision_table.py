@@ -28,7 +28,7 @@ def test_the_top_lies_under_its_upper_side_and_legs_stand_on_the_floor() -> None
 
 
 @pytest.mark.parametrize("size", [(0.1, 0.1, 0.1), (0.5, 3.0, 0.4), (10.0, 10.0, 10.0)])
-def test_parts_of_any_table_are_within_it(size) -> None:
+def test_parts_of_any_table_are_within_it(size: tuple[float, float, float]) -> None:
     depth, width, height = size
     for part in table_parts(Table(*size)):
         assert abs(part.center[0]) + part.size[0] / 2 <= depth / 2 + 1e-9
@@ -38,17 +38,17 @@ def test_parts_of_any_table_are_within_it(size) -> None:
 
 @pytest.mark.parametrize("torso_m", [0.2, TORSO_M, 0.31])
 @pytest.mark.parametrize("station", DEFAULT_STATIONS)
-def test_the_robot_stands_at_every_station_at_every_standoff(station, torso_m) -> None:
+def test_the_robot_stands_at_every_station_at_every_standoff(station: str, torso_m: float) -> None:
     collisions = ROBOT.collisions(Table(), torso_m)
     for back_off_m in STANDOFFS_M:
         assert collisions.free(DEFAULT_STATIONS[station].ahead(-float(back_off_m)), HOME[None]).all()
 
 
 @pytest.mark.parametrize("station", DEFAULT_STATIONS)
-def test_the_full_meshes_hulls_are_free_at_every_station(station) -> None:
+def test_the_full_meshes_hulls_are_free_at_every_station(station: str) -> None:
     for back_off_m in (0.0, 0.4, 0.8):
         pose = DEFAULT_STATIONS[station].ahead(-back_off_m)
-        joints = CARD.joint_values(TORSO_M, HOME, [0.06, 0.06])
+        joints = CARD.joint_values(TORSO_M, list(HOME), [0.06, 0.06])
         assert hulls.contacts(joints, (pose.x_m, pose.y_m, pose.yaw_rad), Table()) == []
 
 
@@ -69,7 +69,7 @@ def test_a_base_that_stands_where_a_leg_is_collides_with_it() -> None:
     assert collisions.body_free(Pose2(0.35, 0.265 + 0.334 + 0.01, -math.pi / 2))
     nearer = Pose2(0.35, 0.265 + 0.334 - 0.02, -math.pi / 2)
     assert not collisions.body_free(nearer)
-    joints = CARD.joint_values(TORSO_M, HOME, [0.0, 0.0])
+    joints = CARD.joint_values(TORSO_M, list(HOME), [0.0, 0.0])
     found = hulls.contacts(joints, (nearer.x_m, nearer.y_m, nearer.yaw_rad), Table())
     (depth_m,) = (depth_m for *pair, depth_m in found if pair == ["base_link", "far left table leg"])
     assert depth_m == pytest.approx(0.02, abs=0.002)

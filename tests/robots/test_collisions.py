@@ -56,7 +56,7 @@ def test_a_forearm_through_the_torso_collides() -> None:
     # is near x = .01, y = -.17, and 1.08 m high. The torso is there: x up to .06, y from -.26 to .26, z from .57 on.
     through = with_left(-0.7, 0.0, math.pi / 2, -2.3, 0.0, -0.2, 0.0)
     assert COLLISIONS.arm_free(0, FAR, through[None, 0]).tolist() == [False]
-    seen = hulls.contacts(CARD.joint_values(TORSO_M, through, [0.0, 0.0]), (-5.0, 0.0, 0.0), Table())
+    seen = hulls.contacts(CARD.joint_values(TORSO_M, list(through), [0.0, 0.0]), (-5.0, 0.0, 0.0), Table())
     assert ("torso_lift_link", "l_forearm_link") in [(first, second) for first, second, _ in seen]
 
 
@@ -64,7 +64,7 @@ def test_a_forearm_through_the_torso_collides() -> None:
     ("height_m", "met"),
     [(0.02, None), (0.005, "left fingertips"), (-0.02, "left fingertips"), (-0.045, "left fingers")],
 )
-def test_fingertips_may_be_a_hair_over_the_table_and_nothing_in_it(height_m, met) -> None:
+def test_fingertips_may_be_a_hair_over_the_table_and_nothing_in_it(height_m: float, met: str | None) -> None:
     # Pointing straight down, tips end 19 mm below the tool frame, and closed fingers 27 mm above the tips. The top is
     # 30 mm thick: the deepest in it, or through it, are tips, then fingers.
     joints = ROBOT.joints_near(0, np.array([0.6, 0.3, Table().height_m + height_m]), DOWN, TORSO_M, ELBOW_OUT)
@@ -90,14 +90,14 @@ def test_shoulders_turn_over_the_edge_only_when_the_torso_is_down() -> None:
 
 
 @pytest.mark.parametrize(("torso_m", "opening_m"), [(0.0, 0.0), (0.12, 0.03), (TORSO_M, 0.06), (0.31, 0.09)])
-def test_what_is_free_is_free_for_the_full_meshes_hulls(torso_m, opening_m) -> None:
+def test_what_is_free_is_free_for_the_full_meshes_hulls(torso_m: float, opening_m: float) -> None:
     rng = np.random.default_rng(11)
     collisions, postures = ROBOT.collisions(Table(), torso_m, opening_m), random_postures(150, 12)
     agreed = 0
     for posture in postures:
         base = (rng.uniform(-1.75, -0.95), rng.uniform(-0.4, 0.4), rng.uniform(-0.4, 0.4))
         openings = rng.uniform(0.0, opening_m, 2)
-        seen = hulls.contacts(CARD.joint_values(torso_m, posture, openings), base, Table())
+        seen = hulls.contacts(CARD.joint_values(torso_m, posture, openings.tolist()), base, Table())
         is_free = bool(collisions.free(Pose2(*base), posture[None])[0])
         assert not (is_free and seen), f"free, but {seen[0]}"
         agreed += is_free == (not seen)
@@ -188,7 +188,7 @@ def test_each_posture_may_have_a_base_of_its_own() -> None:
 
 
 @pytest.mark.parametrize("arm", [0, 1])
-def test_the_quick_answer_is_never_wrong_and_knows_nearly_all_that_is_free_by_a_centimetre(arm) -> None:
+def test_the_quick_answer_is_never_wrong_and_knows_nearly_all_that_is_free_by_a_centimetre(arm: int) -> None:
     postures = random_postures(5000, 21)[:, arm]
     is_free, is_certain = (COLLISIONS.arm_free(arm, FRONT, postures, is_certain=only) for only in (False, True))
     assert not np.any(is_certain & ~is_free)

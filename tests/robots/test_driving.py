@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from planner.geometry.driving import IMPOSSIBLE, Driving
 from planner.robots.approaches import APPROACHES
-from planner.robots.load_robot import load_robot
 from planner.robots.reach import Pr2Reach
+from tests.robots.model import the_pr2
 
-ROBOT = load_robot("pr2")
+ROBOT = the_pr2()
 TORSO_M = 0.29
 STEP_M = 0.05
 COUNT = 17
@@ -88,7 +88,7 @@ def least(reach: Pr2Reach, case: Case) -> NDArray[np.int64]:
     """Return the least steps to each end over all combinations of approaches."""
     hands = comfort(reach, case)
     ways = [dijkstra(np.logical_and.reduce(good), case.begun) for good in product(*hands)]
-    return np.min(ways, axis=0)
+    return np.asarray(np.min(ways, axis=0))
 
 
 def unbeaten(steps: NDArray[np.int64]) -> NDArray[np.int64]:

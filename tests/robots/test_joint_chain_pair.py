@@ -18,7 +18,7 @@ PERIODS = np.where(np.isin(np.arange(14).reshape(2, 7), [4, 6, 11, 13]), math.ta
 def _link_cost(before: np.ndarray, after: np.ndarray, speeds: np.ndarray, span: float) -> float:
     costs = np.empty((2, 1))
     link_costs(before[:, None].copy(), 1, after, speeds, PERIODS[0], JUMP, span, costs)
-    return costs[0, 0]
+    return float(costs[0, 0])
 
 
 class ArmQuery:
@@ -44,7 +44,7 @@ class ArmQuery:
     def node_cost(self, pose: int, a: int, b: int) -> float:
         return self.costs[0, pose, a] + self.costs[1, pose, b] if self.is_allowed[pose, a, b] else math.inf
 
-    def step_cost(self, pose: int, *ways: np.ndarray) -> float:
+    def step_cost(self, pose: int, *ways: np.ndarray | tuple[int, int]) -> float:
         """Return the cost of both arms' motion to a pose from the one before."""
         return sum(
             _link_cost(
@@ -75,7 +75,7 @@ class ArmQuery:
                     graph.add_edge((pose, a, b), "end", weight=0.0)
         if not graph.has_node("end") or not nx.has_path(graph, "start", "end"):
             return math.inf
-        return nx.shortest_path_length(graph, "start", "end", weight="weight")
+        return float(nx.shortest_path_length(graph, "start", "end", weight="weight"))
 
 
 @pytest.mark.parametrize("share_allowed", [0.2, 0.5, 1.0])

@@ -7,11 +7,11 @@ import numpy as np
 from planner.geometry.pose import Approach, BoolArray
 from planner.geometry.table import Table
 from planner.robots.approaches import APPROACHES
-from planner.robots.load_robot import load_robot
 from planner.robots.place_memory import empty_memory, learn, place_key, slot_of
 from tests.robots.collision_samples import FAR, HOME
+from tests.robots.model import the_pr2
 
-ROBOT = load_robot("pr2")
+ROBOT = the_pr2()
 TORSO_M = 0.29
 LEVEL = APPROACHES.index(Approach(0.0, math.radians(15)))
 

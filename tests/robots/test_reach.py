@@ -1,20 +1,21 @@
 """The robot's reach, against forward kinematics and against single queries."""
 
+from collections.abc import Iterator
+
 import numpy as np
 import pytest
 
 from planner.errors import RequestError, SceneError
-from planner.geometry.pose import Approach
+from planner.geometry.pose import Approach, FloatArray
 from planner.robots import comfort, comfort_reach
 from planner.robots.approaches import APPROACHES
 from planner.robots.arm import read_arm
 from planner.robots.comfort_memories import Memories
-from planner.robots.load_robot import load_robot
 from planner.robots.mirrored_arm import MirroredArm
 from planner.robots.reach import Pr2Reach
-from tests.robots.model import MODEL, limits, pin_tool_pose, random_joints
+from tests.robots.model import MODEL, limits, pin_tool_pose, random_joints, the_pr2
 
-ROBOT = load_robot("pr2")
+ROBOT = the_pr2()
 CARD = ROBOT.card
 TORSO_M = 0.29
 STEP_M = 0.05
@@ -34,7 +35,7 @@ def test_there_is_a_fan_of_approaches_at_four_pitches_and_one_straight_down() ->
 
 
 @pytest.mark.parametrize("arm", [0, 1])
-def test_every_pose_of_a_configuration_within_limits_is_reachable(arm) -> None:
+def test_every_pose_of_a_configuration_within_limits_is_reachable(arm: int) -> None:
     rng = np.random.default_rng(11)
     poses = [ROBOT.tool_pose(arm, random_joints(CARD, arm, rng), TORSO_M) for _ in range(20_000)]
     positions, rotations = (np.array(part) for part in zip(*poses, strict=True))
@@ -46,7 +47,7 @@ def test_every_pose_of_a_configuration_within_limits_is_reachable(arm) -> None:
 
 
 @pytest.mark.parametrize("arm", [0, 1])
-def test_everything_reachable_has_joints_within_limits_that_reach_it(arm) -> None:
+def test_everything_reachable_has_joints_within_limits_that_reach_it(arm: int) -> None:
     rng = np.random.default_rng(12)
     positions = rng.uniform((-0.2, -1.1, 0.2), (1.0, 1.1, 1.8), (4000, 3))
     rotations = np.array([_random_rotation(rng) for _ in positions])
@@ -83,7 +84,7 @@ def test_rolling_the_tool_about_its_axis_changes_nothing() -> None:
 
 @pytest.mark.parametrize("comfort_m", [0.0, 0.03])
 @pytest.mark.parametrize("arm", [0, 1])
-def test_standoffs_are_what_the_naive_loop_finds(arm, comfort_m) -> None:
+def test_standoffs_are_what_the_naive_loop_finds(arm: int, comfort_m: float) -> None:
     asked = bodiless(comfort_m)
     for points in _paths(np.random.default_rng(15)):
         masks = asked.standoffs(arm, points, EVERY_APPROACH, COUNT, STEP_M)
@@ -93,23 +94,23 @@ def test_standoffs_are_what_the_naive_loop_finds(arm, comfort_m) -> None:
 
 
 @pytest.mark.parametrize("arm", [0, 1])
-def test_standoffs_that_matter_are_what_the_naive_loop_finds_among_them(arm) -> None:
+def test_standoffs_that_matter_are_what_the_naive_loop_finds_among_them(arm: int) -> None:
     rng, able = np.random.default_rng(21), 0
     for points in _paths(rng):
-        among = rng.integers(1, 1 << COUNT, len(points), dtype=np.uint32) | (1 << COUNT // 2)
+        among = rng.integers(1, 1 << COUNT, len(points), dtype=np.uint32) | np.uint32(1 << COUNT // 2)
         for end in range(COUNT):
             asked = bodiless(0.03)
             masks = asked.standoffs(arm, points, EVERY_APPROACH, COUNT, STEP_M, end=end, among=among)
             expected = _naive_masks(arm, points, 0.03, among)
             expected[(expected[:, -1:] >> end & 1 == 0)[:, 0]] = 0
             np.testing.assert_array_equal(masks, expected)
-            able += np.count_nonzero(masks[:, 0])
+            able += int(np.count_nonzero(masks[:, 0]))
     assert able > 0
 
 
 @pytest.mark.parametrize("comfort_m", [0.0, 0.03])
 @pytest.mark.parametrize("arm", [0, 1])
-def test_from_anywhere_is_what_the_naive_loop_finds(arm, comfort_m) -> None:
+def test_from_anywhere_is_what_the_naive_loop_finds(arm: int, comfort_m: float) -> None:
     asked = bodiless(comfort_m)
     points = np.vstack(list(_paths(np.random.default_rng(20))))
     few = 3
@@ -182,7 +183,7 @@ def test_plans_made_at_once_have_memories_of_their_own() -> None:
     assert memories.take().keys is one.keys and memories.take().keys is not other.keys
 
 
-def test_a_full_memory_changes_no_answer(monkeypatch) -> None:
+def test_a_full_memory_changes_no_answer(monkeypatch: pytest.MonkeyPatch) -> None:
     usual = bodiless(0.03)
     tiny = comfort.empty_memory(size_bits=2)
     monkeypatch.setattr(comfort_reach, "empty_memory", lambda: tiny)
@@ -233,13 +234,14 @@ def _connected(seeds: int, mask: int) -> int:
         found = grown
 
 
-def _paths(rng: np.random.Generator):
+def _paths(rng: np.random.Generator) -> Iterator[FloatArray]:
     """Return half circles over a table top at 0.79 m, as folds make them, on the grid of the queries."""
     for _ in range(6):
         turn = np.linspace(0.0, np.pi, 5)
         x, y, radius = rng.uniform(0.1, 0.7), rng.uniform(-0.3, 0.3), rng.uniform(0.05, 0.2)
         heights = 0.79 + radius * np.sin(turn)
-        yield np.round(np.stack((x + 0.0 * turn, y + radius * np.cos(turn), heights), axis=1), 5)
+        places: FloatArray = np.stack((x + 0.0 * turn, y + radius * np.cos(turn), heights), axis=1)
+        yield np.round(places, 5)
 
 
 def _naive_masks(arm: int, points: np.ndarray, comfort_m: float, among: np.ndarray | int = -1) -> np.ndarray:
@@ -263,12 +265,12 @@ def _naive_comfort(arm: int, points: np.ndarray, comfort_m: float) -> np.ndarray
         ROBOT.can_reach(arm, asked, np.broadcast_to(approach.rotation, (len(asked), 3, 3)), TORSO_M)
         for approach in APPROACHES
     ]
-    return np.reshape(answers, (len(APPROACHES), len(points), COUNT, len(ring))).all(axis=3)
+    return np.asarray(np.reshape(answers, (len(APPROACHES), len(points), COUNT, len(ring))).all(axis=3))
 
 
 def _random_rotation(rng: np.random.Generator) -> np.ndarray:
     rotation = np.linalg.qr(rng.normal(size=(3, 3)))[0]
-    return rotation * np.linalg.det(rotation)
+    return np.asarray(rotation * np.linalg.det(rotation))
 
 
 def test_a_plan_that_is_begun_meanwhile_knows_what_has_been_asked_and_is_charged_for_it() -> None:

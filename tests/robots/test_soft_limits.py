@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 
 from planner.geometry.pose import Approach
+from planner.robots.armed_robot import ArmedRobot
 from planner.robots.described_robot import read_robot, shipped_robots
 from planner.robots.load_robot import load_robot
 from planner.robots.soft_limits import limits_of
+from tests.robots.model import the_pr2
 
 
 def joint(limits: str, soft: str, kind: str = "revolute") -> ElementTree.Element:
@@ -45,15 +47,15 @@ def test_homes_and_lifts_of_shipped_robots_are_within_the_soft_limits(name: str)
             assert float(own.attrib["soft_lower_limit"]) <= value <= float(own.attrib["soft_upper_limit"]), joint_name
 
 
-def _home(robot: object) -> tuple[list[str], list[float]]:
-    arms = robot.card.arms  # type: ignore[attr-defined]
+def _home(robot: ArmedRobot) -> tuple[list[str], list[float]]:
+    arms = robot.card.arms
     return [name for arm in arms for name in arm.joint_names], [q for arm in arms for q in arm.home]
 
 
 def test_a_pr2_does_not_reach_what_only_a_straight_elbow_reaches() -> None:
     # Shoulder, elbow and wrist 0.4 and 0.321 m apart: at -0.15 rad, the soft limit, the wrist is 2.0 mm nearer to the
     # shoulder than with the elbow straight.
-    pr2 = load_robot("pr2")
+    pr2 = the_pr2()
     shape = pr2._arms[0].shape
     ahead = np.array([1.0, 0.0, 0.0])
     straight = Approach(0.0, 0.0).rotation[None]
