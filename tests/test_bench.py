@@ -4,7 +4,7 @@ import json
 import math
 import sys
 import xml.etree.ElementTree as ET
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import nullcontext
 from functools import partial
 from pathlib import Path
@@ -28,7 +28,7 @@ from bench.growth_cases import crowded, ribbon, tabs, tabs_on_two_sides
 from bench.heuristics import heuristics
 from bench.load import load
 from bench.measurement import Case, Ratio, measure
-from bench.paper import TABLE_1, TABLE_2
+from bench.paper import TABLE_1, TABLE_2, PaperRow
 from bench.paper_tables import table_1, table_2
 from bench.pin_arm import TORSO_M, pin_arm
 from bench.re_plan import moved, re_plan, replanned
@@ -109,7 +109,9 @@ def test_both_tables_of_the_paper_have_the_same_plans_of_the_nine_articles() -> 
 
 
 @pytest.mark.parametrize(("build", "comfort_m", "paper"), [(table_1, 0.0, TABLE_1), (table_2, 0.03, TABLE_2)])
-def test_a_table_has_our_row_above_the_papers(build, comfort_m, paper, tmp_path: Path) -> None:
+def test_a_table_has_our_row_above_the_papers(
+    build: Callable[[Sequence[str], int], Report], comfort_m: float, paper: Mapping[str, PaperRow], tmp_path: Path
+) -> None:
     report = build(["hand-towel"], 1)
     assert [[line[1] for line in row.lines] for row in report.rows] == [["Pleat", "paper"]]
     assert all(len(line) == len(report.columns) for row in report.rows for line in row.lines)

@@ -18,6 +18,7 @@ from tests.builders import fold, garment, rectangle_points
 from tests.laws.law import LONG
 from tests.planning.provoked import BACK, FRONT, planned_with, refused
 from tests.replay.planned import planned
+from tests.required import required
 
 A_BIT_LESS = 0.95
 
@@ -33,8 +34,8 @@ def test_a_strip_in_balance_that_a_fold_brings_out_of_it_slips_and_is_nowhere_be
     (reason,) = refused(strip, Scene(friction=friction)).reasons
     assert (reason.code, reason.gives) == (Code.SLIPS, "plan")
     assert reason.needed_friction == pytest.approx(0.11 / 1.09, rel=1e-4)
-    assert with_friction(strip, Scene(), reason.needed_friction).is_solved
-    assert not with_friction(strip, Scene(), A_BIT_LESS * reason.needed_friction).is_solved
+    assert with_friction(strip, Scene(), required(reason.needed_friction)).is_solved
+    assert not with_friction(strip, Scene(), A_BIT_LESS * required(reason.needed_friction)).is_solved
 
 
 @pytest.mark.long
@@ -58,8 +59,8 @@ def test_what_moving_the_cloth_does_not_fix_is_not_told_to_be_moved_and_friction
     found = refused(towel, smooth).reasons
     slip = next(reason for reason in found if reason.code is Code.SLIPS)
     assert slip.needed_friction == pytest.approx(0.2)
-    assert with_friction(towel, smooth, slip.needed_friction).is_solved
-    assert not with_friction(towel, smooth, A_BIT_LESS * slip.needed_friction).is_solved
+    assert with_friction(towel, smooth, required(slip.needed_friction)).is_solved
+    assert not with_friction(towel, smooth, A_BIT_LESS * required(slip.needed_friction)).is_solved
     for reach in (reason for reason in found if reason.code is Code.OUT_OF_REACH):
         assert "cloth" not in reach.says.values["movable"] and "move the cloth" not in reach.message
         assert reach.set != slip.set
@@ -82,10 +83,11 @@ def test_between_the_places_of_drags_a_small_move_does_what_no_drag_does() -> No
     once = replace(tie, folds=(nearer,), placement=tie.placement.moved(0.02, 0.0))
     reason, *_ = refused(once).reasons
     assert (reason.code, reason.gives) == (Code.OUT_OF_REACH, "plan")
-    assert planned_with(reason.change, once).is_solved
-    move = {"placement": once.placement.moved(reason.shift_m - 0.0015, 0.0).to_dict()}
+    assert planned_with(required(reason.change), once).is_solved
+    shift_m = required(reason.shift_m)
+    move = {"placement": once.placement.moved(shift_m - 0.0015, 0.0).to_dict()}
     assert reason.shift_towards == pytest.approx((1.0, 0.0, 0.0), abs=1e-6)
-    assert reason.shift_m < 0.1, "within the grid of drags"
+    assert shift_m < 0.1, "within the grid of drags"
     assert not planned_with(move, once).is_solved
 
 
@@ -101,8 +103,8 @@ def test_the_grip_radius_that_is_told_is_the_least_though_the_cloth_must_be_drag
     (reason,) = refused(apron(0.127, 0.127)).reasons
     assert (reason.code, reason.gives) == (Code.TOO_MANY_GRIPS, "plan")
     assert reason.needed_grip_radius_m == pytest.approx(0.1968, abs=1e-4)
-    assert planned_with(reason.change, apron(0.127, 0.127)).is_solved
-    less_m = reason.needed_grip_radius_m - 0.001
+    assert planned_with(required(reason.change), apron(0.127, 0.127)).is_solved
+    less_m = required(reason.needed_grip_radius_m) - 0.001
     assert not planned_with({}, apron(less_m, less_m)).is_solved
 
 
@@ -112,8 +114,8 @@ def test_cloth_far_out_of_reach_is_told_the_least_move_that_brings_it_there() ->
     towel = garment(rectangle_points(0.4, 0.5), fold((0.4, 0.25), (0.0, 0.25)), placement=Pose2(0.2, 0.4, BACK))
     (reason,) = refused(towel, alone).reasons
     assert (reason.code, reason.gives, reason.shift_towards) == (Code.OUT_OF_REACH, "plan", (-1.0, 0.0, 0.0))
-    assert planned_with(reason.change, towel, alone).is_solved
-    less = {"placement": towel.placement.moved(-(reason.shift_m - 0.0015), 0.0).to_dict()}
+    assert planned_with(required(reason.change), towel, alone).is_solved
+    less = {"placement": towel.placement.moved(-(required(reason.shift_m) - 0.0015), 0.0).to_dict()}
     assert not planned_with(less, towel, alone).is_solved
 
 
@@ -124,7 +126,8 @@ def random_task(seed: int) -> tuple[Garment, Scene]:
     y = rng.uniform(0.1, 0.9) * length
     ends = [(0.0, y), (width, y)]
     rng.shuffle(ends)
-    line = fold(*ends, radius_m=rng.choice([0.127, 0.127, 0.03, 0.06]))
+    start, end = ends
+    line = fold(start, end, radius_m=rng.choice([0.127, 0.127, 0.03, 0.06]))
     turned = Pose2(0.0, 0.0, rng.choice([BACK, BACK, 0.0, math.pi / 2]))
     x_m, y_m = turned.to_outer(np.array([width / 2, length / 2]))
     placement = turned.moved(rng.uniform(-0.75, 0.75) - float(x_m), rng.uniform(-0.45, 0.45) - float(y_m))

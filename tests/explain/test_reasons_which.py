@@ -30,6 +30,7 @@ from tests.planning.provoked import (
     strip,
 )
 from tests.replay.planned import planned
+from tests.required import required
 
 START = State(0, (0.0, 0.0), 0, 0)
 SLIPPING = {"hanging_m2": {"near": 0.03}, "lying_m2": 0.01, "friction": 1.0, "needed_friction": 3.0}
@@ -55,7 +56,7 @@ def test_causes_of_one_fold_come_with_the_smallest_repair_first() -> None:
 
 
 @pytest.mark.parametrize(("friction", "codes"), [(0.08, ["out_of_reach", "slips"]), (0.12, ["slips", "out_of_reach"])])
-def test_of_causes_each_of_which_is_enough_the_smallest_repair_comes_first(friction, codes) -> None:
+def test_of_causes_each_of_which_is_enough_the_smallest_repair_comes_first(friction: float, codes: list[str]) -> None:
     # A strip of 0.619 m, folded at 0.1 m from its far end, which is 0.05 m out of reach as it lies. Dragged by 0.1 m it
     # is within reach, but 0.08 m of it hang and 0.539 lie: that takes a friction of 0.148.
     far_x, near_x = FURTHEST_X - COMFORT_M + 0.05, -0.78
@@ -66,7 +67,7 @@ def test_of_causes_each_of_which_is_enough_the_smallest_repair_comes_first(frict
     slip, reach = sorted(found, key=lambda r: r.needed_friction is None)
     assert slip.needed_friction == pytest.approx(0.08 / (far_x - near_x - 0.08), rel=1e-3)
     assert reach.short_by_m == pytest.approx(0.05, abs=0.0015)
-    assert (reach.short_by_m < slip.needed_friction - friction) == (found[0] is reach)
+    assert (required(reach.short_by_m) < required(slip.needed_friction) - friction) == (found[0] is reach)
 
 
 def test_what_does_not_stand_alone_in_the_way_is_no_reason() -> None:
@@ -114,7 +115,7 @@ def test_only_what_depends_on_a_blocked_fold_waits() -> None:
     assert [(r.fold, r.code) for r in found if r.fold != 0] == [(2, Code.WAITS_FOR_FOLD), (4, Code.WAITS_FOR_FOLD)]
 
 
-def test_a_fold_that_was_not_come_to_yet_is_not_to_blame(monkeypatch) -> None:
+def test_a_fold_that_was_not_come_to_yet_is_not_to_blame(monkeypatch: pytest.MonkeyPatch) -> None:
     # Flap 0 is out of reach from where the robot begins, but not from the other side. Roof 1 needs three hands. The
     # search ends with its first expansion, when only that much is known.
     monkeypatch.setattr(planning, "LOOK_ALONE_AFTER", 1)

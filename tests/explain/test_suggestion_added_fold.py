@@ -1,10 +1,13 @@
 """A fold that is too large for two hands is offered in two parts, or after the cloth has been halved across it."""
 
+from collections.abc import Callable, Sequence
+
 import numpy as np
 import pytest
 
 from planner import FoldSequence, Garment, Task
 from planner.explain.suggestion_added_fold import halvings, splits, with_fold_before
+from planner.explain.suggestion_trial import Search
 from planner.geometry.segment import Segment
 from tests.builders import fold, garment, rectangle_points
 from tests.explain.proven_search import proven
@@ -22,7 +25,9 @@ def apron() -> Garment:
 
 
 @pytest.mark.parametrize(("search", "code"), [(splits, "split_fold"), (halvings, "halve_first")])
-def test_an_apron_halved_lengthwise_first_is_done_with_one_more_fold(apron: Garment, search, code: str) -> None:
+def test_an_apron_halved_lengthwise_first_is_done_with_one_more_fold(
+    apron: Garment, search: Callable[[Task, Sequence[int]], Search], code: str
+) -> None:
     found = next(proven(search(Task.of(apron), (0,))))
     assert found.says.code == code
     assert len(found.change["garment"]["folds"]) == 2

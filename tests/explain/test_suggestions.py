@@ -26,6 +26,7 @@ from planner.geometry.segment import Segment
 from planner.geometry.table import Table
 from planner.message import Message
 from planner.task.plan import Plan
+from planner.task.task import TaskOptions
 from tests.builders import fold, garment, rectangle_points
 from tests.planning.provoked import FRONT, planned_with
 from tests.replay.planned import planned
@@ -333,7 +334,7 @@ def test_a_map_has_a_cell_for_each_place_and_its_best_is_the_cheapest() -> None:
 
 
 def test_a_map_cut_short_says_so() -> None:
-    for limits in ({"work_limit_s": 0.2}, {"time_limit_s": 0.2}):
+    for limits in (TaskOptions(work_limit_s=0.2), TaskOptions(time_limit_s=0.2)):
         found = placement_map(Task.of(towel(), **limits), step_m=0.02)
         assert not found.is_complete
         assert found.to_dict()["complete"] is False
@@ -355,7 +356,7 @@ def test_a_search_says_whether_it_has_tried_everything() -> None:
     assert make_plan(cloth, small).is_solved
     assert is_complete(suggestions(Task.of(cloth, small, time_limit_s=60.0)))
     assert not is_complete(suggestions(Task.of(cloth, small, time_limit_s=60.0), should_stop=lambda: True))
-    for limits in ({"work_limit_s": 0.01}, {"time_limit_s": 0.01}):
+    for limits in (TaskOptions(work_limit_s=0.01), TaskOptions(time_limit_s=0.01)):
         assert not is_complete(suggestions(Task.of(towel(FAR), FRONT_ONLY, **limits)))
 
 
@@ -379,7 +380,7 @@ def slow() -> bool:
 @pytest.mark.long
 @pytest.mark.parametrize("work_s", [0.4, 1.0])
 def test_on_a_slow_machine_the_same_changes_are_suggested(work_s: float) -> None:
-    limits = {"work_limit_s": work_s, "time_limit_s": 60.0}
+    limits = TaskOptions(work_limit_s=work_s, time_limit_s=60.0)
     quick, slowly = (
         [one.to_dict() for one in suggestions(Task.of(towel(FAR), FRONT_ONLY, **limits), should_stop=should_stop)]
         for should_stop in (None, slow)
@@ -388,7 +389,7 @@ def test_on_a_slow_machine_the_same_changes_are_suggested(work_s: float) -> None
 
 
 def test_on_a_slow_machine_the_map_has_the_same_cells() -> None:
-    limits = {"work_limit_s": 0.4, "time_limit_s": 60.0}
+    limits = TaskOptions(work_limit_s=0.4, time_limit_s=60.0)
     quick, slowly = (
         placement_map(Task.of(towel(), FRONT_ONLY, **limits), should_stop=should_stop) for should_stop in (None, slow)
     )

@@ -40,7 +40,7 @@ def test_a_corner_is_taken_before_the_edges_that_meet_there() -> None:
 
 
 def test_a_place_on_an_edge_is_a_fraction_of_it() -> None:
-    assert attached((0.4, 0.075), unfolded(), is_red=False) == OnEdge(1, pytest.approx(0.25))
+    assert attached((0.4, 0.075), unfolded(), is_red=False) == OnEdge(1, pytest.approx(0.25))  # type: ignore[arg-type]
 
 
 def test_the_inside_of_the_cloth_is_nothing_to_attach_to() -> None:
@@ -49,26 +49,26 @@ def test_the_inside_of_the_cloth_is_nothing_to_attach_to() -> None:
 
 def test_of_edges_that_lie_on_each_other_the_one_that_was_not_moved_is_taken() -> None:
     """The near edge lies on the far one, which runs from (0.4, 0.3) to (0, 0.3)."""
-    assert attached((0.1, 0.3), folded(unfolded(), HALF), is_red=False) == OnEdge(2, pytest.approx(0.75))
+    assert attached((0.1, 0.3), folded(unfolded(), HALF), is_red=False) == OnEdge(2, pytest.approx(0.75))  # type: ignore[arg-type]
 
 
 def test_a_place_on_a_crease_is_a_fraction_of_it_and_its_ends_come_before_edges() -> None:
     once = folded(unfolded(), HALF)
-    assert attached((0.1, 0.15), once, is_red=False) == OnCrease(0, pytest.approx(0.75))
+    assert attached((0.1, 0.15), once, is_red=False) == OnCrease(0, pytest.approx(0.75))  # type: ignore[arg-type]
     assert attached((0.4, 0.15), once, is_red=False) == OnCrease(0, 0.0)
 
 
 def test_a_red_fold_sees_only_what_moved_last() -> None:
     """Of the edges at y = 0.3 the near one, laid there, is seen: it runs from (0, 0) to (0.4, 0)."""
     once = folded(unfolded(), HALF)
-    assert attached((0.1, 0.3), once, is_red=True) == OnEdge(0, pytest.approx(0.25))
+    assert attached((0.1, 0.3), once, is_red=True) == OnEdge(0, pytest.approx(0.25))  # type: ignore[arg-type]
     assert place_of(OnEdge(2, 0.75), once, is_red=True) is None
 
 
 def test_a_crease_through_a_layer_that_was_carried_says_so() -> None:
     """The moved half, 0.15 to 0.3, is folded back at y = 0.25: that crease runs through a layer that fold 0 carried."""
     twice = folded(folded(unfolded(), HALF), Segment((0.0, 0.25), (0.4, 0.25)), is_red=True)
-    assert attached((0.1, 0.25), twice, is_red=True) == OnCrease(1, pytest.approx(0.25), (0,))
+    assert attached((0.1, 0.25), twice, is_red=True) == OnCrease(1, pytest.approx(0.25), (0,))  # type: ignore[arg-type]
     assert place_of(OnCrease(1, 0.25, (0,)), twice, is_red=True) == near((0.1, 0.25))
 
 

@@ -123,7 +123,7 @@ def test_whatever_is_folded_no_cloth_is_lost_and_none_made() -> None:
                 folded = fold_cloth(cloth, line, is_red=False) if line else None
             except FoldError:
                 folded = None
-            if folded is not None:
+            if line is not None and folded is not None:
                 done += 1
                 landed = folded.moving.moved(Isometry.reflection(line))
                 staying = cloth.silhouette.difference(folded.moving)

@@ -79,7 +79,9 @@ def test_a_red_fold_depends_on_the_one_before_it_even_if_their_parts_are_apart()
 
 
 @pytest.mark.parametrize(("tilt", "edges"), [(2e-4, ()), (1e-3, ((0, 1),))])
-def test_a_fold_waits_for_one_without_which_its_line_would_be_snapped_elsewhere(tilt: float, edges) -> None:
+def test_a_fold_waits_for_one_without_which_its_line_would_be_snapped_elsewhere(
+    tilt: float, edges: tuple[tuple[int, int], ...]
+) -> None:
     # A strip 1 cm wide is folded over a line that leans to the left by the tilt, and lands twice the tilt askew: at the
     # upper edge it sticks out by 2 x tilt x 1 cm, 4 um or 20 um. There the line that folds the other corner begins, on
     # the boundary of what is there by then. Without the strip it would begin beside the edge: 10 um do not matter.

@@ -17,7 +17,7 @@ def lines(*ends: tuple[tuple[float, float], ...]) -> list[FloatArray]:
 
 
 def moved(points: FloatArray, x: float, y: float) -> FloatArray:
-    return points + np.array([x, y])
+    return np.asarray(points + np.array([x, y]))
 
 
 def area(ring: FloatArray) -> float:

@@ -13,7 +13,7 @@ U = Region.polygon([(0, 0), (0.3, 0), (0.3, 0.4), (0.2, 0.4), (0.2, 0.1), (0.1, 
 SLEEVE = Region.polygon([(0, 0), (0.2, 0), (0.2, 0.4), (-0.1, 0.4), (-0.1, 0.3), (0, 0.3)])
 
 
-def ends(chord: Segment | None) -> list[tuple[float, float]]:
+def ends(chord: Segment | None) -> list[object]:
     assert chord is not None
     return [pytest.approx(chord.start, abs=1e-9), pytest.approx(chord.end, abs=1e-9)]
 

@@ -24,7 +24,7 @@ lines = st.builds(line_through, points, angles)
 isometries = st.one_of(st.builds(Isometry.rotation, angles, places, places), st.builds(Isometry.reflection, lines))
 
 
-def near(point: Point2) -> Point2:
+def near(point: Point2) -> object:
     return pytest.approx(point, abs=1e-9)
 
 

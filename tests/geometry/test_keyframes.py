@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 from scipy.interpolate import CubicHermiteSpline
 
 from planner.geometry.keyframes import acceleration_at, rate_at, value_at, values_at
+from planner.geometry.pose import FloatArray
 
 TIMES, VALUES, RATES = (0.0, 1.0, 1.5, 4.0), (0.0, 2.0, 1.0, 1.0), (0.0, 1.5, -3.0, 0.0)
 SPLINE = CubicHermiteSpline(TIMES, VALUES, RATES)
@@ -42,7 +43,7 @@ def test_without_rates_it_goes_straight_from_keyframe_to_keyframe(t: float) -> N
 
 
 @pytest.mark.parametrize("rates", [np.array(RATES), np.empty(0)])
-def test_many_values_at_once_are_the_same(rates) -> None:
+def test_many_values_at_once_are_the_same(rates: FloatArray) -> None:
     at = np.array([-1.0, 0.0, 0.3, 1.0, 1.2, 3.9, 4.0, 7.0])
     found = values_at(np.array(TIMES), np.array(VALUES), rates, at)
     assert found == pytest.approx([value_at(TIMES, VALUES, rates.tolist(), t) for t in at.tolist()])

@@ -34,7 +34,7 @@ def test_limits_hold_however_much_time_there_is(way: float, speed: float, accele
     duration_s = slack * least_s(way, speed, acceleration)
     run = ramps(duration_s, way, speed, acceleration)
     curve = CubicHermiteSpline(run.times_s, run.fractions, run.rates)
-    assert (run.times_s[-1], run.fractions[-1]) == (pytest.approx(duration_s), pytest.approx(1.0))
+    assert (run.times_s[-1], run.fractions[-1]) == pytest.approx((duration_s, 1.0))
     assert max(run.rates) * way <= speed * (1.0 + 1e-6)
     inner = [0.5 * (a + b) for a, b in zip(run.times_s, run.times_s[1:], strict=False)]
     assert abs(curve(inner, 2)).max() * way <= acceleration * (1.0 + 1e-6)

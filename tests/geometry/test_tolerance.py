@@ -18,7 +18,7 @@ def test_numbers_that_differ_by_rounding_have_one_key() -> None:
 
 @pytest.mark.parametrize("value", [0.109375, -0.109375, 0.000005, -0.000015])
 def test_numbers_half_way_between_two_steps_have_one_key_whatever_the_rounding(value: float) -> None:
-    around = value + 1e-15 * np.arange(-3, 4)
+    around = np.asarray(value + 1e-15 * np.arange(-3, 4), dtype=np.float64)
     keys = [grid_key(one) for one in around.tolist()]
     assert len(set(keys)) == 1 and keys[0] > value / LENGTH_M
     assert grid_keys(around).tolist() == keys == [in_steps(one) for one in around.tolist()]

@@ -21,7 +21,7 @@ lines = st.tuples(places, places).filter(lambda ends: ends[0] != ends[1]).map(la
 def areas(triangles: np.ndarray) -> np.ndarray:
     """Return the areas of triangles, positive if counter-clockwise (m^2)."""
     a, b = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
-    return (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2
+    return np.asarray((a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2)
 
 
 def lone_sides(triangles: np.ndarray) -> set[tuple[bytes, bytes]]:
@@ -31,7 +31,7 @@ def lone_sides(triangles: np.ndarray) -> set[tuple[bytes, bytes]]:
 
 
 @given(lines)
-def test_each_side_is_as_large_as_what_lies_there_and_turned_as_before(line) -> None:
+def test_each_side_is_as_large_as_what_lies_there_and_turned_as_before(line: Segment) -> None:
     cloth = Region.polygon(ELL)
     sides = zip(parted(cloth.triangles, line), cloth.parted_by(line), (line, line.reversed), strict=True)
     for (part, _), region, there in sides:
@@ -41,7 +41,7 @@ def test_each_side_is_as_large_as_what_lies_there_and_turned_as_before(line) -> 
 
 
 @given(lines)
-def test_neighbours_on_one_side_share_the_ends_of_their_cuts(line) -> None:
+def test_neighbours_on_one_side_share_the_ends_of_their_cuts(line: Segment) -> None:
     triangles = Region.polygon(ELL).triangles
     for part, _ in parted(triangles, line):
         for start, end in lone_sides(part):

@@ -1,12 +1,14 @@
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from planner.cloth.garment_files import load_garment
+from planner.geometry.pose import FloatArray
 from planner.geometry.region import Region
 from planner.geometry.woven_mesh import woven_mesh
 
 
-def corners_of(name: str, edge_m: float, seed: int = 0):
+def corners_of(name: str, edge_m: float, seed: int = 0) -> tuple[FloatArray, NDArray[np.int64], FloatArray]:
     points, triangles = woven_mesh(load_garment(name).pattern, edge_m, seed)
     return points, triangles, points[triangles]
 

@@ -1,5 +1,6 @@
 """More freedom never costs more."""
 
+from collections.abc import Callable
 from dataclasses import replace
 from itertools import combinations
 
@@ -8,10 +9,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from planner.cloth.garment_files import load_garment
+from planner.primitives.context import Context
+from planner.primitives.primitive import Primitive
 from planner.primitives.primitive_set import PRIMITIVES
 from planner.task.scene import DEFAULT_STATIONS, Scene
 from tests.laws.law import law
-from tests.laws.scenes import FOLDABLE, Problem, problems
+from tests.laws.scenes import FOLDABLE, Kinds, Problem, problems
 from tests.sweep import sweep
 
 SECOND = 1e-6
@@ -38,7 +41,9 @@ def test_one_more_station_never_costs_more(problem: Problem, name: str) -> None:
 
 @given(problems(), st.sampled_from(PROPER_SUBSETS), st.sampled_from(PRIMITIVES))
 @law("planning", short=8, long=40)
-def test_one_more_primitive_never_costs_more(problem: Problem, some, another) -> None:
+def test_one_more_primitive_never_costs_more(
+    problem: Problem, some: Kinds, another: Callable[[Context], Primitive]
+) -> None:
     more = (*some, another)
     assert problem.cost_s(kinds=more) <= problem.cost_s(kinds=some) + SECOND
 

@@ -1,5 +1,7 @@
 """Short answers kept by digests of long questions."""
 
+from functools import partial
+
 from planner.motion.answer_memory import AnswerMemory
 
 
@@ -23,6 +25,6 @@ def test_no_byte_passes_from_one_part_to_the_next() -> None:
 def test_once_there_are_many_answers_all_are_forgotten() -> None:
     memory = AnswerMemory[float](2)
     for number in range(3):
-        memory.answer(lambda number=number: float(number), bytes([number]))
+        memory.answer(partial(float, number), bytes([number]))
     assert memory.answer(lambda: 9.0, bytes([0])) == 9.0
     assert memory.answer(lambda: 9.0, bytes([2])) == 2.0

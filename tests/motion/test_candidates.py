@@ -48,9 +48,9 @@ class UnderCeiling(Pr2):
 
         def arm_free(arm: int, bases: Any, joints: FloatArray, **how: bool) -> BoolArray:
             is_low = [self.tool_pose(arm, one, torso_m)[0][2] < most_m for one in joints]
-            return anywhere(arm, bases, joints, **how) & np.array(is_low, dtype=bool)
+            return np.asarray(anywhere(arm, bases, joints, **how) & np.array(is_low, dtype=bool))
 
-        real.arm_free = arm_free
+        real.arm_free = arm_free  # type: ignore[method-assign]
         return real
 
 

@@ -37,7 +37,7 @@ def phase(*hands: Hand | None, duration_s: float = 3.0, end: Pose2 = STAND) -> P
 def turns(waypoints: Waypoints, arm: int) -> FloatArray:
     """Return the angle by which a tool turns from each moment to the next (rad)."""
     rotations = waypoints.rotations[arm]
-    return Rotation.from_matrix(rotations[:-1].swapaxes(1, 2) @ rotations[1:]).magnitude()
+    return np.asarray(Rotation.from_matrix(rotations[:-1].swapaxes(1, 2) @ rotations[1:]).magnitude())
 
 
 def lean(rotation: FloatArray) -> float:
@@ -89,7 +89,7 @@ def test_where_only_ends_are_wanted_they_are_those_of_all_moments() -> None:
     assert len(ends) < len(every)
     last = np.flatnonzero(np.diff(every.phases, append=len(phases)))
     last_of_ends = np.flatnonzero(np.diff(ends.phases, append=len(phases)))
-    for of_all, of_ends in ((0, 0), *zip(last, last_of_ends, strict=True)):
+    for of_all, of_ends in ((0, 0), *zip(last.tolist(), last_of_ends.tolist(), strict=True)):
         assert np.array_equal(every.bases[of_all], ends.bases[of_ends])
         assert np.array_equal(every.positions[:, of_all], ends.positions[:, of_ends], equal_nan=True)
         assert np.array_equal(every.rotations[:, of_all], ends.rotations[:, of_ends], equal_nan=True)
@@ -156,7 +156,9 @@ def test_phases_that_follow_one_another_share_the_moment_between_them() -> None:
 
 @pytest.mark.parametrize(("before", "after"), [*product((SLANTED, STEEP, DOWN), repeat=2)])
 @pytest.mark.parametrize("rolled", [(0.0, 0.0), (0.0, math.pi), (0.0, -math.pi)])
-def test_a_hand_that_is_to_point_elsewhere_turns_in_its_grip_while_all_else_rests(before, after, rolled) -> None:
+def test_a_hand_that_is_to_point_elsewhere_turns_in_its_grip_while_all_else_rests(
+    before: Approach, after: Approach, rolled: tuple[float, float]
+) -> None:
     middle, goal = (-0.35, 0.2, 0.05), (-0.35, 0.2, 0.07)
     first = phase(holding(HERE, middle, approach=before, rolls_rad=rolled))
     second = phase(holding(middle, goal, approach=after, rolls_rad=(0.0, 0.0)))
@@ -195,7 +197,7 @@ def test_a_hand_that_let_go_takes_its_next_grip_without_a_turn() -> None:
 
 
 @pytest.mark.parametrize("name", ["letter-towel", "t-shirt"])
-def test_in_a_plan_nothing_goes_further_from_moment_to_moment_than_is_said(name) -> None:
+def test_in_a_plan_nothing_goes_further_from_moment_to_moment_than_is_said(name: str) -> None:
     for plan_segment in planned(name).found.plan_segments:
         if plan_segment.transfer is None:
             continue

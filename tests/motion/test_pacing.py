@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
+from planner.geometry.pose import FloatArray
 from planner.motion.pacing import needed_s, paced_s
 
 EASINGS = st.floats(0.01, 0.5)
@@ -61,14 +62,16 @@ def test_steps_that_need_more_than_there_is_take_what_they_need() -> None:
 
 
 @given(steps(0.001, 1.0), steps(0.0, 1.5))
-def test_no_step_is_shorter_than_it_needs_and_together_they_last_no_longer_than_they_must(nominal, least) -> None:
+def test_no_step_is_shorter_than_it_needs_and_together_they_last_no_longer_than_they_must(
+    nominal: FloatArray, least: FloatArray
+) -> None:
     found = paced_s(nominal, least)
     assert (found >= least).all()
     assert found.sum() == pytest.approx(max(nominal.sum(), least.sum()))
 
 
 @given(steps(0.001, 1.0), steps(0.0, 1.5))
-def test_all_steps_that_are_not_as_quick_as_can_be_have_one_pace(nominal, least) -> None:
+def test_all_steps_that_are_not_as_quick_as_can_be_have_one_pace(nominal: FloatArray, least: FloatArray) -> None:
     found = paced_s(nominal, least)
     if least.sum() < nominal.sum():
         paces = (found / nominal)[found > least + 1e-9]

@@ -108,7 +108,8 @@ def test_between_keyframes_no_joint_leaves_the_range_of_their_values() -> None:
     timing = quickest(values, run_of(values, limits[0]), limits)
     curve = CubicHermiteSpline(timing.times_s, values, timing.velocities)
     for number in range(len(values) - 1):
-        inner = curve(np.linspace(*timing.times_s[number : number + 2], 9))
+        start_s, end_s = timing.times_s[number : number + 2]
+        inner = curve(np.linspace(start_s, end_s, 9))
         low, high = np.minimum(*values[number : number + 2]), np.maximum(*values[number : number + 2])
         width = 0.02 * (high - low)  # in time a cubic is not quite monotone where its pace changes
         assert (inner >= low - width).all() and (inner <= high + width).all()

@@ -15,6 +15,7 @@ from planner.motion.timeline import Timeline
 from planner.task.plan_step import PlanStep
 from tests.planning.red_towels import BACK, CORNER, OUT, OVER, TWO_SIDES, towel
 from tests.replay.checker import check
+from tests.required import required
 
 RELEASE_S = 0.5
 
@@ -116,7 +117,7 @@ def test_below_a_red_fold_the_cloth_lies_as_it_lay_before() -> None:
 
 def test_at_the_end_the_layers_lie_above_one_another_in_the_order_of_the_folds() -> None:
     plan = planned_chain()
-    end = Timeline.of(plan).at(plan.cost_s).cloth
+    end = Timeline.of(plan).at(required(plan.cost_s)).cloth
     for layer in range(4):
         heights = end.vertices[end.triangles[end.layers == layer]][..., 2]
         assert heights == pytest.approx(np.full_like(heights, (layer + 1) * LAYER_GAP_M), abs=1e-6)

@@ -8,7 +8,8 @@ import pytest
 from planner import Scene, Task
 from planner.geometry.pose import Pose2
 from planner.motion.search_limits import QUICK
-from planner.motion.transfer_candidate import ways_of
+from planner.motion.transfer import Transfer
+from planner.motion.transfer_candidate import Candidate, ways_of
 from planner.motion.transfer_planner import TransferPlanner
 from planner.planning.problem import Problem
 from planner.primitives.primitive import Step
@@ -54,9 +55,14 @@ def test_ways_that_cannot_be_quicker_than_one_that_was_found_are_not_led(monkeyp
     maker, first, _ = some_fold(arm_motion_s=0.9)
     quick = maker.validated(first, replace(QUICK, ways=1))
     assert quick is not None and quick.is_late
-    takes_s, led, made = sum(quick.durations_s()), [], maker.made
+    takes_s, led, made = sum(quick.durations_s()), list[tuple[Step, ...]](), maker.made
     slower = [(way,) for way in first[0].elsewhere(64) if way.duration_s > takes_s]
     assert len(slower) >= QUICK.late
-    monkeypatch.setattr(maker, "made", lambda candidate: led.append(candidate.steps) or made(candidate))
+
+    def noted(candidate: Candidate) -> Transfer | None:
+        led.append(candidate.steps)
+        return made(candidate)
+
+    monkeypatch.setattr(maker, "made", noted)
     assert maker.first_valid([first, *slower], QUICK) is quick
     assert led == [first]

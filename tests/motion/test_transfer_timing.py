@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from planner.geometry.pose import Approach, Pose2
+from planner.geometry.pose import Approach, Point3, Pose2
 from planner.geometry.table import Table
 from planner.geometry.table_top import TableTop
 from planner.motion.transfer_timing import TransferLimits, TransferTiming
@@ -18,7 +18,7 @@ REST_S = 0.5
 DRIVING = DriveTime(0.25, 0.5)
 
 
-def phase(start, end, duration_s: float = 3.0, motion: int | None = 0) -> Phase:
+def phase(start: Point3, end: Point3, duration_s: float = 3.0, motion: int | None = 0) -> Phase:
     hand = Hand(Approach(0.0, 0.5), (start, end), is_closed=True)
     return Phase(duration_s, (BASE, BASE), (hand, None), STILL, motion)
 
@@ -31,10 +31,12 @@ def drag(distance_m: float) -> Phase:
     return Phase(DRIVING.driving_s(distance_m), (BASE, after), (hand, None), transfer_path)
 
 
-def timed(*carrying: tuple[int, Phase], turn: float = 0.0, speed: float = 1.0, acceleration: float = 100.0):
+def timed(
+    *carrying: tuple[int, Phase], turn: float = 0.0, speed: float = 1.0, acceleration: float = 100.0
+) -> TransferTiming:
     """Return the timing where one joint turns by `turn` from moment to moment, with its limits."""
     waypoints = waypoints_of([each for _, each in carrying], 0.79)
-    joints = turn * np.arange(len(waypoints))[:, None]
+    joints = turn * np.arange(len(waypoints), dtype=np.float64)[:, None]
     hard = (DRIVING.acceleration_m_s2, DRIVING.acceleration_m_s2, DRIVING.turn_acceleration_rad_s2)
     fast = (DRIVING.speed_m_s, DRIVING.speed_m_s, DRIVING.turn_rad_s)
     limits = TransferLimits(np.array([speed, *fast]), np.array([acceleration, *hard]), REST_S)

@@ -17,6 +17,7 @@ from planner.task.reason import Code
 from planner.task.task import Task
 from tests.builders import fold, garment
 from tests.replay.planned import planned
+from tests.required import required
 from tests.robots.remade import BOLTED, ONE_ARM, THREE_ARMS, UNLIKE, RemadeRobot
 
 FRONT_ONLY = Scene(stations=Scene().stations[:1])
@@ -25,7 +26,7 @@ Planning = Callable[[RemadeRobot, Garment], FoundPlan]
 
 
 @pytest.fixture
-def found_for(monkeypatch) -> Iterator[Planning]:
+def found_for(monkeypatch: pytest.MonkeyPatch) -> Iterator[Planning]:
     compile_kernels()
 
     def found(robot: RemadeRobot, what: Garment) -> FoundPlan:
@@ -66,7 +67,7 @@ def test_one_arm_is_told_that_a_towel_takes_two_hands(found_for: Planning) -> No
 def test_arms_of_eight_and_of_seven_joints_do_what_those_of_a_pr2_do(found_for: Planning) -> None:
     usual, plan = planned("hand-towel").answer, found_for(UNLIKE, load_garment("hand-towel")).plan
     require_performed(plan, UNLIKE)
-    assert len(plan.trajectory.arms.names) == 15
+    assert len(required(plan.trajectory).arms.names) == 15
     assert plan.cost_s == pytest.approx(usual.cost_s)
     assert arms_of(plan) == arms_of(usual)
 

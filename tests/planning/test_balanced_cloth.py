@@ -7,6 +7,7 @@ import pytest
 from planner import Scene, make_plan
 from planner.geometry.pose import Pose2
 from tests.builders import fold, garment, rectangle_points
+from tests.required import required
 
 SMOOTH = Scene(friction=0.0)
 TOO_FAINT_M = 2e-5
@@ -28,4 +29,4 @@ def test_out_of_balance_it_slips_and_says_how_little_would_hold_it() -> None:
     )
     (reason,) = make_plan(strip, SMOOTH, time_limit_s=60.0).reasons
     assert reason.needed_friction == pytest.approx(0.002 / 0.98, rel=1e-3)
-    assert make_plan(strip, Scene(friction=reason.needed_friction), time_limit_s=60.0).is_solved
+    assert make_plan(strip, Scene(friction=required(reason.needed_friction)), time_limit_s=60.0).is_solved

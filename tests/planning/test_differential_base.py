@@ -64,7 +64,7 @@ def trajectory(plan: Plan) -> Trajectory:
 
 def rims_m_s(forward_m_s: np.ndarray, turn_rad_s: np.ndarray) -> np.ndarray:
     """Return the speed of the faster wheel's rim (m/s)."""
-    return np.abs(forward_m_s) + np.abs(turn_rad_s) * TRACK_M / 2
+    return np.asarray(np.abs(forward_m_s) + np.abs(turn_rad_s) * TRACK_M / 2)
 
 
 def test_it_drives_round_the_table_and_folds(plan: Plan) -> None:
@@ -125,5 +125,5 @@ def test_a_plan_from_elsewhere_that_drives_sideways_is_refused(plan: Plan) -> No
 
 def sideways(segment: Segment) -> Segment:
     """Return a segment in which the base looks across where it goes."""
-    turned = tuple(Pose2(base.x_m, base.y_m, base.yaw_rad + math.pi / 2) for base in segment.phase.base)
-    return replace(segment, phase=replace(segment.phase, base=turned))
+    start, end = (Pose2(base.x_m, base.y_m, base.yaw_rad + math.pi / 2) for base in segment.phase.base)
+    return replace(segment, phase=replace(segment.phase, base=(start, end)))

@@ -1,6 +1,7 @@
 """The bound on driving for loose folds: consistent, never too high, and close to the true cost."""
 
 import math
+from collections.abc import Iterator
 from dataclasses import replace
 
 import pytest
@@ -21,6 +22,7 @@ from planner.primitives.fold_query import FoldQueries
 from planner.primitives.fold_stands import FoldStands
 from planner.primitives.g_drag import GDrag
 from planner.primitives.g_fold import GFold
+from planner.primitives.primitive import Primitive, Step
 from planner.primitives.state import State
 from planner.robots.load_robot import load_robot
 from planner.search.a_star import Edge, Outcome, a_star
@@ -42,10 +44,10 @@ def work_of(cloth: Garment, scene: Scene = SCENE) -> Context:
 def test_no_edge_lowers_the_bound_by_more_than_it_costs(name: str) -> None:
     cloth = tabs_on_two_sides(4) if name == "tabs" else load_garment(name)
     context = work_of(cloth)
-    kinds = [GFold(context), GDrag(context), BaseMove(context)]
+    kinds: list[Primitive] = [GFold(context), GDrag(context), BaseMove(context)]
     bound, goal = DrivingBound(context, START), (1 << len(context.sequence.folds)) - 1
 
-    def successors(state: State, _cost_s: float):
+    def successors(state: State, _cost_s: float) -> Iterator[Edge[State, Step]]:
         for step in (step for kind in kinds for step in kind.successors(state)):
             assert bound(state) <= step.duration_s + bound(step.after) + 1e-9, step.details
             yield Edge(step, step.duration_s, step.after)

@@ -1,16 +1,20 @@
 """Hands at edges are looked for when the search validates a path, before others."""
 
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 import pytest
 
 from planner import Garment, Scene, Task, find_plan, load_garment
 from planner.motion.edge_hands import EdgeHands
-from planner.motion.plan_segment import duration_s
+from planner.motion.plan_segment import PlanSegment, duration_s
+from planner.motion.search_limits import SearchLimits
+from planner.motion.transfer import Transfer
 from planner.motion.transfer_planner import TransferPlanner
 from planner.planning.edge_acts import EdgeActs
 from planner.planning.motion_validator import MotionValidator
 from planner.planning.warm_up import compile_kernels
+from planner.primitives.primitive import Step
 from tests.planning.found import found_plan
 
 AHEAD_M = {"hand-towel": 0.2, "t-shirt": 0.0, "vest": 0.0}
@@ -56,12 +60,12 @@ def test_hands_that_come_late_to_an_edge_hold_otherwise(monkeypatch: pytest.Monk
     late: list[bool] = []
     validated, is_late = MotionValidator.plan_segments, EdgeActs._is_late
 
-    def noted(self, steps):
+    def noted(self: MotionValidator, steps: Sequence[Step]) -> tuple[PlanSegment, ...] | None:
         plan_segments = validated(self, steps)
         rounds.append(None if plan_segments is None else duration_s(plan_segments))
         return plan_segments
 
-    def noted_late(self, plan_segment):
+    def noted_late(self: EdgeActs, plan_segment: PlanSegment) -> bool:
         late.append(is_late(self, plan_segment))
         return late[-1]
 
@@ -77,7 +81,9 @@ def test_hands_that_come_late_to_edges_are_shown_before_others_are_looked_for(mo
     events: list[str] = []
     wide = TransferPlanner.first_valid
 
-    def noted(self, choices, search_limits):
+    def noted(
+        self: TransferPlanner, choices: Iterable[tuple[Step, ...]], search_limits: SearchLimits
+    ) -> Transfer | None:
         events.append("wide")
         return wide(self, choices, search_limits)
 

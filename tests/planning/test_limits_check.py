@@ -93,14 +93,14 @@ def test_the_peaks_between_keyframes_are_those_of_the_cubic(keyframes: list[tupl
     speeds, accelerations = peaks(times, values[:, None], rates[:, None])
     for number, (start, end) in enumerate(pairwise(times)):
         at = np.linspace(start, end, 400, endpoint=False)
-        sampled = np.array([rate_at(times, values, rates, t) for t in at])
+        sampled = np.array([rate_at(times.tolist(), values, rates, t) for t in at])
         assert speeds[number, 0] == pytest.approx(
             max(np.abs(sampled).max(), abs(rates[number + 1])), rel=1e-3, abs=1e-3
         )
         hardest = np.abs(np.diff(sampled) / np.diff(at)).max()
         assert hardest <= accelerations[number, 0] * (1.0 + 1e-6) + 1e-6
         assert accelerations[number, 0] == pytest.approx(hardest, rel=2e-2, abs=2e-2)
-        assert value_at(times, values, rates, start) == pytest.approx(values[number])
+        assert value_at(times.tolist(), values, rates, start) == pytest.approx(values[number])
 
 
 def test_an_elbow_beyond_its_soft_limit_is_refused_with_the_joint_and_how_far(plan: Plan) -> None:

@@ -18,6 +18,7 @@ from planner.primitives.state import State
 from planner.task.reason import Code
 from tests.builders import context, fold, garment, is_same_region, is_same_stack, rectangle, rectangle_points
 from tests.planning.red_towels import BACK, CORNER, OUT, OVER, TWO_SIDES, WIDTH_M, towel
+from tests.required import required
 
 START = State(0, (0.0, 0.0), 0, 0)
 
@@ -207,7 +208,7 @@ def test_a_chain_takes_its_own_flap_also_after_a_later_fold_that_was_done_first(
 @pytest.mark.parametrize("heuristic", ["arm_time", "zero"])
 def test_a_search_through_all_orders_of_a_chain_and_a_fold_apart_finds_a_plan(heuristic: str) -> None:
     answer = make_plan(TWO_SIDES, heuristic=heuristic, time_limit_s=60.0)
-    folds = [step.fold for step in answer.steps if step.kind == "fold"]
+    folds = [required(step.fold) for step in answer.steps if step.kind == "fold"]
     assert sorted(folds) == [0, 1, 2] and folds.index(1) == folds.index(0) + 1
     # All of it lies before the robot: 9 + 6 + 9 s at least, and no driving.
     assert answer.cost_s == pytest.approx(24.0, abs=0.5)

@@ -1,6 +1,7 @@
 """Tasks that take scene and placement from the robot's card."""
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -68,7 +69,7 @@ def test_a_scene_given_in_part_is_filled_up_by_the_robots() -> None:
 @pytest.mark.parametrize(
     "request_", [{"scene": {"friction": 0.5}}, {"robot": "nobody", "scene": {}}, {"robot": 3, "scene": {}}, [], None]
 )
-def test_what_is_for_the_default_robot_or_wrong_is_left_as_it_is(request_) -> None:
+def test_what_is_for_the_default_robot_or_wrong_is_left_as_it_is(request_: Any) -> None:
     assert with_robots_scene(request_) == request_
 
 
@@ -77,6 +78,6 @@ def test_there_is_no_task_for_a_robot_that_nobody_described() -> None:
         task_for(load_garment("tie"), robot="nobody")
 
 
-def test_a_placement_turns_with_the_card(monkeypatch) -> None:
+def test_a_placement_turns_with_the_card(monkeypatch: pytest.MonkeyPatch) -> None:
     towel = load_garment("hand-towel")
     assert default_placement(towel, "so101-pair").yaw_rad == pytest.approx(-math.pi / 2)

@@ -67,7 +67,9 @@ def test_every_shipped_robot_has_room_for_the_garment_that_is_planned_first() ->
 
 
 @pytest.mark.parametrize("robot", ["pr2", "so101-pair"])
-def test_the_bound_on_the_driving_is_asked_where_nothing_is_in_reach(monkeypatch, robot) -> None:
+def test_the_bound_on_the_driving_is_asked_where_nothing_is_in_reach(
+    monkeypatch: pytest.MonkeyPatch, robot: str
+) -> None:
     # At the table two hands have a hundred ways each: for TIAGo Pro the bound took 17 s, in every process.
     asked = []
     monkeypatch.setattr("planner.planning.warm_up.DrivingBound", lambda context, start: asked.append(context))
@@ -76,7 +78,7 @@ def test_the_bound_on_the_driving_is_asked_where_nothing_is_in_reach(monkeypatch
     assert all(math.hypot(pose.x_m, pose.y_m) > 10.0 for _, pose in context.scene.stations)
 
 
-def test_the_kernels_of_a_robot_are_used_once_by_whatever_name_it_is_asked_for(monkeypatch) -> None:
+def test_the_kernels_of_a_robot_are_used_once_by_whatever_name_it_is_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
     compile_kernels()
     monkeypatch.setattr("planner.planning.warm_up.Problem.of", lambda *_: pytest.fail("used once more"))
     compile_kernels("pr2")

@@ -10,9 +10,9 @@ import random
 
 import pytest
 
-from planner.geometry.pose import Pose2
+from planner.geometry.pose import Point2, Pose2
 from planner.geometry.table import Table
-from planner.primitives.base_move import BaseMove
+from planner.primitives.base_move import BaseMove, MoveStep
 from planner.primitives.drive_time import DriveTime
 from planner.primitives.route import Route, clear_of_table, route_along, shortest_way
 from planner.primitives.state import Held, State
@@ -28,7 +28,7 @@ TIME = DriveTime(0.25, 0.5)
 TOWEL = garment(rectangle_points(0.4, 0.3))
 
 
-def move(start: str, goal: str, standoff: int = 0, scene: Scene | None = None):
+def move(start: str, goal: str, standoff: int = 0, scene: Scene | None = None) -> MoveStep:
     scene = scene or Scene()
     names = [name for name, _ in scene.stations]
     state = State(0, (0.0, 0.0), names.index(start), standoff)
@@ -139,14 +139,14 @@ def test_from_a_place_to_itself_there_is_nothing_to_drive() -> None:
 def test_ways_are_as_long_there_as_back() -> None:
     rng = random.Random(17)
     for _ in range(100):
-        ends = []
+        ends: list[Point2] = []
         while len(ends) < 2:
             x, y = rng.uniform(-2.5, 2.5), rng.uniform(-2.0, 2.0)
             if abs(x) > HALF_X or abs(y) > HALF_Y:
                 ends.append((x, y))
         lengths = [
-            sum(math.dist(a, b) for a, b in itertools.pairwise(shortest_way(*way, TABLE, CIRCLE_M)))
-            for way in (ends, ends[::-1])
+            sum(math.dist(a, b) for a, b in itertools.pairwise(shortest_way(start, goal, TABLE, CIRCLE_M)))
+            for start, goal in (ends, ends[::-1])
         ]
         assert lengths[0] == pytest.approx(lengths[1])
         assert lengths[0] >= math.dist(*ends) - 1e-9

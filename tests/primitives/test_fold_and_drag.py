@@ -9,10 +9,12 @@ import math
 import numpy as np
 import pytest
 
-from planner.cloth.garment import Garment
+from planner.cloth.garment import DrawnFold, Garment
 from planner.geometry.pose import Pose2
 from planner.primitives.base_legs import unbeaten
 from planner.primitives.context import Context
+from planner.primitives.drag_step import DragStep
+from planner.primitives.fold_step import FoldStep
 from planner.primitives.fold_trial import fold_trials
 from planner.primitives.g_drag import GDrag
 from planner.primitives.g_fold import GFold
@@ -24,7 +26,7 @@ NEAR_HALF = fold((0.4, 0.15), (0.0, 0.15))
 BACK = -math.pi / 2
 
 
-def towel(*folds, x_m: float = -0.75, y_m: float = 0.2) -> Garment:
+def towel(*folds: DrawnFold, x_m: float = -0.75, y_m: float = 0.2) -> Garment:
     """Return a towel whose near edge lies at x = `x_m`."""
     return garment(rectangle_points(0.4, 0.3), *folds, placement=Pose2(x_m, y_m, BACK))
 
@@ -33,11 +35,11 @@ def start(standoff: int = 0) -> State:
     return State(0, (0.0, 0.0), 0, standoff)
 
 
-def folds_of(problem: Context, state: State | None = None):
+def folds_of(problem: Context, state: State | None = None) -> list[FoldStep]:
     return list(GFold(problem).successors(state or start()))
 
 
-def drags_of(problem: Context, state: State | None = None):
+def drags_of(problem: Context, state: State | None = None) -> list[DragStep]:
     return list(GDrag(problem).successors(state or start()))
 
 

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from planner import Scene, load_garment
 from planner.folds.fold_sequence import FoldSequence
@@ -122,7 +123,9 @@ class Asking:
     def __getattr__(self, name: str) -> Any:
         return getattr(self._reach, name)
 
-    def standoffs(self, arm: int, points: FloatArray, approaches: np.ndarray, count: int, *rest: Any, **more: Any):
+    def standoffs(
+        self, arm: int, points: FloatArray, approaches: NDArray[np.int64], count: int, *rest: Any, **more: Any
+    ) -> NDArray[np.uint32]:
         self.counts.append(count)
         return self._reach.standoffs(arm, points, approaches, count, *rest, **more)
 
@@ -131,7 +134,7 @@ def test_ways_that_need_no_driving_are_found_without_a_look_from_further_back(co
     (step, *_) = GFold(context).successors(START)
     fold, end = step.way.trial.fold, step.after.standoff
     asking = Asking(context.reach)
-    few = islice(fold_variants(replace(context, reach=asking), START, fold, end), 3)  # type: ignore[arg-type]
+    few = islice(fold_variants(replace(context, reach=asking), START, fold, end), 3)
     assert [v.steps for v in few] == [end - START.standoff] * 3
     assert set(asking.counts) == {end + 1} and end + 1 < context.standoffs
 

@@ -9,7 +9,7 @@ import pytest
 from app.drawing.garment_drawing import drawing_of
 from app.drawing.solve import solve
 from planner import Garment, Scene, Task, find_plan, load_garment, make_plan, quick_plan
-from planner.folds.fold import Fold
+from planner.cloth.garment import DrawnFold
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
 from planner.motion.timeline import Timeline
@@ -19,6 +19,7 @@ from tests.planning.found import found_plan
 from tests.replay.checker import check
 from tests.replay.joints import require_clear, require_speeds
 from tests.replay.planned import IMPOSSIBLE, SOLVABLE, each_solvable, planned
+from tests.required import required
 from tests.sweep import sweep
 
 CENTIMETRE = ((0.01, 0.0), (0.0, 0.01), (-0.01, 0.0), (0.0, -0.01))
@@ -61,7 +62,7 @@ HALF = fold((0.3, 0.15), (0.0, 0.15), name="half")
 QUARTER = fold((0.15, 0.15), (0.15, 0.3), name="quarter")
 
 
-def napkin(*folds: Fold) -> Garment:
+def napkin(*folds: DrawnFold) -> Garment:
     return garment(rectangle_points(0.3, 0.3), *folds, placement=Pose2(-0.75, 0.15, -math.pi / 2))
 
 
@@ -88,7 +89,7 @@ def test_what_is_adapted_to_a_garment_with_a_vertex_moved_by_a_centimetre_replay
         after = soon(cloth, before)
         if after is not None:
             check(cloth.to_dict(), Scene().to_dict(), unhurried(after))
-            assert after.plan.statistics.bound_s <= after.plan.cost_s
+            assert required(after.plan.statistics.bound_s) <= required(after.plan.cost_s)
             adapted.append(after)
     assert adapted, "each garment has a vertex that may be pulled without another plan"
 
@@ -116,15 +117,15 @@ def test_most_centimetres_ask_for_no_other_plan() -> None:
 def test_what_more_is_to_be_folded_is_folded_after_what_is_known() -> None:
     once, twice = napkin(HALF), napkin(HALF, QUARTER)
     known = found_plan(once)
-    found = soon(twice, known)
+    found = required(soon(twice, known))
     check(twice.to_dict(), Scene().to_dict(), unhurried(found))
     assert way(found)[: len(way(known))] == way(known)
-    assert found.plan.cost_s >= make_plan(twice).cost_s - 1e-9
+    assert required(found.plan.cost_s) >= required(make_plan(twice).cost_s) - 1e-9
 
 
 def test_what_is_not_to_be_folded_any_more_is_left_out() -> None:
     once, twice = napkin(HALF), napkin(HALF, QUARTER)
-    found = soon(once, found_plan(twice))
+    found = required(soon(once, found_plan(twice)))
     assert way(found) == way(found_plan(once))
 
 
@@ -132,7 +133,7 @@ def test_a_plan_whose_hands_let_go_does_not_do_for_folds_between_which_they_hold
     over, back = fold((0.3, 0.12), (0.0, 0.12), name="over"), fold((0.0, 0.2), (0.3, 0.2), "red", name="back")
     red, blue = napkin(over, back), napkin(over, replace(back, kind="blue"))
     for cloth, other in ((red, blue), (blue, red)):
-        found = soon(cloth, found_plan(other))
+        found = required(soon(cloth, found_plan(other)))
         check(cloth.to_dict(), Scene().to_dict(), unhurried(found))
         folds = [step for step in found.plan.steps if step.kind == "fold"]
         assert [step.details["holds"] for step in folds] == [cloth is red, False]
@@ -145,21 +146,22 @@ def test_where_there_is_no_plan_none_is_found_soon(name: str) -> None:
 
 
 def test_a_plan_that_is_known_is_the_answer_if_none_is_quicker() -> None:
-    known = soon(moved("jeans", 2, (0.0, 0.01)), planned("jeans").found)
+    known = required(soon(moved("jeans", 2, (0.0, 0.01)), planned("jeans").found))
     after = find_plan(known.plan.task, known=known).plan
     plainly = make_plan(known.plan.task)
-    assert after.is_solved and after.cost_s == pytest.approx(min(known.plan.cost_s, plainly.cost_s), abs=1e-9)
+    quickest_s = min(required(known.plan.cost_s), required(plainly.cost_s))
+    assert after.is_solved and after.cost_s == pytest.approx(quickest_s, abs=1e-9)
     assert after.statistics.bound_s == pytest.approx(after.cost_s, abs=1e-9), "that is proved now"
 
 
 def test_a_plan_that_is_known_is_the_answer_when_time_runs_out() -> None:
     jeans = load_garment("jeans")
-    known = soon(jeans, planned("jeans").found)
+    known = required(soon(jeans, planned("jeans").found))
     task = Task.of(jeans, max_expanded=1)
     after = find_plan(task, known=known).plan
     assert after.is_solved and after.cost_s == known.plan.cost_s
     assert after.task == task, "it answers what was asked now"
-    assert after.statistics.bound_s < after.cost_s, "whether it is the quickest is not known"
+    assert required(after.statistics.bound_s) < required(after.cost_s), "whether it is the quickest is not known"
 
 
 def test_a_slower_plan_that_is_known_gives_way_to_the_quickest() -> None:

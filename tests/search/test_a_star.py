@@ -2,7 +2,8 @@
 
 import math
 import random
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Hashable, Iterable, Sequence
+from typing import TypeVar
 
 import networkx as nx
 import pytest
@@ -11,18 +12,28 @@ from hypothesis import strategies as st
 
 from planner.search.a_star import DeferredEdges, Edge, Outcome, SearchResult, a_star
 
+S = TypeVar("S", bound=Hashable)
+A = TypeVar("A")
+
 
 def search(
-    start: object,
-    successors: Callable[[object], Iterable[Edge[object, object]]],
-    goal: object,
-    heuristic: Callable[[object], float] = lambda state: 0.0,
+    start: S,
+    successors: Callable[[S], Iterable[Edge[S, A]]],
+    goal: S,
+    heuristic: Callable[[S], float] = lambda state: 0.0,
     max_expanded: int = 10_000,
     should_stop: Callable[[], bool] = lambda: False,
     limit: float = math.inf,
-) -> SearchResult[object, object]:
-    leaving = lambda state, cost: successors(state)  # noqa: E731
-    return a_star(start, leaving, lambda state: state == goal, heuristic, max_expanded, should_stop, limit)
+) -> SearchResult[S, A]:
+    return a_star(
+        start,
+        lambda state, cost: successors(state),
+        lambda state: state == goal,
+        heuristic,
+        max_expanded,
+        should_stop,
+        limit,
+    )
 
 
 def number_line(n: int) -> list[Edge[int, int]]:
@@ -87,7 +98,7 @@ def test_whoever_asks_to_stop_is_heard_before_the_first_expansion() -> None:
 
 def test_a_sum_in_another_order_is_no_better_path() -> None:
     # 0.1 + 0.2 + 0.3 and 0.3 + 0.2 + 0.1 differ in their last digit: the first found is kept.
-    edges = {
+    edges: dict[str, list[Edge[str, str]]] = {
         "s": [Edge("up", 0.1, "a"), Edge("down", 0.3, "x")],
         "a": [Edge("up", 0.2, "b")],
         "b": [Edge("up", 0.3, "g")],
@@ -100,7 +111,7 @@ def test_a_sum_in_another_order_is_no_better_path() -> None:
 
 def test_of_equal_estimates_the_larger_cost_so_far_goes_first() -> None:
     # Two ways of cost 2 with a perfect heuristic: the search runs down one of them without looking at the other.
-    edges = {"s": ["a", "x"], "a": ["b"], "x": ["y"], "b": ["g"], "y": ["g"], "g": []}
+    edges: dict[str, list[str]] = {"s": ["a", "x"], "a": ["b"], "x": ["y"], "b": ["g"], "y": ["g"], "g": []}
     left = {"s": 3.0, "a": 2.0, "x": 2.0, "b": 1.0, "y": 1.0, "g": 0.0}
     found = search("s", lambda s: [Edge(t, 1.0, t) for t in edges[s]], "g", left.__getitem__)
     assert found.expanded == 3
@@ -133,7 +144,7 @@ def random_graph(seed: int) -> nx.DiGraph:
 def test_random_graphs_cost_what_dijkstra_finds(seed: int) -> None:
     graph = random_graph(seed)
 
-    def successors(node: object) -> list[Edge[object, object]]:
+    def successors(node: int) -> list[Edge[int, int]]:
         return [Edge(b, data["weight"], b) for _, b, data in graph.out_edges(node, data=True)]
 
     exact = nx.single_source_dijkstra_path_length(graph.reverse(), 24)
@@ -150,9 +161,9 @@ def test_random_graphs_cost_what_dijkstra_finds(seed: int) -> None:
 
 @given(st.integers(0, 100_000))
 def test_no_state_is_expanded_twice(seed: int) -> None:
-    graph, asked = random_graph(seed), []
+    graph, asked = random_graph(seed), list[int]()
 
-    def successors(node: object) -> list[Edge[object, object]]:
+    def successors(node: int) -> list[Edge[int, int]]:
         asked.append(node)
         return [Edge(b, data["weight"], b) for _, b, data in graph.out_edges(node, data=True)]
 
@@ -162,7 +173,7 @@ def test_no_state_is_expanded_twice(seed: int) -> None:
 
 def test_a_state_left_before_is_left_again_if_a_deferred_edge_leads_there_at_less_cost() -> None:
     # The edge to b takes 1, but is deferred until 5, since from b on 4 more are needed than the heuristic says.
-    ways = {
+    ways: dict[str, Sequence[Edge[str, str] | DeferredEdges[str, str]]] = {
         "a": [Edge("late", 2.0, "b"), DeferredEdges(5.0, "b", lambda: [Edge("soon", 1.0, "b")])],
         "b": [Edge("on", 4.5, "goal")],
     }

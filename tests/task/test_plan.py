@@ -20,6 +20,7 @@ from planner.motion.timeline import Timeline
 from planner.task.plan import VERSION
 from tests.planning.found import found_plan
 from tests.replay.planned import planned
+from tests.required import required
 
 NAMES = ("t-shirt", "vest", "tie", "hand-towel", "tie-halved")
 HELD = ("letter-towel", "big-towel")
@@ -105,8 +106,8 @@ def test_a_table_that_is_open_on_one_side_is_so_when_it_is_read_back() -> None:
     tops = [segment["phase"]["cloth"]["top"] for segment in data_of("big-towel")["trajectory"]["segments"]]
     assert any(number is None for top in tops for corner in top for number in corner)
     read = Plan.from_dict(data_of("big-towel"))
-    found = [segment.phase.cloth.top for segment in read.trajectory.segments]
-    assert found == [segment.phase.cloth.top for segment in plan.trajectory.segments]
+    found = [segment.phase.cloth.top for segment in required(read.trajectory).segments]
+    assert found == [segment.phase.cloth.top for segment in required(plan.trajectory).segments]
 
 
 @each_name

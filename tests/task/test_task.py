@@ -14,7 +14,7 @@ from planner.geometry.pose import Pose2
 from planner.planning.robot_task import task_for
 from planner.task.grip import BaseStop
 from planner.task.scene import DEFAULT_STATIONS
-from planner.task.task import VERSION, at_station
+from planner.task.task import VERSION, TaskOptions, at_station
 from planner.task.world_state import HeldPoint
 
 FRONT = BaseStop.at("front", DEFAULT_STATIONS["front"])
@@ -35,10 +35,10 @@ def tasks() -> dict[str, Task]:
     towel = load_garment("hand-towel")
     held = (HeldPoint("left", (0.1, 0.2)), HeldPoint("right", (0.3, 0.2)))
     elsewhere = BaseStop(None, 0.0, -1.2, 0.3, 0.1)
-    limits = {"comfort_radius_m": 0.0, "heuristic": "zero", "time_limit_s": 3.0, "work_limit_s": 2.5}
+    limits = TaskOptions(comfort_radius_m=0.0, heuristic="zero", time_limit_s=3.0, work_limit_s=2.5, max_expanded=7)
     return {
         **{name: Task.of(load_garment(name)) for name in NAMES},
-        "limited": Task.of(towel, max_expanded=7, **limits),
+        "limited": Task.of(towel, **limits),
         "elsewhere": Task.of(towel, Scene(friction=0.5), start_station="left", placement=Pose2(-0.5, 0.1, 0.3)),
         "held": Task.of(towel, start=WorldState((), towel.placement, FRONT, held, 0.3)),
         "folded": Task.of(towel, start=WorldState((0,), towel.placement, elsewhere)),
