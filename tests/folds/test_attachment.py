@@ -49,7 +49,8 @@ def test_the_inside_of_the_cloth_is_nothing_to_attach_to() -> None:
 
 def test_of_edges_that_lie_on_each_other_the_one_that_was_not_moved_is_taken() -> None:
     """The near edge lies on the far one, which runs from (0.4, 0.3) to (0, 0.3)."""
-    assert attached((0.1, 0.3), folded(unfolded(), HALF), is_red=False) == OnEdge(2, pytest.approx(0.75))  # type: ignore[arg-type]
+    found = attached((0.1, 0.3), folded(unfolded(), HALF), is_red=False)
+    assert found == OnEdge(2, pytest.approx(0.75))  # type: ignore[arg-type]
 
 
 def test_a_place_on_a_crease_is_a_fraction_of_it_and_its_ends_come_before_edges() -> None:

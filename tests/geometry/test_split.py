@@ -100,6 +100,6 @@ def test_a_cut_that_ends_a_hair_beside_a_corner_leaves_no_neck() -> None:
     armpit = (0.007071, 0.426071)
     body = Region.polygon([(0.0, 0.0), armpit, (-0.1, 0.42), (-0.1, 0.57), (0.0, 0.61), (0.4, 0.61), (0.4, 0.0)])
     for aside in (-1e-7, 0.0, 1e-7):
-        parts = required(split_along(body, Segment((armpit[0] + aside, armpit[1] + aside), (0.0, 0.61))))
+        parts = split_along(body, Segment((armpit[0] + aside, armpit[1] + aside), (0.0, 0.61)))
         assert parts is not None
         assert is_same_region(parts[0], Region.polygon([armpit, (0.0, 0.61), (-0.1, 0.57), (-0.1, 0.42)]))
