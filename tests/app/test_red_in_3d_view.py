@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 import pytest
+import viser
 from numpy.typing import NDArray
 
 from app.ui.colours import DARK, LIGHT
@@ -42,8 +43,8 @@ def performed(plan: Plan, index: int) -> PlanStep:
 def line(view: View3D, index: int) -> NDArray[np.float64]:
     """Return a fold's line as drawn: segments, shape (n, 2, 3), m; none if it is hidden."""
     handle = view._server.scene.get_handle_by_name(f"/folds/{index}")
-    assert handle is not None
-    return np.asarray(handle.points, dtype=float) if handle.visible else np.zeros((0, 2, 3))
+    assert isinstance(handle, viser.LineSegmentsHandle)
+    return np.asarray(handle.points, dtype=np.float64) if handle.visible else np.zeros((0, 2, 3))
 
 
 def length_m(segments: NDArray[np.float64]) -> float:
@@ -63,7 +64,7 @@ def test_the_two_kinds_have_the_two_colours_of_the_theme(view: View3D) -> None:
         view.set_theme(is_dark=is_dark)
         for index, wanted in ((BLUE, palette.fold_blue), (RED, palette.fold_red)):
             handle = view._server.scene.get_handle_by_name(f"/folds/{index}")
-            assert handle is not None
+            assert isinstance(handle, viser.LineSegmentsHandle)
             assert tuple(handle.colors) == tuple(ink(wanted))
 
 
@@ -94,8 +95,8 @@ def test_while_a_red_fold_is_made_the_cloth_under_its_flap_lies_still(view: View
     for share in np.linspace(0.2, 0.98, 15):
         view.show(Timeline.of(letter).at(red.start_s + float(share) * red.duration_s))
         handle = view._server.scene.get_handle_by_name("/cloth/front")
-        assert handle is not None
-        corners = np.asarray(handle.vertices, dtype=float)
+        assert isinstance(handle, viser.MeshHandle)
+        corners = np.asarray(handle.vertices, dtype=np.float64)
         # Layer 0 lies at one gap over the table; what of the flap stays, layer 1, at two.
         shown.append(
             [

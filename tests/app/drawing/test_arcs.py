@@ -38,7 +38,7 @@ def test_a_circle_becomes_four_quarters() -> None:
 
 
 @pytest.mark.parametrize("way", ["M 10 10 H 50 A 8 8 0 0 1 50 26 H 10 Z", "M 10 10 V 26 H 50 A 8 8 0 0 0 50 10 Z"])
-def test_half_a_circle_between_straight_edges_is_one_curve_whichever_way_it_was_drawn(way) -> None:
+def test_half_a_circle_between_straight_edges_is_one_curve_whichever_way_it_was_drawn(way: str) -> None:
     after = with_arcs(drawn(f'<path d="{way}"/>'))
     assert len(after.outline) == 4
     (across,) = bulges(after)
@@ -69,7 +69,7 @@ def test_a_notch_and_a_rounded_corner_bend_to_their_own_sides() -> None:
     ],
     ids=["rectangle", "sixteen corners", "Bezier", "ellipse"],
 )
-def test_what_is_no_arc_stays_as_it_is(shape) -> None:
+def test_what_is_no_arc_stays_as_it_is(shape: str) -> None:
     before = drawn(shape)
     assert with_arcs(before) is before
 

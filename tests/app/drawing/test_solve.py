@@ -11,7 +11,8 @@ from app.drawing.garment_drawing import drawing_of
 from app.drawing.solution import Solution
 from app.drawing.solve import solve
 from planner import load_garment
-from tests.app.drawing.drawings import crease, outlined, pulled, tied, towel_drawing, with_corner
+from planner.geometry.pose import Point2
+from tests.app.drawing.drawings import about, crease, outlined, pulled, tied, towel_drawing, with_corner
 
 HALF = crease("half", (0.4, 0.15), (0.0, 0.15))
 ACROSS = crease("across", (0.2, 0.15), (0.2, 0.3))
@@ -30,10 +31,10 @@ def test_ends_just_drawn_are_tied_to_what_is_there() -> None:
     solution = solve(towel_drawing(HALF, ACROSS))
     assert solution.problems == ()
     half, across = solution.drawing.folds
-    assert half.start.tie == EdgeTie("v1", "v2", pytest.approx(0.5))
-    assert half.end.tie == EdgeTie("v3", "v0", pytest.approx(0.5))
-    assert across.start.tie == CreaseTie("half", pytest.approx(0.5))
-    assert across.end.tie == EdgeTie("v2", "v3", pytest.approx(0.5))
+    assert half.start.tie == EdgeTie("v1", "v2", about(0.5))
+    assert half.end.tie == EdgeTie("v3", "v0", about(0.5))
+    assert across.start.tie == CreaseTie("half", about(0.5))
+    assert across.end.tie == EdgeTie("v2", "v3", about(0.5))
 
 
 def test_an_end_within_five_millimetres_is_put_onto_the_boundary() -> None:
@@ -55,7 +56,7 @@ def test_an_end_under_cloth_slides_along_the_line_to_its_edge() -> None:
     solution = solve(pulled(solve(drawn).drawing, 1, 0.0, -0.02))
     assert ends(solution, 0) == (near(0.4, 0.15), near(0.0, 0.15))
     assert ends(solution, 1) == (near(0.2, 0.15), near(0.2, 0.31))
-    assert solution.drawing.folds[1].end.tie == EdgeTie("v2", "v3", pytest.approx(0.5))
+    assert solution.drawing.folds[1].end.tie == EdgeTie("v2", "v3", about(0.5))
 
 
 def test_an_end_that_slid_comes_back_with_the_corner() -> None:
@@ -71,7 +72,7 @@ def test_a_corner_put_into_an_edge_moves_no_fold() -> None:
     more = (*drawn.outline[:2], Corner("new", (0.4, 0.06)), *drawn.outline[2:])
     solution = solve(replace(drawn, outline=more))
     assert ends(solution, 0) == (near(0.4, 0.15), near(0.0, 0.15))
-    assert solution.drawing.folds[0].start.tie == EdgeTie("new", "v2", pytest.approx((0.15 - 0.06) / 0.24))
+    assert solution.drawing.folds[0].start.tie == EdgeTie("new", "v2", about((0.15 - 0.06) / 0.24))
 
 
 def test_when_a_corner_goes_the_line_is_kept_and_finds_new_ends() -> None:
@@ -83,7 +84,7 @@ def test_when_a_corner_goes_the_line_is_kept_and_finds_new_ends() -> None:
     without = solve(replace(solution.drawing, outline=rest))
     assert without.problems == ()
     assert ends(without, 0) == (near(0.0, 0.3), near(0.2, 0.15))
-    assert without.drawing.folds[0].end.tie == EdgeTie("v0", "v2", pytest.approx(0.5))
+    assert without.drawing.folds[0].end.tie == EdgeTie("v0", "v2", about(0.5))
 
 
 def test_when_a_fold_goes_what_was_tied_to_its_crease_finds_the_cloth_again() -> None:
@@ -91,7 +92,7 @@ def test_when_a_fold_goes_what_was_tied_to_its_crease_finds_the_cloth_again() ->
     solution = solve(replace(drawn, folds=drawn.folds[1:]))
     assert solution.problems == ()
     assert ends(solution, 0) == (near(0.2, 0.0), near(0.2, 0.3))
-    assert solution.drawing.folds[0].start.tie == EdgeTie("v0", "v1", pytest.approx(0.5))
+    assert solution.drawing.folds[0].start.tie == EdgeTie("v0", "v1", about(0.5))
 
 
 def test_an_end_off_the_cloth_is_kept_and_told_of_where_it_is() -> None:
@@ -132,7 +133,7 @@ def test_a_fold_that_comes_back_onto_the_cloth_is_legal_again() -> None:
         (((0.0, 0.0), (0.01, 0.0), (0.01, 0.01)), "outline_too_small", "outline"),
     ],
 )
-def test_an_outline_that_is_none_is_kept_and_told_of(points, code: str, field: str) -> None:
+def test_an_outline_that_is_none_is_kept_and_told_of(points: tuple[Point2, ...], code: str, field: str) -> None:
     solution = solve(outlined(towel_drawing(HALF), *points))
     assert solution.drawing.points == points
     assert (solution.problems[0].code, solution.problems[0].field) == (code, field)
@@ -179,7 +180,7 @@ def test_a_red_fold_sees_the_flap_alone() -> None:
     red = crease("back", End((0.0, 0.25)), End((0.4, 0.25)), kind="red")
     solution = solve(towel_drawing(HALF, red))
     assert solution.problems == ()
-    assert solution.drawing.folds[1].start.tie == EdgeTie("v3", "v0", pytest.approx(0.25 / 0.3))
+    assert solution.drawing.folds[1].start.tie == EdgeTie("v3", "v0", about(0.25 / 0.3))
 
 
 def reordered(drawing: Drawing, index: int, to: int) -> Drawing:

@@ -1,8 +1,8 @@
 import io
 
-import ezdxf
 import numpy as np
 import pytest
+from ezdxf import filemanagement
 from ezdxf.document import Drawing
 
 from app.files.import_errors import ImportedFileError, UnitsNeededError
@@ -13,7 +13,7 @@ MM, NO_UNIT = 4, 0
 
 
 def drawing(units: int = MM) -> Drawing:
-    made = ezdxf.new("R2004")
+    made = filemanagement.new("R2004")
     made.header["$INSUNITS"] = units
     return made
 

@@ -61,9 +61,11 @@ class Player:
         assert np.all(np.diff(times) > 0.0)
         t = float(np.clip(t_s, times[0], times[-1]))
         if sampler.interpolation == "STEP":
-            return values[np.searchsorted(times, t, side="right") - 1]
+            row: np.ndarray = values[np.searchsorted(times, t, side="right") - 1]
+            return row
         if path == "rotation":
-            return Slerp(times, Rotation.from_quat(values))(t).as_quat()
+            turned: np.ndarray = Slerp(times, Rotation.from_quat(values))(t).as_quat()
+            return turned
         return np.array([np.interp(t, times, column) for column in values.T])
 
     def pose(self, name: str, t_s: float) -> np.ndarray:

@@ -2,21 +2,21 @@
 
 import io
 
-import ezdxf
 import numpy as np
 import pytest
+from ezdxf import filemanagement
 from ezdxf.document import Drawing
 
 from app.files.import_errors import ImportedFileError
 from app.files.import_file import Imported, import_file
 from app.files.piece_labels import in_order, size_in
 
-GROWTH_MM = {"S": -10, "M": 0, "L": 10}
+GROWTH_MM: dict[str, float] = {"S": -10, "M": 0, "L": 10}
 
 
 def pattern(sizes: dict[str, float], *, sample: str | None = None, say: bool = True, seams: bool = False) -> Drawing:
     """Return pieces of 500 by 700 mm that grow by so much on all sides, upon each other, in the form of ASTM D6673."""
-    made = ezdxf.new("R12")
+    made = filemanagement.new("R12")
     space = made.modelspace()
     space.add_text("UNITS: METRIC", dxfattribs={"layer": "1"})
     if sample:
@@ -82,7 +82,7 @@ def test_a_size_of_a_drawing_in_one_size_is_refused() -> None:
 
 
 def test_layers_of_a_plain_drawing_may_be_sizes() -> None:
-    made = ezdxf.new("R2004")
+    made = filemanagement.new("R2004")
     made.header["$INSUNITS"] = 4
     for size, by in GROWTH_MM.items():
         made.modelspace().add_lwpolyline(

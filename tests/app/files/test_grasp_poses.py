@@ -19,7 +19,8 @@ MOMENTS = ("pre_grasp", "grasp", "lift", "place", "retreat")
 
 @cache
 def told() -> dict[str, Any]:
-    return json.loads(poses_json(small_plan()))
+    poses: dict[str, Any] = json.loads(poses_json(small_plan()))
+    return poses
 
 
 def grips() -> list[tuple[dict[str, Any], dict[str, Any]]]:

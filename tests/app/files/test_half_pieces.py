@@ -3,9 +3,9 @@
 import io
 import math
 
-import ezdxf
 import numpy as np
 import pytest
+from ezdxf import filemanagement
 from ezdxf.document import Drawing
 
 from app.files.halves import mirrored_line, whole_line
@@ -83,6 +83,10 @@ def test_a_half_with_curves_is_mirrored_too_and_the_largest_whole_piece_is_taken
     assert any("curves were replaced" in note.text for note in found.notes)
 
 
+def near(*point: float) -> object:
+    return pytest.approx([*point])
+
+
 def folds_on_half(*lines: str) -> list[tuple[str, list[float], list[float]]]:
     """Return the folds drawn on a half piece as name, start and end (m), as on the flat cloth of the whole."""
     mark = '<path id="cutonfold" d="M 0 12 V 58"/>'
@@ -92,18 +96,18 @@ def folds_on_half(*lines: str) -> list[tuple[str, list[float], list[float]]]:
 
 def test_a_fold_line_across_a_half_goes_on_to_the_other_half_in_its_direction() -> None:
     ((_, start, end),) = folds_on_half('<path style="stroke: blue" d="M 0 35 H 24"/>')
-    assert (start, end) == (pytest.approx([0.0, 0.25]), pytest.approx([0.48, 0.25]))
+    assert (start, end) == (near(0.0, 0.25), near(0.48, 0.25))
 
 
 def test_a_fold_line_along_the_fold_stays_one() -> None:
     ((_, start, end),) = folds_on_half('<path style="stroke: blue" d="M 0 10 V 60"/>')
-    assert (start, end) == (pytest.approx([0.24, 0.5]), pytest.approx([0.24, 0.0]))
+    assert (start, end) == (near(0.24, 0.5), near(0.24, 0.0))
 
 
 def test_a_fold_line_beside_the_fold_has_a_mirror_image_that_moves_the_other_side() -> None:
     one, other = folds_on_half('<path style="stroke: blue" d="M 15 60 V 0"><title>side</title></path>')
-    assert one == ("side", pytest.approx([0.39, 0.0]), pytest.approx([0.39, 0.6]))
-    assert other == ("side, mirrored", pytest.approx([0.09, 0.6]), pytest.approx([0.09, 0.0]))
+    assert one == ("side", near(0.39, 0.0), near(0.39, 0.6))
+    assert other == ("side, mirrored", near(0.09, 0.6), near(0.09, 0.0))
 
 
 def test_a_mirrored_fold_moves_the_mirrored_side() -> None:
@@ -192,7 +196,7 @@ def half_pattern(
     mirror: list[tuple[float, float]], *, is_closed: bool = True, turn_deg: float = 0.0, layer: str = "6"
 ) -> Drawing:
     """Return a half piece in the form of ASTM D6673, its mirror line on layer 6."""
-    made = ezdxf.new("R12")
+    made = filemanagement.new("R12")
     block = made.blocks.new("FRONT_M")
     block.add_polyline2d([*HALF_MM, HALF_MM[0]] if is_closed else HALF_MM, dxfattribs={"layer": "1"})
     block.add_polyline2d(mirror, dxfattribs={"layer": layer})
@@ -222,7 +226,7 @@ def test_a_sewing_pattern_whose_mirror_line_is_its_middle_is_whole() -> None:
 
 
 def test_a_layer_named_for_the_fold_is_a_mirror_line_in_any_drawing() -> None:
-    made = ezdxf.new("R2004")
+    made = filemanagement.new("R2004")
     made.header["$INSUNITS"] = 4
     made.modelspace().add_lwpolyline(HALF_MM, close=True)
     made.modelspace().add_line((0, 0), (0, 620), dxfattribs={"layer": "CUT ON FOLD"})
@@ -230,7 +234,7 @@ def test_a_layer_named_for_the_fold_is_a_mirror_line_in_any_drawing() -> None:
 
 
 def test_a_text_that_says_so_without_a_line_is_passed_on() -> None:
-    made = ezdxf.new("R2004")
+    made = filemanagement.new("R2004")
     made.header["$INSUNITS"] = 4
     made.modelspace().add_lwpolyline(HALF_MM, close=True)
     made.modelspace().add_text("FRONT - CUT 1 ON FOLD")

@@ -17,6 +17,7 @@ from planner.motion.motion_limits import MotionLimits
 from planner.motion.motion_values import positions_at
 from planner.robots.load_robot import load_robot
 from tests.builders import fold, garment
+from tests.required import required
 from tests.small_plan import CARD, small_plan
 
 
@@ -67,10 +68,9 @@ def test_states_are_those_of_the_motion_that_is_sent(info: dict[str, Any], frame
     assert state["units"] == ["rad"] * (len(limits.names) - 3) + ["m", "m", "rad"]
     plan = small_plan()
     assert plan.trajectory is not None
-    assert frames["timestamp"][-1] == pytest.approx(small_plan().cost_s, abs=1.0 / FPS)
-    wanted = positions_at(
-        small_plan().trajectory, np.append(frames["timestamp"][:-1].astype(float), small_plan().cost_s)
-    )
+    assert frames["timestamp"][-1] == pytest.approx(plan.cost_s, abs=1.0 / FPS)
+    times_s = np.append(frames["timestamp"][:-1].astype(float), required(plan.cost_s))
+    wanted = positions_at(plan.trajectory, times_s)
     np.testing.assert_allclose(frames["observation.state"], wanted, atol=1e-5)
 
 

@@ -1,12 +1,14 @@
 import math
 import time
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from app.files.import_errors import ImportedFileError, UnitsNeededError
 from app.files.import_file import Imported, import_file
+from app.files.seam_allowance import Line
 
 # A square of 60 by 40 in a drawing whose unit is a centimetre, and whose y goes down.
 SQUARE = '<path d="M 0 0 H 60 V 40 H 0 Z"/>'
@@ -210,7 +212,7 @@ def test_entities_are_refused_and_none_is_expanded() -> None:
     assert "declares an entity" in refusal(bomb)
 
 
-def test_nothing_outside_the_file_is_read(tmp_path) -> None:
+def test_nothing_outside_the_file_is_read(tmp_path: Path) -> None:
     secret = tmp_path / "secret.txt"
     secret.write_text("60 40")
     entity = f'<!DOCTYPE svg [<!ENTITY there SYSTEM "{secret.as_uri()}">]><svg><title>&there;</title></svg>'
@@ -329,11 +331,14 @@ SEAM = '<path d="M 2 2 H 58 V 38 H 2 Z"/>'
 
 
 @pytest.mark.parametrize(("line", "size"), [(None, (0.56, 0.36)), ("seam", (0.56, 0.36)), ("cut", (0.58, 0.38))])
-def test_of_a_cut_line_and_a_seam_line_the_one_that_is_wanted_is_taken(line, size) -> None:
+def test_of_a_cut_line_and_a_seam_line_the_one_that_is_wanted_is_taken(
+    line: Line | None, size: tuple[float, float]
+) -> None:
     found = import_file("piece.svg", svg(CUT, SEAM), line=line)
     assert np.ptp(np.array(found.garment.outline), axis=0) == pytest.approx(size)
     assert found.allowance is not None
-    assert (found.allowance.line, found.allowance.width_m) == (line or "seam", pytest.approx(0.01))
+    assert found.allowance.line == (line or "seam")
+    assert found.allowance.width_m == pytest.approx(0.01)
     assert not any("left out" in note.text for note in found.notes)
     assert any("10.0 mm" in note.text for note in found.notes)
 
@@ -347,7 +352,7 @@ def test_of_a_cut_line_and_a_seam_line_the_one_that_is_wanted_is_taken(line, siz
         '<path d="M 12 12 H 48 V 28 H 12 Z"/>',  # parallel, but far too wide
     ],
 )
-def test_another_closed_line_that_is_no_seam_line_is_left_out(inner) -> None:
+def test_another_closed_line_that_is_no_seam_line_is_left_out(inner: str) -> None:
     found = read(svg(CUT, inner))
     assert found.allowance is None
     assert np.ptp(np.array(found.garment.outline), axis=0) == pytest.approx((0.58, 0.38))

@@ -7,10 +7,12 @@ import pytest
 from app.overlays.reach_region import Grid, reach_regions, region_where, takeable, takeable_region
 from planner import load_garment, make_plan
 from planner.geometry.isometry import Isometry
-from planner.geometry.pose import FloatArray
+from planner.geometry.pose import BoolArray, FloatArray
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 from planner.robots.load_robot import load_robot
+from planner.robots.pr2 import Pr2
+from tests.required import required
 
 TORSO_M, HEIGHT_M = 0.29, 0.79
 GRID = Grid.beside((0.0, 0.2))
@@ -29,8 +31,9 @@ def bare() -> tuple[Region, ...]:
 def test_a_disc_is_found_to_a_sixteenth_of_the_grid() -> None:
     middle, radius = np.array([0.411, -0.137]), 0.5
 
-    def is_in_disc(points: FloatArray) -> np.ndarray:
-        return np.hypot(*(points - middle).T) <= radius
+    def is_in_disc(points: FloatArray) -> BoolArray:
+        inside: BoolArray = np.hypot(*(points - middle).T) <= radius
+        return inside
 
     found = region_where(is_in_disc, GRID)
     away = np.hypot(*(found.coordinates - middle).T)
@@ -41,9 +44,10 @@ def test_a_disc_is_found_to_a_sixteenth_of_the_grid() -> None:
 
 
 def test_holes_and_separate_parts_are_kept() -> None:
-    def is_in(points: FloatArray) -> np.ndarray:
+    def is_in(points: FloatArray) -> BoolArray:
         away = np.hypot(*(points - [0.4, 0.0]).T)
-        return ((away > 0.2) & (away < 0.4)) | (np.hypot(*(points - [0.4, 0.9]).T) < 0.1)
+        inside: BoolArray = ((away > 0.2) & (away < 0.4)) | (np.hypot(*(points - [0.4, 0.9]).T) < 0.1)
+        return inside
 
     found = region_where(is_in, GRID)
     assert len(found.pieces) == 2
@@ -84,6 +88,7 @@ def test_what_is_well_inside_can_be_reached_by_the_arms_joints_and_what_is_far_o
     bare: tuple[Region, ...],
 ) -> None:
     robot, approaches = load_robot("pr2"), load_robot("pr2").reach(TORSO_M, 0.0).approaches
+    assert isinstance(robot, Pr2)
     rotations = np.array([approach.rotation for approach in approaches])
     rng = np.random.default_rng(5)
     for x, y in rng.uniform((0.0, -1.0), (1.2, 1.0), (150, 2)):
@@ -101,7 +106,7 @@ def test_whatever_a_plan_picks_up_with_free_hands_lies_in_the_region(comfortable
     arms = {arm.name: number for number, arm in enumerate(load_robot(plan.task.robot).card.arms)}
     picked = 0
     for number, step in enumerate(plan.steps):
-        phases = (segment.phase for segment in plan.trajectory.of_step(number))
+        phases = (segment.phase for segment in required(plan.trajectory).of_step(number))
         held = [phase for phase in phases if any(hand and hand.is_closed for hand in phase.hands)]
         for grip in step.grips:
             x, y, _ = held[0].base[0].to_inner(np.array(grip.pick))

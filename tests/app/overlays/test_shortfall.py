@@ -11,6 +11,7 @@ from app.overlays.shortfall import Lack, NearReach, near_reach
 from planner import load_garment
 from planner.geometry.pose import FloatArray, Pose2
 from planner.robots.load_robot import load_robot
+from planner.robots.pr2 import Pr2
 
 pytestmark = pytest.mark.anyio
 
@@ -73,6 +74,7 @@ def test_what_is_straight_too_high_has_no_reach_at_that_height_that_could_hide_i
 def test_beyond_the_edge_the_hand_cannot_be_whatever_its_joints_and_before_it_it_can() -> None:
     point, approach = FAR_AHEAD
     robot = load_robot("pr2")
+    assert isinstance(robot, Pr2)
     lacking = lack(point, approach)
     found = near(lacking)
     rng = np.random.default_rng(3)

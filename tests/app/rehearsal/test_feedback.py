@@ -296,8 +296,8 @@ def test_hands_that_hold_on_go_on_from_where_a_drag_has_stopped_short() -> None:
         assert 0.8 * planned_way < way + 0.006 and way < 0.99 * planned_way
         assert fold.grips[number].points[0] == pytest.approx(grip.points[-1], abs=2e-3)
     closing = next(motion for motion in planned[1:] if motion.grips[0].closes)
-    (grip, former) = (world.asked[closing.step].grips[0].points[0], closing.grips[0].points[0])
-    assert math.dist(grip, former) < 0.02  # hands free, the base was driven to where it should be
+    begun, former = world.asked[closing.step].grips[0].points[0], closing.grips[0].points[0]
+    assert math.dist(begun, former) < 0.02  # hands free, the base was driven to where it should be
 
 
 def test_what_is_seen_while_a_drag_has_stopped_short_is_seen_from_where_the_base_really_stands() -> None:

@@ -131,8 +131,8 @@ def test_an_edge_that_the_same_hands_lift_again_lands_short_and_others_where_the
     assert laid_short(plan, red) == frozenset()  # it goes on from there
     scarf = make_plan(Task.of(load_garment("scarf")))  # in quarters, so that edges lie upon the stack
     assert {laid_short(scarf, step) for step in scarf.steps} == {frozenset()}
-    red = step_motions(plan)[1]
-    for grip, former in zip(landing_short(red, frozenset({"left"}), SHORT_M).grips, red.grips, strict=True):
+    motion = step_motions(plan)[1]
+    for grip, former in zip(landing_short(motion, frozenset({"left"}), SHORT_M).grips, motion.grips, strict=True):
         assert grip.points[0] == former.points[0]
         short = np.subtract(grip.points[-1], former.points[-1])
         back = np.subtract(former.points[0], former.points[-1])

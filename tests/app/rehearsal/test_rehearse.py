@@ -1,5 +1,6 @@
 import math
 from dataclasses import replace
+from typing import Any
 
 import pytest
 
@@ -109,16 +110,21 @@ def test_what_has_no_plan_cannot_be_rehearsed() -> None:
 
 @pytest.mark.parametrize(("field", "value"), [("runs", 0), ("runs", 1001), ("seed", -1)])
 def test_options_out_of_range_are_refused_by_name(field: str, value: int) -> None:
+    options: dict[str, Any] = {field: value}
     with pytest.raises(RequestError) as refused:
-        RehearsalOptions(**{field: value})
+        RehearsalOptions(**options)
     assert refused.value.field == field
+
+
+def near(rate: float) -> object:
+    return pytest.approx(rate, abs=1e-4)
 
 
 def test_a_rate_is_told_with_the_bounds_of_clopper_and_pearson() -> None:
     # Their table of 1934: 20 of 20 is at least .8316; 9 of 10 lies within .5550 and .9975.
-    assert success_bounds(20, 20) == (pytest.approx(0.8316, abs=1e-4), 1.0)
-    assert success_bounds(0, 20) == (0.0, pytest.approx(1.0 - 0.8316, abs=1e-4))
-    assert success_bounds(9, 10) == (pytest.approx(0.5550, abs=1e-4), pytest.approx(0.9975, abs=1e-4))
+    assert success_bounds(20, 20) == (near(0.8316), 1.0)
+    assert success_bounds(0, 20) == (0.0, near(1.0 - 0.8316))
+    assert success_bounds(9, 10) == (near(0.5550), near(0.9975))
 
 
 def test_a_run_that_ended_early_has_not_held() -> None:

@@ -7,6 +7,7 @@ import pytest
 
 from app.rehearsal.taut_way import taut
 from app.rehearsal.world import GripMotion, StepMotion
+from planner.geometry.pose import Point2
 
 FAR_M, NEAR_M, REST_M = 0.2, 0.05, 0.02
 
@@ -14,8 +15,8 @@ FAR_M, NEAR_M, REST_M = 0.2, 0.05, 0.02
 def folding(arm: str, from_line_m: float, y_m: float, *, opens: bool = True) -> GripMotion:
     """Return the path of a plan's fold over the line x = 0: each hand waits until the baseline has come to it."""
     waits_s = 5.0 * (FAR_M - from_line_m)
-    times_s = (waits_s, 1.0, 2.0 - waits_s)
-    places = ((from_line_m, REST_M), (0.0, REST_M + from_line_m), (-from_line_m, REST_M))
+    times_s: tuple[float, ...] = (waits_s, 1.0, 2.0 - waits_s)
+    places: tuple[Point2, ...] = ((from_line_m, REST_M), (0.0, REST_M + from_line_m), (-from_line_m, REST_M))
     if waits_s > 0.0:
         times_s, places = (0.0, *times_s, 2.0), (places[0], *places, places[-1])
     return GripMotion(arm, times_s, tuple((x, y_m, z) for x, z in places), opens=opens)

@@ -16,6 +16,7 @@ from app.rehearsal.world import Observation, Performed, StepMotion, Truth
 from planner import Plan, Task, load_garment, make_plan
 from planner.geometry.woven_mesh import woven_mesh
 from tests.app.rehearsal.towel import COARSE, towel_plan
+from tests.required import required
 
 
 @pytest.fixture(scope="module")
@@ -64,7 +65,7 @@ def test_a_film_runs_along_the_plan_and_is_still_while_nothing_is_held(letter: P
         world.perform(motion)
     assert told == sorted(told) and 0.0 < told[0] < 0.5 < told[-1] <= 1.0
     times = [t_s for t_s, _ in world.frames]
-    assert times == sorted(set(times)) and times[0] == 0.0 and times[-1] <= letter.cost_s
+    assert times == sorted(set(times)) and times[0] == 0.0 and times[-1] <= required(letter.cost_s)
     first = step_motions(letter)[0].grips[0].times_s[0]
     lies = height_m(world.frames[0][1])
     for t_s, frame in world.frames:
@@ -101,14 +102,15 @@ def test_a_run_of_a_towel_is_traced_from_where_it_lies_to_where_the_plan_has_it(
     for name, area in (("planned", 0.06), ("found", 0.06)):
         xs, ys = np.array(step.outlines[name][0]).T
         assert abs(np.dot(xs, np.roll(ys, 1)) - np.dot(ys, np.roll(xs, 1))) / 2 == pytest.approx(area, rel=0.1)
-    middle = trace.at(0.5 * plan.cost_s)
+    cost_s = required(plan.cost_s)
+    middle = trace.at(0.5 * cost_s)
     assert middle[:, 2].max() > 0.05 > trace.at(0.0)[:, 2].max()
-    np.testing.assert_array_equal(trace.at(plan.cost_s + 1.0), UNIT_M * step.found)
+    np.testing.assert_array_equal(trace.at(cost_s + 1.0), UNIT_M * step.found)
     look, _ = trace.pictures  # before the fold, and after it
     assert look["of_plan"] == 0 and look["known"] and len(look["expected_px"]) == len(look["fitted_px"]) == 4
     assert look["start"]["placement"] == look["fit"]["placement"]
     again = RunTrace.unpacked(trace.packed())
-    for t_s in (0.0, 3.3, plan.cost_s):
+    for t_s in (0.0, 3.3, cost_s):
         np.testing.assert_array_equal(again.at(t_s), trace.at(t_s))
     np.testing.assert_array_equal(again.triangles, trace.triangles)
     assert (again.pictures, again.steps[0].outlines) == (trace.pictures, step.outlines)

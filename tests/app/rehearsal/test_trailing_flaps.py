@@ -61,7 +61,8 @@ def motion_of(step: PlanStep) -> StepMotion:
 def inwards_m(made: StepMotion, planned: StepMotion, way: Point2) -> list[float]:
     """Return how far inwards of its path the first hand of a step is at its points (m)."""
     one, other = (np.array(motion.grips[0].points) for motion in (made, planned))
-    return ((one - other)[:, :2] @ np.array(way)).tolist()
+    inwards: list[float] = ((one - other)[:, :2] @ np.array(way)).tolist()
+    return inwards
 
 
 def test_a_flap_hangs_beside_the_hand_at_its_crease_and_not_beside_the_other() -> None:

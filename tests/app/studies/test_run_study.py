@@ -2,7 +2,7 @@ import csv
 import gzip
 import json
 import sqlite3
-from collections.abc import Iterator
+from collections.abc import Generator, Iterable
 from contextlib import closing
 from pathlib import Path
 from typing import Any
@@ -10,6 +10,8 @@ from typing import Any
 import pytest
 from pyarrow import parquet
 
+from app.studies.answer import Answer
+from app.studies.cell import Cell
 from app.studies.results import FILE, Results
 from app.studies.run_study import Progress, run_study
 from app.studies.study import Study
@@ -30,7 +32,7 @@ class Interrupting:
     def __init__(self, after: int) -> None:
         self._left = after
 
-    def answers(self, cells: Any, *, keep_plans: bool = False) -> Iterator[Any]:
+    def answers(self, cells: Iterable[Cell], *, keep_plans: bool = False) -> Generator[Answer]:
         for answer in InProcess(fake_plan).answers(cells, keep_plans=keep_plans):
             if not self._left:
                 raise KeyboardInterrupt
@@ -192,7 +194,7 @@ def test_work_that_is_told_to_stop_keeps_what_it_has(tmp_path: Path) -> None:
 
 def test_the_real_planner_gives_the_same_table_in_any_order(tmp_path: Path) -> None:
     class Backwards:
-        def answers(self, cells: Any, *, keep_plans: bool = False) -> Iterator[Any]:
+        def answers(self, cells: Iterable[Cell], *, keep_plans: bool = False) -> Generator[Answer]:
             yield from InProcess().answers(reversed(list(cells)), keep_plans=keep_plans)
 
     asked = study(table={"height_m": [0.7, 5.0]}, limits={"work_limit_s": 1.0, "comfort_radius_m": [0.0, 0.03]})

@@ -9,7 +9,7 @@ from app.ui.viewpoints.following import Following, work_of
 from app.ui.viewpoints.presets import Lens
 from app.version_plan import ShownPlan
 from planner import Plan, Timeline, load_garment, make_plan
-from planner.geometry.pose import Pose2, wrapped_angle
+from planner.geometry.pose import Point2, Point3, Pose2, wrapped_angle
 
 LENS = Lens(1.5)
 WORK = [(0.0, 0.0), (-0.6, 0.2), (0.3, -0.4)]
@@ -48,6 +48,6 @@ def test_the_work_is_where_the_hands_are_and_at_the_end_still_there() -> None:
     assert work_of(shown, plan.cost_s + 1.0) == work_of(shown, plan.steps[-1].start_s)
 
 
-def _parts(following: Following, base: Pose2, work: tuple[float, float]):
+def _parts(following: Following, base: Pose2, work: Point2) -> tuple[Point3, Point3, float]:
     seen = following.view(base, work, LENS)
     return seen.position, seen.look_at, seen.fov_rad

@@ -8,7 +8,7 @@ from app.vision.outline_edges import OutlineEdges
 from planner import load_garment
 from planner.cloth.cloth_state import ClothState
 from planner.folds.fold_sequence import replayed
-from planner.geometry.pose import Pose2
+from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.region import Region
 from tests.app.vision.outlines_seen import behind_an_arm, most_off, seen
 
@@ -72,6 +72,6 @@ def test_a_third_of_an_outline_is_too_little() -> None:
 
 
 @pytest.mark.parametrize("points", [np.zeros((7, 2)), np.full((20, 2), np.nan)])
-def test_points_of_no_use_are_refused(points) -> None:
+def test_points_of_no_use_are_refused(points: FloatArray) -> None:
     with pytest.raises(ValueError, match="8 finite points"):
         fit_stack(points, ClothState.spread_out(SQUARE))

@@ -18,6 +18,7 @@ from bench.table_photo import Photo, photo
 from planner import load_garment
 from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.region import Region
+from tests.required import required
 
 BLUE_ON_WOOD = Look((110.0, 150.0, 190.0), (150.0, 70.0, 40.0), tilt_rad=0.25)
 WHITE_ON_LIGHT_WOOD = Look((165.0, 195.0, 215.0), (245.0, 246.0, 247.0), wrinkles=0.1, tilt_rad=0.1)
@@ -98,7 +99,7 @@ def test_an_empty_table_shows_no_garment() -> None:
 
 def test_a_garment_that_runs_out_of_the_picture_is_doubted(alone: Photo) -> None:
     _, cut = cv2.imencode(".png", alone.image[:640])
-    assert see(cut.tobytes(), "half", "0.5m").sure.unknown.code == "cut_off"
+    assert required(see(cut.tobytes(), "half", "0.5m").sure.unknown).code == "cut_off"
 
 
 @pytest.mark.parametrize(
