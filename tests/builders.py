@@ -5,6 +5,7 @@ import random
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import combinations
+from typing import TypedDict
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +21,14 @@ from planner.primitives.context import Context
 from planner.task.scene import Scene
 
 CIRCLE_M = 0.47
+
+
+class SceneFields(TypedDict, total=False):
+    """Fields of a scene that a task may be made wider or narrower by."""
+
+    friction: float
+    approach_cone_rad: float
+    back_off_max_m: float
 
 
 def rectangle(width_m: float, height_m: float, x_m: float = 0.0, y_m: float = 0.0) -> Region:
@@ -101,7 +110,7 @@ class WideReach:
     """A robot whose arms reach every place from every standoff, or from those that a test allows."""
 
     arm_names = ("left", "right")
-    approaches = (Approach(0.0, math.radians(30.0)), Approach(0.0, math.pi / 2))
+    approaches: tuple[Approach, ...] = (Approach(0.0, math.radians(30.0)), Approach(0.0, math.pi / 2))
     shoulders = ((-0.05, 0.19, 0.97), (-0.05, -0.19, 0.97))
     queries = 0
     query_time_s = 0.0
@@ -199,4 +208,5 @@ def connected(row: list[int], count: int, start: int | None = None) -> list[int]
 
 def context(cloth: Garment, scene: Scene | None = None, reach: WideReach | None = None) -> Context:
     """Return a planning context for a robot that reaches everything by default."""
-    return Context(FoldSequence.of(cloth), scene or Scene(), reach or WideReach(), cloth.placement, CIRCLE_M)
+    wide = reach or WideReach()  # without what explanations ask
+    return Context(FoldSequence.of(cloth), scene or Scene(), wide, cloth.placement, CIRCLE_M)  # type: ignore[arg-type]

@@ -34,7 +34,7 @@ def postgresql() -> Iterator[str]:
         given = [part for name, value in options.items() for part in ("-c", f"{name}={value}")]
         server = subprocess.Popen([PROGRAMS / "postgres", "-D", data, *given], **quiet)
         try:
-            ready = [PROGRAMS / "pg_isready", "--quiet", "--host", folder]
+            ready: list[str | Path] = [PROGRAMS / "pg_isready", "--quiet", "--host", folder]
             while subprocess.run(ready, **quiet).returncode:
                 assert server.poll() is None, "PostgreSQL does not start"
             yield f"postgresql+psycopg://pleat@/postgres?host={folder}"

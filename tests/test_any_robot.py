@@ -126,7 +126,7 @@ def names(path: Path) -> Iterator[tuple[int, str]]:
 
 
 @pytest.mark.parametrize("package", ["planner", "app", "static"])
-def test_no_robot_arm_or_joint_is_named(package: str):
+def test_no_robot_arm_or_joint_is_named(package: str) -> None:
     wrong = [
         f"{relative(path)}:{line} says {word!r}"
         for path in SOURCES
@@ -137,7 +137,7 @@ def test_no_robot_arm_or_joint_is_named(package: str):
     assert not wrong, "\n".join(wrong)
 
 
-def test_no_name_counts_arms_or_joints():
+def test_no_name_counts_arms_or_joints() -> None:
     wrong = [
         f"{relative(path)}:{line} names {name}"
         for path in SOURCES
@@ -148,7 +148,7 @@ def test_no_name_counts_arms_or_joints():
     assert not wrong, "\n".join(wrong)
 
 
-def test_no_array_has_the_joints_of_one_kind_of_arm():
+def test_no_array_has_the_joints_of_one_kind_of_arm() -> None:
     wrong = [
         f"{relative(path)}:{number} {line.strip()}"
         for path in SOURCES
@@ -159,7 +159,7 @@ def test_no_array_has_the_joints_of_one_kind_of_arm():
     assert not wrong, "\n".join(wrong)
 
 
-def test_nothing_is_unpacked_into_a_left_and_a_right_hand():
+def test_nothing_is_unpacked_into_a_left_and_a_right_hand() -> None:
     wrong = [
         f"{relative(path)}:{node.lineno}"
         for path in SOURCES
@@ -170,7 +170,7 @@ def test_nothing_is_unpacked_into_a_left_and_a_right_hand():
     assert not wrong, "\n".join(wrong)
 
 
-def test_others_enter_the_room_of_robots_by_its_door():
+def test_others_enter_the_room_of_robots_by_its_door() -> None:
     wrong = [
         str(one)
         for one in all_imports()
@@ -181,7 +181,7 @@ def test_others_enter_the_room_of_robots_by_its_door():
     assert not wrong, "\n".join(wrong)
 
 
-def test_what_is_allowed_is_still_there():
+def test_what_is_allowed_is_still_there() -> None:
     idle = [
         name
         for name, (pattern, _) in ALLOWED.items()

@@ -4,7 +4,7 @@ import json
 import math
 import sys
 import xml.etree.ElementTree as ET
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import nullcontext
 from functools import partial
 from pathlib import Path
@@ -28,7 +28,7 @@ from bench.growth_cases import crowded, ribbon, tabs, tabs_on_two_sides
 from bench.heuristics import heuristics
 from bench.load import load
 from bench.measurement import Case, Ratio, measure
-from bench.paper import TABLE_1, TABLE_2
+from bench.paper import TABLE_1, TABLE_2, PaperRow
 from bench.paper_tables import table_1, table_2
 from bench.pin_arm import TORSO_M, pin_arm
 from bench.re_plan import moved, re_plan, replanned
@@ -90,7 +90,7 @@ def printed(report: Report) -> str:
     return capture.get()
 
 
-def test_the_papers_figures_are_those_of_its_tables():
+def test_the_papers_figures_are_those_of_its_tables() -> None:
     assert (TABLE_1["t-shirt"].primitives, TABLE_1["t-shirt"].cost_s) == (7, 48.12)
     assert (TABLE_1["skirt"].expanded, TABLE_1["skirt"].explored, TABLE_1["skirt"].ik_queries) == (60, 535, 10087)
     assert (TABLE_1["hand-towel"].search_time_s, TABLE_1["hand-towel"].ik_time_s) == (5.04, 1.90)
@@ -99,7 +99,7 @@ def test_the_papers_figures_are_those_of_its_tables():
     assert (TABLE_2["hand-towel"].expanded, TABLE_2["hand-towel"].overhead_s) == (17, 0.004)
 
 
-def test_both_tables_of_the_paper_have_the_same_plans_of_the_nine_articles():
+def test_both_tables_of_the_paper_have_the_same_plans_of_the_nine_articles() -> None:
     # In the paper the comfort radius changes the search only, not one plan.
     plans_1, plans_2 = (
         {name: (row.folds, row.primitives, row.cost_s) for name, row in table.items()} for table in (TABLE_1, TABLE_2)
@@ -109,7 +109,9 @@ def test_both_tables_of_the_paper_have_the_same_plans_of_the_nine_articles():
 
 
 @pytest.mark.parametrize(("build", "comfort_m", "paper"), [(table_1, 0.0, TABLE_1), (table_2, 0.03, TABLE_2)])
-def test_a_table_has_our_row_above_the_papers(build, comfort_m, paper, tmp_path: Path):
+def test_a_table_has_our_row_above_the_papers(
+    build: Callable[[Sequence[str], int], Report], comfort_m: float, paper: Mapping[str, PaperRow], tmp_path: Path
+) -> None:
     report = build(["hand-towel"], 1)
     assert [[line[1] for line in row.lines] for row in report.rows] == [["Pleat", "paper"]]
     assert all(len(line) == len(report.columns) for row in report.rows for line in row.lines)
@@ -125,7 +127,7 @@ def test_a_table_has_our_row_above_the_papers(build, comfort_m, paper, tmp_path:
     assert row["paper"]["search_time_s"] == paper["hand-towel"].search_time_s
 
 
-def test_a_report_says_what_it_was_run_on(tmp_path: Path):
+def test_a_report_says_what_it_was_run_on(tmp_path: Path) -> None:
     content = written(Report("empty", "Nothing", ("a",), (), 1), tmp_path)
     assert (tmp_path / "empty.json").exists()
     assert set(content) == {"name", "title", "repetitions", "source", "environment", "rows"}
@@ -134,31 +136,31 @@ def test_a_report_says_what_it_was_run_on(tmp_path: Path):
     assert {"numba", "pin", "shapely"} <= set(content["environment"]["libraries"])
 
 
-def test_the_heuristic_saves_expansions_at_the_same_cost(tmp_path: Path):
+def test_the_heuristic_saves_expansions_at_the_same_cost(tmp_path: Path) -> None:
     (row,) = written(heuristics(["hand-towel"], 1), tmp_path)["rows"]
     assert row["arm_time"]["cost_s"] == pytest.approx(row["zero"]["cost_s"])
     assert row["expanded_ratio"] >= 1
     assert set(row["search_time_ratio"]) == {"median", "least", "most"}
 
 
-def test_repetitions_come_out_the_same():
+def test_repetitions_come_out_the_same() -> None:
     first, second = measure(Case("hand-towel", 0.0), Case("hand-towel", 0.0), repetitions=2)
     assert first.outcome == second.outcome
     assert len(first.search_times_s) == 2
     assert all(0 < told <= whole for told, whole in zip(first.told_times_s, first.plan_times_s, strict=True))
 
 
-def test_a_ratio_is_the_median_of_the_turns():
+def test_a_ratio_is_the_median_of_the_turns() -> None:
     # 2/1, 9/3, 4/4
     assert Ratio.of([2, 9, 4], [1, 3, 4]) == Ratio(median=2, least=1, most=3)
 
 
-def test_a_garment_without_a_peer_is_left_out():
+def test_a_garment_without_a_peer_is_left_out() -> None:
     assert yes_and_no(["hand-towel"], 1).rows == ()
 
 
 @pytest.mark.long
-def test_only_what_is_asked_for_is_run(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+def test_only_what_is_asked_for_is_run(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     main(["--quick", "--only", "table-1", "first-plan", "hand-towel"], tmp_path)
     assert {path.name for path in tmp_path.iterdir()} == {"table-1.json", "first-plan.json"}
     (row,) = json.loads((tmp_path / "first-plan.json").read_text(encoding="utf-8"))["rows"]
@@ -167,7 +169,7 @@ def test_only_what_is_asked_for_is_run(tmp_path: Path, capsys: pytest.CaptureFix
     assert "hand-towel" in capsys.readouterr().out
 
 
-def test_whole_plans_cost_the_same_whatever_is_known_and_are_added_up():
+def test_whole_plans_cost_the_same_whatever_is_known_and_are_added_up() -> None:
     *rows, total = (row.data for row in whole_plans(["hand-towel", "vest"], 1).rows)
     assert [(row["article"], round(row["cost_s"], 3)) for row in rows] == [("vest", 18.8), ("hand-towel", 27.0)]
     for name in ("anew_cpu_ms", "paths_known_cpu_ms", "all_known_cpu_ms"):
@@ -175,7 +177,7 @@ def test_whole_plans_cost_the_same_whatever_is_known_and_are_added_up():
     assert total["anew_cpu_ms"] > total["all_known_cpu_ms"], "what is known saves work"
 
 
-def test_a_name_that_is_no_table_and_no_garment_is_refused(capsys: pytest.CaptureFixture[str]):
+def test_a_name_that_is_no_table_and_no_garment_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as exit_:
         main(["--only", "socks"])
     assert exit_.value.code == 2
@@ -183,7 +185,7 @@ def test_a_name_that_is_no_table_and_no_garment_is_refused(capsys: pytest.Captur
     assert all(name in message for name in ("socks", *BENCHMARKS))
 
 
-def test_the_arm_of_the_benchmark_is_where_its_lengths_say():
+def test_the_arm_of_the_benchmark_is_where_its_lengths_say() -> None:
     # Upper arm ahead, forearm up, hand back: 0.1 + 0.4 - 0.18 ahead of the shoulder, 0.321 above it.
     quarter = math.pi / 2
     tool = pin_arm().tool(np.array([0.0, 0.0, 0.0, -quarter, 0.0, -quarter, 0.0]))
@@ -195,7 +197,7 @@ STRETCHED_M = 0.5 * math.cos(math.asin(0.321 / 0.5 * math.sin(0.1))) + 0.321 * m
 """How far ahead of the shoulder a tool that points ahead can be (m)."""
 
 
-def test_the_truth_about_reach_ends_where_the_arm_does():
+def test_the_truth_about_reach_ends_where_the_arm_does() -> None:
     # Soft limits keep the wrist bent by .1 rad at least, so the forearm turns aside by as much. Upper arm and shoulder,
     # .5 m, turn back by asin(.321 / .5 sin .1) = .0641 rad, which bends the elbow by .1641, more than its .15 at least.
     lengths = STRETCHED_M + np.array([-1e-4, 1e-4, 2.0])
@@ -204,13 +206,13 @@ def test_the_truth_about_reach_ends_where_the_arm_does():
     np.testing.assert_array_equal(DenseReach().can_reach(points, rotations), [True, False, False])
 
 
-def test_a_pose_is_no_further_from_the_boundary_than_the_way_straight_out():
+def test_a_pose_is_no_further_from_the_boundary_than_the_way_straight_out() -> None:
     # 21 mm short of stretched ahead, within soft limits; what is tried grows by 2 mm there.
     point = SHOULDER + np.array([STRETCHED_M - 0.021, 0.0, 0.0])
     assert 0.0 < distance_m(DenseReach(), point, np.eye(3)) <= 0.0235
 
 
-def test_queries_are_the_same_every_time_and_lie_round_the_boundary():
+def test_queries_are_the_same_every_time_and_lie_round_the_boundary() -> None:
     poses, again = any_poses(300), any_poses(300)
     np.testing.assert_array_equal(poses.points, again.points)
     answers = DenseReach().can_reach(poses.points, poses.rotations)
@@ -222,7 +224,7 @@ def test_queries_are_the_same_every_time_and_lie_round_the_boundary():
     assert np.abs(pinched.points - poses.points).max() < 1e-5 < FURTHEST_M
 
 
-def test_reach_is_asked_of_all_methods_and_judged_by_forward_kinematics(tmp_path: Path):
+def test_reach_is_asked_of_all_methods_and_judged_by_forward_kinematics(tmp_path: Path) -> None:
     report = reach_of(Effort(1, 150, 2))
     assert "batches of 100" in printed(report)
     rows = {row["method"]: row for row in written(report, tmp_path)["rows"]}
@@ -236,7 +238,7 @@ def test_reach_is_asked_of_all_methods_and_judged_by_forward_kinematics(tmp_path
     assert rows["least squares, 20 starts"]["queries"] == 2
 
 
-def test_a_peer_that_is_not_installed_is_said_to_be_missing(monkeypatch: pytest.MonkeyPatch):
+def test_a_peer_that_is_not_installed_is_said_to_be_missing(monkeypatch: pytest.MonkeyPatch) -> None:
     for module in ("trac_ik", "eaik", "eaik.pybindings.EAIK"):
         monkeypatch.setitem(sys.modules, module, None)
     report = reach_of(Effort(1, 20, 1))
@@ -244,7 +246,7 @@ def test_a_peer_that_is_not_installed_is_said_to_be_missing(monkeypatch: pytest.
     assert missing == ["pytracik, 1 ms", "pytracik, 5 ms", "eaik, 16 pans"]
 
 
-def test_a_ribbon_is_a_chain_and_tabs_wait_for_nothing():
+def test_a_ribbon_is_a_chain_and_tabs_wait_for_nothing() -> None:
     assert fold_dag(ribbon(5)).dag.edges == ((0, 1), (1, 2), (2, 3), (3, 4))
     assert fold_dag(tabs(5)).dag.edges == ()
     assert len(tabs_on_two_sides(5).folds) == 5
@@ -252,7 +254,7 @@ def test_a_ribbon_is_a_chain_and_tabs_wait_for_nothing():
 
 
 @pytest.mark.parametrize("count", [5, 6, 50])
-def test_more_stations_stand_beside_the_table_and_face_it(count: int):
+def test_more_stations_stand_beside_the_table_and_face_it(count: int) -> None:
     scene = crowded(count)
     assert len({name for name, _ in scene.stations}) == count
     for _, pose in scene.stations[5:]:
@@ -262,7 +264,7 @@ def test_more_stations_stand_beside_the_table_and_face_it(count: int):
 
 
 @pytest.mark.long
-def test_growth_is_measured_and_drawn(tmp_path: Path):
+def test_growth_is_measured_and_drawn(tmp_path: Path) -> None:
     report = growth([], 1)
     rows = {(row["grows"], row["series"]): row for row in written(report, tmp_path)["rows"]}
     # Nothing but two folds to be done, one after the other: a search expands two states, and there are two of
@@ -275,7 +277,7 @@ def test_growth_is_measured_and_drawn(tmp_path: Path):
     assert {"search time [s]", "states expanded", "comfort radius [cm]", "ribbon rolled up"} <= set(words)
 
 
-def test_growth_is_asked_of_2_to_40_folds_5_to_50_stations_and_1_to_5_cm():
+def test_growth_is_asked_of_2_to_40_folds_5_to_50_stations_and_1_to_5_cm() -> None:
     sizes: dict[str, set[int]] = {}
     for case in cases(is_quick=False):
         sizes.setdefault(case.panel, set()).add(case.size)
@@ -285,7 +287,7 @@ def test_growth_is_asked_of_2_to_40_folds_5_to_50_stations_and_1_to_5_cm():
     assert sizes["comfort radius [cm]"] == {1, 2, 3, 4, 5}
 
 
-def test_a_charts_axes_are_logarithmic_and_what_ran_out_of_time_is_hollow():
+def test_a_charts_axes_are_logarithmic_and_what_ran_out_of_time_is_hollow() -> None:
     line = Series("a line", (Point(1.0, 10.0), Point(10.0, 100.0), Point(100.0, 1000.0, is_full=False)))
     elements = list(ET.fromstring(draw([[Panel("x [m]", "y [s]", (line,))]])).iter())
     marks = [e for e in elements if "point" in e.get("class", "").split()]
@@ -295,7 +297,7 @@ def test_a_charts_axes_are_logarithmic_and_what_ran_out_of_time_is_hollow():
     assert ["hollow" in e.get("class", "") for e in marks] == [False, False, True]
 
 
-def test_a_moved_corner_is_a_centimetre_away_and_no_other_moves():
+def test_a_moved_corner_is_a_centimetre_away_and_no_other_moves() -> None:
     drawing = drawing_of(load_garment("t-shirt"))
     changed = moved(drawing, 2, 0.5)
     gaps = [math.dist(a, b) for a, b in zip(drawing.points, changed.points, strict=True)]
@@ -303,7 +305,7 @@ def test_a_moved_corner_is_a_centimetre_away_and_no_other_moves():
     assert max(gap for i, gap in enumerate(gaps) if i != 2) == 0.0
 
 
-def test_re_planning_is_timed_for_each_move(tmp_path: Path):
+def test_re_planning_is_timed_for_each_move(tmp_path: Path) -> None:
     (row,) = written(re_plan(["hand-towel"], 1), tmp_path)["rows"]
     assert sum(row["statuses"].values()) == 1
     for spent in (row["first_cpu_ms"], row["final_cpu_ms"]):
@@ -314,7 +316,7 @@ def test_re_planning_is_timed_for_each_move(tmp_path: Path):
     assert any(move.is_soon for move in moves), "most centimetres ask for no other plan"
 
 
-def test_frames_are_shown_to_viewers_who_read_them(tmp_path: Path):
+def test_frames_are_shown_to_viewers_who_read_them(tmp_path: Path) -> None:
     (row,) = written(frames_of(["hand-towel"], 90, viewers=(0, 2)), tmp_path)["rows"]
     unwatched, watched = row["runs"]
     # 27 s at 30 frames a second, of 90 frames one, and the first.
@@ -325,7 +327,7 @@ def test_frames_are_shown_to_viewers_who_read_them(tmp_path: Path):
         assert 0.0 < run["show_ms"]["median"] <= run["server_ms"]["median"]
 
 
-def test_naming_a_garment_leaves_out_what_is_of_no_garment(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):
+def test_naming_a_garment_leaves_out_what_is_of_no_garment(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     asked: dict[str, Sequence[str]] = {}
 
     def noted(name: str, articles: Sequence[str], repetitions: int) -> Report:
@@ -340,7 +342,7 @@ def test_naming_a_garment_leaves_out_what_is_of_no_garment(monkeypatch: pytest.M
     assert all(articles == ["vest"] for articles in asked.values())
 
 
-def test_every_article_that_is_rehearsed_can_be_named(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):
+def test_every_article_that_is_rehearsed_can_be_named(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     asked: list[Sequence[str]] = []
 
     def noted(articles: Sequence[str], repetitions: int) -> Report:
@@ -356,7 +358,7 @@ def test_every_article_that_is_rehearsed_can_be_named(monkeypatch: pytest.Monkey
     assert each == [[article] for article in REHEARSED]
 
 
-def test_garments_that_no_setting_was_chosen_by_are_not_shipped_and_can_be_folded():
+def test_garments_that_no_setting_was_chosen_by_are_not_shipped_and_can_be_folded() -> None:
     assert not set(HELD_OUT) & set(shipped_garment_names())
     assert sorted(path.stem for path in HELD_OUT_IN.glob("*.json")) == sorted(HELD_OUT)
     for name in HELD_OUT:
@@ -365,7 +367,9 @@ def test_garments_that_no_setting_was_chosen_by_are_not_shipped_and_can_be_folde
         replayed(garment)  # raises where a fold is not possible
 
 
-def test_runs_of_the_garments_that_no_setting_was_chosen_by_are_counted_together(monkeypatch: pytest.MonkeyPatch):
+def test_runs_of_the_garments_that_no_setting_was_chosen_by_are_counted_together(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     def made(article: str) -> Rehearsed:
         return Rehearsed(article, "real", True, RehearsalResult((Run(0, ()), Run(1, (), reason="stopped"))))
 
@@ -376,7 +380,7 @@ def test_runs_of_the_garments_that_no_setting_was_chosen_by_are_counted_together
     assert (rows[-1].data["held"], rows[-1].data["of"]) == (6, 12)
 
 
-def test_a_rehearsal_tells_its_steps_the_first_lost_and_how_often_it_held():
+def test_a_rehearsal_tells_its_steps_the_first_lost_and_how_often_it_held() -> None:
     held, lost = (
         StepVerdict(0, 0.98, 1.0, 3.0, 8.0, 1.0, 0.0),
         StepVerdict(1, 0.8, 14.0, 21.0, 60.0, 9.0, 0.1, held=False),
@@ -386,7 +390,7 @@ def test_a_rehearsal_tells_its_steps_the_first_lost_and_how_often_it_held():
     assert line == ("vest", "real", "on", "2 of 3", "1", "0.890", "12.0", "0 of 2", "0% to 84%", "0.50", "20.00")
 
 
-def test_motions_round_a_box_begin_on_its_left_and_end_on_its_right_and_touch_nothing():
+def test_motions_round_a_box_begin_on_its_left_and_end_on_its_right_and_touch_nothing() -> None:
     motions = motions_of("pr2", 1)
     robot, torso_m = load_robot("pr2"), default_scene("pr2").torso_m
     for side, ends in ((1.0, motions.pairs[:, 0]), (-1.0, motions.pairs[:, 1])):
@@ -398,7 +402,7 @@ def test_motions_round_a_box_begin_on_its_left_and_end_on_its_right_and_touch_no
             assert side * across_m > 0.5 * BOX_M[1]
 
 
-def test_paths_round_a_box_are_counted_where_they_are_free(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):
+def test_paths_round_a_box_are_counted_where_they_are_free(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setattr("bench.round_a_box.ROBOTS", ("pr2",))
     monkeypatch.setattr("bench.round_a_box.FEW_MOTIONS", 3)
     monkeypatch.setattr("bench.round_a_box.find_spec", lambda _: None)
@@ -412,7 +416,7 @@ def test_paths_round_a_box_are_counted_where_they_are_free(monkeypatch: pytest.M
 
 
 @pytest.mark.long
-def test_every_shipped_robot_has_a_row_of_reach(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):
+def test_every_shipped_robot_has_a_row_of_reach(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     thin = {"POSES": 300, "RESTARTS": 3, "shipped_robots": lambda: ("so101-pair",), "heights": lambda *_: (0.0, 0.03)}
     for name, less in thin.items():
         monkeypatch.setattr(f"bench.any_robot.{name}", less)
@@ -423,7 +427,7 @@ def test_every_shipped_robot_has_a_row_of_reach(monkeypatch: pytest.MonkeyPatch,
     assert 0.9 < row["random_recall"] <= 1.0
 
 
-def test_every_other_robot_has_a_row_for_each_article(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):
+def test_every_other_robot_has_a_row_for_each_article(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setattr("bench.robot_plans.shipped_robots", lambda: ("pr2", "so101-pair"))
     monkeypatch.setattr("bench.robot_plans.EDITS", 1)
     report = robot_plans(["scarf", "scarf-halved"], 1)
@@ -435,7 +439,7 @@ def test_every_other_robot_has_a_row_for_each_article(monkeypatch: pytest.Monkey
     assert robot_plans(["scarf-halved"], 1).rows == ()
 
 
-def test_an_article_that_a_robot_cannot_fold_where_it_lies_is_laid_elsewhere(monkeypatch: pytest.MonkeyPatch):
+def test_an_article_that_a_robot_cannot_fold_where_it_lies_is_laid_elsewhere(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("bench.robot_plans.shipped_robots", lambda: ("so101-pair",))
     monkeypatch.setattr("bench.robot_plans.EDITS", 0)
     (row,) = (row.data for row in robot_plans(["jeans"], 1).rows)
@@ -446,7 +450,7 @@ def test_an_article_that_a_robot_cannot_fold_where_it_lies_is_laid_elsewhere(mon
     assert make_plan(garment, robot="so101-pair", placement=there).cost_s == pytest.approx(row["place_cost_s"])
 
 
-def test_articles_for_small_tables_are_shrunk_with_their_folds_and_small_ones_are_not():
+def test_articles_for_small_tables_are_shrunk_with_their_folds_and_small_ones_are_not() -> None:
     jeans, towel = load_garment("jeans"), load_garment("hand-towel")
     small = shrunk(jeans, 0.5)
     share = np.ptp(small.outline, axis=0).max() / np.ptp(jeans.outline, axis=0).max()
@@ -457,7 +461,7 @@ def test_articles_for_small_tables_are_shrunk_with_their_folds_and_small_ones_ar
 
 
 @pytest.mark.long
-def test_a_crowd_edits_and_asks_for_plans(monkeypatch: pytest.MonkeyPatch, tmp_path: Path):
+def test_a_crowd_edits_and_asks_for_plans(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     for name, less in (("OPEN", 2), ("DRAGGED", 1), ("QUICK_S", 1.0)):
         monkeypatch.setattr(f"bench.crowd.{name}", less)
     monkeypatch.setattr("bench.load_clients.PLAN_LIMIT_S", 1.0)
@@ -474,7 +478,7 @@ def test_a_crowd_edits_and_asks_for_plans(monkeypatch: pytest.MonkeyPatch, tmp_p
 
 
 @pytest.mark.long
-def test_two_plans_at_once_are_set_beside_two_in_turn():
+def test_two_plans_at_once_are_set_beside_two_in_turn() -> None:
     (row,) = two_at_once(["hand-towel", "vest"], 1).rows
     assert row.data["plans"] == ["vest", "hand-towel"] or row.data["plans"] == ["hand-towel", "vest"]
     assert row.data["in_turn_cpu_s"] > 0.0 and row.data["at_once_cpu_s"] > 0.0

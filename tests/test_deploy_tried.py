@@ -67,7 +67,7 @@ def asked(port: int, token: str) -> None:
 
 
 def test_what_the_container_copies_is_a_server_that_answers_and_stops(tmp_path: Path) -> None:
-    image, variables = tmp_path / "image", {}
+    image, variables = tmp_path / "image", dict[str, str]()
     image.mkdir()
     for name, rest in instructions():
         match name:

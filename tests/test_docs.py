@@ -18,7 +18,7 @@ def anchors(page: Path) -> set[str]:
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
-def test_links_lead_to_files_and_headings(page: Path):
+def test_links_lead_to_files_and_headings(page: Path) -> None:
     for file, anchor in LINK.findall(page.read_text(encoding="utf-8")):
         target = page.parent / file if file else page
         assert target.exists(), file
@@ -26,10 +26,10 @@ def test_links_lead_to_files_and_headings(page: Path):
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
-def test_a_document_tells_no_history(page: Path):
+def test_a_document_tells_no_history(page: Path) -> None:
     assert not HISTORY.findall(" ".join(page.read_text(encoding="utf-8").split()))
 
 
 @pytest.mark.parametrize("page", sorted(ROOT.glob("docs/*.md")), ids=lambda page: page.name)
-def test_every_document_is_linked_from_the_readme(page: Path):
+def test_every_document_is_linked_from_the_readme(page: Path) -> None:
     assert f"(docs/{page.name})" in (ROOT / "README.md").read_text(encoding="utf-8")

@@ -34,17 +34,17 @@ def centre(mark: ET.Element) -> tuple[float, float]:
     return (float(mark.get("cx", "nan")), float(mark.get("cy", "nan")))
 
 
-def test_every_figure_is_there_and_no_other():
+def test_every_figure_is_there_and_no_other() -> None:
     assert {path.stem for path in FOLDER.glob("*.svg")} == set(FIGURES)
 
 
 @pytest.mark.parametrize("name", FIGURES)
-def test_a_figure_is_what_the_planner_draws_today(name: str):
+def test_a_figure_is_what_the_planner_draws_today(name: str) -> None:
     assert (FOLDER / f"{name}.svg").read_text(encoding="utf-8") == drawn(name), "run `make figures`"
 
 
 @pytest.mark.parametrize("name", FIGURES)
-def test_a_figure_has_a_ground_of_its_own_and_a_title(name: str):
+def test_a_figure_has_a_ground_of_its_own_and_a_title(name: str) -> None:
     svg = ET.fromstring(drawn(name))
     ground = svg.find(f"{SVG}rect")
     assert ground is not None and (ground.get("width"), ground.get("height")) == (svg.get("width"), svg.get("height"))
@@ -52,7 +52,7 @@ def test_a_figure_has_a_ground_of_its_own_and_a_title(name: str):
     assert title is not None and title.text
 
 
-def test_the_sleeve_has_two_vertices_to_hold_and_the_hanging_shoulders_four():
+def test_the_sleeve_has_two_vertices_to_hold_and_the_hanging_shoulders_four() -> None:
     # The sleeve's outer two, with one grip; none of the bottom's; both sleeves' upper and lower corner.
     assert len(marks("must-hold", "must-hold")) == 2 + 0 + 4
     assert len(marks("must-hold", "grip")) == len(marks("must-hold", "grip-radius")) == 1
@@ -60,7 +60,7 @@ def test_the_sleeve_has_two_vertices_to_hold_and_the_hanging_shoulders_four():
     assert len(marks("must-hold", "supported")) == len(marks("must-hold", "into-cloth")) == 2 + 2
 
 
-def test_the_path_goes_up_to_the_apex_over_the_line_and_down():
+def test_the_path_goes_up_to_the_apex_over_the_line_and_down() -> None:
     way, beside = (points(mark) for mark in marks("fold-path", "path"))
     line = points(marks("fold-path", "fold-line")[0])
     top = min(way, key=lambda p: p[1])
@@ -73,20 +73,20 @@ def test_the_path_goes_up_to_the_apex_over_the_line_and_down():
     assert straight[0][1] - straight[-1][1] == pytest.approx(0.26 * 430.0, abs=2.0)
 
 
-def test_waypoints_lie_on_the_path_and_no_further_apart_than_five_centimetres():
+def test_waypoints_lie_on_the_path_and_no_further_apart_than_five_centimetres() -> None:
     dots = [centre(mark) for mark in marks("fold-path", "waypoint")]
     first = [dot for dot in dots if dot[0] < 450.0]
     gaps = [((a[0] - b[0]) ** 2 + (a[1] - b[1]) ** 2) ** 0.5 for a, b in pairwise(first)]
     assert max(gaps) <= 0.05 * 430.0 + 0.3
 
 
-def test_the_t_shirts_dag_has_the_edges_of_the_paper():
+def test_the_t_shirts_dag_has_the_edges_of_the_paper() -> None:
     kinds = {mark.get("class") for mark in marks("t-shirt-dag", "edge")}
     assert kinds == {f"edge edge-{a}-{b}" for a, b in ((0, 2), (1, 3), (2, 4), (3, 4))}
     assert len(marks("t-shirt-dag", "fold-line")) == 5
 
 
-def test_the_limit_of_a_strip_is_friction_over_one_more_than_friction():
+def test_the_limit_of_a_strip_is_friction_over_one_more_than_friction() -> None:
     # 80 px a unit of friction from x = 500 on, 250 px for all of the strip from y = 330 up.
     (limit,) = marks("slip-limit", "limit")
     assert len(points(limit)) > 20
@@ -96,7 +96,7 @@ def test_the_limit_of_a_strip_is_friction_over_one_more_than_friction():
     assert "μ = 0.5: 33%" in words("slip-limit") and "μ = 1: 50%" in words("slip-limit")
 
 
-def test_the_pulls_at_right_angles_add_up_as_vectors():
+def test_the_pulls_at_right_angles_add_up_as_vectors() -> None:
     # 0.2 m wide, 0.3 and 0.4 m hanging: 0.06 and 0.08 m2, together 0.1. On the table lie 0.6 m of one arm and,
     # of the other, 0.49 - 0.1 m more: 0.198 m2. 0.1 / 0.198 = 0.505.
     assert "net pull 0.10 m², lying 0.198 m²: it stays from μ = 0.505 on" in words("slip-limit")
@@ -104,7 +104,7 @@ def test_the_pulls_at_right_angles_add_up_as_vectors():
     assert net == pytest.approx([a + b for a, b in zip(one, other, strict=True)], abs=0.3)
 
 
-def test_the_big_towel_is_held_out_and_brought_back():
+def test_the_big_towel_is_held_out_and_brought_back() -> None:
     # By 0.4 m from 0.05 m inside the edge: 0.4 - 0.05 = 0.35 m beyond it. One layer, one, and two; a drag goes
     # straight, a fold by way of its apex.
     assert "let go, 0.35 m would hang" in words("hanging")
@@ -113,7 +113,7 @@ def test_the_big_towel_is_held_out_and_brought_back():
     assert [len(points(mark)) for mark in marks("hanging", "way")] == [2, 3]
 
 
-def test_the_model_shows_every_figure():
+def test_the_model_shows_every_figure() -> None:
     text = (FOLDER.parent / "model.md").read_text(encoding="utf-8")
     for name in FIGURES:
         assert f"](figures/{name}.svg)" in text

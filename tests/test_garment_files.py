@@ -80,13 +80,13 @@ def mirrored(shape: Polygon, fold: dict[str, Any]) -> Polygon:
     return translate(rotate(flipped, angle, origin=(0, 0)), ax, ay)
 
 
-def test_the_nine_articles_are_shipped_with_as_many_folds_as_in_the_paper():
+def test_the_nine_articles_are_shipped_with_as_many_folds_as_in_the_paper() -> None:
     counts = {path.stem: len(read(path)["folds"]) for path in FILES}
     assert {name: counts.get(name) for name in FOLD_COUNTS} == FOLD_COUNTS
 
 
 @each_garment
-def test_a_garment_file_has_the_fields_of_the_contract_and_no_others(path: Path):
+def test_a_garment_file_has_the_fields_of_the_contract_and_no_others(path: Path) -> None:
     garment = read(path)
     assert set(garment) == FIELDS
     assert set(garment["placement"]) == {"x_m", "y_m", "yaw_rad"}
@@ -95,7 +95,7 @@ def test_a_garment_file_has_the_fields_of_the_contract_and_no_others(path: Path)
 
 
 @each_garment
-def test_a_garment_is_named_like_its_file(path: Path):
+def test_a_garment_is_named_like_its_file(path: Path) -> None:
     garment = read(path)
     assert garment["name"] == path.stem
     assert re.fullmatch(r"[a-z0-9][a-z0-9-]{0,62}", garment["name"])
@@ -103,7 +103,7 @@ def test_a_garment_is_named_like_its_file(path: Path):
 
 
 @each_garment
-def test_an_outline_is_a_simple_polygon_with_edges_of_at_least_a_millimetre(path: Path):
+def test_an_outline_is_a_simple_polygon_with_edges_of_at_least_a_millimetre(path: Path) -> None:
     outline = read(path)["outline"]
     assert 3 <= len(outline) <= 400
     assert outline[0] != outline[-1], "the first point is not repeated"
@@ -114,7 +114,7 @@ def test_an_outline_is_a_simple_polygon_with_edges_of_at_least_a_millimetre(path
 
 
 @each_garment
-def test_folds_have_names_colours_and_lengths(path: Path):
+def test_folds_have_names_colours_and_lengths(path: Path) -> None:
     folds = read(path)["folds"]
     assert len({fold["name"] for fold in folds}) == len(folds)
     for fold in folds:
@@ -125,7 +125,7 @@ def test_folds_have_names_colours_and_lengths(path: Path):
 
 
 @each_garment
-def test_the_first_fold_runs_across_the_outline_from_edge_to_edge(path: Path):
+def test_the_first_fold_runs_across_the_outline_from_edge_to_edge(path: Path) -> None:
     garment = read(path)
     cloth, fold = Polygon(garment["outline"]), garment["folds"][0]
     assert max(cloth.exterior.distance(Point(fold[end])) for end in ("start", "end")) <= SNAP_M
@@ -135,7 +135,7 @@ def test_the_first_fold_runs_across_the_outline_from_edge_to_edge(path: Path):
 @pytest.mark.parametrize(
     "name", ["tie", "scarf", "skirt", "vest", "big-towel", "hand-towel", "tie-halved", "scarf-halved"]
 )
-def test_folds_right_across_the_cloth_end_on_the_silhouette_of_their_turn(name: str):
+def test_folds_right_across_the_cloth_end_on_the_silhouette_of_their_turn(name: str) -> None:
     garment = read(FILES[0].with_name(f"{name}.json"))
     for fold, silhouette in zip(garment["folds"], silhouettes(garment), strict=True):
         gaps = [silhouette.exterior.distance(Point(fold[end])) for end in ("start", "end")]
@@ -144,7 +144,7 @@ def test_folds_right_across_the_cloth_end_on_the_silhouette_of_their_turn(name: 
 
 
 @each_garment
-def test_an_article_lies_on_the_table_with_its_near_edge_at_the_front(path: Path):
+def test_an_article_lies_on_the_table_with_its_near_edge_at_the_front(path: Path) -> None:
     garment = read(path)
     cloth = outline_on_table(garment)
     assert TABLE.contains(cloth)
@@ -154,13 +154,13 @@ def test_an_article_lies_on_the_table_with_its_near_edge_at_the_front(path: Path
 
 
 @each_garment
-def test_an_article_is_turned_with_its_top_away_from_the_front_unless_it_folds_better_otherwise(path: Path):
+def test_an_article_is_turned_with_its_top_away_from_the_front_unless_it_folds_better_otherwise(path: Path) -> None:
     garment = read(path)
     expected = TURNED_RAD.get(garment["name"], -math.pi / 2)
     assert garment["placement"]["yaw_rad"] == pytest.approx(expected)
 
 
-def test_the_red_fold_turns_back_a_part_of_the_flap_that_stays_clear_of_its_crease():
+def test_the_red_fold_turns_back_a_part_of_the_flap_that_stays_clear_of_its_crease() -> None:
     blue, red = read(FILES[0].with_name("letter-towel.json"))["folds"]
     # The near half, y < 0.25, lands on 0.25..0.50. Red moves y > 0.39 of it back to 0.28..0.39.
     cloth = box(0, 0, 0.40, 0.50)

@@ -119,13 +119,13 @@ def rooms_of(module: str) -> list[str]:
     return [room for room in MAY_SEE if is_within(module, room)]
 
 
-def test_every_module_of_the_planner_is_in_one_room():
+def test_every_module_of_the_planner_is_in_one_room() -> None:
     homeless = [m for m in SOURCES if is_within(m, "planner") and m != "planner" and len(rooms_of(m)) != 1]
     assert not homeless, f"no room of the ladder holds {homeless}"
 
 
 @pytest.mark.parametrize("room", MAY_SEE)
-def test_a_room_imports_only_rooms_further_down_the_ladder(room: str):
+def test_a_room_imports_only_rooms_further_down_the_ladder(room: str) -> None:
     allowed = MAY_SEE[room] | {room}
     wrong = [
         str(one)
@@ -137,13 +137,13 @@ def test_a_room_imports_only_rooms_further_down_the_ladder(room: str):
     assert not wrong, f"{room} may see only {sorted(allowed)}: {wrong}"
 
 
-def test_the_planner_knows_nothing_of_the_app():
+def test_the_planner_knows_nothing_of_the_app() -> None:
     wrong = [str(one) for one in all_imports() if is_within(one.module, "planner") and is_within(one.target, "app")]
     assert not wrong, wrong
 
 
 @pytest.mark.parametrize("library", LIBRARY_HOMES)
-def test_a_library_is_imported_only_where_it_lives(library: str):
+def test_a_library_is_imported_only_where_it_lives(library: str) -> None:
     homes = LIBRARY_HOMES[library]
     wrong = [
         str(one)
@@ -153,7 +153,7 @@ def test_a_library_is_imported_only_where_it_lives(library: str):
     assert not wrong, f"{library} lives in {', '.join(homes)}: {wrong}"
 
 
-def test_no_modules_import_each_other_in_a_circle():
+def test_no_modules_import_each_other_in_a_circle() -> None:
     below: dict[str, list[str]] = {module: [] for module in SOURCES}
     for one in all_imports():
         if one.target in SOURCES and one.target != one.module:
@@ -175,7 +175,7 @@ def test_no_modules_import_each_other_in_a_circle():
     assert not circles, circles[0]
 
 
-def test_no_module_is_named_for_being_handy():
+def test_no_module_is_named_for_being_handy() -> None:
     handy = {"utils", "util", "helpers", "helper", "manager", "base", "common", "misc"}
     wrong = [str(path.relative_to(ROOT)) for path in SOURCES.values() if path.stem in handy]
     assert not wrong, f"a module is named for its noun or its verb: {wrong}"
@@ -184,7 +184,7 @@ def test_no_module_is_named_for_being_handy():
 STARTERS = ("multiprocessing", "subprocess", "concurrent.futures.process")
 
 
-def test_only_the_workers_start_processes():
+def test_only_the_workers_start_processes() -> None:
     starts = [one for one in all_imports() if any(is_within(one.target, starter) for starter in STARTERS)]
     assert {one.module.rpartition(".")[0] for one in starts} == {"app.worker"}, [*map(str, starts)]
     pools = [str(path) for path in SOURCES.values() if "ProcessPoolExecutor" in path.read_text(encoding="utf-8")]

@@ -3,6 +3,7 @@
 import importlib
 import re
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -22,7 +23,7 @@ def named(path: str) -> float:
     parts = path.split(".")
     for cut in range(len(parts) - 1, 0, -1):
         try:
-            found = importlib.import_module(".".join(parts[:cut]))
+            found: Any = importlib.import_module(".".join(parts[:cut]))
         except ModuleNotFoundError:
             continue
         for name in parts[cut:]:
@@ -31,16 +32,16 @@ def named(path: str) -> float:
     raise LookupError(path)
 
 
-def test_the_table_of_numbers_is_found():
+def test_the_table_of_numbers_is_found() -> None:
     assert len(NUMBERS) >= 20
 
 
 @pytest.mark.parametrize(("value", "path"), NUMBERS)
-def test_a_number_on_the_page_is_that_of_the_program(value: str, path: str):
+def test_a_number_on_the_page_is_that_of_the_program(value: str, path: str) -> None:
     assert named(path) == pytest.approx(float(value), rel=1e-3)
 
 
-def test_the_approaches_are_those_named():
+def test_the_approaches_are_those_named() -> None:
     # 15, 30, 45 and 60 degrees below the horizontal in 13 headings, and straight down.
     assert "15, 30, 45 or 60 degrees" in TEXT and "13 headings within 90 degrees" in TEXT
     scene = Scene()
@@ -50,18 +51,18 @@ def test_the_approaches_are_those_named():
     assert max(abs(a.heading_rad) for a in approaches) == pytest.approx(1.5708, abs=1e-4)
 
 
-def test_the_strip_on_the_page_has_folds_that_depend_without_overlapping():
+def test_the_strip_on_the_page_has_folds_that_depend_without_overlapping() -> None:
     # (0, 0.39) to (0.4, 0.4) leaves a wedge on top, (0.39, 0.4) to (0.6, 0.3) the corner to the right of it.
     assert "folded along (0, 0.39) to (0.4, 0.4) and along (0.39, 0.4) to (0.6, 0.3)" in TEXT
     first, second = fold((0.0, 0.39), (0.4, 0.4)), fold((0.39, 0.4), (0.6, 0.3))
     assert FoldSequence.of(garment(rectangle_points(0.6, 0.4), first, second)).dag.edges == ((0, 1),)
 
 
-def test_comfort_is_three_centimetres_unless_asked_otherwise():
+def test_comfort_is_three_centimetres_unless_asked_otherwise() -> None:
     assert Limits().comfort_radius_m == 0.03
 
 
-def test_the_page_links_to_files_that_are_there():
+def test_the_page_links_to_files_that_are_there() -> None:
     folder = Path(__file__).parent.parent / "docs"
     links = re.findall(r"\]\(([^)#:]+)\)", PAGE)
     assert links and all((folder / link).exists() for link in links)

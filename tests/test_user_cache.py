@@ -23,7 +23,7 @@ def kept(tmp_path: Path) -> list[Path]:
     return found
 
 
-def test_what_was_used_least_lately_goes_be_it_a_folder(kept: list[Path]):
+def test_what_was_used_least_lately_goes_be_it_a_folder(kept: list[Path]) -> None:
     use(kept[3], 3)
     assert [path.exists() for path in kept] == [False, True, True, True]
     use(kept[3], 1)
@@ -31,11 +31,11 @@ def test_what_was_used_least_lately_goes_be_it_a_folder(kept: list[Path]):
     assert (kept[3] / "kernel").exists()
 
 
-def test_what_is_used_again_stays(kept: list[Path]):
+def test_what_is_used_again_stays(kept: list[Path]) -> None:
     use(kept[0], 2)
     assert [path.exists() for path in kept] == [True, False, False, True]
 
 
-def test_what_is_not_there_is_an_error(tmp_path: Path):
+def test_what_is_not_there_is_an_error(tmp_path: Path) -> None:
     with pytest.raises(FileNotFoundError):
         use(tmp_path / "none", 1)

@@ -16,12 +16,14 @@ from app.jobs.job_pool import JobPool
 from app.replanner import Replanner
 from app.store.database import Database
 from app.store.plan_store import PlanStore
+from app.version_plan import VersionPlan
 from bench.in_thread import InThread
 from planner import find_plan
 from planner.cloth.garment import Garment
 from tests.app.drawing.drawings import pulled
 from tests.app.samples import towel
 from tests.patience import PATIENCE_S
+from tests.required import required
 
 TOWEL = solve(drawing_of(Garment.from_dict(towel()))).drawing
 
@@ -43,7 +45,12 @@ class Desk:
 
     def rest(self) -> None:
         """Wait until the plan and everything else belong to the drawing."""
-        self.until(lambda: self.is_answered and self.has_film and self.document.state.answer.is_final)
+        self.until(lambda: self.is_answered and self.has_film and self.answer.is_final)
+
+    @property
+    def answer(self) -> VersionPlan:
+        """The document's latest answer; there has to be one."""
+        return required(self.document.state.answer)
 
     @property
     def is_answered(self) -> bool:

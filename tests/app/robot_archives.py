@@ -3,8 +3,11 @@
 import io
 import zipfile
 from collections.abc import Mapping
+from typing import TypeVar
 
 from planner.robots.described_robot import shipped_card
+
+Name = TypeVar("Name", bound=str | zipfile.ZipInfo)
 
 _LINK = """<link name="{name}"><visual><geometry>{shape}</geometry></visual>
   <collision><geometry>{shape}</geometry></collision></link>"""
@@ -51,7 +54,7 @@ def box_card(**changes: object) -> dict[str, object]:
     }
 
 
-def archive(files: Mapping[str | zipfile.ZipInfo, bytes | str]) -> bytes:
+def archive(files: Mapping[Name, bytes | str]) -> bytes:
     """Return a zip archive of files."""
     packed = io.BytesIO()
     with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as whole:

@@ -197,7 +197,7 @@ def test_commands_are_listed_without_the_planner() -> None:
     assert done.stdout.strip() == "[]"
 
 
-def test_the_garbage_collector_rests_while_the_program_is_imported_and_looks_at_what_comes_later():
+def test_the_garbage_collector_rests_while_the_program_is_imported_and_looks_at_what_comes_later() -> None:
     script = """
 import gc
 begun = []

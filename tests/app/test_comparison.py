@@ -17,13 +17,13 @@ def printed(one: Comparison) -> str:
     return console.export_text()
 
 
-def test_a_robot_whose_search_ran_out_of_time_is_told_to_have_done_so():
+def test_a_robot_whose_search_ran_out_of_time_is_told_to_have_done_so() -> None:
     (one,) = compared(load_garment("t-shirt"), ["pr2"], Limits(time_limit_s=0.01))
     assert one.plan.status == "budget_exceeded" and one.to_dict()["is_cut_short"]
     assert "not known" in printed(one) and "the time limit of 0.01 s" in printed(one)
 
 
-def test_a_no_that_names_no_cause_says_that_the_time_ran_out_and_a_cause_comes_before_what_waits():
+def test_a_no_that_names_no_cause_says_that_the_time_ran_out_and_a_cause_comes_before_what_waits() -> None:
     (one,) = compared(load_garment("t-shirt"), ["pr2"], Limits(time_limit_s=0.01))
     waits = Reason(3, Code.WAITS_FOR_FOLD, Message.plain("fold 3 waits for fold 1"))
     short = Reason(1, Code.OUT_OF_REACH, Message.plain("0.1 m out of reach"), set=0)

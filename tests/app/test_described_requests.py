@@ -88,7 +88,8 @@ async def test_a_card_names_the_kind_of_its_drives_and_joints_for_each_arm(
     arm = card["arms"][0]
     drive = {name: value for name, value in arm["gripper"]["drive"].items() if name != "kind"}
     wrong = [{**arm, "gripper": {**arm["gripper"], "drive": drive}}, {**arm, "joints": [], "home": []}]
-    for changed in ({"pleat_robot": 99}, {"arms": []}, *({"arms": [one]} for one in wrong)):
+    changes: list[dict[str, Any]] = [{"pleat_robot": 99}, {"arms": []}, *({"arms": [one]} for one in wrong)]
+    for changed in changes:
         bad = {**card, **changed}
         assert not valid.is_valid(bad)
         assert (await client.put("/api/robots/mine", json=bad)).status_code == httpx.codes.UNPROCESSABLE_ENTITY

@@ -1,3 +1,4 @@
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import pytest
@@ -82,7 +83,11 @@ def test_every_change_is_a_new_version_and_what_changes_nothing_is_none() -> Non
 def test_a_change_of_another_version_is_refused_and_changes_nothing() -> None:
     changed = document()
     changed.edit(Edit("Move", moved(1)))
-    for late in (lambda: changed.edit(Edit("Move", moved(2), base_version=1)), lambda: changed.undo(1)):
+    many: tuple[Callable[[], object], ...] = (
+        lambda: changed.edit(Edit("Move", moved(2), base_version=1)),
+        lambda: changed.undo(1),
+    )
+    for late in many:
         with pytest.raises(StaleVersionError):
             late()
     assert changed.state.drawing == moved(1)
@@ -148,7 +153,8 @@ def test_the_plan_before_is_the_last_one_of_another_committed_drawing(plan: Plan
     changed = answered(plan)
     changed.edit(Edit("Move", moved(1), Phase.PREVIEW))
     answer(changed, plan)
-    assert changed.state.before is None
+    meanwhile = changed.state
+    assert meanwhile.before is None
     changed.edit(Edit("Move", moved(2), Phase.PREVIEW))
     changed.edit(Edit("Move", moved(2), Phase.COMMIT))
     answer(changed, plan)
@@ -236,7 +242,8 @@ def test_playing_goes_by_the_wall_clock_and_stops_at_the_end(plan: Plan) -> None
     clock.now_s = 2.0
     assert played.t_s == 2.0
     played.stop_at_end()
-    assert played.state.playback.is_playing
+    playback = played.state.playback
+    assert playback.is_playing
     clock.now_s = 1e4
     played.stop_at_end()
     assert not played.state.playback.is_playing

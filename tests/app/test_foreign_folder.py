@@ -48,7 +48,7 @@ def pleat(folder: Path, *arguments: object) -> None:
 
 @pytest.mark.parametrize("is_rehearsed", [False, pytest.param(True, marks=pytest.mark.long)])
 def test_a_server_and_the_processes_of_its_work(hostile: Path, tmp_path: Path, is_rehearsed: bool) -> None:
-    command = [PLEAT, "serve", "--port", "0", "--data", tmp_path / "data"]
+    command: list[str | Path] = [PLEAT, "serve", "--port", "0", "--data", tmp_path / "data"]
     process = subprocess.Popen(command, cwd=hostile, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     try:
         assert process.stdout is not None

@@ -2,10 +2,12 @@ import gc
 import threading
 import weakref
 from concurrent.futures import wait
+from functools import partial
 
 import pytest
 
 from app.jobs.job_pool import JobPool
+from app.worker.stop import Stop
 from planner import load_garment, make_plan
 
 
@@ -98,13 +100,16 @@ def test_a_job_that_has_ended_is_freed_at_once_with_all_that_its_work_knew() -> 
     class Known:
         pass
 
+    def nothing(known: Known, should_stop: Stop) -> None:
+        """Do no work, but know something."""
+
     pool = JobPool(workers=1)
     gc.disable()
     try:
         for is_stopped in (False, True):
             known = Known()
             gone = weakref.ref(known)
-            job = pool.start(lambda should_stop, known=known: None)
+            job = pool.start(partial(nothing, known))
             if is_stopped:
                 job.stop()
             wait([job.future])

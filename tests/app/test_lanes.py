@@ -5,6 +5,7 @@ import signal
 import time
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager, suppress
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -64,8 +65,8 @@ async def test_short_work_is_answered_while_all_searches_are_taken(client: httpx
 
 async def test_a_plan_whose_time_is_up_before_its_turn_is_told_when_to_come_again(client: httpx.AsyncClient) -> None:
     async with endless_plans(client, 8), asyncio.timeout(30.0):
-        for path, more in (("plans", {}), ("suggestions", {}), ("placements", {})):
-            body = {"garment": "hand-towel", "time_limit_s": 0.1, **more}
+        for path in ("plans", "suggestions", "placements"):
+            body = {"garment": "hand-towel", "time_limit_s": 0.1}
             answer = await client.post(f"/api/{path}", json=body)
             assert answer.status_code == 503, path
             assert answer.headers["content-type"] == "application/problem+json"
@@ -128,6 +129,10 @@ def is_running(server: Served, lane: str) -> bool:
     return f'pleat_lane_running{{lane="{lane}"}} 0.0' not in REST.get(f"{server.url}/metrics").text
 
 
+def is_idle(server: Served, lane: str) -> bool:
+    return not is_running(server, lane)
+
+
 async def test_a_client_that_goes_away_ends_the_work_for_it_and_the_workers_stay(served: Served) -> None:
     polygon = " ".join(f"{(i * 7919) % 100_003} {(i * 104_729) % 99_991}" for i in range(150_000))
     knot = f'<svg xmlns="http://www.w3.org/2000/svg"><path d="M {polygon} Z"/></svg>'.encode()[: 2 << 20]
@@ -137,10 +142,10 @@ async def test_a_client_that_goes_away_ends_the_work_for_it_and_the_workers_stay
         warm = descendants(served.process.pid)
         for lane, path, body in endless:
             sent = asyncio.create_task(client.post(f"/api/{path}", **body))
-            await asyncio.to_thread(wait_until, lambda lane=lane: is_running(served, lane))
+            await asyncio.to_thread(wait_until, partial(is_running, served, lane))
             sent.cancel()
             await asyncio.gather(sent, return_exceptions=True)
-            await asyncio.to_thread(wait_until, lambda lane=lane: not is_running(served, lane))
+            await asyncio.to_thread(wait_until, partial(is_idle, served, lane))
             assert len(descendants(served.process.pid)) <= len(warm), path
 
 

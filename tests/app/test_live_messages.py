@@ -12,6 +12,7 @@ from app.drawing.draft import draft_of
 from app.drawing.garment_drawing import drawing_of
 from planner import Plan, load_garment, make_plan
 from tests.replay.planned import planned
+from tests.required import required
 
 T_SHIRT = load_garment("t-shirt")
 
@@ -46,9 +47,9 @@ def test_many_ways_are_told_with_a_comma_and_a_bound_only_where_there_is_one() -
 
 def test_what_any_plan_takes_is_told_until_that_is_known_to_be_the_plans_cost() -> None:
     plan = planned("t-shirt").answer
-    open_s = replace(plan, statistics=replace(plan.statistics, bound_s=plan.cost_s - 2.0))
+    open_s = replace(plan, statistics=replace(plan.statistics, bound_s=required(plan.cost_s) - 2.0))
     told = [plan_message(answered(one))["plan"]["at_least_s"] for one in (plan, open_s)]
-    assert told == [None, plan.cost_s - 2.0]
+    assert told == [None, required(plan.cost_s) - 2.0]
 
 
 def test_of_a_garment_without_folds_it_is_said_what_is_missing() -> None:

@@ -87,7 +87,8 @@ def places(schema: dict[str, Any], value: Any, at: tuple[str | int, ...] = ()) -
     """Yield the path of each member of a value, those that it leaves out too, and whether null is described there."""
     for name, member in members(schema, value).items():
         yield (*at, name), may_be_null(member)
-        if isinstance(value, list) or name in value:
+        is_there = isinstance(value, list) or name in value
+        if is_there:
             yield from places(member, value[name], (*at, name))
 
 
@@ -128,7 +129,14 @@ def test_null_is_read_where_the_description_says_so_and_else_refused_by_name(bod
 
 
 def test_every_default_that_is_described_suits_its_own_description(bodies: list[JsonBody[Any]]) -> None:
-    kinds = {"object": dict, "array": list, "string": str, "number": (int, float), "boolean": bool, "null": type(None)}
+    kinds: dict[str | None, type | tuple[type, ...]] = {
+        "object": dict,
+        "array": list,
+        "string": str,
+        "number": (int, float),
+        "boolean": bool,
+        "null": type(None),
+    }
     found = set()
 
     def look(schema: Any) -> None:

@@ -133,7 +133,11 @@ async def test_a_robot_that_is_not_whole_is_refused_by_the_field(
 
 async def test_a_mesh_that_cannot_be_read_is_refused(client: httpx.AsyncClient, tmp_path: Path) -> None:
     urdf = box_urdf('<mesh filename="hand.stl"/>')
-    files = {"robot.json": json.dumps(box_card()), "urdf/box.urdf": urdf, "urdf/hand.stl": STL}
+    files: dict[str, str | bytes] = {
+        "robot.json": json.dumps(box_card()),
+        "urdf/box.urdf": urdf,
+        "urdf/hand.stl": STL,
+    }
     assert (await refused(client, archive(files), tmp_path))[0] == "urdf"
 
 

@@ -16,6 +16,7 @@ from planner.planning.found_plan import FoundPlan
 from tests.app.drawing.drawings import crease
 from tests.app.replan_desk import TOWEL, Desk, Endless, moved, replanning
 from tests.patience import PATIENCE_S
+from tests.required import required
 
 QUARTERED = solve(replace(TOWEL, folds=(*TOWEL.folds, crease("quarter", (0.2, 0.15), (0.2, 0.3))))).drawing
 
@@ -46,7 +47,7 @@ def test_the_plan_before_is_shown_as_it_is_for_the_drawing_now_while_a_quicker_o
     desk.rest()
     last = desk.document.state.answer
     assert last is not None and last.is_final and last.plan.is_proven
-    assert last.plan.cost_s <= first.plan.cost_s
+    assert required(last.plan.cost_s) <= required(first.plan.cost_s)
 
 
 def test_who_stops_the_search_for_a_quicker_plan_keeps_the_one_shown(
@@ -62,13 +63,13 @@ def test_who_stops_the_search_for_a_quicker_plan_keeps_the_one_shown(
     desk.document.stop_planning()
     assert endless.stopped.wait(PATIENCE_S)
     desk.rest()
-    assert desk.document.state.failure is None and desk.document.state.answer.plan is shown.plan
+    assert desk.document.state.failure is None and desk.answer.plan is shown.plan
 
 
 def test_a_plan_that_was_shown_stays_readable_when_a_quicker_one_takes_its_place(desk: Desk) -> None:
     desk.rest()
-    shown = set()
-    unsubscribe = desk.document.subscribe(lambda: shown.add(desk.document.state.answer.plan_id))
+    shown: set[str] = set()
+    unsubscribe = desk.document.subscribe(lambda: shown.add(desk.answer.plan_id))
     for millimetres in (5, 15):
         desk.document.edit(Edit("Move", moved(millimetres)))
         desk.rest()
@@ -84,7 +85,7 @@ def answers(desk: Desk) -> list[VersionPlan]:
     def look() -> None:
         state = desk.document.state
         if state.is_answered and (not shown or shown[-1] is not state.answer):
-            shown.append(state.answer)
+            shown.append(required(state.answer))
 
     desk.document.subscribe(look)
     return shown
@@ -96,7 +97,7 @@ def test_with_another_fold_nothing_much_slower_is_shown_before_the_quickest_plan
     desk.document.edit(Edit("Draw fold", QUARTERED))
     desk.rest()
     # Where hands come a little late to the second fold, the search looks for another way while this one is shown.
-    costs_s = [answer.plan.cost_s for answer in shown]
+    costs_s = [required(answer.plan.cost_s) for answer in shown]
     assert shown[-1].is_final
     assert costs_s == sorted(costs_s, reverse=True)
     assert costs_s[0] < costs_s[-1] + 0.5
@@ -106,7 +107,7 @@ def test_but_in_a_search_that_takes_long_some_plan_is_shown_that_begins_like_the
     desk: Desk, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     desk.rest()
-    before = desk.document.state.answer.plan
+    before = desk.answer.plan
     monkeypatch.setattr(plan_search, "GREEDY_AFTER_S", 0.0)
     shown = answers(desk)
     desk.document.edit(Edit("Draw fold", QUARTERED))
@@ -115,7 +116,7 @@ def test_but_in_a_search_that_takes_long_some_plan_is_shown_that_begins_like_the
     meanwhile, last = (answer.plan for answer in shown)
     begins = meanwhile.primitives[: len(before.primitives)]
     assert [(p.kind, p.details) for p in begins] == [(p.kind, p.details) for p in before.steps]
-    assert last.cost_s <= meanwhile.cost_s
+    assert required(last.cost_s) <= required(meanwhile.cost_s)
     assert all(desk.plans.plan(answer.plan_id) == answer.plan for answer in shown)
 
 
@@ -139,7 +140,7 @@ def test_who_looks_longer_keeps_the_plan_on_show_until_a_quicker_one_is_found(
 ) -> None:
     def unproven(task: Task, **options: object) -> FoundPlan:
         found = find_plan(task, **options)  # type: ignore[arg-type]
-        if task.limits.work_limit_s > replanner.WORK_S:
+        if required(task.limits.work_limit_s) > replanner.WORK_S:
             return found
         statistics = replace(found.plan.statistics, bound_s=1.0, is_cut_short=True)
         return replace(found, plan=replace(found.plan, statistics=statistics))
@@ -171,7 +172,7 @@ def test_that_there_is_no_plan_is_told_before_the_reasons_are_tried(desk: Desk) 
     far = replace(TOWEL, placement=replace(TOWEL.placement, x_m=0.4))
     alone = replace(far.scene, stations=far.scene.stations[:1], back_off_max_m=0.0)
     desk.document.edit(Edit("Lay far away", solve(replace(far, scene=alone)).drawing))
-    desk.until(lambda: desk.is_answered and desk.document.state.answer.is_final)
+    desk.until(lambda: desk.is_answered and desk.answer.is_final)
     first, last = seen[0], seen[-1]
     assert not first.is_final and first.plan.status == "infeasible"
     assert first.plan.reasons and all(reason.set is None for reason in first.plan.reasons)

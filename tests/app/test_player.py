@@ -1,5 +1,7 @@
 import time
+from collections.abc import Callable
 from dataclasses import replace
+from typing import Literal
 
 import pytest
 
@@ -9,9 +11,11 @@ from app.drawing.draft import draft_of
 from app.drawing.edit import Edit, Phase
 from app.drawing.garment_drawing import drawing_of
 from app.player import UPDATES_PER_S, Player
+from app.rehearsal.trace import RunTrace
 from planner import Plan, Scene, load_garment, make_plan
 from planner.geometry.pose import Point2, Pose2
 from planner.geometry.table import Table
+from planner.motion.sample import Sample
 from planner.robots.card import RobotCard
 from tests.app.drawing.drawings import outlined, pulled
 
@@ -50,7 +54,7 @@ class CountingView3D:
     def show_plan(self, _: Plan) -> None:
         self.plans += 1
 
-    def show(self, frame, _trace=None) -> None:
+    def show(self, frame: Sample, _trace: RunTrace | None = None) -> None:
         self.times.append(frame.t_s)
 
 
@@ -69,7 +73,11 @@ def answer(document: Document, plan: Plan) -> None:
     document.settle(document.state.version, task, plan, "id")
 
 
-def until(condition) -> None:
+def player_of(document: Document, view: CountingView3D) -> Player:
+    return Player(document, view)  # type: ignore[arg-type]
+
+
+def until(condition: Callable[[], object]) -> None:
     deadline = time.monotonic() + 10.0
     while not condition():
         assert time.monotonic() < deadline
@@ -92,7 +100,7 @@ class FailingView3D(CountingView3D):
 
 def playing_for_a_second(plan: Plan, has_watchers: bool) -> list[float]:
     document, view = towel_document(), CountingView3D(has_watchers)
-    player = Player(document, view)
+    player = player_of(document, view)
     try:
         until(lambda: view.lying == 1)
         answer(document, plan)
@@ -117,12 +125,16 @@ def test_an_unwatched_3d_view_gets_few(plan: Plan) -> None:
 
 def test_a_paused_3d_view_gets_one_update_for_each_change(plan: Plan) -> None:
     document, view = towel_document(), CountingView3D(True)
-    player = Player(document, view)
+    player = player_of(document, view)
     try:
         answer(document, plan)
         for t_s in (1.0, 2.0, 3.0):
             document.seek(t_s)
-            until(lambda t_s=t_s: view.times and view.times[-1] == t_s)
+
+            def is_shown(t_s: float = t_s) -> bool:
+                return bool(view.times) and view.times[-1] == t_s
+
+            until(is_shown)
         time.sleep(0.2)
         assert len(view.times) <= 4
     finally:
@@ -131,7 +143,7 @@ def test_a_paused_3d_view_gets_one_update_for_each_change(plan: Plan) -> None:
 
 def test_the_3d_view_follows_the_theme_and_another_garment_keeps_it() -> None:
     document, view = towel_document(), CountingView3D(True)
-    player = Player(document, view)
+    player = player_of(document, view)
     try:
         until(lambda: view.lying == 1)
         document.set_theme(is_dark=True)
@@ -146,7 +158,7 @@ def test_the_3d_view_follows_the_theme_and_another_garment_keeps_it() -> None:
 
 def test_the_3d_view_follows_the_language() -> None:
     document, view = towel_document(), CountingView3D(True)
-    player = Player(document, view)
+    player = player_of(document, view)
     try:
         until(lambda: view.lying == 1)
         document.set_language("de")
@@ -160,7 +172,7 @@ def test_the_3d_view_follows_the_language() -> None:
 
 def test_the_cloth_follows_the_drawing_at_once_while_the_film_stands_at_its_beginning(plan: Plan) -> None:
     document, view = towel_document(), CountingView3D(True)
-    player = Player(document, view)
+    player = player_of(document, view)
     try:
         until(lambda: view.lying == 1)
         answer(document, plan)
@@ -175,11 +187,11 @@ def test_the_cloth_follows_the_drawing_at_once_while_the_film_stands_at_its_begi
 
 @pytest.mark.parametrize(("status", "drawn"), [("solved", (1, 1)), ("infeasible", (2, 0))])
 def test_the_3d_view_waits_with_a_drawing_for_its_plan_if_there_is_one(
-    status: str, drawn: tuple[int, int], plan: Plan, monkeypatch: pytest.MonkeyPatch
+    status: Literal["solved", "infeasible"], drawn: tuple[int, int], plan: Plan, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(player_module, "PATIENCE_S", 60.0)
     document, view = towel_document(), CountingView3D(True)
-    player = Player(document, view)
+    player = player_of(document, view)
     try:
         until(lambda: view.lying == 1)
         document.edit(Edit("Move", pulled(document.state.drawing, 0, -0.01, 0.0)))
@@ -191,7 +203,7 @@ def test_the_3d_view_waits_with_a_drawing_for_its_plan_if_there_is_one(
 
 def test_in_the_middle_of_a_film_it_stays_until_the_next(plan: Plan) -> None:
     document, view = towel_document(), CountingView3D(True)
-    player = Player(document, view)
+    player = player_of(document, view)
     try:
         until(lambda: view.lying == 1)
         answer(document, plan)
@@ -206,7 +218,7 @@ def test_in_the_middle_of_a_film_it_stays_until_the_next(plan: Plan) -> None:
 
 def test_a_spoilt_drawing_leaves_in_the_3d_view_what_was_there(plan: Plan) -> None:
     document, view = towel_document(), CountingView3D(True)
-    player = Player(document, view)
+    player = player_of(document, view)
     try:
         until(lambda: view.lying == 1)
         document.edit(Edit("Spoil", outlined(document.state.drawing, (0.0, 0.0), (0.1, 0.0))))
@@ -219,7 +231,7 @@ def test_a_spoilt_drawing_leaves_in_the_3d_view_what_was_there(plan: Plan) -> No
 
 def test_where_nothing_is_drawn_the_3d_view_has_no_cloth() -> None:
     document, view = towel_document(), CountingView3D(True)
-    player = Player(document, view)
+    player = player_of(document, view)
     try:
         until(lambda: view.lying == 1)
         document.edit(Edit("Clear", outlined(document.state.drawing)))
@@ -236,7 +248,7 @@ def test_where_nothing_is_drawn_the_3d_view_has_no_cloth() -> None:
 def test_a_robot_waits_at_the_table_before_there_is_any_cloth(corners: tuple[Point2, ...]) -> None:
     drawing = drawing_of(load_garment("hand-towel"))
     view = CountingView3D(True)
-    player = Player(Document(draft_of(outlined(drawing, *corners))), view)
+    player = player_of(Document(draft_of(outlined(drawing, *corners))), view)
     try:
         until(lambda: view.bare == 1)
         assert view.lying == 0
@@ -246,7 +258,7 @@ def test_a_robot_waits_at_the_table_before_there_is_any_cloth(corners: tuple[Poi
 
 def test_another_scene_is_put_up_with_what_is_shown_in_it() -> None:
     document, view = towel_document(), CountingView3D(True)
-    player = Player(document, view)
+    player = player_of(document, view)
     try:
         until(lambda: view.lying == 1)
         high = replace(Scene(), table=Table(height_m=0.9))
@@ -259,7 +271,7 @@ def test_another_scene_is_put_up_with_what_is_shown_in_it() -> None:
 
 def test_what_could_not_be_drawn_is_drawn_anew(caplog: pytest.LogCaptureFixture) -> None:
     document, view = towel_document(), FailingView3D(failures=1)
-    player = Player(document, view)
+    player = player_of(document, view)
     try:
         until(lambda: view.lying == 1)
     finally:
@@ -269,7 +281,7 @@ def test_what_could_not_be_drawn_is_drawn_anew(caplog: pytest.LogCaptureFixture)
 
 def test_what_fails_again_waits_for_the_next_change(caplog: pytest.LogCaptureFixture) -> None:
     document, view = towel_document(), FailingView3D(failures=2)
-    player = Player(document, view)
+    player = player_of(document, view)
     try:
         until(lambda: view.failures == 0)
         assert view.lying == 0
@@ -292,7 +304,7 @@ def test_where_software_draws_it_the_3d_view_follows_a_hand_once_that_rests(
     monkeypatch.setattr(player_module, "REST_S", 1.0)
     document, view = towel_document(), CountingView3D(True)
     view.is_drawn_by_software = True
-    player = Player(document, view)
+    player = player_of(document, view)
     try:
         until(lambda: view.lying == 1)
         begun = time.monotonic()
@@ -317,21 +329,27 @@ def test_where_a_graphics_card_draws_it_the_3d_view_follows_a_hand_at_once(
     monkeypatch.setattr(player_module, "PATIENCE_S", 0.0)
     monkeypatch.setattr(player_module, "REST_S", 60.0)
     document, view = towel_document(), CountingView3D(True)
-    player = Player(document, view)
+    player = player_of(document, view)
     try:
         until(lambda: view.lying == 1)
         for number in (2, 3, 4):
             drag_on(document, -0.001)
-            until(lambda number=number: view.lying == number)
+
+            def has_followed(number: int = number) -> bool:
+                return view.lying == number
+
+            until(has_followed)
     finally:
         player.close()
 
 
-def test_a_plan_that_is_pointed_at_is_shown_to_its_end_and_then_the_own_one_again(plan: Plan, monkeypatch):
+def test_a_plan_that_is_pointed_at_is_shown_to_its_end_and_then_the_own_one_again(
+    plan: Plan, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(player_module, "PREVIEW_S", 0.2)
     document, view = towel_document(), CountingView3D(has_watchers=True)
     answer(document, plan)
-    player = Player(document, view)
+    player = player_of(document, view)
     until(lambda: view.times == [0.0])
     document.preview(plan)
     until(lambda: view.times[-1] == plan.cost_s)

@@ -2,6 +2,7 @@
 
 from collections.abc import AsyncIterator
 from pathlib import Path
+from typing import Any
 
 import httpx
 import pytest
@@ -83,6 +84,6 @@ async def test_a_proxy_that_tells_its_name_is_let_in_by_it(client: httpx.AsyncCl
 @pytest.mark.parametrize(
     "wrong", [{"root_path": "pleat"}, {"root_path": "//evil.example"}, {"origin": "example.org/a"}]
 )
-def test_a_proxy_that_makes_no_sense_is_refused(tmp_path: Path, wrong: dict[str, str]) -> None:
+def test_a_proxy_that_makes_no_sense_is_refused(tmp_path: Path, wrong: dict[str, Any]) -> None:
     with pytest.raises(ValidationError):
         Settings(data=tmp_path, **wrong)

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 import pytest
+import viser
 from numpy.typing import NDArray
 
 from app.ui.colours import DARK, LIGHT
@@ -42,15 +43,15 @@ def performed(plan: Plan, index: int) -> PlanStep:
 def line(view: View3D, index: int) -> NDArray[np.float64]:
     """Return a fold's line as drawn: segments, shape (n, 2, 3), m; none if it is hidden."""
     handle = view._server.scene.get_handle_by_name(f"/folds/{index}")
-    assert handle is not None
-    return np.asarray(handle.points, dtype=float) if handle.visible else np.zeros((0, 2, 3))
+    assert isinstance(handle, viser.LineSegmentsHandle)
+    return np.asarray(handle.points, dtype=np.float64) if handle.visible else np.zeros((0, 2, 3))
 
 
 def length_m(segments: NDArray[np.float64]) -> float:
     return float(np.linalg.norm(segments[:, 1] - segments[:, 0], axis=1).sum())
 
 
-def test_a_blue_line_is_drawn_through_and_a_red_one_as_dashes_and_dots(view: View3D, letter: Plan):
+def test_a_blue_line_is_drawn_through_and_a_red_one_as_dashes_and_dots(view: View3D, letter: Plan) -> None:
     view.show(Timeline.of(letter).at(0.0))
     assert length_m(line(view, BLUE)) == pytest.approx(0.4)
     # Dash 0.045, gap 0.012, dot 0.006, gap 0.012: of 0.075 m 0.051 are drawn. 0.4 m are five times that and a
@@ -58,16 +59,16 @@ def test_a_blue_line_is_drawn_through_and_a_red_one_as_dashes_and_dots(view: Vie
     assert length_m(line(view, RED)) == pytest.approx(5 * 0.051 + 0.025)
 
 
-def test_the_two_kinds_have_the_two_colours_of_the_theme(view: View3D):
+def test_the_two_kinds_have_the_two_colours_of_the_theme(view: View3D) -> None:
     for is_dark, palette in ((False, LIGHT), (True, DARK)):
         view.set_theme(is_dark=is_dark)
         for index, wanted in ((BLUE, palette.fold_blue), (RED, palette.fold_red)):
             handle = view._server.scene.get_handle_by_name(f"/folds/{index}")
-            assert handle is not None
+            assert isinstance(handle, viser.LineSegmentsHandle)
             assert tuple(handle.colors) == tuple(ink(wanted))
 
 
-def test_a_red_line_lies_where_it_will_be_folded_on_the_cloth_as_it_is(view: View3D, letter: Plan):
+def test_a_red_line_lies_where_it_will_be_folded_on_the_cloth_as_it_is(view: View3D, letter: Plan) -> None:
     # 0.39 m from the near edge. One layer lies there before the blue fold, two after it.
     blue = performed(letter, BLUE)
     folded_s = blue.end_s - 1e-6
@@ -79,7 +80,7 @@ def test_a_red_line_lies_where_it_will_be_folded_on_the_cloth_as_it_is(view: Vie
         assert drawn[..., 2] == pytest.approx(np.full(drawn.shape[:2], layers * LAYER_GAP_M + ABOVE_M), abs=1e-6)
 
 
-def test_once_folded_a_line_is_gone(view: View3D, letter: Plan):
+def test_once_folded_a_line_is_gone(view: View3D, letter: Plan) -> None:
     red = performed(letter, RED)
     view.show(Timeline.of(letter).at(red.start_s + red.duration_s / 2))
     assert len(line(view, BLUE)) == 0 and len(line(view, RED)) > 0
@@ -87,15 +88,15 @@ def test_once_folded_a_line_is_gone(view: View3D, letter: Plan):
     assert len(line(view, RED)) == 0
 
 
-def test_while_a_red_fold_is_made_the_cloth_under_its_flap_lies_still(view: View3D, letter: Plan):
+def test_while_a_red_fold_is_made_the_cloth_under_its_flap_lies_still(view: View3D, letter: Plan) -> None:
     red = performed(letter, RED)
     shown = []
     # At first the wrists may turn in their grips: then nothing has been folded yet.
     for share in np.linspace(0.2, 0.98, 15):
         view.show(Timeline.of(letter).at(red.start_s + float(share) * red.duration_s))
         handle = view._server.scene.get_handle_by_name("/cloth/front")
-        assert handle is not None
-        corners = np.asarray(handle.vertices, dtype=float)
+        assert isinstance(handle, viser.MeshHandle)
+        corners = np.asarray(handle.vertices, dtype=np.float64)
         # Layer 0 lies at one gap over the table; what of the flap stays, layer 1, at two.
         shown.append(
             [

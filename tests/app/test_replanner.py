@@ -26,6 +26,10 @@ def desk() -> Iterator[Desk]:
         yield desk
 
 
+def near(x_m: float) -> object:
+    return pytest.approx(x_m)
+
+
 def test_the_first_plan_comes_by_itself_with_checks_and_film(desk: Desk) -> None:
     desk.rest()
     state = desk.document.state
@@ -67,13 +71,13 @@ def test_of_many_edits_the_last_is_planned(desk: Desk) -> None:
     desk.rest()
     answer = desk.document.state.answer
     assert answer is not None and answer.version == 8
-    assert answer.plan.garment.outline[0] == (pytest.approx(-0.007), 0.0)
+    assert answer.plan.garment.outline[0] == (near(-0.007), 0.0)
 
 
 def test_while_somebody_drags_plans_of_older_previews_are_shown(desk: Desk) -> None:
     """Previews come faster than plans; each search is given a little time to end all the same."""
     desk.rest()
-    shown = set()
+    shown: set[int] = set()
     deadline = time.monotonic() + 3.0
     number = 0
     while time.monotonic() < deadline and len(shown) < 3:
@@ -86,8 +90,7 @@ def test_while_somebody_drags_plans_of_older_previews_are_shown(desk: Desk) -> N
     assert len(shown) >= 3
     desk.document.edit(Edit("Drag", moved(30), Phase.COMMIT))
     desk.rest()
-    assert desk.document.state.answer is not None
-    assert desk.document.state.answer.plan.garment.outline[0] == (pytest.approx(-0.03), 0.0)
+    assert desk.answer.plan.garment.outline[0] == (near(-0.03), 0.0)
 
 
 def test_undo_finds_its_plan_again_at_once(desk: Desk) -> None:
@@ -125,7 +128,7 @@ def test_plans_of_previews_are_not_kept_and_those_of_commits_are(desk: Desk) -> 
     for plan_id in ids[:2]:
         with pytest.raises(UnknownPlanError):
             desk.plans.plan(plan_id)
-    assert desk.document.state.answer.plan is desk.plans.plan(ids[2])
+    assert desk.answer.plan is desk.plans.plan(ids[2])
     desk.document.edit(Edit("Move", moved(4)))
     desk.rest()
     assert desk.plans.plan(ids[2]).is_solved

@@ -13,18 +13,20 @@ import httpx
 import pytest
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import ClientConnection, connect
+from websockets.sync.connection import Connection
+from websockets.typing import Origin, Subprotocol
 
 from app.server.serve import _listening
 from tests.app.conftest import REST, Served
 from tests.app.samples import towel
 from tests.patience import PATIENCE_S
 
-SUBPROTOCOL = "viser-v1.1.1"
+SUBPROTOCOL = Subprotocol("viser-v1.1.1")
 
 
 def test_answers_are_sent_at_once_and_not_held_back_for_an_acknowledgement() -> None:
     async def accepted() -> bool:
-        is_at_once = asyncio.get_running_loop().create_future()
+        is_at_once: asyncio.Future[bool] = asyncio.get_running_loop().create_future()
 
         def accept(_: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
             wire = writer.get_extra_info("socket")
@@ -52,7 +54,7 @@ def live(served: Served, **options: Any) -> ClientConnection:
     return connect(f"ws://{served.authority}{live_path(served)}", proxy=None, **options)
 
 
-def until(page: ClientConnection, kind: str, **wanted: object) -> dict[str, Any]:
+def until(page: Connection, kind: str, **wanted: object) -> dict[str, Any]:
     """Return the first message of a kind that has these fields."""
     deadline = time.monotonic() + PATIENCE_S
     while True:
@@ -61,7 +63,7 @@ def until(page: ClientConnection, kind: str, **wanted: object) -> dict[str, Any]
             return message
 
 
-def until_planned(page: ClientConnection) -> dict[str, Any]:
+def until_planned(page: Connection) -> dict[str, Any]:
     """Return the first message of a final plan: a slow machine shows other plans before it."""
     while not (message := until(page, "plan", status="solved"))["plan"]["is_final"]:
         pass
@@ -147,7 +149,7 @@ def test_a_websocket_from_a_foreign_page_never_opens(
     served: Served, path: Callable[[Served], str], origin: str
 ) -> None:
     with pytest.raises(InvalidStatus) as refused:
-        connect(f"ws://{served.authority}{path(served)}", origin=origin, subprotocols=[SUBPROTOCOL], proxy=None)
+        connect(f"ws://{served.authority}{path(served)}", origin=Origin(origin), subprotocols=[SUBPROTOCOL], proxy=None)
     assert refused.value.response.status_code == 403
 
 

@@ -6,7 +6,8 @@ from app.shared_texts import SharedTexts
 
 
 def test_a_text_is_made_once_for_all_who_ask_and_anew_for_another_key() -> None:
-    texts, made = SharedTexts(), []
+    texts = SharedTexts()
+    made: list[int] = []
 
     def make() -> str:
         made.append(len(made))

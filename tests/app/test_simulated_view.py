@@ -78,21 +78,25 @@ def test_another_plan_has_no_run_yet(view: View3D, plan: Plan, trace: RunTrace) 
     assert not parts(view)[0].visible
 
 
+def shown_run(document: Document) -> RunTrace | None:
+    return document.state.trace
+
+
 def test_a_run_is_shown_along_with_its_plan_alone(plan: Plan, trace: RunTrace) -> None:
     document = Document(draft_of(drawing_of(load_garment("t-shirt"))))
     document.show_trace(trace)
-    assert document.state.trace is None
+    assert shown_run(document) is None
     task = document.state.task
     assert task is not None
     document.settle(1, task, plan, "first")
     document.show_trace(trace)
-    assert document.state.trace is trace
+    assert shown_run(document) is trace
     document.plan_from(0)
-    assert document.state.trace is None
+    assert shown_run(document) is None
     document.plan_from_start()
     again = make_plan(load_garment("t-shirt"))
     document.settle(1, task, again, "again")
-    assert document.state.trace is None
+    assert shown_run(document) is None
     document.show_trace(trace)
     document.show_trace(None)
-    assert document.state.trace is None
+    assert shown_run(document) is None

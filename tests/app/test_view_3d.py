@@ -8,10 +8,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import viser
 import yourdfpy
 from numpy.typing import NDArray
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
+from websockets.typing import Subprotocol
 
 from app.ui.colours import DARK, LIGHT
 from app.ui.lighting import ink, paint
@@ -26,9 +28,10 @@ from planner.motion.cloth_surface import LAYER_GAP_M
 from planner.motion.timeline import Timeline
 from planner.robots.load_robot import load_robot
 from tests.app.pose_matrix import matrix
+from tests.required import required
 
 CARD = load_robot("pr2").card
-SUBPROTOCOL = "viser-v1.1.1"
+SUBPROTOCOL = Subprotocol("viser-v1.1.1")
 
 
 @pytest.fixture(scope="module")
@@ -61,11 +64,11 @@ def test_without_cloth_the_robot_waits_as_it_does_with_cloth(view: View3D, plan:
     view.show(Timeline.of(plan).at(Timeline.of(plan).duration_s))
     view.show_bare(base)
     handle = view._server.scene.get_handle_by_name
-    assert [handle(f"/cloth/{part}").visible for part in ("front", "back", "edges")] == [False] * 3
+    assert [required(handle(f"/cloth/{part}")).visible for part in ("front", "back", "edges")] == [False] * 3
     assert handle("/folds/0") is None
     waiting = shown_pose(view, "/robot/l_gripper_tool_frame")
     view.show_garment(garment, lying_cloth(garment, scene.table), base)
-    assert [handle(f"/cloth/{part}").visible for part in ("front", "back", "edges")] == [True] * 3
+    assert [required(handle(f"/cloth/{part}")).visible for part in ("front", "back", "edges")] == [True] * 3
     assert handle("/folds/0") is not None
     np.testing.assert_allclose(shown_pose(view, "/robot/l_gripper_tool_frame"), waiting, atol=1e-9)
 
@@ -102,8 +105,8 @@ def test_fold_lines_go_as_folds_are_done(view: View3D, plan: Plan) -> None:
 
 def line_points(view: View3D, index: int) -> NDArray[np.float64]:
     line = view._server.scene.get_handle_by_name(f"/folds/{index}")
-    assert line is not None
-    return np.asarray(line.points, dtype=float) if line.visible else np.zeros((0, 2, 3))
+    assert isinstance(line, viser.LineSegmentsHandle)
+    return np.asarray(line.points, dtype=np.float64) if line.visible else np.zeros((0, 2, 3))
 
 
 def test_fold_lines_are_where_they_are_however_one_came_there(view: View3D, plan: Plan) -> None:
@@ -173,7 +176,7 @@ def test_a_theme_colours_the_whole_3d_view(view: View3D, plan: Plan) -> None:
     for is_dark, palette in ((True, DARK), (False, LIGHT)):
         view.set_theme(is_dark=is_dark)
         front, line = scene.get_handle_by_name("/cloth/front"), scene.get_handle_by_name("/folds/0")
-        assert front is not None and line is not None
+        assert isinstance(front, viser.MeshHandle) and isinstance(line, viser.LineSegmentsHandle)
         assert tuple(front.color) == paint(palette.cloth_front)
         assert tuple(line.colors) == tuple(ink(palette.fold_blue))
 
@@ -181,7 +184,7 @@ def test_a_theme_colours_the_whole_3d_view(view: View3D, plan: Plan) -> None:
 def test_stations_are_named_in_the_readers_language_whatever_robot_comes(view: View3D) -> None:
     def label(station: str) -> str:
         found = view._server.scene.get_handle_by_name(f"/stations/{station}/name")
-        assert found is not None
+        assert isinstance(found, viser.LabelHandle)
         return str(found.text)
 
     own = replace(Scene(), stations=(*Scene().stations, ("by_the_door", Pose2(-0.8, 0.3, 0.0))))
@@ -214,7 +217,7 @@ def test_another_scene_has_another_table_other_stations_and_another_floor(view: 
         view.show_scene(other)
         view.show_garment(plan.garment, lying_cloth(plan.garment, other.table), other.stations[0][1])
         top = scene.get_handle_by_name("/table/top")
-        assert top is not None and tuple(top.dimensions[:2]) == (1.0, 0.8)
+        assert isinstance(top, viser.BoxHandle) and tuple(top.dimensions[:2]) == (1.0, 0.8)
         assert scene.get_handle_by_name("/stations/corner") is not None
         assert scene.get_handle_by_name("/stations/front") is None
         assert shown_pose(view, "/robot")[2, 3] == pytest.approx(-0.9)

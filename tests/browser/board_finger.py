@@ -23,5 +23,6 @@ class Finger:
     def drag(self, start: Point, end: Point) -> None:
         self.send("touchStart", self.hand.px(start))
         for part in (0.2, 0.5, 0.8, 1.0):
-            self.send("touchMove", self.hand.px(tuple(a + part * (b - a) for a, b in zip(start, end, strict=True))))
+            x, y = (a + part * (b - a) for a, b in zip(start, end, strict=True))
+            self.send("touchMove", self.hand.px((x, y)))
         self.send("touchEnd")

@@ -8,7 +8,8 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, BrowserContext, Page, Playwright, expect, sync_playwright
 
-from tests.app.conftest import REST, Served
+from tests.app.conftest import REST as REST
+from tests.app.conftest import Served
 from tests.app.conftest import served as served
 from tests.browser.status_pill import expect_planned
 

@@ -126,7 +126,7 @@ def over_axis(page: Page, outline: list[list[float]], point: list[float]) -> Any
 
 def test_a_garment_of_which_a_corner_is_pulled_away_keeps_its_axis(page: Page) -> None:
     # Symmetric about x = 2 but for (4.9, -0.3), which was (4, 0); the middle of the box is at 1.95.
-    pulled = [[0, 0], [4.9, -0.3], [4, 3], [5, 2], [5, 4], [3, 5], [1, 5], [-1, 4], [-1, 2], [0, 3]]
+    pulled: list[list[float]] = [[0, 0], [4.9, -0.3], [4, 3], [5, 2], [5, 4], [3, 5], [1, 5], [-1, 4], [-1, 2], [0, 3]]
     assert over_axis(page, pulled, [0, 0]) == pytest.approx([4, 0])
 
 
@@ -141,7 +141,7 @@ def test_of_two_axes_the_upright_one_is_meant(page: Page) -> None:
 
 def test_a_garment_without_an_axis_is_mirrored_over_the_middle_of_its_box(page: Page) -> None:
     # No two corners are level with or plumb to each other; x from -1 to 6.
-    odd = [[0, 0], [5, 1], [6, 4], [2, 7], [-1, 3]]
+    odd: list[list[float]] = [[0, 0], [5, 1], [6, 4], [2, 7], [-1, 3]]
     assert over_axis(page, odd, [0, 0]) == pytest.approx([5, 0])
 
 

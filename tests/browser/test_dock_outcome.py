@@ -14,6 +14,7 @@ from tests.browser.conftest import REST, Garment, Sheet
 from tests.browser.napkin import napkin
 from tests.browser.searches import SEARCH_MS
 from tests.browser.status_pill import cost_s, expect_planned
+from tests.required import required
 
 FAR = {"x_m": 0.4, "y_m": 0.2, "yaw_rad": -1.5707963267948966}
 
@@ -75,7 +76,7 @@ def test_where_nothing_helps_at_once_there_is_a_button_to_look_longer(
     work: list[float] = []
 
     def nothing(route: Route) -> None:
-        asked = route.request.post_data_json
+        asked = required(route.request.post_data_json)
         assert asked["time_limit_s"] == 60  # so that the work ends it, not the clock
         work.append(asked["work_limit_s"])
         done = {"count": 0, "elapsed_s": 1.0, "complete": work[-1] == 60}

@@ -88,17 +88,17 @@ def test_what_was_stopped_can_be_planned_again(page: Page, new_sheet: Callable[[
 def stopped(page: WebSocketRoute) -> None:
     """Fake a server that has been told to stop, until it is told to plan again."""
     server = page.connect_to_server()
-    kept: list[str] = []
+    kept: list[str | bytes] = []
     is_again = False
 
-    def tell(text: str) -> None:
+    def tell(text: str | bytes) -> None:
         message = json.loads(text)
         if message["kind"] == "plan" and not is_again:
             kept[:] = [text]
             message |= {"status": "failed", "text": "No plan: planning was stopped", "plan": None}
         page.send(json.dumps(message))
 
-    def hear(text: str) -> None:
+    def hear(text: str | bytes) -> None:
         nonlocal is_again
         if json.loads(text) == {"do": "plan"}:
             is_again = True
@@ -129,9 +129,9 @@ def test_where_a_quicker_plan_may_exist_that_is_told_with_what_any_takes(
 def out_of_time(page: WebSocketRoute) -> None:
     """Fake a server that knows only that any plan takes 6.5 s or more, until it looks longer."""
     server = page.connect_to_server()
-    last: list[str] = []
+    last: list[str | bytes] = []
 
-    def tell(text: str) -> None:
+    def tell(text: str | bytes) -> None:
         message = json.loads(text)
         if message["kind"] == "plan" and message["plan"] is not None:
             last[:] = [text]
@@ -140,7 +140,7 @@ def out_of_time(page: WebSocketRoute) -> None:
             message["may_look_longer"] = True
         page.send(json.dumps(message))
 
-    def hear(text: str) -> None:
+    def hear(text: str | bytes) -> None:
         if json.loads(text) == {"do": "look_longer"}:
             page.send(last[0])
         else:
@@ -153,9 +153,9 @@ def out_of_time(page: WebSocketRoute) -> None:
 def still_looking(page: WebSocketRoute) -> None:
     """Fake a server that looks for a quicker plan, in vain, until it is told to stop."""
     server = page.connect_to_server()
-    last: list[str] = []
+    last: list[str | bytes] = []
 
-    def tell(text: str) -> None:
+    def tell(text: str | bytes) -> None:
         message = json.loads(text)
         if message["kind"] == "plan" and message["plan"] is not None:
             if not message["plan"]["is_final"]:
@@ -164,7 +164,7 @@ def still_looking(page: WebSocketRoute) -> None:
             message["plan"]["is_final"] = False
         page.send(json.dumps(message))
 
-    def hear(text: str) -> None:
+    def hear(text: str | bytes) -> None:
         if json.loads(text) == {"do": "stop"}:
             page.send(last[0])
         else:
@@ -198,13 +198,13 @@ def test_a_connection_that_came_back_is_told_with_what_the_server_says_not_befor
     context: BrowserContext, page: Page, new_sheet: Callable[[Garment], Sheet]
 ) -> None:
     sheet = new_sheet(napkin())
-    held: list[str] = []
+    held: list[str | bytes] = []
     again: list[WebSocketRoute] = []
 
     def all_but_the_plan(route: WebSocketRoute) -> None:
         again.append(route)
 
-        def tell(text: str) -> None:
+        def tell(text: str | bytes) -> None:
             (held.append if json.loads(text)["kind"] == "plan" else route.send)(text)
 
         route.connect_to_server().on_message(tell)
@@ -226,7 +226,7 @@ def learning(page: WebSocketRoute) -> None:
     """Fake a server that maps a fixed robot's arms before it plans, and is never done."""
     server = page.connect_to_server()
 
-    def tell(text: str) -> None:
+    def tell(text: str | bytes) -> None:
         message = json.loads(text)
         if message["kind"] == "document":
             message["robot"] |= {"base": "fixed", "mounts": [[0.0, 0.3], [0.0, -0.3]]}
@@ -252,7 +252,7 @@ def compiling(page: WebSocketRoute) -> None:
     """Fake a server that compiles the planner before it plans, and is never done."""
     server = page.connect_to_server()
 
-    def tell(text: str) -> None:
+    def tell(text: str | bytes) -> None:
         message = json.loads(text)
         if message["kind"] == "plan":
             message |= {"status": "planning", "is_compiling": True}

@@ -3,7 +3,7 @@
 import json
 from collections.abc import Callable
 
-from playwright.sync_api import Locator, Page, expect
+from playwright.sync_api import FilePayload, Locator, Page, expect
 from sqlalchemy import delete, insert
 
 from app.api.document_routes import PAGE_MAX
@@ -109,8 +109,8 @@ def test_an_import_says_what_it_replaces_before_and_after(page: Page, new_sheet:
     page.get_by_role("button", name="Import", exact=True).click()
     line = '<svg xmlns="http://www.w3.org/2000/svg" width="40cm" height="30cm" viewBox="0 0 40 30">'
     content = f'{line}<path d="M0 0H40V30H0Z" fill="none" stroke="black"/></svg>'
-    file = {"name": "cloth.svg", "mimeType": "image/svg+xml", "buffer": content.encode()}
-    page.get_by_label("File", exact=True).set_input_files([file])  # type: ignore[list-item]
+    file = FilePayload(name="cloth.svg", mimeType="image/svg+xml", buffer=content.encode())
+    page.get_by_label("File", exact=True).set_input_files([file])
     dialog = page.get_by_role("dialog", name="Import")
     expect(dialog).to_contain_text("it replaces \u201cMy own towel\u201d; Undo brings that back")
     dialog.get_by_role("button", name="Open here").click()

@@ -12,6 +12,7 @@ from playwright.sync_api import Browser, Page, expect
 from tests.app.conftest import Served
 from tests.browser.conftest import IN_VIEW, REST, VIEW_PATIENCE_MS
 from tests.browser.status_pill import expect_planned
+from tests.required import required
 
 NODE = """(name) => {
   const view = document.getElementById("view3d").contentWindow;
@@ -132,7 +133,7 @@ def test_labels_in_the_3d_view_are_light_on_dark(page: Page) -> None:
 
 def test_the_server_knows_that_the_processor_draws_the_3d_view(page: Page) -> None:
     # As it does in these tests, see the browser's flags.
-    assert page.locator("#view3d").get_attribute("src").endswith("/by-software/")
+    assert required(page.locator("#view3d").get_attribute("src")).endswith("/by-software/")
 
 
 def test_the_page_names_garment_folds_and_plan(page: Page) -> None:

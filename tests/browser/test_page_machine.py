@@ -282,6 +282,6 @@ def sheet(new_sheet: Callable[[Garment], Sheet]) -> Sheet:
 def test_two_windows_and_rest_lose_nothing_and_show_nothing_stale(two: tuple[Window, Window], sheet: Sheet) -> None:
     tries = settings().max_examples
     run_state_machine_as_test(
-        lambda: PageMachine(two, sheet),
+        lambda: PageMachine(two, sheet),  # type: ignore[arg-type]
         settings=settings(max_examples=max(4, tries // 25), stateful_step_count=max(8, tries // 50)),
     )

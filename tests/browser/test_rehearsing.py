@@ -14,6 +14,7 @@ from tests.app.rehearsal.test_rehearsal_routes import NAPKIN
 from tests.browser.conftest import Garment, Sheet, windows
 from tests.browser.napkin import napkin
 from tests.browser.status_pill import expect_planned
+from tests.required import required
 
 JOB = {"id": "7", "kind": "rehearsals", "progress": 0.4, "message": "", "created": "2026-01-01T00:00:00Z"}
 SIMULATED_MS = 600_000
@@ -80,7 +81,7 @@ class Rehearsals:
         self.job = JOB | {"status": "done", "result": summary(*runs)}
 
     def _begin(self, route: Route) -> None:
-        self.asked.append(route.request.post_data_json)
+        self.asked.append(required(route.request.post_data_json))
         self.job = JOB | {"status": "running", "result": None}
         route.fulfill(status=202, json=self.job)
 

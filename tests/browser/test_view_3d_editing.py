@@ -57,7 +57,11 @@ def look_from_above(page: Page) -> str:
     for name in ("Side", "Top"):
         before = still_camera(page)
         page.get_by_role("toolbar", name="Look from").get_by_role("button", name=name).click()
-        until(lambda before=before: page.evaluate(CAMERA) != before)
+
+        def has_moved(before: str = before) -> bool:
+            return bool(page.evaluate(CAMERA) != before)
+
+        until(has_moved)
     return still_camera(page)
 
 

@@ -33,7 +33,7 @@ def refusal(change: Callable[[Json], None]) -> tuple[str, str]:
     return caught.value.field, caught.value.message
 
 
-def test_what_is_left_out_has_its_default():
+def test_what_is_left_out_has_its_default() -> None:
     towel = Garment.from_dict(LEAST)
     assert towel.title == "towel"
     assert towel.areal_density_kg_m2 == 0.2
@@ -41,36 +41,36 @@ def test_what_is_left_out_has_its_default():
     assert towel.folds == ()
 
 
-def test_without_a_placement_the_bounding_box_lies_in_the_middle_with_its_top_away():
+def test_without_a_placement_the_bounding_box_lies_in_the_middle_with_its_top_away() -> None:
     placement = Garment.from_dict(LEAST).placement
     assert placement.yaw_rad == -math.pi / 2
     # At -90 degrees the article's (x, y) goes to (y, -x): its middle (0.2, 0.15) to (0.15, -0.2).
     assert (placement.x_m, placement.y_m) == pytest.approx((-0.15, 0.2))
 
 
-def test_a_fold_without_a_radius_has_the_garments():
+def test_a_fold_without_a_radius_has_the_garments() -> None:
     data = {**FULL, "folds": [FOLD, {**FOLD, "grip_radius_m": 0.05}]}
     assert [fold.grip_radius_m for fold in Garment.from_dict(data).folds] == [0.1, 0.05]
 
 
-def test_a_garment_as_json_is_read_back_the_same():
+def test_a_garment_as_json_is_read_back_the_same() -> None:
     towel = Garment.from_dict(FULL)
     assert towel.to_dict() == FULL
     assert Garment.from_dict(towel.to_dict()) == towel
 
 
 @pytest.mark.parametrize("name", shipped_garment_names())
-def test_a_shipped_garment_is_read_back_the_same(name: str):
+def test_a_shipped_garment_is_read_back_the_same(name: str) -> None:
     garment = load_garment(name)
     assert Garment.from_dict(garment.to_dict()) == garment
 
 
-def test_whole_numbers_are_numbers():
+def test_whole_numbers_are_numbers() -> None:
     towel = Garment.from_dict({"name": "towel", "outline": [[0, 0], [1, 0], [1, 1]]})
     assert towel.outline == ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0))
 
 
-def test_an_empty_title_is_kept():
+def test_an_empty_title_is_kept() -> None:
     assert Garment.from_dict({**LEAST, "title": ""}).title == ""
 
 
@@ -132,35 +132,35 @@ def put(path: str, value: object) -> Callable[[Json], None]:
         ("placement.x_m", math.nan, "placement.x_m", "finite"),
     ],
 )
-def test_what_is_no_garment_is_refused_by_field_and_number(path: str, value: object, field: str, words: str):
+def test_what_is_no_garment_is_refused_by_field_and_number(path: str, value: object, field: str, words: str) -> None:
     found_field, message = refusal(put(path, value))
     assert found_field == field
     assert words in message
 
 
 @pytest.mark.parametrize("field", ["name", "outline"])
-def test_what_must_be_there_is_missed(field: str):
+def test_what_must_be_there_is_missed(field: str) -> None:
     assert refusal(lambda data: data.pop(field)) == (field, "is missing")
 
 
 @pytest.mark.parametrize("field", ["name", "kind", "start", "end"])
-def test_what_a_fold_must_have_is_missed(field: str):
+def test_what_a_fold_must_have_is_missed(field: str) -> None:
     assert refusal(lambda data: data["folds"][0].pop(field)) == (f"folds[0].{field}", "is missing")
 
 
-def test_sixty_four_folds_are_taken_and_one_more_is_refused():
+def test_sixty_four_folds_are_taken_and_one_more_is_refused() -> None:
     assert len(Garment.from_dict({**LEAST, "folds": [FOLD] * 64}).folds) == 64
     assert refusal(put("folds", [FOLD] * 65)) == ("folds", "there are 65 folds, more than 64")
 
 
-def test_values_built_directly_are_held_to_the_same():
+def test_values_built_directly_are_held_to_the_same() -> None:
     with pytest.raises(GarmentError, match="kind"):
         DrawnFold("half", "green", (0.0, 0.0), (1.0, 0.0))
     with pytest.raises(GarmentError, match="grip_radius_m"):
         DrawnFold("half", "blue", (0.0, 0.0), (1.0, 0.0), math.nan)
 
 
-def test_an_error_seen_from_further_out_has_the_longer_path():
+def test_an_error_seen_from_further_out_has_the_longer_path() -> None:
     error = FieldError("[3]", "is odd").within("outline").within("garment")
     assert error.field == "garment.outline[3]"
     assert str(error) == "garment.outline[3]: is odd"

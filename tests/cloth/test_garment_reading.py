@@ -17,44 +17,44 @@ def written(folder: Path, text: str) -> Path:
     return path
 
 
-def test_a_shipped_garment_is_found_by_its_name():
+def test_a_shipped_garment_is_found_by_its_name() -> None:
     assert load_garment("t-shirt").title == "T-shirt"
     assert {"t-shirt", "jeans", "tie"} <= set(shipped_garment_names())
     assert shipped_garment_names() == sorted(shipped_garment_names())
 
 
-def test_a_garment_is_read_from_a_path_given_as_either_type(tmp_path: Path):
+def test_a_garment_is_read_from_a_path_given_as_either_type(tmp_path: Path) -> None:
     path = written(tmp_path, json.dumps(TOWEL))
     assert load_garment(path) == load_garment(str(path))
 
 
-def test_an_unknown_name_is_said():
+def test_an_unknown_name_is_said() -> None:
     with pytest.raises(UnknownGarmentError, match="'sock'"):
         load_garment("sock")
 
 
-def test_a_missing_file_is_said(tmp_path: Path):
+def test_a_missing_file_is_said(tmp_path: Path) -> None:
     with pytest.raises(GarmentFileError, match="cannot be read"):
         load_garment(tmp_path / "nothing.json")
 
 
-def test_a_folder_is_no_file(tmp_path: Path):
+def test_a_folder_is_no_file(tmp_path: Path) -> None:
     with pytest.raises(GarmentFileError, match="cannot be read"):
         load_garment(tmp_path)
 
 
-def test_a_source_that_is_neither_name_nor_path_is_said():
+def test_a_source_that_is_neither_name_nor_path_is_said() -> None:
     with pytest.raises(GarmentFileError, match="3 is neither a garment's name nor a path"):
         load_garment(3)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("text", ["", "{", '{"name": NaN}', "[1, 2", "\u00e9", '{"a": Infinity}', "[" * 100_000])
-def test_what_is_no_json_is_said(tmp_path: Path, text: str):
+def test_what_is_no_json_is_said(tmp_path: Path, text: str) -> None:
     with pytest.raises(GarmentFileError, match="is no JSON"):
         load_garment(written(tmp_path, text))
 
 
-def test_bytes_that_are_no_text_are_no_json(tmp_path: Path):
+def test_bytes_that_are_no_text_are_no_json(tmp_path: Path) -> None:
     path = tmp_path / "towel.json"
     path.write_bytes(b"\xff\xfe\x00")
     with pytest.raises(GarmentFileError, match="is no JSON"):
@@ -62,12 +62,12 @@ def test_bytes_that_are_no_text_are_no_json(tmp_path: Path):
 
 
 @pytest.mark.parametrize("text", ["[]", "3", '"towel"', "null"])
-def test_json_that_is_no_object_is_no_garment(tmp_path: Path, text: str):
+def test_json_that_is_no_object_is_no_garment(tmp_path: Path, text: str) -> None:
     with pytest.raises(GarmentError, match="one JSON object"):
         load_garment(written(tmp_path, text))
 
 
 @pytest.mark.parametrize("value", ["[" * 300 + "]" * 300, '"\\ud800"'])
-def test_json_that_no_garment_can_hold_is_refused(tmp_path: Path, value: str):
+def test_json_that_no_garment_can_hold_is_refused(tmp_path: Path, value: str) -> None:
     with pytest.raises(GarmentError):
         load_garment(written(tmp_path, json.dumps(TOWEL).replace('"towel"', value, 1)))

@@ -45,7 +45,9 @@ class HinderedCollisions(BarredCollisions):
 
 
 class HinderedRobot(BarredRobot):
-    def collisions(self, table: Table, torso_m: float, *args: float, **options: float) -> HinderedCollisions:
+    def collisions(  # type: ignore[override]
+        self, table: Table, torso_m: float, *args: float, **options: float
+    ) -> HinderedCollisions:
         return HinderedCollisions(Pr2.collisions(self, table, torso_m, *args, **options), self._is_barred)
 
 
@@ -56,7 +58,9 @@ def refused(x_m: float, back_off_max_m: float) -> Plan:
     return plan
 
 
-def test_a_drag_that_the_arms_cannot_make_is_the_reason_for_the_fold_that_needs_it(monkeypatch):
+def test_a_drag_that_the_arms_cannot_make_is_the_reason_for_the_fold_that_needs_it(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     open_way = planned(napkin(HALF, x_m=JUST_TOO_FAR), front_alone(0.3))
     assert [p.kind for p in open_way.primitives] == ["drag", "fold"]
     barred(monkeypatch, lambda arm, base: True)
@@ -66,7 +70,9 @@ def test_a_drag_that_the_arms_cannot_make_is_the_reason_for_the_fold_that_needs_
     assert (reason.point, reason.short_by_m, reason.offset_m) == (None, None, (0.0, 0.0))
 
 
-def test_where_the_arms_collide_in_a_drag_the_cloth_has_come_as_far_as_the_hand(monkeypatch):
+def test_where_the_arms_collide_in_a_drag_the_cloth_has_come_as_far_as_the_hand(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     monkeypatch.setattr(problem, "load_robot", lambda name: HinderedRobot(lambda arm, base: True))
     (reason,) = refused(JUST_TOO_FAR, 0.3).reasons
     # It is worst at the drag's end, 0.1 m behind where it began: at the station, where the base is least far back. The
@@ -79,7 +85,7 @@ def test_where_the_arms_collide_in_a_drag_the_cloth_has_come_as_far_as_the_hand(
     assert "with the left gripper at (-0.45, 0.15) m, 0.02 m over the table, the left forearm " in reason.message
 
 
-def test_a_drag_that_only_another_would_make_useful_is_told_of_no_fold(monkeypatch):
+def test_a_drag_that_only_another_would_make_useful_is_told_of_no_fold(monkeypatch: pytest.MonkeyPatch) -> None:
     open_way = planned(napkin(HALF, x_m=FAR_TOO_FAR), front_alone(0.1))
     assert [p.kind for p in open_way.primitives] == ["drag", "drag", "fold"]
     barred(monkeypatch, lambda arm, base: True)
@@ -90,7 +96,9 @@ def test_a_drag_that_only_another_would_make_useful_is_told_of_no_fold(monkeypat
 
 
 @pytest.mark.long
-def test_arms_that_collide_in_the_fold_itself_are_told_before_those_that_do_in_a_drag(monkeypatch):
+def test_arms_that_collide_in_the_fold_itself_are_told_before_those_that_do_in_a_drag(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     # From where the napkin is within reach as it lies; drags only lead to more of the same.
     barred(monkeypatch, lambda arm, base: True)
     (reason,) = refused(-0.5, 0.3).reasons
@@ -98,7 +106,7 @@ def test_arms_that_collide_in_the_fold_itself_are_told_before_those_that_do_in_a
     assert "to drag" not in reason.message
 
 
-def test_of_collisions_in_one_situation_the_mildest_is_kept_and_one_of_unknown_depth_is_none_of_them():
+def test_of_collisions_in_one_situation_the_mildest_is_kept_and_one_of_unknown_depth_is_none_of_them() -> None:
     def collision(depth_m: float) -> Obstacle:
         contact = (
             None

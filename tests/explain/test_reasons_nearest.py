@@ -19,6 +19,7 @@ from planner.primitives.state import State
 from planner.robots.shortfall import DIRECTIONS
 from tests.builders import fold, garment, rectangle_points
 from tests.planning.provoked import met, refused
+from tests.required import required
 from tests.sweep import sweep
 
 PROBLEMS = {
@@ -34,7 +35,7 @@ START = (0.0, 0.0)
 
 
 @sweep("name", PROBLEMS, ("sheet",))
-def test_no_attempt_came_closer(name):
+def test_no_attempt_came_closer(name: str) -> None:
     context = _met(name)
     places = Places(context, ())
     nearest = nearest_miss(context, 0, {0}, places)
@@ -53,7 +54,7 @@ def test_no_attempt_came_closer(name):
 
 
 @sweep("name", PROBLEMS, ("sheet",))
-def test_the_robot_can_bring_the_cloth_to_where_it_came_closest(name):
+def test_the_robot_can_bring_the_cloth_to_where_it_came_closest(name: str) -> None:
     context = _met(name)
     nearest = nearest_miss(context, 0, {0}, Places(context, ()))
     assert nearest is not None
@@ -66,53 +67,56 @@ def test_the_robot_can_bring_the_cloth_to_where_it_came_closest(name):
     assert is_at_start or any({(h.arm, h.point) for h in after.held} == held for after in led_to)
 
 
-def test_displaced_by_what_it_is_short_the_point_is_in_reach_and_by_less_nowhere():
+def test_displaced_by_what_it_is_short_the_point_is_in_reach_and_by_less_nowhere() -> None:
     # What is held may be held in any approach, so the reason's point must not be in reach in any.
     reason = _answer("sheet").plan.reasons[0]
     assert "and held on to" in reason.message and "orientation" not in reason.message
     context = _met("sheet")
-    station = [name for name, _ in context.scene.stations].index(reason.station)
-    arm, every = context.reach.arm_names.index(reason.arm), np.arange(len(context.reach.approaches))
+    station = [name for name, _ in context.scene.stations].index(required(reason.station))
+    arm, every = context.reach.arm_names.index(required(reason.arm)), np.arange(len(context.reach.approaches))
     there = context.in_base(station, np.array([reason.point]))
     pose = context.station_pose(station)
     towards = pose.to_inner(np.array(reason.towards) + np.array([pose.x_m, pose.y_m, 0.0]))
     back = np.array([reason.back_off_m, 0.0, 0.0])
-    assert context.reach.from_anywhere(arm, there + back + (reason.short_by_m + 0.001) * towards, every, 1, 0.0).any()
-    for distance in np.arange(0.0, reason.short_by_m - 0.002, 0.004):
+    short_by_m = required(reason.short_by_m)
+    assert context.reach.from_anywhere(arm, there + back + (short_by_m + 0.001) * towards, every, 1, 0.0).any()
+    for distance in np.arange(0.0, short_by_m - 0.002, 0.004):
         assert not context.reach.from_anywhere(arm, there + distance * DIRECTIONS, every, context.standoffs, 0.05).any()
 
 
 @pytest.mark.parametrize("name", ["scarf", "low"])
-def test_turned_as_the_reason_says_the_hand_lacks_what_it_says_and_no_less(name):
+def test_turned_as_the_reason_says_the_hand_lacks_what_it_says_and_no_less(name: str) -> None:
     (reason, *_) = _answer(name).plan.reasons
     context = _met(name)
-    arm, approaches = context.reach.arm_names.index(reason.arm), list(context.reach.approaches)
-    turned = np.array([approaches.index(reason.approach)])
-    base = dict(context.scene.stations)[reason.station].ahead(-reason.back_off_m)
+    arm, approaches = context.reach.arm_names.index(required(reason.arm)), list(context.reach.approaches)
+    turned = np.array([approaches.index(required(reason.approach))])
+    base = dict(context.scene.stations)[required(reason.station)].ahead(-required(reason.back_off_m))
     over_floor = np.array([0.0, 0.0, context.scene.table.height_m])
-    lengths = np.arange(0.0, reason.short_by_m + 0.0025, 0.001)
+    short_by_m = required(reason.short_by_m)
+    lengths = np.arange(0.0, short_by_m + 0.0025, 0.001)
     way = np.array(reason.point) + lengths[:, None] * np.array(reason.towards)
     is_there = context.reach.from_anywhere(arm, base.to_inner(way + over_floor), turned, 1, 0.0)[0]
-    assert is_there[-1] and not is_there[lengths < reason.short_by_m - 0.002].any()
+    assert is_there[-1] and not is_there[lengths < short_by_m - 0.002].any()
 
 
-def test_with_the_drag_taken_back_the_point_is_over_the_cloth_as_it_starts():
+def test_with_the_drag_taken_back_the_point_is_over_the_cloth_as_it_starts() -> None:
     # One hand takes the middle of the scarf's near end, 0.254 / 2 m from both corners, and lays it 1.524 m further on.
     # It rises as far as it has gone, until it is over the fold line, and comes down as far as it goes on.
     scarf = load_garment("scarf-halved")
     reason = _answer("scarf").plan.reasons[0]
-    assert math.hypot(*reason.offset_m) > 0.05
-    x_m, y_m, height_m = reason.point
-    dragged_x_m, dragged_y_m = reason.offset_m
+    offset_m = required(reason.offset_m)
+    assert math.hypot(*offset_m) > 0.05
+    x_m, y_m, height_m = required(reason.point)
+    dragged_x_m, dragged_y_m = offset_m
     across, along = scarf.placement.to_inner(np.array([x_m - dragged_x_m, y_m - dragged_y_m]))
     assert across == pytest.approx(0.254 / 2)
     assert height_m == pytest.approx(0.02 + min(along, 1.524 - along))
-    told_x, told_y = (round(length, 2) + 0.0 for length in reason.offset_m)
+    told_x, told_y = (round(length, 2) + 0.0 for length in offset_m)
     assert f"(the cloth dragged by ({told_x:.2f}, {told_y:.2f}) m" in reason.message
 
 
 @pytest.mark.long
-def test_a_reason_is_the_same_every_time():
+def test_a_reason_is_the_same_every_time() -> None:
     again = refused(*PROBLEMS["scarf"])
     assert again.to_dict()["reasons"] == _answer("scarf").plan.to_dict()["reasons"]
 

@@ -30,12 +30,13 @@ from tests.planning.provoked import (
     strip,
 )
 from tests.replay.planned import planned
+from tests.required import required
 
 START = State(0, (0.0, 0.0), 0, 0)
 SLIPPING = {"hanging_m2": {"near": 0.03}, "lying_m2": 0.01, "friction": 1.0, "needed_friction": 3.0}
 
 
-def test_causes_of_one_fold_come_with_the_smallest_repair_first():
+def test_causes_of_one_fold_come_with_the_smallest_repair_first() -> None:
     # A strip of 0.539 m whose far end is 0.05 m out of reach at the start. Dragged by 0.1 m it is in reach, but then
     # folded at 0.25 m from its far end 0.08 + 0.041 m of it hang and 0.539 - 0.121 lie: that takes a friction of 0.29,
     # and there is 0.25. Without the fold 0.08 hang and 0.459 lie: that holds.
@@ -55,7 +56,7 @@ def test_causes_of_one_fold_come_with_the_smallest_repair_first():
 
 
 @pytest.mark.parametrize(("friction", "codes"), [(0.08, ["out_of_reach", "slips"]), (0.12, ["slips", "out_of_reach"])])
-def test_of_causes_each_of_which_is_enough_the_smallest_repair_comes_first(friction, codes):
+def test_of_causes_each_of_which_is_enough_the_smallest_repair_comes_first(friction: float, codes: list[str]) -> None:
     # A strip of 0.619 m, folded at 0.1 m from its far end, which is 0.05 m out of reach as it lies. Dragged by 0.1 m it
     # is within reach, but 0.08 m of it hang and 0.539 lie: that takes a friction of 0.148.
     far_x, near_x = FURTHEST_X - COMFORT_M + 0.05, -0.78
@@ -66,17 +67,17 @@ def test_of_causes_each_of_which_is_enough_the_smallest_repair_comes_first(frict
     slip, reach = sorted(found, key=lambda r: r.needed_friction is None)
     assert slip.needed_friction == pytest.approx(0.08 / (far_x - near_x - 0.08), rel=1e-3)
     assert reach.short_by_m == pytest.approx(0.05, abs=0.0015)
-    assert (reach.short_by_m < slip.needed_friction - friction) == (found[0] is reach)
+    assert (required(reach.short_by_m) < required(slip.needed_friction) - friction) == (found[0] is reach)
 
 
-def test_what_does_not_stand_alone_in_the_way_is_no_reason():
+def test_what_does_not_stand_alone_in_the_way_is_no_reason() -> None:
     # Dragged by 0.3 m the hammer's line is beside the table; but then its head would be loose too, or it would slip.
     answer = met(hammer(), HAMMER_SCENE)
     assert set(answer.context.obstacles.codes(0)) >= {Code.NOT_A_G_STATE, Code.SLIPS, Code.LINE_OFF_TABLE}
     assert [r.code for r in answer.plan.reasons if r.code is not Code.COLLISION] == [Code.NOT_A_G_STATE, Code.SLIPS]
 
 
-def test_where_two_things_stand_in_every_way_both_are_named():
+def test_where_two_things_stand_in_every_way_both_are_named() -> None:
     # At -1.4 m the robot is too far from the far edge, and after the fold 2 x 0.1 m would hang and 2 x 0.05 m lie.
     towel = garment(rectangle_points(0.4, 0.3), fold((0.0, 0.15), (0.4, 0.15)), placement=Pose2(-0.9, 0.2, BACK))
     scene = Scene(stations=(("front", Pose2(-1.4, 0.0, 0.0)),), back_off_max_m=0.0)
@@ -88,7 +89,7 @@ def test_where_two_things_stand_in_every_way_both_are_named():
 
 
 @pytest.mark.long
-def test_folds_that_wait_come_last_and_name_what_they_wait_for():
+def test_folds_that_wait_come_last_and_name_what_they_wait_for() -> None:
     found = planned("tie-halved").answer.reasons
     assert [(r.fold, r.code) for r in found] == [
         (0, Code.OUT_OF_REACH),
@@ -100,21 +101,21 @@ def test_folds_that_wait_come_last_and_name_what_they_wait_for():
     assert found[2].message == "fold 2 'and again': waits for fold 0 'half', which cannot be done"
 
 
-def test_a_fold_that_waits_is_possible_once_the_other_is():
+def test_a_fold_that_waits_is_possible_once_the_other_is() -> None:
     # The scarf, begun with the quarter instead of the half, can be folded.
     waiting = planned("scarf-halved").answer.reasons[1]
     assert (waiting.fold, waiting.code) == (1, Code.WAITS_FOR_FOLD)
     assert is_gone(waiting, planned("scarf").answer)
 
 
-def test_only_what_depends_on_a_blocked_fold_waits():
+def test_only_what_depends_on_a_blocked_fold_waits() -> None:
     # Of the T-shirt's folds 0 -> 2 -> 4 <- 3 <- 1 the left side and the last wait for the left sleeve.
     context = found_plan(load_garment("t-shirt"), max_expanded=1).context
     found = reasons(context, (), [0])
     assert [(r.fold, r.code) for r in found if r.fold != 0] == [(2, Code.WAITS_FOR_FOLD), (4, Code.WAITS_FOR_FOLD)]
 
 
-def test_a_fold_that_was_not_come_to_yet_is_not_to_blame(monkeypatch):
+def test_a_fold_that_was_not_come_to_yet_is_not_to_blame(monkeypatch: pytest.MonkeyPatch) -> None:
     # Flap 0 is out of reach from where the robot begins, but not from the other side. Roof 1 needs three hands. The
     # search ends with its first expansion, when only that much is known.
     monkeypatch.setattr(planning, "LOOK_ALONE_AFTER", 1)
@@ -126,14 +127,14 @@ def test_a_fold_that_was_not_come_to_yet_is_not_to_blame(monkeypatch):
     assert [(r.fold, r.code) for r in answer.reasons] == [(1, Code.TOO_MANY_GRIPS)]
 
 
-def test_hands_that_do_not_suffice_are_no_reason_where_what_is_held_only_lacks_reach():
+def test_hands_that_do_not_suffice_are_no_reason_where_what_is_held_only_lacks_reach() -> None:
     context = met(strip(FURTHEST_X - COMFORT_M + 0.05, 0.3, 0.1), fixed()).context
     context.obstacles.note(Obstacle(0, Code.TOO_MANY_GRIPS, None, 1.0, START))
     found = reasons(context, {situation(START)}, ())
     assert [r.code for r in found] == [Code.OUT_OF_REACH]
 
 
-def test_folds_that_exclude_each_other_are_blocked_where_most_are_done():
+def test_folds_that_exclude_each_other_are_blocked_where_most_are_done() -> None:
     # Neither of two flaps waits for the other, and each was done, but never both.
     flaps = fold((0.1, 0.0), (0.1, 0.3), name="left"), fold((0.3, 0.3), (0.3, 0.0), name="right")
     context = found_plan(garment(rectangle_points(0.4, 0.3), *flaps), max_expanded=1).context
@@ -146,7 +147,7 @@ def test_folds_that_exclude_each_other_are_blocked_where_most_are_done():
     assert [(r.fold, r.code) for r in found] == [(0, Code.SLIPS), (1, Code.SLIPS)]
 
 
-def test_every_reason_is_json_with_plain_numbers():
+def test_every_reason_is_json_with_plain_numbers() -> None:
     for reason in planned("scarf-halved").answer.to_dict()["reasons"]:
         assert isinstance(reason["code"], str) and isinstance(reason["message"], str)
         numbers = [reason[name] for name in ("short_by_m", "back_off_m", "shift_m") if reason[name] is not None]

@@ -34,7 +34,7 @@ def places(trials: list[SuggestionTrial]) -> list[tuple[float, ...]]:
     return [tuple(round(value, 6) for value in trial.change["placement"].values()) for trial in trials]
 
 
-def test_a_base_that_stands_has_folds_tried_on_a_finer_grid_and_then_drags_by_the_arms():
+def test_a_base_that_stands_has_folds_tried_on_a_finer_grid_and_then_drags_by_the_arms() -> None:
     trials = tried_in_vain(napkin("so101-pair"))
     alone = [trial for trial in trials if trial.by_folds_alone]
     dragged = [trial for trial in trials if not trial.by_folds_alone]
@@ -46,7 +46,7 @@ def test_a_base_that_stands_has_folds_tried_on_a_finer_grid_and_then_drags_by_th
     assert all(is_coarse[: is_coarse.index(False)]) and not all(is_coarse)
 
 
-def test_a_base_that_drives_has_whole_plans_tried_on_one_grid():
+def test_a_base_that_drives_has_whole_plans_tried_on_one_grid() -> None:
     trials = tried_in_vain(napkin("pr2"))
     assert trials and not any(trial.by_folds_alone for trial in trials)
     assert len(set(places(trials))) == len(trials)

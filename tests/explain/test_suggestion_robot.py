@@ -70,7 +70,9 @@ def test_cloth_that_is_folded_in_part_is_not_carried_to_another_table() -> None:
 
 
 @pytest.mark.parametrize(("second_s", "offered"), [(29.5, ["pr2"]), (20.0, ["pr2", SHORT])])
-def test_of_two_robots_the_later_is_offered_only_if_it_is_quicker_by_a_second(second_s: float, offered: list[str]):
+def test_of_two_robots_the_later_is_offered_only_if_it_is_quicker_by_a_second(
+    second_s: float, offered: list[str]
+) -> None:
     search, kept = robots(task_for(SMALL, robot="ur5e-pair"), ("pr2", SHORT), ignore), []
     for cost_s in (30.0, second_s):
         trial = next(search)

@@ -35,44 +35,45 @@ def near(place: Point2) -> object:
     return pytest.approx(place, abs=1e-9)
 
 
-def test_a_corner_is_taken_before_the_edges_that_meet_there():
+def test_a_corner_is_taken_before_the_edges_that_meet_there() -> None:
     assert attached((0.0, 0.3), unfolded(), is_red=False) == OnVertex(3)
 
 
-def test_a_place_on_an_edge_is_a_fraction_of_it():
-    assert attached((0.4, 0.075), unfolded(), is_red=False) == OnEdge(1, pytest.approx(0.25))
+def test_a_place_on_an_edge_is_a_fraction_of_it() -> None:
+    assert attached((0.4, 0.075), unfolded(), is_red=False) == OnEdge(1, pytest.approx(0.25))  # type: ignore[arg-type]
 
 
-def test_the_inside_of_the_cloth_is_nothing_to_attach_to():
+def test_the_inside_of_the_cloth_is_nothing_to_attach_to() -> None:
     assert attached((0.2, 0.2), unfolded(), is_red=False) is None
 
 
-def test_of_edges_that_lie_on_each_other_the_one_that_was_not_moved_is_taken():
+def test_of_edges_that_lie_on_each_other_the_one_that_was_not_moved_is_taken() -> None:
     """The near edge lies on the far one, which runs from (0.4, 0.3) to (0, 0.3)."""
-    assert attached((0.1, 0.3), folded(unfolded(), HALF), is_red=False) == OnEdge(2, pytest.approx(0.75))
+    found = attached((0.1, 0.3), folded(unfolded(), HALF), is_red=False)
+    assert found == OnEdge(2, pytest.approx(0.75))  # type: ignore[arg-type]
 
 
-def test_a_place_on_a_crease_is_a_fraction_of_it_and_its_ends_come_before_edges():
+def test_a_place_on_a_crease_is_a_fraction_of_it_and_its_ends_come_before_edges() -> None:
     once = folded(unfolded(), HALF)
-    assert attached((0.1, 0.15), once, is_red=False) == OnCrease(0, pytest.approx(0.75))
+    assert attached((0.1, 0.15), once, is_red=False) == OnCrease(0, pytest.approx(0.75))  # type: ignore[arg-type]
     assert attached((0.4, 0.15), once, is_red=False) == OnCrease(0, 0.0)
 
 
-def test_a_red_fold_sees_only_what_moved_last():
+def test_a_red_fold_sees_only_what_moved_last() -> None:
     """Of the edges at y = 0.3 the near one, laid there, is seen: it runs from (0, 0) to (0.4, 0)."""
     once = folded(unfolded(), HALF)
-    assert attached((0.1, 0.3), once, is_red=True) == OnEdge(0, pytest.approx(0.25))
+    assert attached((0.1, 0.3), once, is_red=True) == OnEdge(0, pytest.approx(0.25))  # type: ignore[arg-type]
     assert place_of(OnEdge(2, 0.75), once, is_red=True) is None
 
 
-def test_a_crease_through_a_layer_that_was_carried_says_so():
+def test_a_crease_through_a_layer_that_was_carried_says_so() -> None:
     """The moved half, 0.15 to 0.3, is folded back at y = 0.25: that crease runs through a layer that fold 0 carried."""
     twice = folded(folded(unfolded(), HALF), Segment((0.0, 0.25), (0.4, 0.25)), is_red=True)
-    assert attached((0.1, 0.25), twice, is_red=True) == OnCrease(1, pytest.approx(0.25), (0,))
+    assert attached((0.1, 0.25), twice, is_red=True) == OnCrease(1, pytest.approx(0.25), (0,))  # type: ignore[arg-type]
     assert place_of(OnCrease(1, 0.25, (0,)), twice, is_red=True) == near((0.1, 0.25))
 
 
-def test_what_it_is_attached_to_is_carried_by_folds():
+def test_what_it_is_attached_to_is_carried_by_folds() -> None:
     once = folded(unfolded(), HALF)
     assert place_of(OnVertex(0), once, is_red=False) == near((0.0, 0.3))
     assert place_of(OnEdge(1, 0.25), once, is_red=False) == near((0.4, 0.225))
@@ -81,7 +82,7 @@ def test_what_it_is_attached_to_is_carried_by_folds():
     assert place_of(OnCrease(0, 0.75), sideways, is_red=False) == near((0.3, 0.15))
 
 
-def test_a_corner_that_is_pulled_takes_what_is_attached_to_it_along_in_the_fold():
+def test_a_corner_that_is_pulled_takes_what_is_attached_to_it_along_in_the_fold() -> None:
     """Corner 0 at (0, -0.02): over y = 0.15 it lands on (0, 0.32), and half the edge to corner 1 on (0.2, 0.31)."""
     pulled = folded(unfolded(((0.0, -0.02), *TOWEL[1:])), HALF)
     assert place_of(OnVertex(0), pulled, is_red=False) == near((0.0, 0.32))
@@ -89,12 +90,12 @@ def test_a_corner_that_is_pulled_takes_what_is_attached_to_it_along_in_the_fold(
 
 
 @pytest.mark.parametrize("missing", [OnVertex(4), OnEdge(4, 0.5), OnCrease(1, 0.5), OnCrease(0, 0.5, (0,))])
-def test_what_is_not_there_has_no_place(missing: OnVertex | OnEdge | OnCrease):
+def test_what_is_not_there_has_no_place(missing: OnVertex | OnEdge | OnCrease) -> None:
     assert place_of(missing, folded(unfolded(), HALF), is_red=False) is None
 
 
 @pytest.mark.parametrize("seed", range(12))
-def test_a_place_on_the_boundary_is_where_its_attachment_is(seed: int):
+def test_a_place_on_the_boundary_is_where_its_attachment_is(seed: int) -> None:
     """Whatever the cloth, however folded: every place of the silhouette's boundary has one, and leads back to it."""
     rng = random.Random(seed)
     replay = unfolded(simple_star(rng))

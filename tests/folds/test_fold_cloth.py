@@ -23,7 +23,7 @@ def refusal(cloth: ClothState, line: Segment, *, is_red: bool = False, crease: S
     return caught.value.message
 
 
-def test_the_left_part_is_laid_over_the_line_with_its_back_up():
+def test_the_left_part_is_laid_over_the_line_with_its_back_up() -> None:
     done = fold_cloth(TOWEL, Segment((0.1, 0.0), (0.1, 0.3)), is_red=False)
     assert is_same_region(done.moving, rectangle(0.1, 0.3))
     low, high = done.cloth.layers
@@ -32,7 +32,7 @@ def test_the_left_part_is_laid_over_the_line_with_its_back_up():
     assert done.cloth.flap == (high,)
 
 
-def test_the_layers_of_the_moving_part_lie_in_reversed_order_afterwards():
+def test_the_layers_of_the_moving_part_lie_in_reversed_order_afterwards() -> None:
     # Halves, then quarters. Pattern quarters from left to right: a b c d. First d c over to the left (line x = 0.2,
     # right part moves): from the bottom a b | d c lie as a, d on the left and b, c on the right. Then the right
     # half over x = 0.1: b below c turn over, so that c comes below b: a, d, c, b.
@@ -43,7 +43,7 @@ def test_the_layers_of_the_moving_part_lie_in_reversed_order_afterwards():
     assert [layer.face for layer in quarter.layers] == ["front", "back", "front", "back"]
 
 
-def test_folding_a_flap_out_and_back_in_restores_the_places():
+def test_folding_a_flap_out_and_back_in_restores_the_places() -> None:
     line = Segment((0.1, 0.0), (0.1, 0.3))
     once = fold_cloth(TOWEL, line, is_red=False)
     back = [layer.reflected(line) for layer in once.cloth.flap]
@@ -52,7 +52,7 @@ def test_folding_a_flap_out_and_back_in_restores_the_places():
     assert len(outline.ring) == 4
 
 
-def test_a_red_fold_moves_only_the_flap():
+def test_a_red_fold_moves_only_the_flap() -> None:
     crease, red = Segment((0.2, 0.0), (0.2, 0.3)), Segment((0.3, 0.3), (0.3, 0.0))
     half = fold_cloth(TOWEL, crease, is_red=False).cloth
     assert is_same_region(flap_silhouette(half, is_red=True), rectangle(0.2, 0.3, 0.2))
@@ -65,13 +65,13 @@ def test_a_red_fold_moves_only_the_flap():
     assert moved.to_pattern((0.25, 0.1))[0] == pytest.approx(0.05)
 
 
-def test_a_blue_fold_there_moves_every_layer():
+def test_a_blue_fold_there_moves_every_layer() -> None:
     half = fold_cloth(TOWEL, Segment((0.2, 0.0), (0.2, 0.3)), is_red=False).cloth
     done = fold_cloth(half, Segment((0.3, 0.3), (0.3, 0.0)), is_red=False)
     assert done.cloth.moved == 2 and len(done.cloth.layers) == 4
 
 
-def test_a_red_fold_that_would_pull_at_the_crease_is_refused_with_how_much_of_it():
+def test_a_red_fold_that_would_pull_at_the_crease_is_refused_with_how_much_of_it() -> None:
     # The lower third of a flap: it moves 0.1 m of the crease x = 0.2, which is 0.1 m off its line at most.
     crease = Segment((0.2, 0.0), (0.2, 0.3))
     half = fold_cloth(TOWEL, crease, is_red=False).cloth
@@ -79,7 +79,7 @@ def test_a_red_fold_that_would_pull_at_the_crease_is_refused_with_how_much_of_it
     assert "reaches 100.0 mm along the crease" in message and "tear" in message
 
 
-def test_a_red_fold_may_touch_the_crease_where_its_line_meets_it():
+def test_a_red_fold_may_touch_the_crease_where_its_line_meets_it() -> None:
     crease = Segment((0.2, 0.0), (0.2, 0.3))
     half = fold_cloth(TOWEL, crease, is_red=False).cloth
     # From the crease's upper end to the flap's lower outer corner: a triangle of 0.2 x 0.3 / 2 turns up and in.
@@ -88,15 +88,15 @@ def test_a_red_fold_may_touch_the_crease_where_its_line_meets_it():
     assert done.cloth.area == pytest.approx(0.12)
 
 
-def test_a_line_with_nothing_to_its_left_is_refused():
+def test_a_line_with_nothing_to_its_left_is_refused() -> None:
     assert "nothing would move" in refusal(TOWEL, Segment((0.4, 0.0), (0.0, 0.0)))
 
 
-def test_a_line_with_everything_to_its_left_is_refused():
+def test_a_line_with_everything_to_its_left_is_refused() -> None:
     assert "nothing would stay" in refusal(TOWEL, Segment((0.0, 0.0), (0.4, 0.0)))
 
 
-def test_a_line_round_whose_end_the_cloth_hangs_together_is_refused():
+def test_a_line_round_whose_end_the_cloth_hangs_together_is_refused() -> None:
     assert "cut the cloth completely" in refusal(TOWEL, Segment((0.1, 0.0), (0.1, 0.1)))
 
 
@@ -110,7 +110,7 @@ def chord(rng: random.Random, region: Region) -> Segment | None:
     return line if line.length > 0.05 and region.contains_segment(line) else None
 
 
-def test_whatever_is_folded_no_cloth_is_lost_and_none_made():
+def test_whatever_is_folded_no_cloth_is_lost_and_none_made() -> None:
     rng = random.Random(14)
     done = 0
     while done < 40:
@@ -123,7 +123,7 @@ def test_whatever_is_folded_no_cloth_is_lost_and_none_made():
                 folded = fold_cloth(cloth, line, is_red=False) if line else None
             except FoldError:
                 folded = None
-            if folded is not None:
+            if line is not None and folded is not None:
                 done += 1
                 landed = folded.moving.moved(Isometry.reflection(line))
                 staying = cloth.silhouette.difference(folded.moving)
@@ -134,7 +134,7 @@ def test_whatever_is_folded_no_cloth_is_lost_and_none_made():
                 cloth = folded.cloth
 
 
-def test_folds_that_double_the_layers_too_often_are_refused():
+def test_folds_that_double_the_layers_too_often_are_refused() -> None:
     # A strip of 2^11 times 4 mm folded in half eleven times has 2048 layers.
     width = 8.192
     lines = [fold((width / 2**i, 0.0), (width / 2**i, 0.1)) for i in range(1, 12)]

@@ -26,19 +26,19 @@ def tools(of: FoldPath, *grips: tuple[float, float], sweeps: int = 401) -> Float
     return of.tool_paths(np.array(grips), np.linspace(0.0, 2.0, sweeps))
 
 
-def test_a_tool_begins_and_ends_at_its_rest_height_at_mirrored_places():
+def test_a_tool_begins_and_ends_at_its_rest_height_at_mirrored_places() -> None:
     way = tools(path(), (0.4, 0.1))[0]
     assert way[0] == pytest.approx([0.4, 0.1, REST_HEIGHT_M])
     assert way[-1] == pytest.approx([-0.4, 0.1, REST_HEIGHT_M])
 
 
-def test_the_apex_is_over_the_line_as_high_as_the_grip_is_far():
+def test_the_apex_is_over_the_line_as_high_as_the_grip_is_far() -> None:
     for distance in (0.4, 0.25):
         apex = path().tool_points(np.array([[distance, 0.1]]), 1.0)[0]
         assert apex == pytest.approx([0.0, 0.1, distance + REST_HEIGHT_M])
 
 
-def test_a_grip_nearer_than_the_farthest_point_rests_until_the_baseline_comes():
+def test_a_grip_nearer_than_the_farthest_point_rests_until_the_baseline_comes() -> None:
     # D = 0.4, d = 0.3: the baseline is there at a quarter of the way up, and is back there three quarters down.
     of, grip = path(), np.array([[0.3, 0.0]])
     assert of.tool_points(grip, 0.2)[0] == pytest.approx([0.3, 0.0, REST_HEIGHT_M])
@@ -49,7 +49,7 @@ def test_a_grip_nearer_than_the_farthest_point_rests_until_the_baseline_comes():
     assert of.tool_points(grip, 1.75)[0] == pytest.approx([-0.3, 0.0, REST_HEIGHT_M])
 
 
-def test_two_grips_keep_their_distance_along_the_cloth():
+def test_two_grips_keep_their_distance_along_the_cloth() -> None:
     # One behind the other: along the cloth, once round the baseline, they stay 0.15 m apart.
     of = path()
     for sweep in np.linspace(0.0, 2.0, 41):
@@ -57,12 +57,12 @@ def test_two_grips_keep_their_distance_along_the_cloth():
         assert abs(ax - bx) + abs(az - bz) == pytest.approx(0.15)
 
 
-def test_two_grips_side_by_side_stay_as_far_apart_throughout():
+def test_two_grips_side_by_side_stay_as_far_apart_throughout() -> None:
     ways = tools(path(), (0.4, 0.2), (0.4, -0.2))
     assert np.hypot(*np.moveaxis(ways[0] - ways[1], 1, 0)[:2]) == pytest.approx(np.full(401, 0.4))
 
 
-def test_everything_stands_or_lies_at_every_moment():
+def test_everything_stands_or_lies_at_every_moment() -> None:
     points = np.array([[x, 0.0] for x in np.linspace(0.0, 0.4, 21)])
     for sweep in np.linspace(0.0, 2.0, 21):
         swept = path().swept(points, float(sweep))
@@ -71,7 +71,7 @@ def test_everything_stands_or_lies_at_every_moment():
         assert np.all(lies | (np.abs(swept[:, 0] - baseline) < 1e-9))
 
 
-def test_a_way_over_the_table_has_no_jumps():
+def test_a_way_over_the_table_has_no_jumps() -> None:
     way = tools(path(), (0.4, 0.1))[0]
     steps = np.linalg.norm(np.diff(way, axis=0), axis=1)
     # The baseline goes 0.4 / 200 m a step, the tool sqrt(2) times as far.
@@ -82,7 +82,7 @@ def test_a_way_over_the_table_has_no_jumps():
 NEAR = Segment((-0.7, -0.2), (-0.7, 0.2))
 
 
-def test_a_hanging_grip_rises_at_the_edge_from_as_deep_as_it_hangs_to_as_high():
+def test_a_hanging_grip_rises_at_the_edge_from_as_deep_as_it_hangs_to_as_high() -> None:
     # d = 0.25, so it hangs h = 0.15 below the edge. While the baseline comes from 0.25 to 0.1 it rises to +0.15.
     way = path(NEAR, 0.25)
     grip = np.array([[-0.95, 0.0]])
@@ -95,7 +95,7 @@ def test_a_hanging_grip_rises_at_the_edge_from_as_deep_as_it_hangs_to_as_high():
     assert way.tool_points(grip, 1.0)[0] == pytest.approx([-0.7, 0.0, 0.25 + REST_HEIGHT_M])
 
 
-def test_a_hanging_grip_is_held_clear_of_the_edge_until_it_is_above_the_top():
+def test_a_hanging_grip_is_held_clear_of_the_edge_until_it_is_above_the_top() -> None:
     # h = 0.15 as before. Beyond the edge by less than 0.02 m, where the tool is level with the top at rest, it comes to
     # the edge's plane: at b = 0.11 it is still 0.01 m beyond, so half of 0.03 m outside, and 0.14 - 0.01 m high.
     way, grip = path(NEAR, 0.25, clear_m=0.03), np.array([[-0.95, 0.0]])
@@ -106,18 +106,18 @@ def test_a_hanging_grip_is_held_clear_of_the_edge_until_it_is_above_the_top():
     assert way.tool_points(grip, 1.0)[0] == pytest.approx([-0.7, 0.0, 0.25 + REST_HEIGHT_M])
 
 
-def test_a_place_beyond_an_edge_is_clear_of_it_too():
+def test_a_place_beyond_an_edge_is_clear_of_it_too() -> None:
     way = path(NEAR.reversed, 0.3, clear_m=0.03)
     assert way.tool_points(np.array([[-0.4, 0.0]]), 2.0)[0] == pytest.approx([-0.83, 0.0, -0.2 + REST_HEIGHT_M])
 
 
-def test_a_grip_that_lands_beyond_an_edge_sinks_to_its_depth():
+def test_a_grip_that_lands_beyond_an_edge_sinks_to_its_depth() -> None:
     # The far part comes over the line to 0.3 m on its other side: 0.2 m beyond the edge.
     way = path(NEAR.reversed, 0.3)
     assert way.tool_points(np.array([[-0.4, 0.0]]), 2.0)[0] == pytest.approx([-0.8, 0.0, -0.2 + REST_HEIGHT_M])
 
 
-def test_cloth_held_out_beyond_an_edge_starts_there_and_not_hanging():
+def test_cloth_held_out_beyond_an_edge_starts_there_and_not_hanging() -> None:
     grip = np.array([[-0.95, 0.0]])
     held = path(NEAR, 0.25, TOP.open_towards(grip))
     assert held.tool_points(grip, 0.0)[0] == pytest.approx([-0.95, 0.0, REST_HEIGHT_M])
@@ -130,7 +130,7 @@ def longest_step(of: FoldPath, grip: tuple[float, float]) -> float:
 
 
 @pytest.mark.parametrize("clear_m", [0.0, 0.03])
-def test_no_way_jumps_wherever_line_and_grips_lie(clear_m: float):
+def test_no_way_jumps_wherever_line_and_grips_lie(clear_m: float) -> None:
     rng = random.Random(15)
     for _ in range(200):
         x, y, angle = rng.uniform(-0.7, 0.7), rng.uniform(-0.4, 0.4), rng.uniform(0.0, math.tau)
@@ -146,7 +146,7 @@ def test_no_way_jumps_wherever_line_and_grips_lie(clear_m: float):
         assert longest_step(of, grip) < steepest * depth / 2000 + 1e-9
 
 
-def test_a_grip_held_out_beside_its_line_cannot_be_folded_without_a_jump():
+def test_a_grip_held_out_beside_its_line_cannot_be_folded_without_a_jump() -> None:
     # The line runs across the near edge, and the grip was dragged out 0.05 m beyond it: a narrow strip that is
     # pulled a little off the table and folded lengthwise while it is held. Its apex would hang beyond the edge.
     line = Segment((-0.85, 0.0), (-0.6, 0.0))
@@ -156,14 +156,14 @@ def test_a_grip_held_out_beside_its_line_cannot_be_folded_without_a_jump():
     assert path(line, 0.1, TOP).is_continuous(beyond)
 
 
-def test_the_farthest_grip_is_moved_from_the_very_beginning_to_the_very_end_whatever_was_rounded():
+def test_the_farthest_grip_is_moved_from_the_very_beginning_to_the_very_end_whatever_was_rounded() -> None:
     line = Segment((-0.61, 0.3), (-0.61, -0.4))
     for aside in np.linspace(-3e-6, 3e-6, 61):
         sweeps = path(line, depth_m=0.05).sweeps(np.array([[-0.56 + aside, 0.1]]))
         assert sweeps[0] == 0.0 and sweeps[-1] == 2.0
 
 
-def test_waypoints_are_at_most_five_centimetres_apart_and_hold_the_apex_and_both_ends():
+def test_waypoints_are_at_most_five_centimetres_apart_and_hold_the_apex_and_both_ends() -> None:
     rng = random.Random(16)
     for _ in range(200):
         x, y, angle = rng.uniform(-0.7, 0.7), rng.uniform(-0.4, 0.4), rng.uniform(0.0, math.tau)

@@ -10,7 +10,7 @@ from tests.builders import fold, garment, rectangle_points
 CUFF = ((0.3, 0.3), (0.3, 0.0))
 
 
-def test_a_red_line_beside_the_flap_names_the_flap():
+def test_a_red_line_beside_the_flap_names_the_flap() -> None:
     red = fold((0.1, 0.0), (0.1, 0.3), kind="red")
     with pytest.raises(FoldError) as caught:
         FoldSequence.of(garment(rectangle_points(0.4, 0.3), fold(*CUFF, name="cuff"), red))
@@ -18,7 +18,7 @@ def test_a_red_line_beside_the_flap_names_the_flap():
     assert "crosses the cloth, but not the flap of 'cuff'" in caught.value.message
 
 
-def test_a_red_line_across_the_flap_is_none_of_that():
+def test_a_red_line_across_the_flap_is_none_of_that() -> None:
     red = fold((0.25, 0.3), (0.25, 0.0), kind="red")
     with pytest.raises(FoldError, match="would tear"):  # what is right of it hangs on the crease
         FoldSequence.of(garment(rectangle_points(0.4, 0.3), fold(*CUFF), red))

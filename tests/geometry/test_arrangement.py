@@ -17,7 +17,7 @@ def lines(*ends: tuple[tuple[float, float], ...]) -> list[FloatArray]:
 
 
 def moved(points: FloatArray, x: float, y: float) -> FloatArray:
-    return points + np.array([x, y])
+    return np.asarray(points + np.array([x, y]))
 
 
 def area(ring: FloatArray) -> float:
@@ -47,29 +47,29 @@ BOX = lines((A, B), (B, C), (C, D), (D, A))
     ],
     ids=range(13),
 )
-def test_what_is_drawn_twice_or_across_changes_nothing(more: list[FloatArray]):
+def test_what_is_drawn_twice_or_across_changes_nothing(more: list[FloatArray]) -> None:
     (ring,) = enclosing_rings(BOX + more, GAP_M)
     assert len(ring) == 4 and area(ring) == pytest.approx(0.24, rel=1e-6)
 
 
 @pytest.mark.parametrize("gap", [(0.0, 0.0), (1e-3, 0.0), (0.0, 1e-3), (1e-3, 1e-3), (-1e-3, 0.0), (-4e-3, 0.0)])
-def test_gaps_up_to_a_millimetre_are_closed_and_overshoots_cut(gap: tuple[float, float]):
+def test_gaps_up_to_a_millimetre_are_closed_and_overshoots_cut(gap: tuple[float, float]) -> None:
     short = (0.6 - gap[0], 0.0 + gap[1])
     (ring,) = enclosing_rings(lines((A, short), (B, C), (C, D), (D, A)), GAP_M)
     assert area(ring) == pytest.approx(0.24, rel=3e-3)
 
 
-def test_a_wide_gap_stays_open():
+def test_a_wide_gap_stays_open() -> None:
     assert enclosing_rings(lines((A, (0.59, 0.0)), (B, C), (C, D), (D, A)), GAP_M) == []
     assert enclosing_rings([], GAP_M) == []
 
 
-def test_the_ends_of_one_line_may_meet_across_a_gap():
+def test_the_ends_of_one_line_may_meet_across_a_gap() -> None:
     (ring,) = enclosing_rings(lines(((0.0, 0.001), D, C, B, A)), GAP_M)
     assert area(ring) == pytest.approx(0.24, rel=1e-3)
 
 
-def test_an_outline_of_many_short_lines_is_found_whatever_their_order_and_direction():
+def test_an_outline_of_many_short_lines_is_found_whatever_their_order_and_direction() -> None:
     rng = np.random.default_rng(7)
     turns = np.linspace(0.0, 2.0 * np.pi, 2001)
     points = 0.3 * np.column_stack([np.cos(turns), np.sin(turns)])
@@ -79,13 +79,13 @@ def test_an_outline_of_many_short_lines_is_found_whatever_their_order_and_direct
     assert area(ring) == pytest.approx(np.pi * 0.09, rel=1e-3)
 
 
-def test_pieces_that_touch_in_a_point_or_not_at_all_are_rings_of_their_own():
+def test_pieces_that_touch_in_a_point_or_not_at_all_are_rings_of_their_own() -> None:
     for away in ((0.6, 0.4), (0.7, 0.0)):
         other = [moved(line, *away) for line in BOX]
         assert len(enclosing_rings(BOX + other, GAP_M)) == 2
 
 
-def test_many_crossings_are_counted_without_making_them():
+def test_many_crossings_are_counted_without_making_them() -> None:
     rng = np.random.default_rng(1)
     tangle = list(rng.random((5000, 2, 2)))
     assert are_tangled(tangle, 20_000)
@@ -94,7 +94,7 @@ def test_many_crossings_are_counted_without_making_them():
     assert not are_tangled([np.column_stack([turns, np.sin(turns)])], 0)
 
 
-def test_a_half_and_its_reflection_are_one_ring_with_twice_the_area():
+def test_a_half_and_its_reflection_are_one_ring_with_twice_the_area() -> None:
     half = np.array([A, B, C, (0.0, 0.3)])
     line = Segment(A, (0.0, 0.3))
     whole = united_ring((half, reflected(half, line)), 0.0)
@@ -103,7 +103,7 @@ def test_a_half_and_its_reflection_are_one_ring_with_twice_the_area():
     assert united_ring((half, moved(half, 2.0, 0.0)), 0.0) is None
 
 
-def test_a_ring_within_a_clip_stays_and_one_across_it_is_cut():
+def test_a_ring_within_a_clip_stays_and_one_across_it_is_cut() -> None:
     ring, clip = np.array([A, B, C, D]), np.array([(0.1, -1.0), (2.0, -1.0), (2.0, 1.0), (0.1, 1.0)])
     assert clipped(moved(ring, 0.2, 0.0), [[clip]]) is None
     cut = clipped(ring, [[clip]])

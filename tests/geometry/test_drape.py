@@ -50,20 +50,20 @@ def rim(triangles: FloatArray) -> float:
 
 @pytest.mark.parametrize("place", PLACES.values(), ids=PLACES.keys())
 @pytest.mark.parametrize("turn", [0.0, 0.4])
-def test_cloth_has_no_gap_and_keeps_its_size_wherever_it_hangs(place: tuple[float, float], turn: float):
+def test_cloth_has_no_gap_and_keeps_its_size_wherever_it_hangs(place: tuple[float, float], turn: float) -> None:
     triangles = draped_square(*place, turn)
     assert area(triangles) == pytest.approx(0.25, rel=0.01)
     assert rim(triangles) == pytest.approx(2.0, rel=0.01)
 
 
 @pytest.mark.parametrize("place", PLACES.values(), ids=PLACES.keys())
-def test_nothing_of_it_is_in_the_table(place: tuple[float, float]):
+def test_nothing_of_it_is_in_the_table(place: tuple[float, float]) -> None:
     points = draped_square(*place).reshape(-1, 3)
     is_over = np.all((points[:, :2] > np.array(TOP.low) + 1e-9) & (points[:, :2] < np.array(TOP.high) - 1e-9), axis=1)
     assert points[is_over, 2].min(initial=GAP_M) >= GAP_M - 1e-9
 
 
-def test_upper_layers_go_round_the_edge_further_out_and_never_through_the_lower():
+def test_upper_layers_go_round_the_edge_further_out_and_never_through_the_lower() -> None:
     steps = np.linspace(0.0, 0.3, 301)
     unrolled = np.column_stack([-0.8 - steps, np.zeros(301), np.zeros(301)])
     inner, outer = (draped(TOP, unrolled, gap_m) for gap_m in (0.002, 0.02))
@@ -74,7 +74,9 @@ def test_upper_layers_go_round_the_edge_further_out_and_never_through_the_lower(
 
 
 @given(st.floats(-1.2, 1.2), st.floats(-0.9, 0.9), st.floats(-math.pi, math.pi), st.sampled_from([0.0, 0.5, 1.0]))
-def test_two_points_near_to_each_other_are_drawn_near_to_each_other(x: float, y: float, angle: float, droop: float):
+def test_two_points_near_to_each_other_are_drawn_near_to_each_other(
+    x: float, y: float, angle: float, droop: float
+) -> None:
     step = 1e-3
     ends = np.array([(x, y, 0.0), (x + step * math.cos(angle), y + step * math.sin(angle), 0.0)])
     one, other = draped(TOP, ends, GAP_M, droop)
@@ -86,14 +88,14 @@ def is_beyond_corner(x: float, y: float) -> bool:
     return abs(x) > 0.79 and abs(y) > 0.48
 
 
-def test_level_cloth_goes_on_straight_and_sinking_cloth_turns_at_the_edge():
+def test_level_cloth_goes_on_straight_and_sinking_cloth_turns_at_the_edge() -> None:
     unrolled = np.array([[-1.0, 0.1, 0.0]])
     assert draped(TOP, unrolled, GAP_M, 0.0)[0] == pytest.approx([-1.0, 0.1, GAP_M])
     half = draped(TOP, unrolled, GAP_M, 0.5)[0]
     assert math.degrees(math.atan2(GAP_M - half[2], -0.8 - half[0])) == pytest.approx(45.0, abs=2.0)
 
 
-def test_cloth_that_stands_over_an_edge_comes_up_there():
+def test_cloth_that_stands_over_an_edge_comes_up_there() -> None:
     heights = [draped(TOP, np.array([[-1.0, 0.1, z]]))[0] for z in (0.0, 0.19, 0.2, 0.3)]
     assert [round(float(z), 2) for *_, z in heights[2:]] == [0.0, 0.1]
     assert [x for x, *_ in heights[2:]] == pytest.approx([-0.8, -0.8])

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 from scipy.interpolate import CubicHermiteSpline
 
 from planner.geometry.keyframes import acceleration_at, rate_at, value_at, values_at
+from planner.geometry.pose import FloatArray
 
 TIMES, VALUES, RATES = (0.0, 1.0, 1.5, 4.0), (0.0, 2.0, 1.0, 1.0), (0.0, 1.5, -3.0, 0.0)
 SPLINE = CubicHermiteSpline(TIMES, VALUES, RATES)
@@ -14,18 +15,18 @@ INSIDE = st.floats(0.0, 3.999)
 
 
 @given(INSIDE)
-def test_a_value_and_its_derivatives_are_those_of_the_cubic(t: float):
+def test_a_value_and_its_derivatives_are_those_of_the_cubic(t: float) -> None:
     assert value_at(TIMES, VALUES, RATES, t) == pytest.approx(float(SPLINE(t)), abs=1e-9)
     assert rate_at(TIMES, VALUES, RATES, t) == pytest.approx(float(SPLINE(t, 1)), abs=1e-9)
     assert acceleration_at(TIMES, VALUES, RATES, t) == pytest.approx(float(SPLINE(t, 2)), abs=1e-9)
 
 
-def test_at_the_last_keyframe_derivatives_are_those_just_before_it():
+def test_at_the_last_keyframe_derivatives_are_those_just_before_it() -> None:
     assert rate_at(TIMES, VALUES, RATES, 4.0) == pytest.approx(0.0)
     assert acceleration_at(TIMES, VALUES, RATES, 4.0) == pytest.approx(float(SPLINE(4.0, 2)))
 
 
-def test_outside_of_its_keyframes_a_value_rests():
+def test_outside_of_its_keyframes_a_value_rests() -> None:
     assert [value_at(TIMES, VALUES, RATES, t) for t in (-1.0, 9.0)] == [0.0, 1.0]
     assert [rate_at(TIMES, VALUES, RATES, t) for t in (-1.0, 9.0)] == [0.0, 0.0]
     assert [acceleration_at(TIMES, VALUES, RATES, t) for t in (-1.0, 9.0)] == [0.0, 0.0]
@@ -33,7 +34,7 @@ def test_outside_of_its_keyframes_a_value_rests():
 
 
 @given(INSIDE)
-def test_without_rates_it_goes_straight_from_keyframe_to_keyframe(t: float):
+def test_without_rates_it_goes_straight_from_keyframe_to_keyframe(t: float) -> None:
     assert value_at(TIMES, VALUES, (), t) == pytest.approx(np.interp(t, TIMES, VALUES))
     after = int(np.searchsorted(TIMES, t, side="right"))
     slope = (VALUES[after] - VALUES[after - 1]) / (TIMES[after] - TIMES[after - 1])
@@ -42,7 +43,7 @@ def test_without_rates_it_goes_straight_from_keyframe_to_keyframe(t: float):
 
 
 @pytest.mark.parametrize("rates", [np.array(RATES), np.empty(0)])
-def test_many_values_at_once_are_the_same(rates):
+def test_many_values_at_once_are_the_same(rates: FloatArray) -> None:
     at = np.array([-1.0, 0.0, 0.3, 1.0, 1.2, 3.9, 4.0, 7.0])
     found = values_at(np.array(TIMES), np.array(VALUES), rates, at)
     assert found == pytest.approx([value_at(TIMES, VALUES, rates.tolist(), t) for t in at.tolist()])

@@ -14,7 +14,7 @@ from planner.geometry.tolerance import LENGTH_M
 from tests.builders import is_same_region, rectangle, star
 
 
-def test_either_orientation_of_a_ring_gives_the_same_region():
+def test_either_orientation_of_a_ring_gives_the_same_region() -> None:
     points = [(0.0, 0.0), (0.4, 0.0), (0.4, 0.3), (0.0, 0.3)]
     for ring in (points, points[::-1]):
         region = Region.polygon(ring)
@@ -23,17 +23,17 @@ def test_either_orientation_of_a_ring_gives_the_same_region():
         assert sorted(map(tuple, region.ring.tolist())) == sorted(points)
 
 
-def test_points_on_a_straight_run_are_no_corners_even_when_a_micrometre_off():
+def test_points_on_a_straight_run_are_no_corners_even_when_a_micrometre_off() -> None:
     noisy = [(0.0, 0.0), (0.1, 1e-6), (0.2, -1e-6), (0.4, 0.0), (0.4, 0.3), (0.2, 0.3 + 1e-6), (0.0, 0.3), (0.0, 0.15)]
     assert len(Region.polygon(noisy).ring) == 4
 
 
-def test_the_length_is_the_longer_side_of_the_smallest_rectangle_round_it_however_it_lies():
+def test_the_length_is_the_longer_side_of_the_smallest_rectangle_round_it_however_it_lies() -> None:
     for angle in (0.0, 0.3, math.pi / 4, 2.0):
         assert rectangle(0.3, 0.8).moved(Isometry.rotation(angle)).length == pytest.approx(0.8, abs=1e-5)
 
 
-def test_a_union_is_the_same_whether_or_not_parts_of_it_lie_within_the_largest():
+def test_a_union_is_the_same_whether_or_not_parts_of_it_lie_within_the_largest() -> None:
     rng = random.Random(1)
     for _ in range(40):
         large, *inner = (rectangle(0.5 * share, 0.4 * share) for share in (1.0, 0.2, 0.5, 0.9))
@@ -44,7 +44,7 @@ def test_a_union_is_the_same_whether_or_not_parts_of_it_lie_within_the_largest()
             assert Region.union(parts).area == pytest.approx(shapely.area(whole), abs=1e-5)
 
 
-def test_a_segment_is_within_to_the_tolerance():
+def test_a_segment_is_within_to_the_tolerance() -> None:
     square = Region.polygon([(0.0, 0.0), (0.3, 0.0), (0.3, 0.3), (0.0, 0.3)])
     for off_m, is_within in ((0.0, True), (0.5 * LENGTH_M, True), (3.0 * LENGTH_M, False)):
         assert square.contains_segment(Segment((0.0, -off_m), (0.3, -off_m))) == is_within
@@ -52,14 +52,14 @@ def test_a_segment_is_within_to_the_tolerance():
     assert not square.contains_segment(Segment((0.1, 0.1), (0.2, 0.35)))
 
 
-def test_the_gaps_from_a_point_are_nothing_inside():
+def test_the_gaps_from_a_point_are_nothing_inside() -> None:
     regions = [rectangle(0.2, 0.2), rectangle(0.2, 0.2).moved(Isometry.rotation(0.0, 0.5, 0.0))]
     assert Region.gaps(regions, regions[0].inner_point)[0] == 0.0
     assert Region.gaps(regions, (0.1, 0.1)) == pytest.approx([0.0, regions[1].bounds[0] - 0.1])
     assert len(Region.gaps([], (0.0, 0.0))) == 0
 
 
-def test_both_sides_of_a_line_add_up_to_the_whole():
+def test_both_sides_of_a_line_add_up_to_the_whole() -> None:
     rng = random.Random(0)
     for _ in range(40):
         region = Region.polygon(star(rng, 9))
@@ -74,7 +74,7 @@ def test_both_sides_of_a_line_add_up_to_the_whole():
         assert np.all(line.left_distances(left.coordinates) >= -2e-6)
 
 
-def test_the_two_sides_of_a_cut_lose_no_area_and_fit_together_again():
+def test_the_two_sides_of_a_cut_lose_no_area_and_fit_together_again() -> None:
     rng = random.Random(4)
     for _ in range(40):
         region = Region.polygon(star(rng, 9))
@@ -89,7 +89,7 @@ def test_the_two_sides_of_a_cut_lose_no_area_and_fit_together_again():
         assert is_same_region(whole, region, 1e-8)
 
 
-def test_regions_that_only_touch_have_no_cloth_in_common():
+def test_regions_that_only_touch_have_no_cloth_in_common() -> None:
     one = rectangle(0.1, 0.1)
     for other in (rectangle(0.1, 0.1, 0.1), rectangle(0.1, 0.1, 0.1, 0.1), rectangle(0.1, 0.1, 0.5)):
         assert one.intersection(other).pieces == () and one.intersection(other).area == 0.0
@@ -99,7 +99,7 @@ def test_regions_that_only_touch_have_no_cloth_in_common():
     assert one.intersection(hook).shape.geom_type == "Polygon"
 
 
-def test_parts_are_pieces_or_slivers():
+def test_parts_are_pieces_or_slivers() -> None:
     # 0.1 x 0.1 m^2 is cloth, 3 x 3 mm^2 is not.
     both = Region(shapely.MultiPolygon([shapely.box(0, 0, 0.1, 0.1), shapely.box(0.5, 0.0, 0.503, 0.003)]))
     assert [round(p.area, 6) for p in both.parts] == [0.01, 9e-6]
@@ -107,7 +107,7 @@ def test_parts_are_pieces_or_slivers():
     assert [round(p.area, 6) for p in both.slivers] == [9e-6]
 
 
-def test_a_stretch_within_a_hair_of_the_boundary_does_not_run_inside():
+def test_a_stretch_within_a_hair_of_the_boundary_does_not_run_inside() -> None:
     towel = rectangle(0.4, 0.3)
     assert towel.runs_inside(Segment((0.1, 0.0), (0.1, 0.1)))
     assert not towel.runs_inside(Segment((0.1, 1e-5), (0.3, 1e-5)))
@@ -115,7 +115,7 @@ def test_a_stretch_within_a_hair_of_the_boundary_does_not_run_inside():
     assert not towel.runs_inside(Segment((0.5, 0.0), (0.5, 0.1)))
 
 
-def test_a_line_across_a_moved_region_runs_inside_however_it_is_turned():
+def test_a_line_across_a_moved_region_runs_inside_however_it_is_turned() -> None:
     # GEOS fills the grown border of some shapes on the grid: of these, of some 15 in 100.
     towel = rectangle(0.4, 0.3)
     for turn_rad in np.linspace(0.0, math.pi, 60):
@@ -126,13 +126,13 @@ def test_a_line_across_a_moved_region_runs_inside_however_it_is_turned():
             assert lying.runs_inside(line) == is_inside
 
 
-def test_all_points_of_a_ring_are_kept_where_they_are_asked_for():
+def test_all_points_of_a_ring_are_kept_where_they_are_asked_for() -> None:
     straight = Region.polygon([(0.0, 0.0), (0.2, 0.0), (0.4, 0.0), (0.4, 0.3), (0.0, 0.3)])
     assert len(straight.ring) == 4
     assert straight.whole_ring.tolist() == [[0.0, 0.0], [0.2, 0.0], [0.4, 0.0], [0.4, 0.3], [0.0, 0.3]]
 
 
-def test_moving_keeps_the_area_and_moving_back_the_region():
+def test_moving_keeps_the_area_and_moving_back_the_region() -> None:
     rng = random.Random(1)
     for _ in range(40):
         region = Region.polygon(star(rng, 8))
@@ -141,14 +141,14 @@ def test_moving_keeps_the_area_and_moving_back_the_region():
         assert is_same_region(region.moved(over).moved(over.inverse), region, 1e-5)
 
 
-def test_a_union_closes_a_hairline_crack_but_not_a_gap():
+def test_a_union_closes_a_hairline_crack_but_not_a_gap() -> None:
     left = rectangle(0.2, 0.3)
     touching = Region.union([left, rectangle(0.2, 0.3, 0.2 + 2e-6)])
     assert len(touching.rings) == 1 and len(touching.ring) == 4
     assert len(Region.union([left, rectangle(0.2, 0.3, 0.201)]).rings) == 2
 
 
-def test_a_union_closes_a_hole_no_wider_than_a_hair_and_keeps_others():
+def test_a_union_closes_a_hole_no_wider_than_a_hair_and_keeps_others() -> None:
     frame = rectangle(0.4, 0.4).difference(rectangle(0.1, 0.1, 0.15, 0.15))
     filled = Region.union([frame, rectangle(0.1 - 5e-6, 0.1, 0.15, 0.15)])
     assert not filled.shape.interiors and filled.area == pytest.approx(0.16, abs=1e-9)
@@ -158,7 +158,7 @@ def test_a_union_closes_a_hole_no_wider_than_a_hair_and_keeps_others():
     assert Region.union(sides).area == pytest.approx(0.16 - hole.area, abs=1e-6)
 
 
-def test_a_crack_that_narrows_to_a_corner_of_both_sides_is_closed():
+def test_a_crack_that_narrows_to_a_corner_of_both_sides_is_closed() -> None:
     # From 0.12 along the crack 10 um at its mouth to nothing: what lies between the two sides has a tip without area.
     left = Region.polygon([(0.0, 0.0), (0.12, 0.23), (-0.2, 0.1)]).moved(Isometry())
     right = Region.polygon([(0.0, 0.0), (0.3, 0.1), (0.12001, 0.230002)]).moved(Isometry())
@@ -168,13 +168,13 @@ def test_a_crack_that_narrows_to_a_corner_of_both_sides_is_closed():
     assert whole.area == pytest.approx(0.029 + 0.0284998, abs=2e-6)
 
 
-def test_parts_that_meet_in_a_point_only_stay_two():
+def test_parts_that_meet_in_a_point_only_stay_two() -> None:
     assert len(Region.union([rectangle(0.1, 0.1), rectangle(0.1, 0.1, 0.1, 0.1)]).parts) == 2
     assert len(Region.union([rectangle(0.1, 0.1), rectangle(0.1, 0.1, 0.1 + 3e-6, 0.1 - 2e-5)]).parts) == 2
     assert len(Region.union([rectangle(0.1, 0.1), rectangle(0.1, 0.1, 0.1 + 3e-6, 0.05)]).parts) == 1
 
 
-def test_a_union_never_loses_a_part():
+def test_a_union_never_loses_a_part() -> None:
     here = Region.polygon([(0.0, 0.0), (0.1, 0.0), (0.0, 0.1)])
     there = Region.polygon([(1.145958, -0.055778), (1.066005, 0.459022), (1.39205, -0.364412)])
     # The second is as a layer is that has been moved: on the micrometre grid. 0.005 + 0.0510 m^2.
@@ -182,7 +182,7 @@ def test_a_union_never_loses_a_part():
     assert both.area == pytest.approx(here.area + there.area, abs=1e-5)
 
 
-def test_unions_of_random_parts_far_apart_add_up():
+def test_unions_of_random_parts_far_apart_add_up() -> None:
     rng = random.Random(3)
     for _ in range(300):
         one, other = Region.polygon(star(rng, 4)), Region.polygon(star(rng, 4))
@@ -192,32 +192,32 @@ def test_unions_of_random_parts_far_apart_add_up():
         assert Region.union([one, other]).area == pytest.approx(one.area + other.area, abs=1e-4)
 
 
-def test_the_bisector_at_a_corner_halves_its_angle_and_on_an_edge_stands_upright():
+def test_the_bisector_at_a_corner_halves_its_angle_and_on_an_edge_stands_upright() -> None:
     region = rectangle(0.4, 0.3)
     assert region.inward_bisector((0.0, 0.0)) == pytest.approx((math.sqrt(0.5), math.sqrt(0.5)))
     assert region.inward_bisector((0.2, 0.3)) == pytest.approx((0.0, -1.0))
     assert region.inward_bisector((0.2, 0.2)) is None
 
 
-def test_the_bisector_of_a_reflex_corner_leads_into_the_cloth():
+def test_the_bisector_of_a_reflex_corner_leads_into_the_cloth() -> None:
     # An L: at the inner corner (0.2, 0.2) cloth fills all but the quarter towards up and right.
     ell = Region.polygon([(0.0, 0.0), (0.4, 0.0), (0.4, 0.2), (0.2, 0.2), (0.2, 0.4), (0.0, 0.4)])
     assert ell.inward_bisector((0.2, 0.2)) == pytest.approx((-math.sqrt(0.5), -math.sqrt(0.5)))
 
 
-def test_a_segment_along_the_boundary_counts_as_inside_and_one_across_a_notch_does_not():
+def test_a_segment_along_the_boundary_counts_as_inside_and_one_across_a_notch_does_not() -> None:
     ell = Region.polygon([(0.0, 0.0), (0.4, 0.0), (0.4, 0.2), (0.2, 0.2), (0.2, 0.4), (0.0, 0.4)])
     assert ell.contains_segment(Segment((0.0, 0.0), (0.4, 0.0)))
     assert ell.contains_segment(Segment((0.1, 0.0), (0.1, 0.4)))
     assert not ell.contains_segment(Segment((0.4, 0.2), (0.2, 0.4)))
 
 
-def test_the_hull_spans_all_parts():
+def test_the_hull_spans_all_parts() -> None:
     both = Region.union([rectangle(0.1, 0.1), rectangle(0.1, 0.1, 0.5)])
     assert sorted(map(tuple, both.hull.tolist())) == [(0.0, 0.0), (0.0, 0.1), (0.6, 0.0), (0.6, 0.1)]
 
 
-def test_triangles_cover_the_region_and_run_counter_clockwise():
+def test_triangles_cover_the_region_and_run_counter_clockwise() -> None:
     rng = random.Random(2)
     for _ in range(20):
         region = Region.polygon(star(rng, 7))
@@ -229,25 +229,25 @@ def test_triangles_cover_the_region_and_run_counter_clockwise():
         assert doubled.sum() / 2 == pytest.approx(region.area, abs=1e-9)
 
 
-def test_the_nearest_boundary_point_of_an_inner_point_is_on_the_nearest_edge():
+def test_the_nearest_boundary_point_of_an_inner_point_is_on_the_nearest_edge() -> None:
     found = rectangle(0.4, 0.3).nearest_boundary_points(np.array([[0.2, 0.25], [0.39, 0.1]]))
     assert found == pytest.approx(np.array([[0.2, 0.3], [0.4, 0.1]]))
 
 
-def test_all_boundary_points_that_are_equally_near_are_found():
+def test_all_boundary_points_that_are_equally_near_are_found() -> None:
     # The middle of a strip 0.2 m high is as near to its lower as to its upper edge; 1 mm higher it is not.
     strip = rectangle(0.8, 0.2)
     both = strip.all_nearest_boundary_points(np.array([[0.4, 0.1], [0.3, 0.101]]))
     assert both == pytest.approx(np.array([[0.4, 0.0], [0.4, 0.2], [0.3, 0.2]]))
 
 
-def test_the_boundary_of_a_hole_is_boundary_too():
+def test_the_boundary_of_a_hole_is_boundary_too() -> None:
     ring = Region.polygon(rectangle(0.4, 0.4).ring).difference(rectangle(0.1, 0.1, 0.15, 0.15))
     found = ring.all_nearest_boundary_points(np.array([[0.16, 0.2]]))
     assert found == pytest.approx(np.array([[0.15, 0.2]]))
 
 
-def test_a_segment_touches_a_region_if_any_point_of_it_is_there():
+def test_a_segment_touches_a_region_if_any_point_of_it_is_there() -> None:
     # The unit square: across it, inside it, with an end on its edge, along its edge, beside it by a micrometre (the
     # tolerance) and by a millimetre, and past its corner.
     segments = [
@@ -263,7 +263,7 @@ def test_a_segment_touches_a_region_if_any_point_of_it_is_there():
     assert found.tolist() == [True, True, True, True, True, False, False]
 
 
-def test_an_evened_region_has_no_narrow_teeth_and_no_narrow_notches_and_keeps_its_wide_parts():
+def test_an_evened_region_has_no_narrow_teeth_and_no_narrow_notches_and_keeps_its_wide_parts() -> None:
     comb = Region.union([rectangle(1.0, 0.5), *(rectangle(0.03, 0.04, 0.1 * n, 0.5) for n in range(9))])
     even = comb.difference(rectangle(0.01, 0.2, 0.5, 0.0)).evened(notch_m=0.04, fringe_m=0.1)
     # The teeth were 4 cm high; what is left of them are the fillets at their feet. Outer corners are rounded by 5 cm.

@@ -21,7 +21,7 @@ lines = st.tuples(places, places).filter(lambda ends: ends[0] != ends[1]).map(la
 def areas(triangles: np.ndarray) -> np.ndarray:
     """Return the areas of triangles, positive if counter-clockwise (m^2)."""
     a, b = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
-    return (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2
+    return np.asarray((a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2)
 
 
 def lone_sides(triangles: np.ndarray) -> set[tuple[bytes, bytes]]:
@@ -31,7 +31,7 @@ def lone_sides(triangles: np.ndarray) -> set[tuple[bytes, bytes]]:
 
 
 @given(lines)
-def test_each_side_is_as_large_as_what_lies_there_and_turned_as_before(line):
+def test_each_side_is_as_large_as_what_lies_there_and_turned_as_before(line: Segment) -> None:
     cloth = Region.polygon(ELL)
     sides = zip(parted(cloth.triangles, line), cloth.parted_by(line), (line, line.reversed), strict=True)
     for (part, _), region, there in sides:
@@ -41,7 +41,7 @@ def test_each_side_is_as_large_as_what_lies_there_and_turned_as_before(line):
 
 
 @given(lines)
-def test_neighbours_on_one_side_share_the_ends_of_their_cuts(line):
+def test_neighbours_on_one_side_share_the_ends_of_their_cuts(line: Segment) -> None:
     triangles = Region.polygon(ELL).triangles
     for part, _ in parted(triangles, line):
         for start, end in lone_sides(part):
@@ -52,7 +52,7 @@ def test_neighbours_on_one_side_share_the_ends_of_their_cuts(line):
             assert is_on_cut or rim <= LENGTH_M, "no side within the cloth is anybody's alone"
 
 
-def test_each_part_tells_of_which_triangle_it_is():
+def test_each_part_tells_of_which_triangle_it_is() -> None:
     triangles = Region.polygon(ELL).triangles
     sizes = np.zeros(len(triangles))
     for part, sources in parted(triangles, ACROSS):
@@ -60,20 +60,20 @@ def test_each_part_tells_of_which_triangle_it_is():
     np.testing.assert_allclose(sizes, areas(triangles))
 
 
-def test_a_cut_through_a_corner_halves_the_triangle_and_no_more():
+def test_a_cut_through_a_corner_halves_the_triangle_and_no_more() -> None:
     triangle = np.array([[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]])
     (left, _), (right, _) = parted(triangle, Segment((0.0, 0.0), (1.0, 1.0)))
     assert len(left) == len(right) == 1
     np.testing.assert_allclose([*areas(left), *areas(right)], [0.25, 0.25])
 
 
-def test_what_touches_a_line_within_the_tolerance_is_not_cut():
+def test_what_touches_a_line_within_the_tolerance_is_not_cut() -> None:
     triangle = np.array([[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]])
     (left, _), (right, _) = parted(triangle, Segment((0.0, LENGTH_M / 2), (1.0, LENGTH_M / 2)))
     assert np.array_equal(left, triangle) and len(right) == 0
 
 
-def test_creases_leave_nothing_out():
+def test_creases_leave_nothing_out() -> None:
     triangles = Region.polygon(ELL).triangles
     cut, sources = creased(triangles, [ACROSS, Segment((0.05, 0.0), (0.05, 1.0))])
     assert len(cut) > len(triangles)

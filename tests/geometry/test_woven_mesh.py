@@ -1,18 +1,20 @@
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from planner.cloth.garment_files import load_garment
+from planner.geometry.pose import FloatArray
 from planner.geometry.region import Region
 from planner.geometry.woven_mesh import woven_mesh
 
 
-def corners_of(name: str, edge_m: float, seed: int = 0):
+def corners_of(name: str, edge_m: float, seed: int = 0) -> tuple[FloatArray, NDArray[np.int64], FloatArray]:
     points, triangles = woven_mesh(load_garment(name).pattern, edge_m, seed)
     return points, triangles, points[triangles]
 
 
 @pytest.mark.parametrize("name", ["t-shirt", "jeans", "skirt", "vest", "tie"])
-def test_a_mesh_covers_the_pattern_and_no_more_without_slivers(name: str):
+def test_a_mesh_covers_the_pattern_and_no_more_without_slivers(name: str) -> None:
     points, triangles, corners = corners_of(name, 0.02)
     pattern = load_garment(name).pattern
     first, second = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
@@ -26,18 +28,18 @@ def test_a_mesh_covers_the_pattern_and_no_more_without_slivers(name: str):
     assert lengths.min() > 0.3 * 0.02
 
 
-def test_corners_of_the_outline_are_points_of_its_mesh():
+def test_corners_of_the_outline_are_points_of_its_mesh() -> None:
     points, _, _ = corners_of("t-shirt", 0.03)
     for corner in load_garment("t-shirt").pattern.ring:
         assert np.hypot(*(points - corner).T).min() < 1e-9
 
 
-def test_rows_lie_elsewhere_with_another_seed_and_the_same_with_the_same():
+def test_rows_lie_elsewhere_with_another_seed_and_the_same_with_the_same() -> None:
     assert np.array_equal(corners_of("skirt", 0.03, 1)[0], corners_of("skirt", 0.03, 1)[0])
     assert not np.array_equal(corners_of("skirt", 0.03, 1)[0], corners_of("skirt", 0.03, 2)[0])
 
 
-def test_diagonals_run_both_ways_so_that_cloth_folds_alike_along_either_bias():
+def test_diagonals_run_both_ways_so_that_cloth_folds_alike_along_either_bias() -> None:
     _, _, corners = corners_of("hand-towel", 0.02)
     edges = np.roll(corners, -1, axis=1) - corners
     slants = edges[(np.abs(edges) > 0.009).all(axis=2)].prod(axis=1)

@@ -30,12 +30,12 @@ def drawings(draw: st.DrawFn, most_folds: int = 6, most_corners: int = MOST_CORN
 @st.composite
 def folded(draw: st.DrawFn, outline: Outline, most_folds: int, least_folds: int = 1) -> Garment:
     """Return a garment of this outline with random legal folds."""
-    cloth, folds, lines = spread(outline), [], []
+    cloth, folds, lines = spread(outline), list[DrawnFold](), list[Segment]()
     for _ in range(draw(st.integers(least_folds, most_folds))):
         is_red = bool(folds) and draw(st.integers(0, 3)) == 0
         drawn = draw(_folds(flap_silhouette(cloth, is_red=is_red), lines, is_red=is_red))
         after = None if drawn is None else _after(cloth, drawn, lines)
-        if after is not None:
+        if drawn is not None and after is not None:
             line, cloth = after
             folds.append(drawn)
             lines.append(line)

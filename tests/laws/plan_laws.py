@@ -4,8 +4,10 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from random import Random
+from typing import Unpack
 
 from planner import Plan, make_plan
+from tests.builders import SceneFields
 from tests.laws.images import mirrored, redrawn, reordered, turned
 from tests.laws.scenes import Problem
 
@@ -106,7 +108,7 @@ def _front_alone(problem: Problem) -> Problem:
     return replace(problem, scene=replace(problem.scene, stations=front))
 
 
-def _in_scene(**fields: float) -> Callable[[Problem], Problem]:
+def _in_scene(**fields: Unpack[SceneFields]) -> Callable[[Problem], Problem]:
     return lambda problem: replace(problem, scene=replace(problem.scene, **fields))
 
 

@@ -46,8 +46,8 @@ def rough_task(rng: Random) -> Problem:
     outline = rng.choice((_rectangle, _shirt, _trapezium, _comb, _needle, _round, _spiky, _hairline))(rng)
     drawn = _folded(rng, outline, rng.randint(0, 5), rng.choice((_straight_line, _any_line, _corner_line)))
     if rng.random() < 0.1:
-        anywhere = [(rng.uniform(-1.0, 1.0), rng.uniform(-1.0, 1.0)) for _ in range(2)]
-        drawn = replace(drawn, folds=(*drawn.folds, fold(*anywhere)))
+        start_at, end_at = ((rng.uniform(-1.0, 1.0), rng.uniform(-1.0, 1.0)) for _ in range(2))
+        drawn = replace(drawn, folds=(*drawn.folds, fold(start_at, end_at)))
     middle = np.array(outline).mean(axis=0)
     yaw = rng.choice((rng.randrange(-2, 3) * math.pi / 2, rng.uniform(-math.pi, math.pi)))
     scene = _odd_scene(rng) if rng.random() < 0.5 else Scene()
@@ -149,7 +149,7 @@ Line = Callable[[Random, Region], Segment]
 def _folded(rng: Random, outline: Outline, wanted: int, line_of: Line) -> Garment:
     """Return a garment of up to some folds, each legal when its turn comes; raises `GarmentError` for a bad outline."""
     require_simple_outline(outline)
-    cloth, folds, lines = spread(outline), [], []
+    cloth, folds, lines = spread(outline), list[DrawnFold](), list[Segment]()
     for _ in range(_TRIES * wanted):
         if len(folds) == wanted:
             break
@@ -157,7 +157,7 @@ def _folded(rng: Random, outline: Outline, wanted: int, line_of: Line) -> Garmen
         silhouette = flap_silhouette(cloth, is_red=is_red)
         drawn = smaller_part_over(silhouette, line_of(rng, silhouette), "red" if is_red else "blue")
         after = None if drawn is None else after_fold(cloth, drawn, lines)
-        if after is not None:
+        if drawn is not None and after is not None:
             line, cloth = after
             folds.append(drawn)
             lines.append(line)

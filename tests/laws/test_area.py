@@ -37,7 +37,7 @@ def states(sequence: FoldSequence) -> list[ClothState]:
 
 
 @pytest.mark.parametrize("name", shipped_garment_names())
-def test_a_shipped_garment_loses_nothing_at_all(name: str):
+def test_a_shipped_garment_loses_nothing_at_all(name: str) -> None:
     shipped = load_garment(name)
     for cloth in states(FoldSequence.of(shipped)):
         assert cloth.slivers == ()
@@ -46,7 +46,7 @@ def test_a_shipped_garment_loses_nothing_at_all(name: str):
 
 @given(drawings())
 @law("geometry", short=50, long=3000)
-def test_the_layers_add_up_to_the_outline_but_for_slivers_that_are_counted(garment: Garment):
+def test_the_layers_add_up_to_the_outline_but_for_slivers_that_are_counted(garment: Garment) -> None:
     whole = shoelace(garment.outline)
     dropped: tuple[float, ...] = ()
     for cloth in states(FoldSequence.of(garment)):
@@ -60,7 +60,7 @@ def test_the_layers_add_up_to_the_outline_but_for_slivers_that_are_counted(garme
 
 @given(drawings(most_folds=4))
 @law("geometry", short=20, long=800)
-def test_no_two_layers_are_the_same_piece_of_the_pattern(garment: Garment):
+def test_no_two_layers_are_the_same_piece_of_the_pattern(garment: Garment) -> None:
     cloth = FoldSequence.of(garment).final
     for one, other in combinations(cloth.layers, 2):
         assert one.pattern_piece.intersection(other.pattern_piece).is_sliver
@@ -84,7 +84,7 @@ OPEN_NOTCH = garment_of(
 @example(OPEN_NOTCH)
 @given(drawings(most_folds=4))
 @law("geometry", short=20, long=700)
-def test_a_fold_covers_what_stayed_and_the_mirror_image_of_what_moved(garment: Garment):
+def test_a_fold_covers_what_stayed_and_the_mirror_image_of_what_moved(garment: Garment) -> None:
     sequence = FoldSequence.of(garment)
     for one in sequence.folds:
         done = (1 << one.index) - 1

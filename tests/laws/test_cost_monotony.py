@@ -1,5 +1,6 @@
 """More freedom never costs more."""
 
+from collections.abc import Callable
 from dataclasses import replace
 from itertools import combinations
 
@@ -8,10 +9,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from planner.cloth.garment_files import load_garment
+from planner.primitives.context import Context
+from planner.primitives.primitive import Primitive
 from planner.primitives.primitive_set import PRIMITIVES
 from planner.task.scene import DEFAULT_STATIONS, Scene
 from tests.laws.law import law
-from tests.laws.scenes import FOLDABLE, Problem, problems
+from tests.laws.scenes import FOLDABLE, Kinds, Problem, problems
 from tests.sweep import sweep
 
 SECOND = 1e-6
@@ -20,7 +23,7 @@ PROPER_SUBSETS = tuple(some for n in range(len(PRIMITIVES)) for some in combinat
 
 @given(problems(), st.floats(0.0, 1.5), st.floats(0.0, 1.5))
 @law("planning", short=8, long=40)
-def test_more_friction_never_costs_more(problem: Problem, one: float, other: float):
+def test_more_friction_never_costs_more(problem: Problem, one: float, other: float) -> None:
     rough, smooth = (
         replace(problem, scene=replace(problem.scene, friction=mu)) for mu in (max(one, other), min(one, other))
     )
@@ -29,7 +32,7 @@ def test_more_friction_never_costs_more(problem: Problem, one: float, other: flo
 
 @given(problems(most_stations=2), st.sampled_from(sorted(DEFAULT_STATIONS)))
 @law("planning", short=8, long=40)
-def test_one_more_station_never_costs_more(problem: Problem, name: str):
+def test_one_more_station_never_costs_more(problem: Problem, name: str) -> None:
     before = problem.scene.stations
     after = before if name in dict(before) else (*before, (name, DEFAULT_STATIONS[name]))
     more = replace(problem, scene=replace(problem.scene, stations=after))
@@ -38,14 +41,16 @@ def test_one_more_station_never_costs_more(problem: Problem, name: str):
 
 @given(problems(), st.sampled_from(PROPER_SUBSETS), st.sampled_from(PRIMITIVES))
 @law("planning", short=8, long=40)
-def test_one_more_primitive_never_costs_more(problem: Problem, some, another):
+def test_one_more_primitive_never_costs_more(
+    problem: Problem, some: Kinds, another: Callable[[Context], Primitive]
+) -> None:
     more = (*some, another)
     assert problem.cost_s(kinds=more) <= problem.cost_s(kinds=some) + SECOND
 
 
 @given(problems(standoffs=7), st.integers(1, 3))
 @law("planning", short=8, long=30)
-def test_more_room_to_back_off_never_costs_more(problem: Problem, steps: int):
+def test_more_room_to_back_off_never_costs_more(problem: Problem, steps: int) -> None:
     scene = problem.scene
     roomy = replace(problem, scene=replace(scene, back_off_max_m=scene.back_off_max_m + 0.05 * steps))
     assert roomy.cost_s() <= problem.cost_s() + SECOND
@@ -53,7 +58,7 @@ def test_more_room_to_back_off_never_costs_more(problem: Problem, steps: int):
 
 @sweep("name", FOLDABLE, ("vest", "hand-towel", "letter-towel"))
 @pytest.mark.slow
-def test_a_shipped_garment_is_no_cheaper_with_less_friction_a_station_less_or_a_primitive_less(name: str):
+def test_a_shipped_garment_is_no_cheaper_with_less_friction_a_station_less_or_a_primitive_less(name: str) -> None:
     problem = Problem(load_garment(name), Scene(), "front", 0.03)
     scene, cost_s = problem.scene, problem.cost_s()
     fewer = tuple((station, pose) for station, pose in scene.stations if station != "left")

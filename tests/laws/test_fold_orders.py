@@ -33,14 +33,14 @@ def leads_elsewhere(sequence: FoldSequence, order: list[int]) -> bool:
 
 
 @pytest.mark.parametrize("name", shipped_garment_names())
-def test_every_allowed_order_of_a_shipped_garment_leaves_the_same_stack(name: str):
+def test_every_allowed_order_of_a_shipped_garment_leaves_the_same_stack(name: str) -> None:
     sequence = FoldSequence.of(load_garment(name))
     for order in orders(sequence.dag):
         assert is_same_stack(replayed(sequence, order), sequence.final), order
 
 
 @pytest.mark.parametrize("name", shipped_garment_names())
-def test_no_edge_of_a_shipped_garment_is_needless(name: str):
+def test_no_edge_of_a_shipped_garment_is_needless(name: str) -> None:
     sequence = FoldSequence.of(load_garment(name))
     for edge in sequence.dag.edges:
         if any({*edge} <= {*chain} for chain in sequence.dag.chains):
@@ -53,7 +53,7 @@ def test_no_edge_of_a_shipped_garment_is_needless(name: str):
 
 
 @pytest.mark.parametrize("name", shipped_garment_names())
-def test_the_cloth_after_a_set_of_folds_is_the_same_whatever_their_order(name: str):
+def test_the_cloth_after_a_set_of_folds_is_the_same_whatever_their_order(name: str) -> None:
     sequence = FoldSequence.of(load_garment(name))
     for order in islice(orders(sequence.dag), 12):
         done = 0
@@ -84,7 +84,7 @@ TOUCHING = garment(T_SHIRT, fold((0.587, 0.503), (-0.129, 0.503)), fold((-0.027,
 @example(TOUCHING)
 @given(GARMENTS)
 @law("geometry", short=40, long=2000)
-def test_every_allowed_order_of_random_folds_leaves_the_same_stack(cloth: Garment):
+def test_every_allowed_order_of_random_folds_leaves_the_same_stack(cloth: Garment) -> None:
     sequence = FoldSequence.of(cloth)
     for order in islice(orders(sequence.dag), MOST_ORDERS):
         assert is_same_stack(replayed(sequence, order), sequence.final), order
@@ -92,7 +92,7 @@ def test_every_allowed_order_of_random_folds_leaves_the_same_stack(cloth: Garmen
 
 @given(GARMENTS, st.randoms(use_true_random=False))
 @law("geometry", short=20, long=1000)
-def test_folds_given_in_another_order_wait_for_the_same_ones(cloth: Garment, rng: Random):
+def test_folds_given_in_another_order_wait_for_the_same_ones(cloth: Garment, rng: Random) -> None:
     sequence = FoldSequence.of(cloth)
     order = rng.choice(list(islice(orders(sequence.dag), MOST_ORDERS)))
     lines = {fold.index: fold.line for fold in sequence.folds}
@@ -108,7 +108,7 @@ def test_folds_given_in_another_order_wait_for_the_same_ones(cloth: Garment, rng
 @example(SHARP)
 @given(GARMENTS)
 @law("geometry", short=20, long=1000)
-def test_a_fold_moves_the_same_part_and_stays_within_the_same_extent_whatever_was_done_before(cloth: Garment):
+def test_a_fold_moves_the_same_part_and_stays_within_the_same_extent_whatever_was_done_before(cloth: Garment) -> None:
     sequence = FoldSequence.of(cloth)
     low, high = sequence.covered.min(axis=0), sequence.covered.max(axis=0)
     for order in islice(orders(sequence.dag), MOST_ORDERS):
@@ -120,7 +120,7 @@ def test_a_fold_moves_the_same_part_and_stays_within_the_same_extent_whatever_wa
             assert (covered >= low - LENGTH_M).all() and (covered <= high + LENGTH_M).all(), (order, index)
 
 
-def test_a_fold_whose_line_ends_on_an_earlier_crease_waits_for_it():
+def test_a_fold_whose_line_ends_on_an_earlier_crease_waits_for_it() -> None:
     # The brim's crease ends on the upper edge at x = 0.4. The ear's line begins on it 1 cm before that, 0.25 mm below
     # the upper edge. Before the brim is folded it would begin inside the cloth and part nothing.
     brim, ear = fold((0.0, 0.39), (0.4, 0.4)), fold((0.39, 0.4), (0.6, 0.3))

@@ -84,7 +84,7 @@ def best(ring: Outline, up: Point2, radius_m: float) -> tuple[list[Point2], list
 
 @given(outlines(most=14), RADII_M)
 @law("geometry", short=40, long=800)
-def test_the_fast_way_finds_what_trying_everything_finds(ring: Outline, radius_m: float):
+def test_the_fast_way_finds_what_trying_everything_finds(ring: Outline, radius_m: float) -> None:
     vertices, covers = best(ring, UP, radius_m)
     assert are_same(covers, exhaustive(ring, vertices, radius_m, 2))
 
@@ -93,7 +93,7 @@ def test_the_fast_way_finds_what_trying_everything_finds(ring: Outline, radius_m
 @law("geometry", short=40, long=700)
 def test_cloth_turned_or_mirrored_is_held_at_the_same_places(
     ring: Outline, radius_m: float, turn_rad: float, is_mirrored: bool
-):
+) -> None:
     over = Isometry.reflection(Segment((0.1, 0.0), (0.0, 0.3))) if is_mirrored else Isometry()
     way = Isometry.rotation(turn_rad, 0.2, -0.1).after(over)
     up = (way.b, way.d)
@@ -105,7 +105,7 @@ def test_cloth_turned_or_mirrored_is_held_at_the_same_places(
 
 
 @pytest.mark.parametrize("name", shipped_garment_names())
-def test_the_folds_of_a_shipped_garment_are_held_as_trying_everything_holds_them(name: str):
+def test_the_folds_of_a_shipped_garment_are_held_as_trying_everything_holds_them(name: str) -> None:
     sequence, arms, support_rad = FoldSequence.of(load_garment(name)), 2, math.radians(5.0)
     for one in sequence.folds:
         done = (1 << one.index) - 1
@@ -115,7 +115,7 @@ def test_the_folds_of_a_shipped_garment_are_held_as_trying_everything_holds_them
         assert found.covers and are_same(list(found.covers), tried)
 
 
-def test_two_places_that_are_equally_near_to_a_centre_are_both_candidates():
+def test_two_places_that_are_equally_near_to_a_centre_are_both_candidates() -> None:
     # Two legs 0.1 m wide, 0.06 m apart. The middle of the feet's middles is in the gap, 0.03 m from either leg: a grip
     # at either inner corner is 0.05 m from one foot's middle and 0.11 m from the other's.
     legs = ((0.0, 0.0), (0.1, 0.0), (0.1, 0.3), (0.16, 0.3), (0.16, 0.0), (0.26, 0.0), (0.26, 0.5), (0.0, 0.5))

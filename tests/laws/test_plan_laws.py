@@ -10,11 +10,14 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from planner import Plan, Scene, load_garment, make_plan
+from planner.geometry.pose import Point2
+from tests.builders import SceneFields
 from tests.laws.images import mirrored, redrawn, reordered, turned
 from tests.laws.law import law
 from tests.laws.scenes import Problem
 from tests.laws.tasks import plain_task
 from tests.replay.planned import SOLVABLE
+from tests.required import required
 from tests.sweep import sweep
 
 SECOND = 1e-6
@@ -42,31 +45,33 @@ def require_same(seed: int, image: Callable[[Problem], Problem], rel: float = 0.
 @law("plan", short=2, long=300)
 @example(169)  # a grip .3 mm beside the middle of the robot, which either arm may take
 @example(174)  # a hand that turns by half a turn in its grip
-def test_a_mirror_image_has_the_same_answer(seed: int):
+def test_a_mirror_image_has_the_same_answer(seed: int) -> None:
     require_same(seed, mirrored)
 
 
 @given(SEEDS)
 @law("plan", short=5, long=300)
-def test_turned_about_the_table_a_task_has_the_same_answer(seed: int):
+def test_turned_about_the_table_a_task_has_the_same_answer(seed: int) -> None:
     require_same(seed, turned)
 
 
 @given(SEEDS, st.floats(-math.pi, math.pi), st.tuples(st.floats(-1.0, 1.0), st.floats(-1.0, 1.0)))
 @law("plan", short=5, long=300)
-def test_drawn_elsewhere_and_turned_in_the_drawing_a_task_has_the_same_answer(seed: int, turn_rad, by):
+def test_drawn_elsewhere_and_turned_in_the_drawing_a_task_has_the_same_answer(
+    seed: int, turn_rad: float, by: Point2
+) -> None:
     require_same(seed, lambda problem: redrawn(problem, turn_rad, by), rel=A_THOUSANDTH)
 
 
 @given(SEEDS)
 @law("plan", short=5, long=300)
-def test_its_folds_given_in_another_order_a_task_has_the_same_answer(seed: int):
+def test_its_folds_given_in_another_order_a_task_has_the_same_answer(seed: int) -> None:
     require_same(seed, lambda problem: reordered(problem, Random(seed)))
 
 
 @given(SEEDS)
 @law("plan", short=5, long=300)
-def test_searched_without_a_heuristic_a_task_has_the_same_answer(seed: int):
+def test_searched_without_a_heuristic_a_task_has_the_same_answer(seed: int) -> None:
     problem = plain_task(Random(seed))
     plan, plainly = problem.plan(), problem.plan("zero")
     assert plainly.status == plan.status
@@ -80,8 +85,8 @@ def require_no_slower(wide: Plan, narrow: Plan) -> None:
     if narrow.cost_s is not None:
         assert wide.is_solved or not wide.is_proven
         if wide.is_solved:
-            assert wide.statistics.bound_s <= narrow.cost_s + SECOND
-            assert wide.cost_s <= narrow.cost_s + SECOND or not wide.is_proven
+            assert required(wide.statistics.bound_s) <= narrow.cost_s + SECOND
+            assert required(wide.cost_s) <= narrow.cost_s + SECOND or not wide.is_proven
 
 
 def widened(problem: Problem, what: str, rng: Random) -> Problem:
@@ -97,13 +102,13 @@ def widened(problem: Problem, what: str, rng: Random) -> Problem:
 @pytest.mark.parametrize("what", ["friction", "approach_cone_rad", "back_off_max_m", "comfort"])
 @given(SEEDS)
 @law("plan", short=5, long=300)
-def test_with_more_room_a_task_is_never_proven_to_take_longer(what: str, seed: int):
+def test_with_more_room_a_task_is_never_proven_to_take_longer(what: str, seed: int) -> None:
     rng = Random(seed)
     problem = plain_task(rng)
     require_no_slower(widened(problem, what, rng).plan(), problem.plan())
 
 
-WIDER = {
+WIDER: dict[str, list[tuple[SceneFields, float]]] = {
     "cone": [({"approach_cone_rad": cone}, 0.03) for cone in (0.0, 0.5, 1.0, math.radians(75.0), math.pi)],
     "comfort": [({}, comfort_m) for comfort_m in (0.05, 0.03, 0.02, 0.01, 0.0)],
     "friction": [({"friction": friction}, 0.03) for friction in (0.3, 1.0, 2.0)],
@@ -114,7 +119,7 @@ WIDER = {
 
 @pytest.mark.parametrize("what", WIDER)
 @sweep("name", SOLVABLE, ("vest", "letter-towel"))
-def test_a_shipped_garment_never_takes_longer_with_more_room(name: str, what: str):
+def test_a_shipped_garment_never_takes_longer_with_more_room(name: str, what: str) -> None:
     cost_s = math.inf
     for fields, comfort_m in WIDER[what]:
         plan = make_plan(
@@ -126,13 +131,13 @@ def test_a_shipped_garment_never_takes_longer_with_more_room(name: str, what: st
 
 
 @pytest.mark.long
-def test_the_scarf_and_the_tie_take_no_longer_than_with_less_room():
+def test_the_scarf_and_the_tie_take_no_longer_than_with_less_room() -> None:
     # Of more ways the first few were worse: 22.6 s against 22.443 s in a narrower cone, 33.478 s against 33.4 s with
     # more comfort asked for.
     scarf, tie = load_garment("scarf"), load_garment("tie")
     wide, narrow = make_plan(scarf), make_plan(scarf, Scene(approach_cone_rad=0.5))
     require_no_slower(wide, narrow)
-    assert wide.cost_s <= narrow.cost_s + SECOND
+    assert required(wide.cost_s) <= required(narrow.cost_s) + SECOND
     wide, narrow = (make_plan(tie, comfort_radius_m=r, time_limit_s=60.0, work_limit_s=10.0) for r in (0.0, 0.01))
     require_no_slower(wide, narrow)
-    assert wide.cost_s <= narrow.cost_s + SECOND
+    assert required(wide.cost_s) <= required(narrow.cost_s) + SECOND

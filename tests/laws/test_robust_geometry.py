@@ -46,7 +46,7 @@ CREASE = Segment((0.2, 0.0), (0.2, 0.3))
 
 
 @pytest.mark.parametrize("hair", HAIRS_M)
-def test_a_strip_no_wider_than_a_hair_is_refused_or_folded_or_dropped_and_counted(hair: float):
+def test_a_strip_no_wider_than_a_hair_is_refused_or_folded_or_dropped_and_counted(hair: float) -> None:
     line = Segment((hair, 0.0), (hair, 0.3))
     # The strip has 0.3 x hair of area; under 1e-5 m^2, so up to 33 um, it is a sliver, and nothing would move.
     if hair * 0.3 < 1e-5:
@@ -63,14 +63,14 @@ def test_a_strip_no_wider_than_a_hair_is_refused_or_folded_or_dropped_and_counte
 TEETH = [(0, -0.1), (0.3, -0.1), (0.3, 0.10006), (0.2, 0.10006), (0.2, 0.1), (0.1, 0.1), (0.1, 0.2), (0, 0.2)]
 
 
-def test_a_sliver_that_hangs_on_cloth_which_stays_is_not_dropped():
+def test_a_sliver_that_hangs_on_cloth_which_stays_is_not_dropped() -> None:
     # The fold's line goes on below the second tooth, whose 6e-6 m^2 belong to the base: 0.3 x 0.2 m^2.
     base, tooth = halved(spread(TEETH), Segment((0.0, 0.1), (0.1, 0.1))).layers
     assert base.area == pytest.approx(0.06 + 6e-6)
     assert tooth.area == pytest.approx(0.01)
 
 
-def test_a_sliver_that_hangs_on_cloth_which_moves_goes_with_it():
+def test_a_sliver_that_hangs_on_cloth_which_moves_goes_with_it() -> None:
     # All above y = 0 moves: a leg 0.1 x 0.1 m, a bar 0.3 x 0.1 m on it, and a tooth from the bar's other end that
     # reaches 60 um below the fold's line where that goes on, 0.1 m x 60 um.
     hook = [(0.3, -6e-5), (0.3, 0.2), (0, 0.2), (0, -0.1), (0.1, -0.1), (0.1, 0.1), (0.2, 0.1), (0.2, -6e-5)]
@@ -79,7 +79,7 @@ def test_a_sliver_that_hangs_on_cloth_which_moves_goes_with_it():
     assert [layer.area for layer in done.layers] == pytest.approx([0.01, 0.05 + 6e-6])
 
 
-def test_a_sliver_that_hangs_on_nothing_is_dropped_and_counted():
+def test_a_sliver_that_hangs_on_nothing_is_dropped_and_counted() -> None:
     # The lower part, folded up over y = 0.05, covers the teeth. Then all above y = 0.10003 moves: of the layer below
     # the first tooth but for a hair, and of the second 0.1 m x 30 um by themselves, which are no cloth.
     stack = halved(spread(TEETH), Segment((0.3, 0.05), (0.0, 0.05)))
@@ -90,7 +90,7 @@ def test_a_sliver_that_hangs_on_nothing_is_dropped_and_counted():
 
 @pytest.mark.parametrize("hair", (0.0, *HAIRS_M))
 @pytest.mark.parametrize("is_red", (False, True))
-def test_folding_again_along_a_crease_or_a_hair_beside_it_loses_nothing(hair: float, is_red: bool):
+def test_folding_again_along_a_crease_or_a_hair_beside_it_loses_nothing(hair: float, is_red: bool) -> None:
     stack = halved(TOWEL, CREASE)
     for x in (0.2 + hair, 0.4 - hair):
         for line in (Segment((x, 0.0), (x, 0.3)), Segment((x, 0.3), (x, 0.0))):
@@ -102,7 +102,7 @@ def test_folding_again_along_a_crease_or_a_hair_beside_it_loses_nothing(hair: fl
 
 
 @pytest.mark.parametrize("tilt", HAIRS_M)
-def test_two_folds_along_nearly_parallel_lines_lose_nothing(tilt: float):
+def test_two_folds_along_nearly_parallel_lines_lose_nothing(tilt: float) -> None:
     stack = halved(TOWEL, CREASE)
     # Lines that leave the crease's lower end, and lines that cross it half-way up, by a hair.
     for low, high in ((0.2, 0.2 + 0.3 * tilt), (0.2 - 0.15 * tilt, 0.2 + 0.15 * tilt)):
@@ -116,7 +116,7 @@ def test_two_folds_along_nearly_parallel_lines_lose_nothing(tilt: float):
 
 @given(outlines(), st.integers(0, 39), st.integers(0, 39))
 @law("geometry", short=30, long=500)
-def test_a_fold_from_corner_to_corner_parts_the_cloth_there_or_is_refused(outline: Outline, i: int, j: int):
+def test_a_fold_from_corner_to_corner_parts_the_cloth_there_or_is_refused(outline: Outline, i: int, j: int) -> None:
     start, end = outline[i % len(outline)], outline[j % len(outline)]
     if start == end:
         return
@@ -136,7 +136,7 @@ def rolled(folds: int, pitch_m: float, width_m: float) -> Garment:
     return garment(rectangle_points(pitch_m * (folds + 1), width_m), *lines)
 
 
-def test_a_ribbon_rolled_up_in_64_folds_has_65_layers_each_waiting_for_the_one_before():
+def test_a_ribbon_rolled_up_in_64_folds_has_65_layers_each_waiting_for_the_one_before() -> None:
     sequence = FoldSequence.of(rolled(64, 0.1, 0.05))
     assert [len(sequence.cloth((1 << n) - 1).layers) for n in range(65)] == list(range(1, 66))
     assert sequence.final.area == pytest.approx(6.5 * 0.05, rel=1e-9)
@@ -144,7 +144,7 @@ def test_a_ribbon_rolled_up_in_64_folds_has_65_layers_each_waiting_for_the_one_b
     assert sequence.final.silhouette.area == pytest.approx(0.1 * 0.05, rel=1e-3)
 
 
-def test_a_ribbon_folded_to_and_fro_64_times_is_a_stack_of_65():
+def test_a_ribbon_folded_to_and_fro_64_times_is_a_stack_of_65() -> None:
     # What is left over of the ribbon lies to the left of x = 0.1, then to the right of x = 0, and so on.
     to, fro = fold((0.1, 0.05), (0.1, 0.0)), fold((0.0, 0.0), (0.0, 0.05))
     sequence = FoldSequence.of(garment(rectangle_points(6.5, 0.05), *((to, fro) * 32)))
@@ -155,7 +155,7 @@ def test_a_ribbon_folded_to_and_fro_64_times_is_a_stack_of_65():
     assert middles == pytest.approx([0.05 + 0.1 * i for i in range(65)])
 
 
-def test_twenty_folds_with_512_layers_lose_nothing_and_take_less_than_two_seconds():
+def test_twenty_folds_with_512_layers_lose_nothing_and_take_less_than_two_seconds() -> None:
     # Rolled up 15 times: 16 layers of 0.1 x 0.8 m. Halved five times the other way: 16 x 32.
     roll = rolled(15, 0.1, 0.8)
     halvings = (fold((1.5, 0.8 / 2**i), (1.6, 0.8 / 2**i)) for i in range(1, 6))
@@ -170,7 +170,7 @@ def test_twenty_folds_with_512_layers_lose_nothing_and_take_less_than_two_second
 
 
 @pytest.mark.parametrize("corners", (64, 400))
-def test_a_round_cloth_folded_to_an_eighth_keeps_its_area_and_has_eight_layers(corners: int):
+def test_a_round_cloth_folded_to_an_eighth_keeps_its_area_and_has_eight_layers(corners: int) -> None:
     # Through opposite corners every time. The area of a regular polygon: n/2 r^2 sin(2 pi / n).
     up, right, slanting = (0.0, 0.4), (0.4, 0.0), (0.4 * math.sqrt(0.5), 0.4 * math.sqrt(0.5))
     half = fold((0.0, -0.4), up)
@@ -184,7 +184,7 @@ def test_a_round_cloth_folded_to_an_eighth_keeps_its_area_and_has_eight_layers(c
     assert sequence.final.silhouette.area == pytest.approx(area / 8, rel=1e-4)
 
 
-def test_a_cog_of_400_corners_keeps_its_area_wherever_it_is_folded():
+def test_a_cog_of_400_corners_keeps_its_area_wherever_it_is_folded() -> None:
     # 200 teeth between the radii 0.36 and 0.4 m: 400 triangles of r R sin(2 pi / 400) / 2.
     radii, turns = (0.4, 0.36), [math.tau * i / 400 for i in range(400)]
     cog = tuple((radii[i % 2] * math.cos(a), radii[i % 2] * math.sin(a)) for i, a in enumerate(turns))
@@ -200,7 +200,7 @@ def test_a_cog_of_400_corners_keeps_its_area_wherever_it_is_folded():
         assert not check_garment(sequence.garment).is_holdable
 
 
-def test_a_round_cloth_of_400_corners_needs_more_hands_than_there_are_and_that_is_an_answer():
+def test_a_round_cloth_of_400_corners_needs_more_hands_than_there_are_and_that_is_an_answer() -> None:
     disc = Region.polygon(round_cloth(400))
     # The corners of the upper half, every 0.9 degrees from 0 to 180: at the outermost the edge up leans in by 0.45.
     assert len(must_hold(disc, (0.0, 1.0), (), 0.0)) == 201
@@ -214,7 +214,7 @@ def test_a_round_cloth_of_400_corners_needs_more_hands_than_there_are_and_that_i
     assert {reason.set for reason in others} <= {first.set}
 
 
-def test_one_corner_more_than_400_is_refused():
+def test_one_corner_more_than_400_is_refused() -> None:
     with pytest.raises(GarmentError, match="401 points"):
         garment(round_cloth(401))
 
@@ -226,7 +226,7 @@ PLACE = st.tuples(st.floats(-10.0, 10.0), st.floats(-10.0, 10.0))
 @law("geometry", short=15, long=500)
 def test_whatever_is_drawn_it_is_planned_or_refused_with_an_error_of_ours(
     drawn: Garment, more: list[tuple[Point2, Point2, bool]]
-):
+) -> None:
     folds = [{"name": "rough", "kind": "red" if red else "blue", "start": [*a], "end": [*b]} for a, b, red in more]
     data = drawn.to_dict()
     try:

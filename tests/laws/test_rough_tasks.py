@@ -11,6 +11,7 @@ from planner.motion.timeline import Timeline
 from planner.planning.warm_up import compile_kernels
 from tests.laws.law import LONG, law
 from tests.laws.tasks import rough_task
+from tests.required import required
 
 LIMITS_S = (0.05, 0.3, 1.0)
 """Time limits of a plan."""
@@ -23,7 +24,7 @@ MOMENTS = 8
 
 @given(st.integers(0, 2**32 - 1))
 @law("rough", short=40, long=10_000)
-def test_whatever_is_asked_the_answer_is_a_plan_or_a_reason_or_an_error_of_ours(seed: int):
+def test_whatever_is_asked_the_answer_is_a_plan_or_a_reason_or_an_error_of_ours(seed: int) -> None:
     rng = Random(seed)
     compile_kernels()
     try:
@@ -43,4 +44,4 @@ def test_whatever_is_asked_the_answer_is_a_plan_or_a_reason_or_an_error_of_ours(
     if plan.is_solved:
         timeline = Timeline.of(plan)
         for number in range(MOMENTS):
-            timeline.at(plan.cost_s * number / (MOMENTS - 1))
+            timeline.at(required(plan.cost_s) * number / (MOMENTS - 1))

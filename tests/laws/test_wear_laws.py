@@ -19,17 +19,17 @@ def seeds(count: int) -> list[object]:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", seeds(100))
-def test_a_hood_a_poncho_and_a_jumper_keep_the_laws_of_plans(seed: int, monkeypatch: pytest.MonkeyPatch):
+def test_a_hood_a_poncho_and_a_jumper_keep_the_laws_of_plans(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(budget, "clock_s", process_time)  # work ends a search, however busy the machine is
     found = differences(wear_task(Random(seed)), seed)
     assert not {name: broken for name, broken in found.by_law.items() if broken}
 
 
-def test_the_garments_have_four_to_eight_folds_and_are_of_three_kinds():
+def test_the_garments_have_four_to_eight_folds_and_are_of_three_kinds() -> None:
     garments = [wear_task(Random(seed)).garment for seed in range(40)]
     assert {len(garment.folds) for garment in garments} <= set(range(4, 9))
     assert len({len(garment.outline) for garment in garments}) >= 3
 
 
-def test_each_law_says_by_how_much_plans_differ():
+def test_each_law_says_by_how_much_plans_differ() -> None:
     assert {"mirror", "turn", "redraw", "order", "tail", "h=0", "comfort", "friction", "stations"} <= LAWS.keys()

@@ -39,7 +39,7 @@ def wear_task(rng: Random) -> Problem:
 
 def _folded(outline: Outline, corners: Sequence[DrawnFold], lines: Sequence[Line]) -> Garment:
     """Return a garment folded between corners, and then over lines, the smaller part each time."""
-    cloth, folds, done = spread(outline), list(corners), []
+    cloth, folds, done = spread(outline), list(corners), list[Segment]()
     for drawn in corners:
         line, cloth = _required(after_fold(cloth, drawn, done))
         done.append(line)

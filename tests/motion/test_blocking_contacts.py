@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from planner import Scene, make_plan
+from planner import Garment, Scene, make_plan
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
 from planner.motion.blocking_contacts import BlockingContacts
@@ -11,6 +11,7 @@ from planner.motion.waypoints import Waypoints
 from planner.robots.load_robot import load_robot
 from planner.task.reason import Code
 from tests.builders import fold, garment
+from tests.required import required
 
 ROBOT, TORSO_M, TABLE = load_robot("pr2"), 0.29, Table()
 EDGE_M = -TABLE.depth_m / 2
@@ -41,7 +42,7 @@ def waypoints(
 
 
 @pytest.mark.parametrize("arm", [0, 1])
-def test_fingers_in_the_table_top_are_in_it_by_their_own_half_and_its(arm):
+def test_fingers_in_the_table_top_are_in_it_by_their_own_half_and_its(arm: int) -> None:
     # The top is 3 cm thick and the hand's axis in its middle, 45 cm inside the edge: to be outside it must go up or
     # down by 1.5 cm and half the height of what is in there, which is that of the fingers or more, of the palm at most.
     side = 0.3 if arm == 0 else -0.3
@@ -53,11 +54,11 @@ def test_fingers_in_the_table_top_are_in_it_by_their_own_half_and_its(arm):
     assert contact.parts[1] == "table top"
 
 
-def test_where_every_moment_has_a_free_posture_nothing_is_said():
+def test_where_every_moment_has_a_free_posture_nothing_is_said() -> None:
     assert SNAGS.of(waypoints((EDGE_M + 0.45, 0.3, 0.10), (EDGE_M + 0.50, 0.3, 0.20))) is None
 
 
-def test_two_hands_in_one_place_are_in_each_others_way():
+def test_two_hands_in_one_place_are_in_each_others_way() -> None:
     place = (EDGE_M + 0.45, 0.0, 0.25)
     contact = SNAGS.of(waypoints(place, other=place))
     assert contact is not None
@@ -65,12 +66,12 @@ def test_two_hands_in_one_place_are_in_each_others_way():
     assert contact.point == pytest.approx(place)
 
 
-def test_arms_that_would_have_to_cross_are_the_reason_and_further_to_the_middle_they_need_not():
+def test_arms_that_would_have_to_cross_are_the_reason_and_further_to_the_middle_they_need_not() -> None:
     # Both grips lie on a line straight ahead, far to the right: the left arm comes to one of them over the right one's
     # shoulder. Still further right its pan limit, 0.565 rad to the right, leaves it too little comfort as well. Ahead
     # of the robot's middle the arms come from both sides. The hands rise by no more than 0.1 m: within its limits an
     # elbow leaves little more over places that are 0.4 m apart.
-    def towel(y_m: float):
+    def towel(y_m: float) -> Garment:
         side_over = fold((0.4, 0.1), (0.0, 0.1), name="side over", radius_m=0.05)
         points = [(0.0, 0.0), (0.4, 0.0), (0.4, 0.2), (0.0, 0.2)]
         return garment(points, side_over, placement=Pose2(-0.45, y_m, 0.0))
@@ -79,6 +80,6 @@ def test_arms_that_would_have_to_cross_are_the_reason_and_further_to_the_middle_
     refused = make_plan(towel(-0.35), scene, time_limit_s=60.0)
     (reason,) = refused.reasons
     assert (reason.fold, reason.code, reason.cause, reason.station) == (0, Code.COLLISION, "arms", "front")
-    assert reason.short_by_m > 0.0
+    assert required(reason.short_by_m) > 0.0
     assert "the left " in reason.message and "the right " in reason.message
     assert make_plan(towel(-0.1), scene, time_limit_s=60.0).is_solved

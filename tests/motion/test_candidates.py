@@ -17,7 +17,7 @@ from tests.replay.planned import planned
 
 
 @pytest.mark.parametrize("name", ["t-shirt", "tie", "letter-towel", "big-towel"])
-def test_a_run_begins_and_ends_where_its_extremes_are(name: str):
+def test_a_run_begins_and_ends_where_its_extremes_are(name: str) -> None:
     found = planned(name).found
     for plan_segment in (plan_segment for plan_segment in found.plan_segments if plan_segment.transfer is not None):
         whole = Problem.of(found.plan.task).maker.candidate(plan_segment.steps).waypoints
@@ -29,7 +29,7 @@ def test_a_run_begins_and_ends_where_its_extremes_are(name: str):
             np.testing.assert_allclose(ends.rotations[:, waypoint], whole.rotations[:, waypoint], atol=1e-9)
 
 
-def test_what_was_made_real_is_a_candidate():
+def test_what_was_made_real_is_a_candidate() -> None:
     found = planned("t-shirt").found
     transfers = [plan_segment.steps for plan_segment in found.plan_segments if plan_segment.transfer is not None]
     assert [candidate.steps for candidate in Problem.of(found.plan.task).maker.candidates(transfers)] == transfers
@@ -48,13 +48,13 @@ class UnderCeiling(Pr2):
 
         def arm_free(arm: int, bases: Any, joints: FloatArray, **how: bool) -> BoolArray:
             is_low = [self.tool_pose(arm, one, torso_m)[0][2] < most_m for one in joints]
-            return anywhere(arm, bases, joints, **how) & np.array(is_low, dtype=bool)
+            return np.asarray(anywhere(arm, bases, joints, **how) & np.array(is_low, dtype=bool))
 
-        real.arm_free = arm_free
+        real.arm_free = arm_free  # type: ignore[method-assign]
         return real
 
 
-def test_where_one_got_stuck_others_that_do_the_same_are_looked_at_first():
+def test_where_one_got_stuck_others_that_do_the_same_are_looked_at_first() -> None:
     # The skirt's second fold lifts its cloth higher than that on its way; it begins and ends on the table. One hand
     # does it: only where it begins and ends is looked at unless a fold of its kind got stuck.
     found = planned("skirt").found

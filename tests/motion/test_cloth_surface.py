@@ -9,6 +9,7 @@ from planner.motion.sample import ClothSurface
 from planner.motion.timeline import Timeline
 from tests.builders import fold, garment, rectangle_points
 from tests.replay.planned import planned
+from tests.required import required
 
 LOOKS = 40
 """The number of waypoints of a plan at which its cloth is measured."""
@@ -28,16 +29,16 @@ def require_unstretched(plan: Plan) -> None:
 
 
 @pytest.mark.parametrize("name", ["hand-towel", "big-towel", "letter-towel"])
-def test_the_cloth_keeps_its_area_while_it_is_folded_dragged_and_let_hang(name: str):
+def test_the_cloth_keeps_its_area_while_it_is_folded_dragged_and_let_hang(name: str) -> None:
     require_unstretched(planned(name).answer)
 
 
-def test_a_narrow_flap_stands_as_high_as_it_is_deep():
+def test_a_narrow_flap_stands_as_high_as_it_is_deep() -> None:
     # The flap is 5 cm deep; the tools over it, at their apex, are 2 cm higher than its edge.
     strip = garment(rectangle_points(0.3, 0.2), fold((0.3, 0.05), (0.0, 0.05)), placement=Pose2(-0.6, 0.15, -np.pi / 2))
     plan = make_plan(strip, time_limit_s=60.0)
     (primitive,) = (p for p in plan.primitives if p.kind == "fold")
-    assert [grip.apex[2] for grip in primitive.grips] == pytest.approx([0.07, 0.07])
+    assert [required(grip.apex)[2] for grip in primitive.grips] == pytest.approx([0.07, 0.07])
     require_unstretched(plan)
     start, end = primitive.start_s, primitive.start_s + primitive.duration_s
     heights = [Timeline.of(plan).at(t).cloth.vertices[:, 2].max() for t in np.arange(start, end, 0.02)]

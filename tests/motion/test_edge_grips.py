@@ -21,6 +21,7 @@ from tests.planning.found import found_plan
 from tests.replay import hulls
 from tests.replay.hands import TOOLS, robot
 from tests.replay.planned import planned
+from tests.required import required
 
 NAMES = ("hand-towel", "t-shirt", "skirt")
 SIDE = {"left": "l_", "right": "r_"}
@@ -40,12 +41,12 @@ def grips(name: str) -> list[tuple[str, GripKind, float, float]]:
         for grip in step.grips:
             (track,) = (one for one in plan.trajectory.grippers if one.arm == grip.arm)
             times, openings = np.array(track.times_s), np.array(track.openings_m)
-            is_shut = openings < SHUT_M[grip.kind]
+            kind: GripKind = required(grip.kind)
+            is_shut = openings < SHUT_M[kind]
             closed = np.flatnonzero(is_shut & (times > step.start_s) & (times < step.end_s + 1e-6))
-            if len(closed) and track.opening_at(step.start_s) > SHUT_M[grip.kind]:
+            if len(closed) and track.opening_at(step.start_s) > SHUT_M[kind]:
                 opened = np.flatnonzero(~is_shut & (np.arange(len(times)) > closed[0]))
-                assert grip.kind is not None
-                found.append((grip.arm, grip.kind, float(times[closed[0]]), float(times[opened[0] - 1])))
+                found.append((grip.arm, kind, float(times[closed[0]]), float(times[opened[0] - 1])))
     return found
 
 
@@ -73,14 +74,14 @@ def lowest_m(plan: Plan, arm: str, t_s: float) -> float:
 
 
 @each_name
-def test_every_grip_of_a_plan_has_a_kind_and_some_hold_an_edge(name: str):
+def test_every_grip_of_a_plan_has_a_kind_and_some_hold_an_edge(name: str) -> None:
     kinds = [grip.kind for step in planned(name).answer.steps for grip in step.grips]
     assert set(kinds) <= {"edge", "top"} and "edge" in kinds
     assert [grip["kind"] for one in planned(name).plan["primitives"] for grip in one["grips"]] == kinds
 
 
 @each_name
-def test_at_an_edge_one_finger_is_above_the_other_and_else_they_are_side_by_side(name: str):
+def test_at_an_edge_one_finger_is_above_the_other_and_else_they_are_side_by_side(name: str) -> None:
     plan = planned(name).answer
     for arm, kind, held_s, _ in grips(name):
         approach, closing = closing_axis(plan, arm, held_s)
@@ -93,7 +94,7 @@ def test_at_an_edge_one_finger_is_above_the_other_and_else_they_are_side_by_side
 
 
 @each_name
-def test_the_lower_finger_slides_on_the_table_as_the_fingers_close_and_open(name: str):
+def test_the_lower_finger_slides_on_the_table_as_the_fingers_close_and_open(name: str) -> None:
     plan, looked = planned(name).answer, 0
     dwell_s = plan.scene.grip_dwell_s
     for arm, kind, held_s, opens_s in grips(name):
@@ -107,7 +108,7 @@ def test_the_lower_finger_slides_on_the_table_as_the_fingers_close_and_open(name
 
 
 @each_name
-def test_hands_rest_while_fingers_close_and_open_and_open_as_far_as_there_is_room(name: str):
+def test_hands_rest_while_fingers_close_and_open_and_open_as_far_as_there_is_room(name: str) -> None:
     plan = planned(name).answer
     assert plan.trajectory is not None
     for arm, kind, held_s, opens_s in grips(name):
@@ -127,13 +128,13 @@ def test_hands_rest_while_fingers_close_and_open_and_open_as_far_as_there_is_roo
 
 
 @each_name
-def test_a_plan_with_edge_grips_can_be_replayed_and_reads_back(name: str):
+def test_a_plan_with_edge_grips_can_be_replayed_and_reads_back(name: str) -> None:
     plan = planned(name).answer
     require_replay(plan)
     assert Plan.from_dict(planned(name).plan) == plan
 
 
-def test_a_plan_that_does_not_say_how_it_holds_is_read_as_it_was_written():
+def test_a_plan_that_does_not_say_how_it_holds_is_read_as_it_was_written() -> None:
     plan = planned("hand-towel").answer
     steps = tuple(replace(step, grips=tuple(replace(grip, kind=None) for grip in step.grips)) for step in plan.steps)
     older = replace(plan, steps=steps)
@@ -142,15 +143,15 @@ def test_a_plan_that_does_not_say_how_it_holds_is_read_as_it_was_written():
     assert Plan.from_dict(written) == older
 
 
-def test_exported_poses_say_how_each_hand_holds():
+def test_exported_poses_say_how_each_hand_holds() -> None:
     plan = planned("hand-towel").answer
     told = [grip["kind"] for step in grasp_poses(plan)["steps"] for grip in step["grips"]]
     assert told and set(told) <= {"edge", "top"} and "edge" in told
 
 
 @each_name
-def test_hands_at_edges_cost_no_time(monkeypatch: pytest.MonkeyPatch, name: str):
+def test_hands_at_edges_cost_no_time(monkeypatch: pytest.MonkeyPatch, name: str) -> None:
     monkeypatch.setattr(EdgeHands, "ways", lambda *_: iter(()))
     without = found_plan(load_garment(name), time_limit_s=60.0).plan
     assert {grip.kind for step in without.steps for grip in step.grips} == {"top"}
-    assert planned(name).answer.cost_s <= without.cost_s + 1e-6
+    assert required(planned(name).answer.cost_s) <= required(without.cost_s) + 1e-6

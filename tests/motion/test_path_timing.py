@@ -35,14 +35,14 @@ def run_of(values: np.ndarray, speeds: np.ndarray) -> np.ndarray:
     return np.append(0.0, np.cumsum((np.abs(np.diff(values, axis=0)) / speeds).max(axis=1)))
 
 
-def test_a_straight_way_takes_little_more_than_ramps_do():
+def test_a_straight_way_takes_little_more_than_ramps_do() -> None:
     values = np.linspace(0.0, 3.0, 61)[:, None]
     timing = quickest(values, values[:, 0], ONE)
     assert timing.duration_s == pytest.approx(3.0 / 1.0 + 1.0 / 2.0, rel=0.01)  # way / speed + speed / acceleration
     assert not timing.velocities[[0, -1]].any()
 
 
-def test_with_time_left_it_goes_evenly_but_for_its_ends():
+def test_with_time_left_it_goes_evenly_but_for_its_ends() -> None:
     values = np.linspace(0.0, 3.0, 61)[:, None]
     rest = np.zeros(61, dtype=bool)
     rest[[0, -1]] = True
@@ -55,7 +55,7 @@ def test_with_time_left_it_goes_evenly_but_for_its_ends():
 
 @settings(max_examples=60, deadline=None)
 @given(st.integers(0, 10_000), st.integers(3, 60), st.integers(1, 6), st.floats(0.2, 4.0))
-def test_speeds_and_accelerations_stay_within_their_limits(seed: int, count: int, columns: int, slack: float):
+def test_speeds_and_accelerations_stay_within_their_limits(seed: int, count: int, columns: int, slack: float) -> None:
     values = walk(seed, count, columns)
     limits = np.full(columns, 1.0), np.full(columns, 3.0)
     at = run_of(values, limits[0])
@@ -76,7 +76,7 @@ def test_speeds_and_accelerations_stay_within_their_limits(seed: int, count: int
 
 @settings(max_examples=30, deadline=None)
 @given(st.integers(0, 10_000), st.floats(1.05, 3.0))
-def test_what_has_time_takes_as_long_as_planned(seed: int, slack: float):
+def test_what_has_time_takes_as_long_as_planned(seed: int, slack: float) -> None:
     values = walk(seed, 40, 3)
     limits = np.full(3, 1.0), np.full(3, 3.0)
     at = run_of(values, limits[0])
@@ -88,7 +88,7 @@ def test_what_has_time_takes_as_long_as_planned(seed: int, slack: float):
 
 
 @pytest.mark.parametrize("seed", range(6))
-def test_on_smooth_paths_it_is_nearly_as_quick_as_a_general_solver(seed: int):
+def test_on_smooth_paths_it_is_nearly_as_quick_as_a_general_solver(seed: int) -> None:
     phases = np.random.default_rng(seed).uniform(0.0, 2.0 * np.pi, (2, 4))
     knots = np.linspace(0.0, 6.0, 241)
     values = 0.6 * np.sin(knots[:, None] + phases[0]) + 0.2 * np.sin(2.0 * knots[:, None] + phases[1])
@@ -102,38 +102,39 @@ def test_on_smooth_paths_it_is_nearly_as_quick_as_a_general_solver(seed: int):
     assert 0.98 * least_s < found_s < 1.12 * least_s
 
 
-def test_between_keyframes_no_joint_leaves_the_range_of_their_values():
+def test_between_keyframes_no_joint_leaves_the_range_of_their_values() -> None:
     values = walk(5, 50, 4)
     limits = np.full(4, 1.0), np.full(4, 3.0)
     timing = quickest(values, run_of(values, limits[0]), limits)
     curve = CubicHermiteSpline(timing.times_s, values, timing.velocities)
     for number in range(len(values) - 1):
-        inner = curve(np.linspace(*timing.times_s[number : number + 2], 9))
+        start_s, end_s = timing.times_s[number : number + 2]
+        inner = curve(np.linspace(start_s, end_s, 9))
         low, high = np.minimum(*values[number : number + 2]), np.maximum(*values[number : number + 2])
         width = 0.02 * (high - low)  # in time a cubic is not quite monotone where its pace changes
         assert (inner >= low - width).all() and (inner <= high + width).all()
 
 
-def test_keyframes_at_one_parameter_have_one_time():
+def test_keyframes_at_one_parameter_have_one_time() -> None:
     values = np.repeat(np.linspace(0.0, 3.0, 31), 2)[:, None]
     timing = quickest(values, values[:, 0], ONE)
     assert timing.times_s[::2].tolist() == timing.times_s[1::2].tolist()
     assert timing.duration_s == quickest(values[::2], values[::2, 0], ONE).duration_s
 
 
-def test_two_keyframes_alone_are_one_cubic_from_rest_to_rest():
+def test_two_keyframes_alone_are_one_cubic_from_rest_to_rest() -> None:
     # Its greatest speed is 1.5 ways a second, its greatest acceleration 6 ways a second squared.
     for way, wanted_s in ((3.0, 4.5), (0.03, np.sqrt(6.0 * 0.03 / 2.0))):
         values = np.array([[0.0], [way]])
         assert quickest(values, values[:, 0], ONE).duration_s == pytest.approx(wanted_s)
 
 
-def test_what_does_not_move_takes_no_time():
+def test_what_does_not_move_takes_no_time() -> None:
     timing = quickest(np.ones((4, 2)), np.zeros(4), (np.ones(2), np.ones(2)))
     assert timing.duration_s == 0.0 and not timing.velocities.any()
 
 
-def test_where_all_turns_round_little_time_is_lost():
+def test_where_all_turns_round_little_time_is_lost() -> None:
     # A narrow step before the turn makes its pace low; the wide one after it takes what it takes alone.
     values = np.array([[0.0], [0.2], [0.21], [0.0]])
     timing = quickest(values, run_of(values, ONE[0]), ONE)
@@ -144,7 +145,7 @@ def test_where_all_turns_round_little_time_is_lost():
 
 @settings(max_examples=40, deadline=None)
 @given(st.integers(0, 10_000), st.integers(3, 30), st.integers(1, 6))
-def test_a_mirror_image_takes_as_long(seed: int, count: int, columns: int):
+def test_a_mirror_image_takes_as_long(seed: int, count: int, columns: int) -> None:
     values, limits = walk(seed, count, columns), (np.full(columns, 1.0), np.full(columns, 3.0))
     mirrored = np.random.default_rng(seed).choice([-1.0, 1.0], columns) * values + 2.0 * np.pi
     one, other = (quickest(each, run_of(each, limits[0]), limits) for each in (values, mirrored))

@@ -15,6 +15,7 @@ from planner.motion.timeline import Timeline
 from planner.task.plan_step import PlanStep
 from tests.planning.red_towels import BACK, CORNER, OUT, OVER, TWO_SIDES, towel
 from tests.replay.checker import check
+from tests.required import required
 
 RELEASE_S = 0.5
 
@@ -36,7 +37,7 @@ def planned_sides() -> Plan:
 
 
 @pytest.mark.parametrize("planned", [planned_chain, planned_corner, planned_sides])
-def test_plans_with_chains_replay(planned: Callable[[], Plan]):
+def test_plans_with_chains_replay(planned: Callable[[], Plan]) -> None:
     plan = planned()
     check(plan.garment.to_dict(), plan.scene.to_dict(), plan.to_dict())
 
@@ -56,7 +57,7 @@ def span(plan: Plan, index: int) -> tuple[float, float]:
     return step.start_s, step.end_s
 
 
-def test_the_hands_stay_closed_from_the_blue_folds_grasp_to_the_end_of_the_chain():
+def test_the_hands_stay_closed_from_the_blue_folds_grasp_to_the_end_of_the_chain() -> None:
     plan = planned_chain()
     assert set(openings(plan, 0.0).values()) == {OPEN_M}
     end = span(plan, 2)[1]
@@ -66,7 +67,7 @@ def test_the_hands_stay_closed_from_the_blue_folds_grasp_to_the_end_of_the_chain
         assert set(openings(plan, float(t_s)).values()) == {CLOSED_M}
 
 
-def test_the_hand_that_is_not_needed_opens_as_the_red_fold_begins_and_the_other_does_not():
+def test_the_hand_that_is_not_needed_opens_as_the_red_fold_begins_and_the_other_does_not() -> None:
     plan = planned_corner()
     start, end = span(plan, 1)
     for t_s in np.arange(start + RELEASE_S, end - RELEASE_S, 0.05):
@@ -75,7 +76,7 @@ def test_the_hand_that_is_not_needed_opens_as_the_red_fold_begins_and_the_other_
 
 
 @pytest.mark.parametrize(("planned", "last"), [(planned_chain, 2), (planned_corner, 1), (planned_sides, 1)])
-def test_the_hands_are_open_once_the_chain_is_done(planned: Callable[[], Plan], last: int):
+def test_the_hands_are_open_once_the_chain_is_done(planned: Callable[[], Plan], last: int) -> None:
     plan = planned()
     assert openings(plan, span(plan, last)[1]) == {"left": pytest.approx(OPEN_M), "right": pytest.approx(OPEN_M)}
 
@@ -87,7 +88,7 @@ def corners(surface: ClothSurface, below: int) -> FloatArray:
 
 
 @pytest.mark.parametrize(("number", "staying", "depth_m"), [(1, 2, 0.1), (2, 3, 0.05)])
-def test_while_a_red_fold_is_made_only_the_last_flap_moves(number: int, staying: int, depth_m: float):
+def test_while_a_red_fold_is_made_only_the_last_flap_moves(number: int, staying: int, depth_m: float) -> None:
     # Layers: 0 the towel, 1 the first flap's rest, 2 (and for the last fold 3) what moves. It stands up over
     # its line as high as it is deep, and no higher.
     plan = planned_chain()
@@ -102,7 +103,7 @@ def test_while_a_red_fold_is_made_only_the_last_flap_moves(number: int, staying:
     assert max(heights) == pytest.approx(depth_m, abs=2e-3)
 
 
-def test_below_a_red_fold_the_cloth_lies_as_it_lay_before():
+def test_below_a_red_fold_the_cloth_lies_as_it_lay_before() -> None:
     plan = planned_chain()
     lay = Timeline.of(plan).at(span(plan, 0)[1] - 1e-6).cloth
     lies = Timeline.of(plan).at(span(plan, 1)[1] - 1e-6).cloth
@@ -114,9 +115,9 @@ def test_below_a_red_fold_the_cloth_lies_as_it_lay_before():
         assert (flap[:, 0].min(), flap[:, 0].max()) == pytest.approx((origin + 0.25, origin + far), abs=1e-5)
 
 
-def test_at_the_end_the_layers_lie_above_one_another_in_the_order_of_the_folds():
+def test_at_the_end_the_layers_lie_above_one_another_in_the_order_of_the_folds() -> None:
     plan = planned_chain()
-    end = Timeline.of(plan).at(plan.cost_s).cloth
+    end = Timeline.of(plan).at(required(plan.cost_s)).cloth
     for layer in range(4):
         heights = end.vertices[end.triangles[end.layers == layer]][..., 2]
         assert heights == pytest.approx(np.full_like(heights, (layer + 1) * LAYER_GAP_M), abs=1e-6)

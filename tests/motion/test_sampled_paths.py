@@ -22,30 +22,30 @@ def no_gap(joints: FloatArray) -> BoolArray:
     return np.asarray(np.abs(joints[:, 0]) >= 0.5)
 
 
-def test_a_path_goes_through_the_only_gap_of_a_wall():
+def test_a_path_goes_through_the_only_gap_of_a_wall() -> None:
     way = SampledPaths(beside_the_wall, LOW, HIGH, STEP_RAD).path(START, GOAL)
     assert way is not None and (way[0] == START).all() and (way[-1] == GOAL).all()
     line = np.concatenate([sampled(a, b, STEP_RAD) for a, b in pairwise(way)])
     assert beside_the_wall(line).all() and ((line >= LOW) & (line <= HIGH)).all()
 
 
-def test_the_same_question_has_the_same_answer():
+def test_the_same_question_has_the_same_answer() -> None:
     first, again = (SampledPaths(beside_the_wall, LOW, HIGH, STEP_RAD).path(START, GOAL) for _ in range(2))
     assert first is not None and again is not None and np.array_equal(first, again)
 
 
-def test_where_there_is_no_path_the_work_is_bounded():
+def test_where_there_is_no_path_the_work_is_bounded() -> None:
     paths = SampledPaths(no_gap, LOW, HIGH, STEP_RAD)
     assert paths.path(START, GOAL) is None
     assert TESTED_MAX <= paths.tested < TESTED_MAX + 100
 
 
-def test_a_start_that_is_not_free_costs_one_test_of_both_ends():
+def test_a_start_that_is_not_free_costs_one_test_of_both_ends() -> None:
     paths = SampledPaths(beside_the_wall, LOW, HIGH, STEP_RAD)
     assert paths.path(np.zeros(3), GOAL) is None and paths.tested == 2
 
 
-def test_joints_that_may_not_move_stay():
+def test_joints_that_may_not_move_stay() -> None:
     low, high = np.array([-3.0, -3.0, 2.0]), np.array([3.0, 3.0, 2.0])
     start, goal = np.array([-2.0, -2.0, 2.0]), np.array([2.0, -2.0, 2.0])
     way = SampledPaths(beside_the_wall, low, high, STEP_RAD).path(start, goal)

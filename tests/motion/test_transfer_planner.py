@@ -8,7 +8,8 @@ import pytest
 from planner import Scene, Task
 from planner.geometry.pose import Pose2
 from planner.motion.search_limits import QUICK
-from planner.motion.transfer_candidate import ways_of
+from planner.motion.transfer import Transfer
+from planner.motion.transfer_candidate import Candidate, ways_of
 from planner.motion.transfer_planner import TransferPlanner
 from planner.planning.problem import Problem
 from planner.primitives.primitive import Step
@@ -33,7 +34,7 @@ def some_fold(arm_motion_s: float = 3.0) -> tuple[TransferPlanner, tuple[Step, .
     return problem.maker, (first,), (again,)
 
 
-def test_what_was_made_real_once_is_not_made_again_but_counted():
+def test_what_was_made_real_once_is_not_made_again_but_counted() -> None:
     maker, first, again = some_fold()
     assert first[0] is not again[0] and first[0].motion == again[0].motion
     transfer = maker.validated(first)
@@ -43,20 +44,25 @@ def test_what_was_made_real_once_is_not_made_again_but_counted():
     assert (maker.path_requests, maker.glances) == (2 * path_requests, 2 * glances)
 
 
-def test_no_two_ways_of_a_fold_have_the_same_motion():
+def test_no_two_ways_of_a_fold_have_the_same_motion() -> None:
     _, first, _ = some_fold()
     ways = [tuple(step.motion for step in way) for way in ways_of(first, QUICK)]
     assert len(ways) == QUICK.variants == len(set(ways))
 
 
-def test_ways_that_cannot_be_quicker_than_one_that_was_found_are_not_led(monkeypatch: pytest.MonkeyPatch):
+def test_ways_that_cannot_be_quicker_than_one_that_was_found_are_not_led(monkeypatch: pytest.MonkeyPatch) -> None:
     # The arms carry the napkin over in 2.1 s with the fingers' rest, which is more than two arm motions.
     maker, first, _ = some_fold(arm_motion_s=0.9)
     quick = maker.validated(first, replace(QUICK, ways=1))
     assert quick is not None and quick.is_late
-    takes_s, led, made = sum(quick.durations_s()), [], maker.made
+    takes_s, led, made = sum(quick.durations_s()), list[tuple[Step, ...]](), maker.made
     slower = [(way,) for way in first[0].elsewhere(64) if way.duration_s > takes_s]
     assert len(slower) >= QUICK.late
-    monkeypatch.setattr(maker, "made", lambda candidate: led.append(candidate.steps) or made(candidate))
+
+    def noted(candidate: Candidate) -> Transfer | None:
+        led.append(candidate.steps)
+        return made(candidate)
+
+    monkeypatch.setattr(maker, "made", noted)
     assert maker.first_valid([first, *slower], QUICK) is quick
     assert led == [first]

@@ -1,5 +1,7 @@
 """The cache of transit paths: it is kept from plan to plan, and a path is searched for once."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -7,13 +9,20 @@ from planner import Task, load_garment
 from planner.motion.transit_paths import TransitPaths
 from planner.planning.problem import Problem
 from planner.primitives.g_fold import GFold
+from planner.primitives.state import State
 from planner.robots.openings import OPENING_M
+from tests.required import required
 
 
-def test_a_transit_path_is_searched_for_once_and_known_to_the_next_plan(monkeypatch: pytest.MonkeyPatch):
+def test_a_transit_path_is_searched_for_once_and_known_to_the_next_plan(monkeypatch: pytest.MonkeyPatch) -> None:
     asked: list[object] = []
     free = TransitPaths._is_free
-    monkeypatch.setattr(TransitPaths, "_is_free", lambda self, *about: asked.append(about) or free(self, *about))
+
+    def noted(self: TransitPaths, *about: Any) -> bool:
+        asked.append(about)
+        return free(self, *about)
+
+    monkeypatch.setattr(TransitPaths, "_is_free", noted)
 
     def led() -> object:
         problem = Problem.of(Task.of(load_garment("hand-towel")))
@@ -27,7 +36,7 @@ def test_a_transit_path_is_searched_for_once_and_known_to_the_next_plan(monkeypa
     assert led() == first and len(asked) == count
 
 
-def test_paths_that_differ_in_their_cloth_or_its_room_are_others():
+def test_paths_that_differ_in_their_cloth_or_its_room_are_others() -> None:
     problem = Problem.of(Task.of(load_garment("hand-towel")))
     transits, base = problem.maker.transits, problem.context.base_pose(0, 0)
     start = transits.home
@@ -35,8 +44,8 @@ def test_paths_that_differ_in_their_cloth_or_its_room_are_others():
     bare, covered = (problem.maker._cloths.of(state) for state in (problem.start, _far(problem)))
     near = transits.at_grips
     searched, before = transits._searched.cache_info, transits._searched.cache_info().misses
-    way = transits.way(base, start, goal, bare, near)
-    assert np.array_equal(transits.way(base, start.copy(), goal.copy(), bare, near), way)
+    way = required(transits.way(base, start, goal, bare, near))
+    assert np.array_equal(required(transits.way(base, start.copy(), goal.copy(), bare, near)), way)
     assert searched().misses <= before + 1
     before = searched().misses
     none = (np.zeros(len(near[0])), near[1])
@@ -45,33 +54,38 @@ def test_paths_that_differ_in_their_cloth_or_its_room_are_others():
     assert searched().misses == before + 2
 
 
-def test_a_path_is_found_again_whole_turns_away_though_turns_are_not_exact():
+def test_a_path_is_found_again_whole_turns_away_though_turns_are_not_exact() -> None:
     problem = Problem.of(Task.of(load_garment("hand-towel")))
     transits, base = problem.maker.transits, problem.context.base_pose(0, 0)
     cloth, near = problem.maker._cloths.of(problem.start), transits.at_grips
     start, goal = transits.home, transits.home + 0.1
     turns = 2.0 * np.pi * transits.layout.is_continuous
     assert turns.any()
-    way = transits.way(base, start, goal, cloth, near)
+    way = required(transits.way(base, start, goal, cloth, near))
     misses = transits._searched.cache_info().misses
     for count in (-3, 1, 7):
-        turned = transits.way(base, start + count * turns, goal + (count + 1) * turns, cloth, near)
+        turned = required(transits.way(base, start + count * turns, goal + (count + 1) * turns, cloth, near))
         assert np.allclose(turned, way + count * turns, atol=1e-9)
         assert np.array_equal(turned[0], start + count * turns)
     assert transits._searched.cache_info().misses == misses
 
 
-def _far(problem: Problem):
+def _far(problem: Problem) -> State:
     state = problem.start
     return type(state)(state.done, (0.1, 0.0), state.station, state.standoff)
 
 
-def test_a_motion_beside_a_driving_base_is_tested_once(monkeypatch: pytest.MonkeyPatch):
+def test_a_motion_beside_a_driving_base_is_tested_once(monkeypatch: pytest.MonkeyPatch) -> None:
     problem = Problem.of(Task.of(load_garment("hand-towel")))
     transits, cloth = problem.maker.transits, problem.maker._cloths.of(problem.start)
     asked: list[object] = []
     are_clear = TransitPaths.are_clear
-    monkeypatch.setattr(TransitPaths, "are_clear", lambda self, *about: asked.append(about) or are_clear(self, *about))
+
+    def noted(self: TransitPaths, *about: Any) -> bool:
+        asked.append(about)
+        return are_clear(self, *about)
+
+    monkeypatch.setattr(TransitPaths, "are_clear", noted)
     bases = np.column_stack([np.linspace(-1.2, -1.3, 5), np.zeros(5), np.zeros(5)])
     joints = np.tile(transits.home, (5, 1))
     wide = np.full((5, len(transits.layout.arms)), OPENING_M)

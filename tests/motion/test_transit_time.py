@@ -14,11 +14,11 @@ STATION, BACK, TURNED = Pose2(-0.95, 0.0, 3.0), Pose2(-1.15, 0.1, 3.0), Pose2(-1
 STILL = ClothMotion(0, Pose2(0.0, 0.0, 0.0), Pose2(0.0, 0.0, 0.0), TableTop.of(Table()))
 
 
-def test_the_base_goes_evenly_through_one_phase_after_the_other_and_turns_the_short_way():
+def test_the_base_goes_evenly_through_one_phase_after_the_other_and_turns_the_short_way() -> None:
     legs = [
         Phase(seconds, ends, (None, None), STILL) for seconds, ends in ((2.0, (STATION, BACK)), (4.0, (BACK, TURNED)))
     ]
-    free = TransitTime([TimedPhase.even(0, leg, leg.duration_s) for leg in legs], 10.0, None)
+    free = TransitTime([TimedPhase.even(0, leg, leg.duration_s) for leg in legs], 10.0, None)  # type: ignore[arg-type]
     assert (free.first, free.last, free.end_s) == (STATION, TURNED, 16.0)
     short = 2.0 * np.pi - 6.0
     expected = [

@@ -20,7 +20,7 @@ def transferring(plan: FoundPlan) -> list[PlanSegment]:
 
 
 @pytest.mark.parametrize("name", ["t-shirt", "scarf", "big-towel"])
-def test_acts_take_as_long_as_the_plan_that_is_made_of_them(name: str):
+def test_acts_take_as_long_as_the_plan_that_is_made_of_them(name: str) -> None:
     plan = plan_of(name)
     assert duration_s(plan.plan_segments) == pytest.approx(plan.plan.cost_s, abs=1e-6)
     assert duration_s(linked(plan.plan_segments, Problem.of(plan.plan.task).maker)) == pytest.approx(
@@ -29,7 +29,7 @@ def test_acts_take_as_long_as_the_plan_that_is_made_of_them(name: str):
 
 
 @pytest.mark.parametrize("name", ["t-shirt", "big-towel"])
-def test_hands_go_from_one_transfer_to_the_next(name: str):
+def test_hands_go_from_one_transfer_to_the_next(name: str) -> None:
     plan_segments = transferring(plan_of(name))
     for before, plan_segment in pairwise(plan_segments):
         assert plan_segment.transit is not None and before.transfer is not None and plan_segment.transfer is not None
@@ -47,7 +47,7 @@ def test_hands_go_from_one_transfer_to_the_next(name: str):
         assert there[0][0] == before.transfer.steps[-1].phases()[-1].base[1]
 
 
-def test_a_transit_is_planned_once_for_the_same_steps():
+def test_a_transit_is_planned_once_for_the_same_steps() -> None:
     plan = plan_of("t-shirt")
     maker = Problem.of(plan.plan.task).maker
     first, second = (linked(plan.plan_segments, maker) for _ in range(2))
@@ -55,7 +55,7 @@ def test_a_transit_is_planned_once_for_the_same_steps():
     assert maker.transits_planned == len(transferring(plan))
 
 
-def test_a_transit_depends_on_where_the_hands_come_from():
+def test_a_transit_depends_on_where_the_hands_come_from() -> None:
     plan_segments = transferring(plan_of("t-shirt"))
     maker = Problem.of(plan_of("t-shirt").plan.task).maker
     assert plan_segments[1].transfer is not None

@@ -2,19 +2,19 @@
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any, Unpack
 
 from planner import Scene, Task, find_plan
 from planner.cloth.garment import Garment
-from planner.geometry.pose import Pose2
+from planner.geometry.pose import Point2, Pose2
 from planner.geometry.table import Table
 from planner.planning.found_plan import FoundPlan
 from planner.primitives.g_fold import GFold
 from planner.primitives.state import State
 from planner.task.plan import Plan
 from planner.task.reason import Code, Reason
-from planner.task.task import TaskOptions
-from tests.builders import fold, garment, rectangle_points
+from tests.builders import SceneFields, fold, garment, rectangle_points
 from tests.planning.found import found_plan
 
 BACK = -math.pi / 2
@@ -46,9 +46,9 @@ HOUSE = ((0.4, 0.3), (0.0, 0.3), (0.0, -0.1), (0.2, -0.2), (0.4, -0.1))
 HAMMER_SCENE = Scene(stations=(("front", Pose2(-0.8, 0.0, 0.0)),))
 
 
-def fixed(height_m: float = LEVEL_M, **fields: object) -> Scene:
+def fixed(height_m: float = LEVEL_M, **fields: Unpack[SceneFields]) -> Scene:
     """Return a scene in which the robot stands still before the table, so that nothing is dragged."""
-    return Scene(stations=FRONT, back_off_max_m=0.0, table=Table(height_m=height_m), **fields)
+    return replace(Scene(stations=FRONT, back_off_max_m=0.0, table=Table(height_m=height_m)), **fields)
 
 
 def strip(far_x_m: float, length_m: float, depth_m: float, y_m: float = 0.188) -> Garment:
@@ -62,14 +62,14 @@ def strip(far_x_m: float, length_m: float, depth_m: float, y_m: float = 0.188) -
     return garment(rectangle_points(0.1, length_m), far_end, placement=Pose2(far_x_m - length_m, y_m + 0.05, BACK))
 
 
-def refused(cloth: Garment, scene: Scene | None = None, **options: Unpack[TaskOptions]) -> Plan:
+def refused(cloth: Garment, scene: Scene | None = None) -> Plan:
     """Return the answer, which must have no plan."""
-    return met(cloth, scene, **options).plan
+    return met(cloth, scene).plan
 
 
-def met(cloth: Garment, scene: Scene | None = None, **options: Unpack[TaskOptions]) -> FoundPlan:
+def met(cloth: Garment, scene: Scene | None = None) -> FoundPlan:
     """Return the answer, which must have no plan, and all reasons that were met before that was known."""
-    answer = found_plan(cloth, scene, time_limit_s=60.0, **options)
+    answer = found_plan(cloth, scene, time_limit_s=60.0)
     assert answer.plan.status == "infeasible"
     return answer
 
@@ -105,6 +105,6 @@ def is_in_reach(answer: FoundPlan, number: int) -> bool:
 
 def hammer() -> Garment:
     """Return a hammer whose head, at y = 0.4 to 0.5, points away from the robot, to be folded back over y = 0.1."""
-    outline = ((0, 0), (0.3, 0), (0.3, 0.2), (0.2, 0.2), (0.2, 0.4), (0.3, 0.4))
-    outline += ((0.3, 0.5), (0, 0.5), (0, 0.4), (0.1, 0.4), (0.1, 0.2), (0, 0.2))
+    outline: list[Point2] = [(0, 0), (0.3, 0), (0.3, 0.2), (0.2, 0.2), (0.2, 0.4), (0.3, 0.4)]
+    outline += [(0.3, 0.5), (0, 0.5), (0, 0.4), (0.1, 0.4), (0.1, 0.2), (0, 0.2)]
     return garment(outline, fold((0.0, 0.1), (0.3, 0.1), name="hammer"), placement=Pose2(-0.65, 0.15, BACK))

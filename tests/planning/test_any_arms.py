@@ -17,6 +17,7 @@ from planner.task.reason import Code
 from planner.task.task import Task
 from tests.builders import fold, garment
 from tests.replay.planned import planned
+from tests.required import required
 from tests.robots.remade import BOLTED, ONE_ARM, THREE_ARMS, UNLIKE, RemadeRobot
 
 FRONT_ONLY = Scene(stations=Scene().stations[:1])
@@ -25,7 +26,7 @@ Planning = Callable[[RemadeRobot, Garment], FoundPlan]
 
 
 @pytest.fixture
-def found_for(monkeypatch) -> Iterator[Planning]:
+def found_for(monkeypatch: pytest.MonkeyPatch) -> Iterator[Planning]:
     compile_kernels()
 
     def found(robot: RemadeRobot, what: Garment) -> FoundPlan:
@@ -50,28 +51,28 @@ def require_performed(plan: Plan, robot: RemadeRobot) -> None:
 
 
 @pytest.mark.parametrize("name", ["tie", "scarf"])
-def test_one_arm_folds_what_one_grip_can_hold(found_for: Planning, name: str):
+def test_one_arm_folds_what_one_grip_can_hold(found_for: Planning, name: str) -> None:
     plan = found_for(ONE_ARM, load_garment(name)).plan
     require_performed(plan, ONE_ARM)
     assert {arm for arms in arms_of(plan) for arm in arms} == {"single"}
 
 
-def test_one_arm_is_told_that_a_towel_takes_two_hands(found_for: Planning):
+def test_one_arm_is_told_that_a_towel_takes_two_hands(found_for: Planning) -> None:
     plan = found_for(ONE_ARM, load_garment("hand-towel")).plan
     first, *_ = plan.reasons
     assert (first.fold, first.code) == (0, Code.TOO_MANY_GRIPS)
     assert "more than one hand can" in first.message
 
 
-def test_arms_of_eight_and_of_seven_joints_do_what_those_of_a_pr2_do(found_for: Planning):
+def test_arms_of_eight_and_of_seven_joints_do_what_those_of_a_pr2_do(found_for: Planning) -> None:
     usual, plan = planned("hand-towel").answer, found_for(UNLIKE, load_garment("hand-towel")).plan
     require_performed(plan, UNLIKE)
-    assert len(plan.trajectory.arms.names) == 15
+    assert len(required(plan.trajectory).arms.names) == 15
     assert plan.cost_s == pytest.approx(usual.cost_s)
     assert arms_of(plan) == arms_of(usual)
 
 
-def test_of_three_arms_those_two_fold_that_are_nearest(found_for: Planning):
+def test_of_three_arms_those_two_fold_that_are_nearest(found_for: Planning) -> None:
     towel = load_garment("hand-towel")
     beside = replace(towel, placement=towel.placement.moved(0.0, 0.3))
     plan = found_for(THREE_ARMS, beside).plan
@@ -80,7 +81,7 @@ def test_of_three_arms_those_two_fold_that_are_nearest(found_for: Planning):
     assert not found_for(ONE_ARM, beside).plan.is_solved
 
 
-def test_three_arms_hold_what_takes_three_grips(found_for: Planning):
+def test_three_arms_hold_what_takes_three_grips(found_for: Planning) -> None:
     # Corners 35 cm from each other, along the robot's front.
     outline = [(0.0, 0.0), (0.7, 0.0), (0.7, 0.14), (0.35, 0.2), (0.0, 0.14)]
     up = fold((0.0, 0.05), (0.7, 0.05), radius_m=0.08)
@@ -90,7 +91,7 @@ def test_three_arms_hold_what_takes_three_grips(found_for: Planning):
     assert arms_of(plan) == [["outer", "left", "right"]]
 
 
-def test_a_plan_of_one_arm_is_adapted_to_cloth_that_lies_a_little_elsewhere(found_for: Planning):
+def test_a_plan_of_one_arm_is_adapted_to_cloth_that_lies_a_little_elsewhere(found_for: Planning) -> None:
     scarf = load_garment("scarf")
     known = found_for(ONE_ARM, scarf)
     moved = replace(scarf, placement=scarf.placement.moved(0.02, 0.01))
@@ -99,7 +100,7 @@ def test_a_plan_of_one_arm_is_adapted_to_cloth_that_lies_a_little_elsewhere(foun
     require_performed(quick.plan, ONE_ARM)
 
 
-def test_a_robot_without_lift_whose_base_is_fixed_folds_where_it_stands(found_for: Planning):
+def test_a_robot_without_lift_whose_base_is_fixed_folds_where_it_stands(found_for: Planning) -> None:
     # A vest lies so near that joints would have to go beyond their soft limits; a base that drives backs off for it.
     found = found_for(BOLTED, load_garment("hand-towel"))
     require_performed(found.plan, BOLTED)
@@ -112,11 +113,11 @@ def test_a_robot_without_lift_whose_base_is_fixed_folds_where_it_stands(found_fo
     assert "torso_lift_joint" not in still.joints and still.torso_m == 0.0
 
 
-def test_a_fixed_base_has_no_plan_where_it_would_have_to_drive(found_for: Planning):
+def test_a_fixed_base_has_no_plan_where_it_would_have_to_drive(found_for: Planning) -> None:
     assert not found_for(BOLTED, load_garment("scarf")).plan.is_solved
 
 
-def test_a_fixed_base_drags_with_its_arms_what_lies_too_far_away(found_for: Planning):
+def test_a_fixed_base_drags_with_its_arms_what_lies_too_far_away(found_for: Planning) -> None:
     towel = load_garment("hand-towel")
     away = replace(towel, placement=towel.placement.moved(0.25, 0.0))
     usual, plan = found_for(BOLTED, towel).plan, found_for(BOLTED, away).plan
@@ -125,7 +126,7 @@ def test_a_fixed_base_drags_with_its_arms_what_lies_too_far_away(found_for: Plan
     assert plan.cost_s == pytest.approx((usual.cost_s or 0.0) + 6.0, abs=1.0)
 
 
-def test_a_fixed_base_is_told_to_have_the_cloth_brought_nearer(found_for: Planning):
+def test_a_fixed_base_is_told_to_have_the_cloth_brought_nearer(found_for: Planning) -> None:
     towel = load_garment("hand-towel")
     away = replace(towel, placement=towel.placement.moved(0.75, 0.0))
     reason = found_for(BOLTED, away).plan.reasons[0]

@@ -13,8 +13,9 @@ from planner.planning.heuristic import arm_time
 from planner.planning.problem import Problem
 from planner.primitives import g_drag
 from planner.primitives.fold_query import FoldQuery
+from planner.primitives.primitive import Step
 from planner.primitives.state import State
-from planner.search.a_star import SearchResult, a_star
+from planner.search.a_star import SearchResult, Successors, a_star
 from planner.task.task import Task
 from tests.builders import fold, garment
 
@@ -32,7 +33,7 @@ def poncho(placement: Pose2) -> Garment:
     return replace(garment(outline, *folds), placement=placement)
 
 
-def quickest(problem: Problem, *, leaves_out: bool = True) -> SearchResult:
+def quickest(problem: Problem, *, leaves_out: bool = True) -> SearchResult[State, Step]:
     """Return the quickest path that the cost model allows, whether arms can follow it or not.
 
     Args:
@@ -45,7 +46,7 @@ def quickest(problem: Problem, *, leaves_out: bool = True) -> SearchResult:
         lambda _: not leaves_out,
     )
 
-    def leaving(state: State, cost_s: float):
+    def leaving(state: State, cost_s: float) -> Successors[State, Step]:
         if not leaves_out:
             edges.begin()
         return edges.leaving(state, cost_s)
@@ -54,7 +55,7 @@ def quickest(problem: Problem, *, leaves_out: bool = True) -> SearchResult:
 
 
 @pytest.mark.parametrize("placement", PLACES)
-def test_no_end_left_out_would_make_a_plan_quicker(placement: Pose2, monkeypatch: pytest.MonkeyPatch):
+def test_no_end_left_out_would_make_a_plan_quicker(placement: Pose2, monkeypatch: pytest.MonkeyPatch) -> None:
     task = Task.of(poncho(placement))
     lean = quickest(Problem.of(task).firm())
     monkeypatch.setattr(FoldQuery, "ends", lambda query, begun, *_: (query.every_end(begun), IMPOSSIBLE))
@@ -64,7 +65,7 @@ def test_no_end_left_out_would_make_a_plan_quicker(placement: Pose2, monkeypatch
     assert lean.cost == pytest.approx(full.cost, abs=1e-6)
 
 
-def test_fewer_ways_never_have_a_lower_bound():
+def test_fewer_ways_never_have_a_lower_bound() -> None:
     problem = Problem.of(Task.of(poncho(PLACES[0]))).firm()
     narrow = problem.restricted(scene=replace(problem.context.scene, approach_cone_rad=0.5))
     found = quickest(problem)

@@ -64,10 +64,10 @@ def trajectory(plan: Plan) -> Trajectory:
 
 def rims_m_s(forward_m_s: np.ndarray, turn_rad_s: np.ndarray) -> np.ndarray:
     """Return the speed of the faster wheel's rim (m/s)."""
-    return np.abs(forward_m_s) + np.abs(turn_rad_s) * TRACK_M / 2
+    return np.asarray(np.abs(forward_m_s) + np.abs(turn_rad_s) * TRACK_M / 2)
 
 
-def test_it_drives_round_the_table_and_folds(plan: Plan):
+def test_it_drives_round_the_table_and_folds(plan: Plan) -> None:
     assert plan.is_solved
     assert [step.kind for step in plan.steps] == ["move", "fold"]
     require_replay(Plan.from_dict(plan.to_dict()))
@@ -79,7 +79,7 @@ def rest_to_rest_s(way: float, speed: float, acceleration: float) -> float:
     return way / speed + speed / acceleration if reaches_it else 2.0 * math.sqrt(way / acceleration)
 
 
-def test_a_move_takes_what_driving_and_turning_take_one_after_the_other(plan: Plan, scene: Scene):
+def test_a_move_takes_what_driving_and_turning_take_one_after_the_other(plan: Plan, scene: Scene) -> None:
     waypoints = [Pose2(*pose) for pose in plan.steps[0].details["waypoints"]]
     assert len(waypoints) > 4
     driven_m = sum(math.dist((a.x_m, a.y_m), (b.x_m, b.y_m)) for a, b in pairwise(waypoints))
@@ -95,7 +95,7 @@ def test_a_move_takes_what_driving_and_turning_take_one_after_the_other(plan: Pl
     assert plan.steps[0].duration_s == pytest.approx(expected_s)
 
 
-def test_it_never_drives_sideways_nor_turns_its_wheels_too_fast(plan: Plan):
+def test_it_never_drives_sideways_nor_turns_its_wheels_too_fast(plan: Plan) -> None:
     path = trajectory(plan)
     times = np.linspace(0.0, plan.cost_s or 0.0, 4001)
     bases = np.array([(b.x_m, b.y_m, b.yaw_rad) for b in (path.segment_at(t).base_at(t) for t in times.tolist())])
@@ -107,7 +107,7 @@ def test_it_never_drives_sideways_nor_turns_its_wheels_too_fast(plan: Plan):
     assert rims_m_s(np.hypot(x, y), yaw).max() <= RIM_M_S * (1 + 1e-6)
 
 
-def test_what_is_sent_to_it_rolls_too(plan: Plan, robot: str):
+def test_what_is_sent_to_it_rolls_too(plan: Plan, robot: str) -> None:
     require_smooth(plan, load_robot(robot).card)
     path = trajectory(plan)
     times = np.linspace(0.0, plan.cost_s or 0.0, 4001)
@@ -116,7 +116,7 @@ def test_what_is_sent_to_it_rolls_too(plan: Plan, robot: str):
     assert rims_m_s(np.hypot(x, y), turn).max() <= RIM_M_S * (1 + 1e-6)
 
 
-def test_a_plan_from_elsewhere_that_drives_sideways_is_refused(plan: Plan):
+def test_a_plan_from_elsewhere_that_drives_sideways_is_refused(plan: Plan) -> None:
     path = trajectory(plan)
     segments = tuple(sideways(segment) for segment in path.segments)
     with pytest.raises(RequestError, match="sideways"):
@@ -125,5 +125,5 @@ def test_a_plan_from_elsewhere_that_drives_sideways_is_refused(plan: Plan):
 
 def sideways(segment: Segment) -> Segment:
     """Return a segment in which the base looks across where it goes."""
-    turned = tuple(Pose2(base.x_m, base.y_m, base.yaw_rad + math.pi / 2) for base in segment.phase.base)
-    return replace(segment, phase=replace(segment.phase, base=turned))
+    start, end = (Pose2(base.x_m, base.y_m, base.yaw_rad + math.pi / 2) for base in segment.phase.base)
+    return replace(segment, phase=replace(segment.phase, base=(start, end)))

@@ -1,6 +1,7 @@
 """The bound on driving for loose folds: consistent, never too high, and close to the true cost."""
 
 import math
+from collections.abc import Iterator
 from dataclasses import replace
 
 import pytest
@@ -21,6 +22,7 @@ from planner.primitives.fold_query import FoldQueries
 from planner.primitives.fold_stands import FoldStands
 from planner.primitives.g_drag import GDrag
 from planner.primitives.g_fold import GFold
+from planner.primitives.primitive import Primitive, Step
 from planner.primitives.state import State
 from planner.robots.load_robot import load_robot
 from planner.search.a_star import Edge, Outcome, a_star
@@ -39,13 +41,13 @@ def work_of(cloth: Garment, scene: Scene = SCENE) -> Context:
 
 
 @sweep("name", ["tabs", "t-shirt", "tie", "scarf"], ("tabs", "t-shirt"))
-def test_no_edge_lowers_the_bound_by_more_than_it_costs(name: str):
+def test_no_edge_lowers_the_bound_by_more_than_it_costs(name: str) -> None:
     cloth = tabs_on_two_sides(4) if name == "tabs" else load_garment(name)
     context = work_of(cloth)
-    kinds = [GFold(context), GDrag(context), BaseMove(context)]
+    kinds: list[Primitive] = [GFold(context), GDrag(context), BaseMove(context)]
     bound, goal = DrivingBound(context, START), (1 << len(context.sequence.folds)) - 1
 
-    def successors(state: State, _cost_s: float):
+    def successors(state: State, _cost_s: float) -> Iterator[Edge[State, Step]]:
         for step in (step for kind in kinds for step in kind.successors(state)):
             assert bound(state) <= step.duration_s + bound(step.after) + 1e-9, step.details
             yield Edge(step, step.duration_s, step.after)
@@ -57,7 +59,7 @@ def test_no_edge_lowers_the_bound_by_more_than_it_costs(name: str):
     assert found.expanded <= without.expanded
 
 
-def test_tabs_opposite_need_a_drag_and_the_way_back_however_many_there_are():
+def test_tabs_opposite_need_a_drag_and_the_way_back_however_many_there_are() -> None:
     # 40 cm: 3 s for the hands, 1.6 s of driving, .5 s to speed up and slow down; the tabs are then in reach from 5 cm,
     # 35 cm nearer: 1.4 s.
     context = work_of(tabs_on_two_sides(12))
@@ -65,7 +67,7 @@ def test_tabs_opposite_need_a_drag_and_the_way_back_however_many_there_are():
     assert DrivingBound(context, START)(State((1 << 12) - 1, (0.0, 0.0), 0, 0)) == 0.0
 
 
-def test_folds_that_can_be_done_from_nowhere_are_left_to_the_search():
+def test_folds_that_can_be_done_from_nowhere_are_left_to_the_search() -> None:
     # 1.2 m from the only station and nothing to drag towards it by: no tab is ever in reach.
     far = replace(tabs_on_two_sides(8), placement=Pose2(0.3, 0.4, -math.pi / 2))
     front = Scene(stations=(("front", Pose2(-0.95, 0.0, 0.0)),), back_off_max_m=0.0)
@@ -73,7 +75,7 @@ def test_folds_that_can_be_done_from_nowhere_are_left_to_the_search():
     assert DrivingBound(context, START)(START) == 8 * 9.0
 
 
-def test_forty_loose_folds_on_two_sides_are_proven_joint_paths_and_all():
+def test_forty_loose_folds_on_two_sides_are_proven_joint_paths_and_all() -> None:
     # Hands that drag have a second less for coming than hands that fold; those that fold before leave sooner.
     plan = make_plan(tabs_on_two_sides(40), time_limit_s=60.0)
     assert plan.cost_s == pytest.approx(40 * 9.0 + 6.5)
@@ -81,12 +83,12 @@ def test_forty_loose_folds_on_two_sides_are_proven_joint_paths_and_all():
     assert plan.statistics.expanded < 60
 
 
-def test_of_tabs_near_and_far_a_drag_only_holds_near_ones():
+def test_of_tabs_near_and_far_a_drag_only_holds_near_ones() -> None:
     assert Service(work_of(tabs_on_two_sides(8))).folds[0] == {0, 1, 2, 3}
 
 
 @pytest.mark.parametrize("done", [0b0, 0b1, 0b1010, 0b110000])
-def test_from_where_a_fold_is_begun_is_known_whatever_other_folds_are_done(done: int):
+def test_from_where_a_fold_is_begun_is_known_whatever_other_folds_are_done(done: int) -> None:
     context = work_of(tabs_on_two_sides(8))
     questions, stands = context.kept(FoldQueries), FoldStands(context)
     for offset in ((0.0, 0.0), (-0.2, 0.0), (-0.4, 0.0)):
@@ -98,7 +100,7 @@ def test_from_where_a_fold_is_begun_is_known_whatever_other_folds_are_done(done:
                 assert stands.least(fold, offset, 0)[standoff] == asked, (offset, fold, standoff)
 
 
-def test_forty_loose_folds_on_two_sides_take_a_state_for_each_fold_and_a_few_for_drags():
+def test_forty_loose_folds_on_two_sides_take_a_state_for_each_fold_and_a_few_for_drags() -> None:
     context = work_of(tabs_on_two_sides(40))
     edges, bound = edges_of(context), DrivingBound(context, START)
     found = a_star(START, edges.leaving, lambda s: s.done == (1 << 40) - 1, bound, 1_000, lambda: False)

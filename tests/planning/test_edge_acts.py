@@ -1,16 +1,20 @@
 """Hands at edges are looked for when the search validates a path, before others."""
 
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 import pytest
 
 from planner import Garment, Scene, Task, find_plan, load_garment
 from planner.motion.edge_hands import EdgeHands
-from planner.motion.plan_segment import duration_s
+from planner.motion.plan_segment import PlanSegment, duration_s
+from planner.motion.search_limits import SearchLimits
+from planner.motion.transfer import Transfer
 from planner.motion.transfer_planner import TransferPlanner
 from planner.planning.edge_acts import EdgeActs
 from planner.planning.motion_validator import MotionValidator
 from planner.planning.warm_up import compile_kernels
+from planner.primitives.primitive import Step
 from tests.planning.found import found_plan
 
 AHEAD_M = {"hand-towel": 0.2, "t-shirt": 0.0, "vest": 0.0}
@@ -25,7 +29,7 @@ EDGES = {"hand-towel": 8, "t-shirt": 7, "vest": 0}
 
 
 @pytest.fixture(autouse=True)
-def _kernels():
+def _kernels() -> None:
     compile_kernels()  # plans for that are no part of what is counted here
 
 
@@ -35,14 +39,14 @@ def moved(name: str, ahead_m: float, left_m: float = 0.0) -> Garment:
 
 
 @pytest.mark.parametrize("name", EDGES)
-def test_the_search_itself_finds_hands_at_edges(monkeypatch: pytest.MonkeyPatch, name: str):
+def test_the_search_itself_finds_hands_at_edges(monkeypatch: pytest.MonkeyPatch, name: str) -> None:
     monkeypatch.setattr(EdgeHands, "held", lambda self, plan_segments, is_over: plan_segments)
     plan = found_plan(moved(name, AHEAD_M[name]), time_limit_s=60.0).plan
     assert plan.is_proven
     assert [grip.kind for step in plan.steps for grip in step.grips].count("edge") == EDGES[name]
 
 
-def test_where_hands_hold_edges_no_others_are_led_along_the_path(monkeypatch: pytest.MonkeyPatch):
+def test_where_hands_hold_edges_no_others_are_led_along_the_path(monkeypatch: pytest.MonkeyPatch) -> None:
     def unwanted(*_: object) -> None:
         raise AssertionError("a path for hands that open widely was looked for")
 
@@ -50,18 +54,18 @@ def test_where_hands_hold_edges_no_others_are_led_along_the_path(monkeypatch: py
     assert found_plan(moved("hand-towel", 0.2), time_limit_s=60.0).plan.is_proven
 
 
-def test_hands_that_come_late_to_an_edge_hold_otherwise(monkeypatch: pytest.MonkeyPatch):
+def test_hands_that_come_late_to_an_edge_hold_otherwise(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(EdgeHands, "held", lambda self, plan_segments, is_over: plan_segments)
     rounds: list[float | None] = []
     late: list[bool] = []
     validated, is_late = MotionValidator.plan_segments, EdgeActs._is_late
 
-    def noted(self, steps):
+    def noted(self: MotionValidator, steps: Sequence[Step]) -> tuple[PlanSegment, ...] | None:
         plan_segments = validated(self, steps)
         rounds.append(None if plan_segments is None else duration_s(plan_segments))
         return plan_segments
 
-    def noted_late(self, plan_segment):
+    def noted_late(self: EdgeActs, plan_segment: PlanSegment) -> bool:
         late.append(is_late(self, plan_segment))
         return late[-1]
 
@@ -73,11 +77,13 @@ def test_hands_that_come_late_to_an_edge_hold_otherwise(monkeypatch: pytest.Monk
     assert not any(plan_segment.late_s > 0.0 for plan_segment in found.plan_segments)
 
 
-def test_hands_that_come_late_to_edges_are_shown_before_others_are_looked_for(monkeypatch: pytest.MonkeyPatch):
+def test_hands_that_come_late_to_edges_are_shown_before_others_are_looked_for(monkeypatch: pytest.MonkeyPatch) -> None:
     events: list[str] = []
     wide = TransferPlanner.first_valid
 
-    def noted(self, choices, search_limits):
+    def noted(
+        self: TransferPlanner, choices: Iterable[tuple[Step, ...]], search_limits: SearchLimits
+    ) -> Transfer | None:
         events.append("wide")
         return wide(self, choices, search_limits)
 

@@ -8,7 +8,7 @@ from planner.planning.problem import Problem
 from planner.primitives.context import Context
 from planner.primitives.primitive import Step
 from planner.primitives.state import State
-from planner.search.a_star import Edge, Outcome, a_star
+from planner.search.a_star import DeferredEdges, Edge, Outcome, Successors, a_star
 from tests.replay.planned import planned
 
 EXPANDED_MAX = 100_000
@@ -20,17 +20,17 @@ def edges_of(context: Context, *, are_spares_wanted: bool = False) -> Edges:
 
 
 @pytest.mark.parametrize("name", ["tie", "scarf", "big-towel"])
-def test_what_is_left_out_makes_no_plan_dearer(name: str):
+def test_what_is_left_out_makes_no_plan_dearer(name: str) -> None:
     case = planned(name).found
     problem = Problem.of(case.plan.task)
     start, goal, bound = problem.start, problem.is_goal, arm_time(problem.context)
-    edges, whole, left_out = edges_of(problem.context), edges_of(problem.context, are_spares_wanted=True), []
+    edges, whole, left_out = edges_of(problem.context), edges_of(problem.context, are_spares_wanted=True), list[int]()
 
-    def everything(state: State, _cost_s: float):
+    def everything(state: State, _cost_s: float) -> list[Edge[State, Step] | DeferredEdges[State, Step]]:
         whole.begin()
         return list(whole.leaving(state, 0.0))
 
-    def some(state: State, cost_s: float):
+    def some(state: State, cost_s: float) -> list[Edge[State, Step] | DeferredEdges[State, Step]]:
         found = list(edges.leaving(state, cost_s))
         left_out.append(len(everything(state, 0.0)) - len(found))
         return found
@@ -42,7 +42,7 @@ def test_what_is_left_out_makes_no_plan_dearer(name: str):
     assert max(left_out) > 0, "else nothing is tested"
 
 
-def test_from_a_standoff_passed_on_the_way_only_the_base_moves_on():
+def test_from_a_standoff_passed_on_the_way_only_the_base_moves_on() -> None:
     case = planned("tie").found
     context = case.context
     edges = edges_of(context)
@@ -56,15 +56,14 @@ def test_from_a_standoff_passed_on_the_way_only_the_base_moves_on():
     assert kinds_of(edges.leaving(far, 10.0 + context.drive_s(4))) == first, "a new search begins"
 
 
-def kinds_of(found) -> set[str]:
+def kinds_of(found: Successors[State, Step]) -> set[str]:
     """Return the kinds of all steps, with the deferred ones that take time worked out."""
     kinds: set[str] = set()
     waiting = list(found)
     while waiting:
         one = waiting.pop()
         if isinstance(one, Edge):
-            step: Step = one.action
-            kinds.add(step.kind)
+            kinds.add(one.action.kind)
         else:
             waiting += one.compute()
     return kinds

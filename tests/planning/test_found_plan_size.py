@@ -29,7 +29,7 @@ def reachable(roots: Iterable[object], but: frozenset[int] = frozenset()) -> Ite
 
 
 @pytest.mark.parametrize("name", ["t-shirt", "scarf"])
-def test_a_found_plan_holds_its_steps_and_their_paths_and_no_more(name: str):
+def test_a_found_plan_holds_its_steps_and_their_paths_and_no_more(name: str) -> None:
     # The scarf's held 7 MB: the joint paths of every transfer that was tried, and the restricted tasks' answers.
     found = found_plan(load_garment(name))
     robots = [*reachable([load_robot("pr2")])]

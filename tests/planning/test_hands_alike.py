@@ -24,7 +24,7 @@ def dragged_and_folded(found: FoundPlan) -> tuple[Step, ...]:
     return steps
 
 
-def test_a_scarf_dragged_and_folded_is_held_at_both_corners_and_no_hand_is_late(found: FoundPlan):
+def test_a_scarf_dragged_and_folded_is_held_at_both_corners_and_no_hand_is_late(found: FoundPlan) -> None:
     # One hand in the middle of its end lets its corners, 12.7 cm away, fold under.
     assert [len(step.grips) for plan_segment in found.plan_segments for step in plan_segment.steps] == [2, 2, 2, 2]
     # Each drag takes one arm motion, each fold of what is held two; drags by 40 and 10 cm go from rest to rest.
@@ -36,7 +36,7 @@ def test_a_scarf_dragged_and_folded_is_held_at_both_corners_and_no_hand_is_late(
     assert found.plan.cost_s == pytest.approx(6 * Scene().arm_motion_s + dragging_s + driven_m / speed, abs=1e-6)
 
 
-def test_ways_in_which_hands_hold_on_as_the_fold_needs_them_come_right_after_the_first(found: FoundPlan):
+def test_ways_in_which_hands_hold_on_as_the_fold_needs_them_come_right_after_the_first(found: FoundPlan) -> None:
     drag, fold = dragged_and_folded(found)
     turned_away = next(variant for variant in drag.variants() if variant.turns != fold.turns)
     ways = list(ways_of((turned_away, fold), QUICK))
@@ -47,7 +47,7 @@ def test_ways_in_which_hands_hold_on_as_the_fold_needs_them_come_right_after_the
     assert len(keys) == len(set(keys)) <= QUICK.ways
 
 
-def test_a_drag_is_turned_only_as_its_hands_can_be_and_are_not(found: FoundPlan):
+def test_a_drag_is_turned_only_as_its_hands_can_be_and_are_not(found: FoundPlan) -> None:
     drag, fold = dragged_and_folded(found)
     other = next(variant for variant in drag.variants() if variant.turns != drag.turns)
     (back,) = other.turned(drag.turns)

@@ -88,7 +88,7 @@ def drag_and_fold(plan: Plan, index: int) -> tuple[PlanStep, PlanStep]:
 
 
 @pytest.mark.parametrize("index", [0, 1])
-def test_a_drag_takes_a_part_beyond_the_edge_and_the_fold_brings_it_back(towel: Plan, index: int):
+def test_a_drag_takes_a_part_beyond_the_edge_and_the_fold_brings_it_back(towel: Plan, index: int) -> None:
     dragged, folded = drag_and_fold(towel, index)
     assert dragged.kind == "drag" and dragged.after.held
     # After the first fold the near edge is its line: over the first line, then over the second.
@@ -101,7 +101,7 @@ def test_a_drag_takes_a_part_beyond_the_edge_and_the_fold_brings_it_back(towel: 
 
 
 @pytest.mark.parametrize("index", [0, 1])
-def test_it_is_taken_over_from_where_the_drag_holds_it_out(towel: Plan, index: int):
+def test_it_is_taken_over_from_where_the_drag_holds_it_out(towel: Plan, index: int) -> None:
     dragged, folded = drag_and_fold(towel, index)
     start = 0.0 if index == 0 else LINES_M[0]
     near = NEAR_X_M + dragged_x_m(towel, dragged) + start
@@ -112,7 +112,7 @@ def test_it_is_taken_over_from_where_the_drag_holds_it_out(towel: Plan, index: i
         assert grip.place == pytest.approx((near + 2 * depth, y, 0.02), abs=1e-4)
 
 
-def test_in_the_3d_view_it_is_held_out_level_and_lies_on_the_table_afterwards(towel: Plan):
+def test_in_the_3d_view_it_is_held_out_level_and_lies_on_the_table_afterwards(towel: Plan) -> None:
     dragged, folded = drag_and_fold(towel, 0)
     near = NEAR_X_M + dragged_x_m(towel, dragged)
     out = Timeline.of(towel).at(folded.start_s - 1e-6).cloth.vertices
@@ -122,23 +122,23 @@ def test_in_the_3d_view_it_is_held_out_level_and_lies_on_the_table_afterwards(to
     assert back[:, 0].min() > EDGE_X_M and back[:, 2].min() >= 0.0
 
 
-def test_without_drags_that_leave_cloth_hanging_there_is_no_plan(without_hanging: None):
+def test_without_drags_that_leave_cloth_hanging_there_is_no_plan(without_hanging: None) -> None:
     answer = make_plan(load_garment("big-towel"), time_limit_s=60.0)
     assert answer.status == "infeasible"
     assert (answer.reasons[0].fold, answer.reasons[0].code) == (0, Code.OUT_OF_REACH)
 
 
-def test_on_a_table_so_smooth_that_nothing_may_hang_there_is_no_plan():
+def test_on_a_table_so_smooth_that_nothing_may_hang_there_is_no_plan() -> None:
     assert make_plan(load_garment("big-towel"), Scene(friction=0.0), time_limit_s=60.0).status == "infeasible"
 
 
-def test_without_drags_there_is_no_plan(monkeypatch: pytest.MonkeyPatch):
+def test_without_drags_there_is_no_plan(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(edges, "PRIMITIVES", (GFold, BaseMove))
     assert make_plan(load_garment("big-towel"), time_limit_s=60.0).status == "infeasible"
 
 
 @pytest.mark.parametrize(("friction", "status"), [(0.467, "solved"), (0.463, "infeasible")])
-def test_there_is_a_plan_as_long_as_friction_holds_what_must_hang(friction: float, status: str):
+def test_there_is_a_plan_as_long_as_friction_holds_what_must_hang(friction: float, status: str) -> None:
     # The second line, 0.8807 m from the near edge as it lay, is in reach after drags by 0.7 m in all and not
     # after 0.6 m. Then the first line, 0.4403 m from that edge, is at x = -0.75 - 0.7 + 0.4403: 0.2097 m beyond
     # the table's, and two layers. Of 1.321 m of cloth, layers counted, 0.4194 m hang: mu >= 0.4194 / 0.9016 =
@@ -157,7 +157,7 @@ TABLECLOTH = garment(
 )
 
 
-def test_a_drag_may_let_go_of_cloth_that_then_hangs_and_a_fold_take_it_up_from_there():
+def test_a_drag_may_let_go_of_cloth_that_then_hangs_and_a_fold_take_it_up_from_there() -> None:
     # By 0.3 m: the near edge goes from x = -0.75 to -1.05, and hangs 0.25 m deep; 0.56 m lie. The far third comes over.
     problem = context(TABLECLOTH)
     drags = [s for s in GDrag(problem).successors(State(0, (0.0, 0.0), 0, 0)) if not s.after.held]
@@ -186,7 +186,7 @@ def _without_driving(problem: Context, state: State) -> FoldStep:
     return fold
 
 
-def test_cloth_that_hangs_is_not_dragged_further_over_its_edge():
+def test_cloth_that_hangs_is_not_dragged_further_over_its_edge() -> None:
     problem = context(TABLECLOTH)
     drag = next(s for s in GDrag(problem).successors(State(0, (0.0, 0.0), 0, 0)) if not s.after.held)
     assert hanging_m(problem, drag.after) > 0.0

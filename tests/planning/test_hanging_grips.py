@@ -38,7 +38,7 @@ def required(cloth: Garment, scene: Scene | None = None) -> Plan:
     return plan
 
 
-def test_the_fold_of_figure_4_brings_back_what_hangs():
+def test_the_fold_of_figure_4_brings_back_what_hangs() -> None:
     (primitive,) = required(towel(0.04, 0.12)).primitives
     for grip, y in zip(primitive.grips, (0.15, -0.15), strict=True):
         assert grip.pick == pytest.approx((-0.8 - CLEAR_M, y, -0.02))
@@ -46,12 +46,12 @@ def test_the_fold_of_figure_4_brings_back_what_hangs():
 
 
 @pytest.mark.parametrize(("hanging_m", "length_m"), [(0.01, 0.5), (0.02, 0.5), (0.03, 0.5), (0.1, 0.5), (0.2, 1.2)])
-def test_it_does_so_however_deep_the_cloth_hangs(hanging_m: float, length_m: float):
+def test_it_does_so_however_deep_the_cloth_hangs(hanging_m: float, length_m: float) -> None:
     plan = required(towel(hanging_m, hanging_m + 0.08, length_m))
     assert [primitive.kind for primitive in plan.primitives] == ["fold"]
 
 
-def test_it_does_so_as_deep_as_the_arms_reach():
+def test_it_does_so_as_deep_as_the_arms_reach() -> None:
     # Arms that reach so far down turn so much on their way that they take longer than an arm motion.
     plan = make_plan(towel(0.4, 0.48, 1.2), time_limit_s=60.0)
     assert plan.is_solved, plan.reasons
@@ -61,7 +61,7 @@ def test_it_does_so_as_deep_as_the_arms_reach():
 
 @pytest.mark.long
 @pytest.mark.parametrize("x_m", [0.6, -0.1])
-def test_so_does_it_at_the_sides_and_the_mirrored_task_has_the_mirrored_plan(x_m: float):
+def test_so_does_it_at_the_sides_and_the_mirrored_task_has_the_mirrored_plan(x_m: float) -> None:
     left, right = (required(aside(0.1, x_m, side)) for side in (1.0, -1.0))
     assert left.cost_s == pytest.approx(right.cost_s)
     there = {grip.arm: grip.pick for grip in left.primitives[-1].grips}
@@ -72,7 +72,7 @@ def test_so_does_it_at_the_sides_and_the_mirrored_task_has_the_mirrored_plan(x_m
 
 
 @pytest.mark.parametrize("hanging_m", [0.01, 0.03])
-def test_cloth_is_laid_down_over_the_near_edge_though_most_ways_have_fingers_in_the_top(hanging_m: float):
+def test_cloth_is_laid_down_over_the_near_edge_though_most_ways_have_fingers_in_the_top(hanging_m: float) -> None:
     # The line is 0.1 m from the edge. Within the default cone most ways come from the side.
     over = fold((0.0, 0.08), (0.3, 0.08))
     cloth = garment(rectangle_points(0.3, 0.18 + hanging_m), over, placement=Pose2(-0.78, 0.15, -math.pi / 2))
@@ -80,7 +80,7 @@ def test_cloth_is_laid_down_over_the_near_edge_though_most_ways_have_fingers_in_
     assert [grip.place[0] for grip in plan.primitives[-1].grips] == pytest.approx([-0.8 - CLEAR_M] * 2)
 
 
-def test_cloth_may_be_laid_down_over_the_edge():
+def test_cloth_may_be_laid_down_over_the_edge() -> None:
     # The far 0.16 m come over the line 0.1 m from the edge: their end hangs 0.06 m. Hands that must come from outside
     # the cloth, from the side, would have a finger in the top.
     over = fold((0.0, 0.08), (0.3, 0.08))

@@ -48,7 +48,7 @@ def hasty_base(path: Trajectory) -> Trajectory:
     return replace(path, segments=tuple(segments))
 
 
-def test_a_plan_keeps_its_limits(plan: Plan):
+def test_a_plan_keeps_its_limits(plan: Plan) -> None:
     require_replay(Plan.from_dict(plan.to_dict()))
 
 
@@ -58,7 +58,7 @@ def test_a_plan_keeps_its_limits(plan: Plan):
 )
 def test_one_that_does_not_is_refused_with_what_is_too_fast_and_when(
     plan: Plan, spoil: Callable[[Trajectory], Trajectory], what: str
-):
+) -> None:
     assert plan.trajectory is not None
     with pytest.raises(RequestError, match=what) as caught:
         require_replay(replace(plan, trajectory=spoil(plan.trajectory)))
@@ -66,7 +66,9 @@ def test_one_that_does_not_is_refused_with_what_is_too_fast_and_when(
     assert "times as" in caught.value.message and "at " in caught.value.message
 
 
-def test_too_hard_an_acceleration_is_refused_where_no_speed_is_too_great(plan: Plan, monkeypatch: pytest.MonkeyPatch):
+def test_too_hard_an_acceleration_is_refused_where_no_speed_is_too_great(
+    plan: Plan, monkeypatch: pytest.MonkeyPatch
+) -> None:
     own = MotionLimits.of(Problem.of(plan.task).robot.card, plan.task.scene)
     weaker = replace(own, accelerations=0.5 * own.accelerations)
     monkeypatch.setattr(MotionLimits, "of", lambda *_: weaker)
@@ -74,7 +76,7 @@ def test_too_hard_an_acceleration_is_refused_where_no_speed_is_too_great(plan: P
         require_replay(plan)
 
 
-def test_a_slower_base_than_a_plan_was_made_for_is_told(plan: Plan):
+def test_a_slower_base_than_a_plan_was_made_for_is_told(plan: Plan) -> None:
     slow = replace(plan.task.scene, base_speed_m_s=0.5 * Scene().base_speed_m_s)
     with pytest.raises(RequestError) as caught:
         require_replay(replace(plan, task=replace(plan.task, scene=slow)))
@@ -85,23 +87,23 @@ value = st.floats(-2.0, 2.0)
 
 
 @given(st.lists(st.tuples(st.floats(0.05, 2.0), value, value), min_size=2, max_size=5))
-def test_the_peaks_between_keyframes_are_those_of_the_cubic(keyframes: list[tuple[float, float, float]]):
+def test_the_peaks_between_keyframes_are_those_of_the_cubic(keyframes: list[tuple[float, float, float]]) -> None:
     gaps, values, rates = (np.array(column) for column in zip(*keyframes, strict=True))
     times = np.cumsum(gaps)
     speeds, accelerations = peaks(times, values[:, None], rates[:, None])
     for number, (start, end) in enumerate(pairwise(times)):
         at = np.linspace(start, end, 400, endpoint=False)
-        sampled = np.array([rate_at(times, values, rates, t) for t in at])
+        sampled = np.array([rate_at(times.tolist(), values, rates, t) for t in at])
         assert speeds[number, 0] == pytest.approx(
             max(np.abs(sampled).max(), abs(rates[number + 1])), rel=1e-3, abs=1e-3
         )
         hardest = np.abs(np.diff(sampled) / np.diff(at)).max()
         assert hardest <= accelerations[number, 0] * (1.0 + 1e-6) + 1e-6
         assert accelerations[number, 0] == pytest.approx(hardest, rel=2e-2, abs=2e-2)
-        assert value_at(times, values, rates, start) == pytest.approx(values[number])
+        assert value_at(times.tolist(), values, rates, start) == pytest.approx(values[number])
 
 
-def test_an_elbow_beyond_its_soft_limit_is_refused_with_the_joint_and_how_far(plan: Plan):
+def test_an_elbow_beyond_its_soft_limit_is_refused_with_the_joint_and_how_far(plan: Plan) -> None:
     path = plan.trajectory
     assert path is not None
     elbow = path.arms.names.index("l_elbow_flex_joint")
@@ -113,7 +115,7 @@ def test_an_elbow_beyond_its_soft_limit_is_refused_with_the_joint_and_how_far(pl
 
 
 @given(st.lists(st.tuples(*[st.floats(-2.0, 2.0)] * 2), min_size=2, max_size=4))
-def test_extremes_between_keyframes_are_those_of_a_dense_sampling(keyframes: list[tuple[float, float]]):
+def test_extremes_between_keyframes_are_those_of_a_dense_sampling(keyframes: list[tuple[float, float]]) -> None:
     values, rates = (np.array(column)[:, None] for column in zip(*keyframes, strict=True))
     times = np.arange(len(values), dtype=float)
     low, high = extremes(times, values, rates)

@@ -17,7 +17,7 @@ TO_M = 0.001
 
 
 @pytest.mark.parametrize("name", SOLVABLE)
-def test_a_plan_reaches_no_less_than_the_comfort_radius_it_was_made_for(name: str):
+def test_a_plan_reaches_no_less_than_the_comfort_radius_it_was_made_for(name: str) -> None:
     plan = planned(name).answer
     margins = margins_of(plan)
     assert margins is not None and margins.reach_m is not None
@@ -26,7 +26,7 @@ def test_a_plan_reaches_no_less_than_the_comfort_radius_it_was_made_for(name: st
     assert plan.task.limits.comfort_radius_m > 0.0
 
 
-def test_a_plan_made_without_comfort_has_the_margin_of_its_tightest_step():
+def test_a_plan_made_without_comfort_has_the_margin_of_its_tightest_step() -> None:
     # Planned with comfort up to that margin, the same steps are still possible; the plan can only be as quick.
     task = Task.of(load_garment("scarf")).within(0.0)
     plan = make_plan(task)
@@ -38,7 +38,7 @@ def test_a_plan_made_without_comfort_has_the_margin_of_its_tightest_step():
     assert tighter.cost_s == pytest.approx(plan.cost_s, abs=1e-6)
 
 
-def test_friction_and_edge_margins_are_those_of_the_cloth_as_it_lies():
+def test_friction_and_edge_margins_are_those_of_the_cloth_as_it_lies() -> None:
     # A towel of 0.4 m by 0.3 m hangs 0.1 m over the front edge: a quarter, so that a third is pulled by each that lies.
     halving = fold((0.4, 0.15), (0.0, 0.15), name="half")
     table = Table()
@@ -51,7 +51,7 @@ def test_friction_and_edge_margins_are_those_of_the_cloth_as_it_lies():
     assert margins.edge_m == pytest.approx(-0.1, abs=1e-6)
 
 
-def test_grips_are_apart_by_more_than_they_must_be():
+def test_grips_are_apart_by_more_than_they_must_be() -> None:
     plan = planned("hand-towel").answer
     margins = margins_of(plan)
     pairs = [[np.array(held.point) for held in step.holdings] for step in plan.steps if len(step.holdings) == 2]
@@ -60,7 +60,7 @@ def test_grips_are_apart_by_more_than_they_must_be():
 
 
 @pytest.mark.long
-def test_where_there_is_no_plan_there_are_no_margins():
+def test_where_there_is_no_plan_there_are_no_margins() -> None:
     plan = planned("tie-halved").answer
     assert not plan.is_solved and margins_of(plan) is None
     assert margins_of(replace(plan, status="budget_exceeded")) is None

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 from planner import Garment, Plan, Scene, make_plan
+from planner.cloth.garment import DrawnFold
 from planner.geometry.pose import BoolArray, FloatArray, Pose2
 from planner.geometry.table import Table
 from planner.motion.edge_hands import EdgeHands
@@ -34,6 +35,7 @@ from planner.robots.pr2 import Pr2
 from planner.task.reason import Code
 from tests.builders import fold, garment, rectangle_points
 from tests.planning.found import found_plan
+from tests.required import required
 
 BACK = -math.pi / 2
 STATIONS = (("front", Pose2(-0.95, 0.0, 0.0)), ("side", Pose2(-0.45, 0.64, BACK)))
@@ -51,7 +53,7 @@ ROOM_TO_TURN_M = 0.35
 """A standoff that lets the base drive round the table, and the cloth be dragged (m)."""
 
 
-def napkin(*folds, x_m: float = -0.6) -> Garment:
+def napkin(*folds: DrawnFold, x_m: float = -0.6) -> Garment:
     """Return a napkin of 0.3 x 0.3 m, its near edge at x = `x_m`."""
     return garment(rectangle_points(0.3, 0.3), *folds, placement=Pose2(x_m, 0.15, BACK))
 
@@ -112,8 +114,8 @@ class Eager:
     [((HALF,), 0.05), ((HALF,), ROOM_TO_TURN_M), ((HALF, QUARTER), 0.05), ((OVER, BACK_OVER), 0.05)],
 )
 def test_a_plan_costs_what_the_search_finds_that_makes_every_run_real_at_once(
-    monkeypatch, folds, back_off_max_m, arm_motion_s
-):
+    monkeypatch: pytest.MonkeyPatch, folds: tuple[DrawnFold, ...], back_off_max_m: float, arm_motion_s: float
+) -> None:
     # Both try the same ways for each run: tighter tasks, in which others come first that may be quicker, are left out,
     # and so are other ways to which hands come sooner, and more tries.
     for name in ("with_arms_apart", "with_more_comfort", "with_narrower_cones"):
@@ -126,7 +128,7 @@ def test_a_plan_costs_what_the_search_finds_that_makes_every_run_real_at_once(
         found.plan,
         sum(step.duration_s for plan_segment in found.plan_segments for step in plan_segment.steps),
     )
-    assert (plan.cost_s > seeming_s + 0.01) == (arm_motion_s == HURRIED_S), "else nothing is to be found out"
+    assert (required(plan.cost_s) > seeming_s + 0.01) == (arm_motion_s == HURRIED_S), "else nothing is to be found out"
     assert plan.cost_s == pytest.approx(duration_s(found.plan_segments), abs=1e-6)
     assert plan.cost_s == pytest.approx(Eager(found.context).cost_s(found.context.start), abs=1e-6)
 
@@ -175,7 +177,9 @@ class BarredRobot(Pr2):
         super().__init__()
         self._is_barred = is_barred
 
-    def collisions(self, table: Table, torso_m: float, *args: float, **options: float) -> BarredCollisions:
+    def collisions(  # type: ignore[override]
+        self, table: Table, torso_m: float, *args: float, **options: float
+    ) -> BarredCollisions:
         return BarredCollisions(super().collisions(table, torso_m, *args, **options), self._is_barred)
 
 
@@ -184,18 +188,18 @@ def barred(monkeypatch: pytest.MonkeyPatch, is_barred: IsBarred) -> None:
     monkeypatch.setattr(problem, "load_robot", lambda name: robot)
 
 
-def test_an_arm_that_is_barred_at_one_station_makes_the_plan_use_the_other(monkeypatch):
+def test_an_arm_that_is_barred_at_one_station_makes_the_plan_use_the_other(monkeypatch: pytest.MonkeyPatch) -> None:
     # To turn, the base must be 0.47 m away from the table; it stands 0.15 m from it.
     open_way = planned(napkin(HALF), scene(IDLE_S, ROOM_TO_TURN_M))
     assert {p.base.station for p in open_way.primitives} == {"front"}
     barred(monkeypatch, lambda arm, base: base.x_m < -0.9)
     plan = planned(napkin(HALF), scene(IDLE_S, ROOM_TO_TURN_M))
-    assert plan.is_solved and plan.cost_s > open_way.cost_s
+    assert plan.is_solved and required(plan.cost_s) > required(open_way.cost_s)
     (folding,) = (p for p in plan.primitives if p.kind == "fold")
     assert folding.base.station == "side"
 
 
-def test_an_arm_that_is_barred_where_it_stands_first_makes_the_base_back_off(monkeypatch):
+def test_an_arm_that_is_barred_where_it_stands_first_makes_the_base_back_off(monkeypatch: pytest.MonkeyPatch) -> None:
     # Barred at the station itself only: it backs off by a step of 0.05 m, at 0.25 m/s.
     barred(monkeypatch, lambda arm, base: abs(base.x_m + 0.95) < 0.01 and base.y_m == 0.0)
     plan = planned(napkin(HALF), scene(IDLE_S))
@@ -204,7 +208,7 @@ def test_an_arm_that_is_barred_where_it_stands_first_makes_the_base_back_off(mon
     assert folding.base.back_off_m == pytest.approx(0.05)
 
 
-def test_what_one_arm_cannot_do_the_other_does(monkeypatch):
+def test_what_one_arm_cannot_do_the_other_does(monkeypatch: pytest.MonkeyPatch) -> None:
     # One grip holds a corner, at x = -0.3, y = -0.15, 0.65 m ahead of the base.
     corner = fold((0.2, 0.3), (0.3, 0.2), name="corner")
     cloth = napkin(corner)
@@ -218,7 +222,9 @@ def test_what_one_arm_cannot_do_the_other_does(monkeypatch):
 
 
 @pytest.mark.parametrize("back_off_max_m", [0.0, 0.1])
-def test_where_an_arm_is_barred_everywhere_the_reason_is_a_collision(monkeypatch, back_off_max_m):
+def test_where_an_arm_is_barred_everywhere_the_reason_is_a_collision(
+    monkeypatch: pytest.MonkeyPatch, back_off_max_m: float
+) -> None:
     barred(monkeypatch, lambda arm, base: arm == 0)
     plan = planned(napkin(HALF, QUARTER), scene(IDLE_S, back_off_max_m))
     assert plan.status == "infeasible"
@@ -231,7 +237,7 @@ def give_up_after(monkeypatch: pytest.MonkeyPatch, failures: int) -> None:
         monkeypatch.setattr(search, name, replace(getattr(search, name), failures=failures))
 
 
-def test_what_the_same_arms_fail_at_again_and_again_they_try_no_more(monkeypatch):
+def test_what_the_same_arms_fail_at_again_and_again_they_try_no_more(monkeypatch: pytest.MonkeyPatch) -> None:
     validators = []
 
     class Seen(validator.MotionValidator):
@@ -253,20 +259,24 @@ def test_what_the_same_arms_fail_at_again_and_again_they_try_no_more(monkeypatch
     assert max(many.values()) > 1
 
 
-def test_what_the_arms_have_failed_at_from_one_station_they_try_from_another(monkeypatch):
+def test_what_the_arms_have_failed_at_from_one_station_they_try_from_another(monkeypatch: pytest.MonkeyPatch) -> None:
     give_up_after(monkeypatch, 1)
     barred(monkeypatch, lambda arm, base: base.x_m < -0.9)
     assert planned(napkin(HALF), scene(IDLE_S, ROOM_TO_TURN_M)).is_solved
 
 
-def test_a_fold_whose_hands_hold_on_is_to_blame_for_the_red_one_that_waits_for_it(monkeypatch):
+def test_a_fold_whose_hands_hold_on_is_to_blame_for_the_red_one_that_waits_for_it(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     barred(monkeypatch, lambda arm, base: True)
     plan = planned(napkin(OVER, BACK_OVER), scene(IDLE_S))
     assert plan.status == "infeasible"
     assert [(r.fold, r.code) for r in plan.reasons] == [(0, Code.COLLISION), (1, Code.WAITS_FOR_FOLD)]
 
 
-def test_where_another_way_is_as_good_the_rest_are_found_only_once_a_path_takes_longer(monkeypatch):
+def test_where_another_way_is_as_good_the_rest_are_found_only_once_a_path_takes_longer(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     found = found_plan(napkin(HALF), scene(IDLE_S, ROOM_TO_TURN_M))
     problem, (step,) = Problem.of(found.plan.task), found.plan_segments[0].steps
     maker, start = problem.maker, problem.start

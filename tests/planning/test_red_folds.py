@@ -18,6 +18,7 @@ from planner.primitives.state import State
 from planner.task.reason import Code
 from tests.builders import context, fold, garment, is_same_region, is_same_stack, rectangle, rectangle_points
 from tests.planning.red_towels import BACK, CORNER, OUT, OVER, TWO_SIDES, WIDTH_M, towel
+from tests.required import required
 
 START = State(0, (0.0, 0.0), 0, 0)
 
@@ -53,7 +54,7 @@ def held(state: State) -> dict[int, tuple[float, float]]:
     return {h.arm: h.point for h in state.held}
 
 
-def test_a_chain_takes_three_motions_for_the_blue_fold_and_two_for_each_red_one():
+def test_a_chain_takes_three_motions_for_the_blue_fold_and_two_for_each_red_one() -> None:
     problem = context(towel(OVER, BACK, OUT))
     over = step_of(problem, START)
     back = step_of(problem, over.after)
@@ -62,7 +63,7 @@ def test_a_chain_takes_three_motions_for_the_blue_fold_and_two_for_each_red_one(
     assert out.after.done == 0b111
 
 
-def test_the_hands_keep_the_free_edge_through_the_whole_chain_and_then_let_go():
+def test_the_hands_keep_the_free_edge_through_the_whole_chain_and_then_let_go() -> None:
     # Its corners are at y = 0, then 2 x 0.25, then 2 x 0.4 - 0.5, then 2 x 0.35 - 0.3; the left arm has x = 0.
     problem = context(towel(OVER, BACK, OUT))
     state, edges = START, []
@@ -81,7 +82,7 @@ def test_the_hands_keep_the_free_edge_through_the_whole_chain_and_then_let_go():
     assert not state.held
 
 
-def test_a_red_fold_takes_only_what_the_fold_before_it_moved():
+def test_a_red_fold_takes_only_what_the_fold_before_it_moved() -> None:
     # Pattern y: the flap is 0 < p < 0.25 and lies at 0.5 - p; p < 0.1 goes back to 0.3 + p; p < 0.05 out to 0.4 - p.
     layers = FoldSequence.of(towel(OVER, BACK, OUT)).final.layers
     assert [layer.face for layer in layers] == ["front", "back", "front", "back"]
@@ -91,7 +92,7 @@ def test_a_red_fold_takes_only_what_the_fold_before_it_moved():
     assert middles == pytest.approx([0.375, 0.125, 0.075, 0.025])
 
 
-def test_a_red_fold_over_a_flap_of_two_layers_turns_both():
+def test_a_red_fold_over_a_flap_of_two_layers_turns_both() -> None:
     # Half of the towel over x = 0.2, so that all is double; then the near part over, and its outer part back.
     double = towel(fold((0.2, 0.0), (0.2, 0.6)), fold((0.4, 0.25), (0.2, 0.25)), fold((0.2, 0.4), (0.4, 0.4), "red"))
     layers = FoldSequence.of(double).final.layers
@@ -102,7 +103,7 @@ def test_a_red_fold_over_a_flap_of_two_layers_turns_both():
     assert found == [pytest.approx(place) for place in wanted]
 
 
-def test_of_two_hands_the_one_that_is_not_needed_lets_go_first():
+def test_of_two_hands_the_one_that_is_not_needed_lets_go_first() -> None:
     # The corner (0.4, 0.5) is held by the right hand, the left one is 0.4 m away.
     problem = context(towel(OVER, CORNER))
     corner = step_of(problem, step_of(problem, START).after)
@@ -115,7 +116,7 @@ def test_of_two_hands_the_one_that_is_not_needed_lets_go_first():
     assert corner.grips[0].place == pytest.approx((y - 0.75, 0.2 - x, 0.02))
 
 
-def test_a_hand_that_has_let_go_in_a_chain_holds_nothing_later_in_it():
+def test_a_hand_that_has_let_go_in_a_chain_holds_nothing_later_in_it() -> None:
     # Of the corner's flap, a triangle, the tip goes back again over a line half-way to it: held by the right
     # hand alone.
     problem = context(towel(OVER, CORNER, tip()))
@@ -134,14 +135,14 @@ def tip() -> DrawnFold:
     return fold(ends[1], ends[0], "red", name="tip")
 
 
-def test_one_hand_holds_two_corners_that_are_no_further_apart_than_its_radius():
+def test_one_hand_holds_two_corners_that_are_no_further_apart_than_its_radius() -> None:
     # The bar is 0.12 m high: its end's inner corner is 0.12 m from the outer one, which the left hand holds.
     problem = context(banner(0.12))
     end_in = step_of(problem, step_of(problem, START).after)
     assert [grip.arm for grip in end_in.grips] == ["left"]
 
 
-def test_what_no_hand_holds_any_more_cannot_be_folded_in_a_chain():
+def test_what_no_hand_holds_any_more_cannot_be_folded_in_a_chain() -> None:
     # The bar is 0.2 m high, more than the radius of 0.127 m; with a radius of 0.2 m one hand holds both.
     problem = context(banner(0.2))
     assert list(GFold(problem).successors(step_of(problem, START).after)) == []
@@ -150,7 +151,7 @@ def test_what_no_hand_holds_any_more_cannot_be_folded_in_a_chain():
     assert step_of(wide, step_of(wide, START).after).after.done == 0b11
 
 
-def test_a_hand_on_the_part_that_stays_holds_nothing_of_the_part_that_moves():
+def test_a_hand_on_the_part_that_stays_holds_nothing_of_the_part_that_moves() -> None:
     # A ribbon 0.15 m wide: one hand holds both corners firmly from between them, 0.075 m from each. A corner then goes
     # back over a line 0.06 m from it along both edges. It is well within the hand's radius, but the hand is on the
     # other side of the line.
@@ -162,13 +163,13 @@ def test_a_hand_on_the_part_that_stays_holds_nothing_of_the_part_that_moves():
     assert [o.code for o in problem.obstacles.of(1)] == [Code.RED_NEEDS_HOLD]
 
 
-def test_a_red_fold_that_cannot_be_held_is_the_reason_why_there_is_no_plan():
+def test_a_red_fold_that_cannot_be_held_is_the_reason_why_there_is_no_plan() -> None:
     answer = make_plan(banner(0.2), time_limit_s=60.0)
     assert answer.status == "infeasible"
     assert (answer.reasons[0].fold, answer.reasons[0].code) == (1, Code.RED_NEEDS_HOLD)
 
 
-def test_a_red_fold_that_would_tear_says_how_much_of_the_crease_it_would_pull_away():
+def test_a_red_fold_that_would_tear_says_how_much_of_the_crease_it_would_pull_away() -> None:
     # It moves the flap's left 0.1 m, and with it 0.1 m of the crease y = 0.25, up to 100 mm from its line.
     torn = fold((0.1, 0.25), (0.1, 0.5), "red")
     with pytest.raises(FoldError, match=r"reaches 100\.0 mm along the crease.* tear") as caught:
@@ -178,7 +179,7 @@ def test_a_red_fold_that_would_tear_says_how_much_of_the_crease_it_would_pull_aw
         make_plan(towel(OVER, torn))
 
 
-def test_in_a_chain_only_the_last_crease_counts_for_tearing():
+def test_in_a_chain_only_the_last_crease_counts_for_tearing() -> None:
     # The third fold pulls at the second one's crease, y = 0.4, along 0.1 m; that of the first it does not reach.
     torn = fold((0.1, 0.3), (0.1, 0.4), "red")
     with pytest.raises(FoldError, match=r"reaches 100\.0 mm") as caught:
@@ -186,7 +187,7 @@ def test_in_a_chain_only_the_last_crease_counts_for_tearing():
     assert caught.value.field == "folds[2].start"
 
 
-def test_while_a_chain_is_under_way_nothing_else_can_be_done():
+def test_while_a_chain_is_under_way_nothing_else_can_be_done() -> None:
     problem = context(TWO_SIDES)
     assert problem.sequence.dag.available(0) == (0, 2)
     first = step_of(problem, START)
@@ -195,7 +196,7 @@ def test_while_a_chain_is_under_way_nothing_else_can_be_done():
     assert list(BaseMove(problem).successors(first.after)) == []
 
 
-def test_a_chain_takes_its_own_flap_also_after_a_later_fold_that_was_done_first():
+def test_a_chain_takes_its_own_flap_also_after_a_later_fold_that_was_done_first() -> None:
     # In bits: the right side alone is 0b100, the left over it 0b101, its edge back 0b111.
     sequence = FoldSequence.of(TWO_SIDES)
     assert is_same_region(sequence.folded(0b101, 1).moving, rectangle(0.08, 0.24, 0.24))
@@ -205,15 +206,15 @@ def test_a_chain_takes_its_own_flap_also_after_a_later_fold_that_was_done_first(
 
 
 @pytest.mark.parametrize("heuristic", ["arm_time", "zero"])
-def test_a_search_through_all_orders_of_a_chain_and_a_fold_apart_finds_a_plan(heuristic: str):
+def test_a_search_through_all_orders_of_a_chain_and_a_fold_apart_finds_a_plan(heuristic: str) -> None:
     answer = make_plan(TWO_SIDES, heuristic=heuristic, time_limit_s=60.0)
-    folds = [step.fold for step in answer.steps if step.kind == "fold"]
+    folds = [required(step.fold) for step in answer.steps if step.kind == "fold"]
     assert sorted(folds) == [0, 1, 2] and folds.index(1) == folds.index(0) + 1
     # All of it lies before the robot: 9 + 6 + 9 s at least, and no driving.
     assert answer.cost_s == pytest.approx(24.0, abs=0.5)
 
 
-def test_the_grips_of_a_drag_serve_the_blue_fold_and_then_its_red_one():
+def test_the_grips_of_a_drag_serve_the_blue_fold_and_then_its_red_one() -> None:
     problem = context(towel(OVER, BACK))
     drag = next(s for s in GDrag(problem).successors(START) if s.after.held and s.distance_m == 0.1)
     over = step_of(problem, drag.after)

@@ -17,7 +17,7 @@ def problem_of(comfort_m: float, cone_rad: float) -> Problem:
 
 
 @pytest.mark.parametrize(("comfort_m", "more"), [(0.0, [0.01, 0.02, 0.03]), (0.02, [0.03]), (0.03, []), (0.1, [])])
-def test_more_comfort_is_asked_for_where_there_is_less_than_the_default(comfort_m: float, more: list[float]):
+def test_more_comfort_is_asked_for_where_there_is_less_than_the_default(comfort_m: float, more: list[float]) -> None:
     found = list(with_more_comfort(problem_of(comfort_m, 1.3)))
     assert [(one.context.reach.comfort_m, one.context.scene.approach_cone_rad) for one in found] == [
         (m, 1.3) for m in more
@@ -25,14 +25,14 @@ def test_more_comfort_is_asked_for_where_there_is_less_than_the_default(comfort_
 
 
 @pytest.mark.parametrize(("cone_rad", "narrower"), [(math.pi, [0.0, 0.5, 1.0]), (0.7, [0.0, 0.5]), (0.0, [])])
-def test_cones_are_narrower_and_comfort_is_as_it_was(cone_rad: float, narrower: list[float]):
+def test_cones_are_narrower_and_comfort_is_as_it_was(cone_rad: float, narrower: list[float]) -> None:
     found = list(with_narrower_cones(problem_of(0.01, cone_rad)))
     assert [(one.context.reach.comfort_m, one.context.scene.approach_cone_rad) for one in found] == [
         (0.01, cone) for cone in narrower
     ]
 
 
-def test_all_else_is_the_same_in_a_tighter_task():
+def test_all_else_is_the_same_in_a_tighter_task() -> None:
     problem = problem_of(0.0, 1.3)
     for one in (*with_more_comfort(problem), *with_narrower_cones(problem)):
         alike = replace(one.context.scene, approach_cone_rad=1.3)
@@ -43,7 +43,7 @@ def test_all_else_is_the_same_in_a_tighter_task():
         )
 
 
-def test_a_tighter_task_knows_already_where_the_cloth_stays(monkeypatch: pytest.MonkeyPatch):
+def test_a_tighter_task_knows_already_where_the_cloth_stays(monkeypatch: pytest.MonkeyPatch) -> None:
     # Far enough towards the robot the vest hangs over the near edge, and with little friction it slips.
     problem = problem_of(0.0, 1.3)
     places = [(-0.1 * number, 0.0) for number in range(12)]
@@ -63,7 +63,7 @@ def test_a_tighter_task_knows_already_where_the_cloth_stays(monkeypatch: pytest.
         _ = [other.context.unrest(0, place) for place in places]
 
 
-def test_with_a_narrower_cone_what_is_known_of_transfers_is_not_computed_again(monkeypatch: pytest.MonkeyPatch):
+def test_with_a_narrower_cone_what_is_known_of_transfers_is_not_computed_again(monkeypatch: pytest.MonkeyPatch) -> None:
     garment = load_garment("hand-towel")
     problem = Problem.of(Task.of(garment))
     fold = next(step for step in GFold(problem.context).successors(problem.start))

@@ -12,6 +12,7 @@ from planner.planning.plan_check import require_replay
 from planner.robots.described_robot import read_robot
 from planner.robots.load_robot import load_robot
 from tests.builders import fold, garment
+from tests.required import required
 
 NAME = "so101-pair"
 
@@ -22,13 +23,13 @@ def plan() -> Plan:
     return make_plan(napkin, robot=NAME, time_limit_s=60.0)
 
 
-def test_two_small_arms_fold_a_napkin_where_they_stand(plan: Plan):
+def test_two_small_arms_fold_a_napkin_where_they_stand(plan: Plan) -> None:
     assert plan.is_solved
     assert {step.kind for step in plan.steps} == {"fold"}
     assert {step.after.base.station for step in plan.steps} == {None}
 
 
-def test_a_plan_reads_back_and_replays(plan: Plan):
+def test_a_plan_reads_back_and_replays(plan: Plan) -> None:
     again = Plan.from_dict(json.loads(json.dumps(plan.to_dict())))
     assert again == plan
     require_replay(again)
@@ -37,7 +38,7 @@ def test_a_plan_reads_back_and_replays(plan: Plan):
 @pytest.mark.long
 @pytest.mark.parametrize("article", ["tie", "scarf"])
 @pytest.mark.parametrize("robot", ["ur5e-pair", "panda-pair", "baxter"])
-def test_cloth_that_hangs_far_over_the_edge_of_the_table_is_folded(robot: str, article: str):
+def test_cloth_that_hangs_far_over_the_edge_of_the_table_is_folded(robot: str, article: str) -> None:
     hanging = make_plan(load_garment(article), robot=robot, time_limit_s=60.0)
     assert hanging.is_solved, hanging.reasons
     table_m = hanging.scene.table.height_m
@@ -45,7 +46,7 @@ def test_cloth_that_hangs_far_over_the_edge_of_the_table_is_folded(robot: str, a
     require_replay(hanging)
 
 
-def test_samples_have_every_actuated_joint_of_the_urdf_within_its_limits(plan: Plan):
+def test_samples_have_every_actuated_joint_of_the_urdf_within_its_limits(plan: Plan) -> None:
     model = pin.buildModelFromXML(read_robot(NAME).urdf)
     for sample in Timeline.of(plan).samples(5.0):
         joints = sample.to_dict()["joints"]
@@ -55,7 +56,7 @@ def test_samples_have_every_actuated_joint_of_the_urdf_within_its_limits(plan: P
             assert model.lowerPositionLimit[index] - 1e-9 <= value <= model.upperPositionLimit[index] + 1e-9
 
 
-def test_the_tools_are_where_the_grips_are_when_they_take_the_cloth(plan: Plan):
+def test_the_tools_are_where_the_grips_are_when_they_take_the_cloth(plan: Plan) -> None:
     """Another kinematics says where the joints bring the tool; arms of five joints are asked position and pitch."""
     robot = load_robot(NAME)
     model = pin.buildModelFromXML(read_robot(NAME).urdf)
@@ -65,7 +66,7 @@ def test_the_tools_are_where_the_grips_are_when_they_take_the_cloth(plan: Plan):
     for grip in step.grips:
         arm = next(one for one in read_robot(NAME).arms if one.card.name == grip.arm)
         nearest = np.inf
-        for t in np.linspace(0.0, plan.cost_s, 1801):
+        for t in np.linspace(0.0, required(plan.cost_s), 1801):
             q = pin.neutral(model)
             for name, value in played.at(float(t)).to_dict()["joints"].items():
                 q[model.joints[model.getJointId(name)].idx_q] = value

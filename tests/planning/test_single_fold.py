@@ -13,6 +13,7 @@ from planner.primitives.drag_offsets import drag_offsets
 from planner.task.reason import Code
 from tests.planning.found import found_plan
 from tests.replay.planned import planned
+from tests.required import required
 from tests.sweep import sweep
 
 HALVED = ("scarf-halved", "tie-halved")
@@ -20,7 +21,7 @@ SOLVABLE = [name for name in shipped_garment_names() if name not in HALVED]
 
 
 @sweep("name", SOLVABLE)
-def test_a_fold_that_can_be_done_is_never_called_impossible(name, monkeypatch):
+def test_a_fold_that_can_be_done_is_never_called_impossible(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(planning, "LOOK_ALONE_AFTER", 1)
     looked_at = make_plan(load_garment(name), time_limit_s=60.0)
     monkeypatch.setattr(planning, "LOOK_ALONE_AFTER", 1_000_000_000)
@@ -30,7 +31,9 @@ def test_a_fold_that_can_be_done_is_never_called_impossible(name, monkeypatch):
 
 
 @sweep("name", HALVED, ("tie-halved",))
-def test_what_is_called_impossible_is_so_when_all_states_are_exhausted(name, monkeypatch):
+def test_what_is_called_impossible_is_so_when_all_states_are_exhausted(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
     quick = planned(name).answer
     monkeypatch.setattr(planning, "LOOK_ALONE_AFTER", 1_000_000_000)
     exhausted = find_plan(Task.of(load_garment(name), time_limit_s=60.0), with_reasons=False).plan
@@ -39,19 +42,20 @@ def test_what_is_called_impossible_is_so_when_all_states_are_exhausted(name, mon
 
 
 @pytest.mark.parametrize("name", HALVED)
-def test_a_no_says_which_fold_is_out_of_reach_and_by_how_much(name):
+def test_a_no_says_which_fold_is_out_of_reach_and_by_how_much(name: str) -> None:
     first, *others = planned(name).answer.reasons
     assert (first.fold, first.code) == (0, Code.OUT_OF_REACH)
     assert first.cause in {"too_far", "joint_limit", "comfort_only"}
-    assert 0.0 < first.short_by_m < 0.3
+    short_by_m = required(first.short_by_m)
+    assert 0.0 < short_by_m < 0.3
     assert first.station in dict(Scene().stations)
-    assert len(first.point) == 3
-    assert f"{first.short_by_m:.2f} m" in first.message
+    assert len(required(first.point)) == 3
+    assert f"{short_by_m:.2f} m" in first.message
     assert (others[0].fold, others[0].code) == (1, Code.WAITS_FOR_FOLD)
 
 
 @pytest.mark.parametrize("name", HALVED)
-def test_it_asks_often_whether_to_stop_and_then_calls_nothing_impossible(name):
+def test_it_asks_often_whether_to_stop_and_then_calls_nothing_impossible(name: str) -> None:
     def looked_at(stop_after: float) -> tuple[bool, int]:
         """Return whether the first fold is impossible, and how often the search asked whether to stop."""
         problem, asked = Problem.of(Task.of(load_garment(name))), count(1)
@@ -65,7 +69,7 @@ def test_it_asks_often_whether_to_stop_and_then_calls_nothing_impossible(name):
         assert looked_at(stop_after) == (False, stop_after + 1)
 
 
-def test_drags_lead_only_where_some_of_the_article_can_lie_on_the_table():
+def test_drags_lead_only_where_some_of_the_article_can_lie_on_the_table() -> None:
     found = found_plan(load_garment("hand-towel"))
     offsets = drag_offsets(found.context, OFFSETS_MAX)
     half_depth, half_width = Scene().table.depth_m / 2, Scene().table.width_m / 2

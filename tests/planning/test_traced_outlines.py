@@ -30,11 +30,11 @@ def zigzag(count: int) -> FloatArray:
 
 
 @pytest.mark.parametrize("count", [100, 200, 400])
-def test_edges_that_zigzag_cost_nothing(count: int):
+def test_edges_that_zigzag_cost_nothing(count: int) -> None:
     assert cost_s(zigzag(count)) == pytest.approx(cost_s(CORNERS), abs=0.05)
 
 
 @pytest.mark.parametrize(("count", "seed"), [(60, 0), (200, 1), (400, 2)])
-def test_an_outline_traced_to_a_millimetre_is_folded_as_quickly_as_the_drawn_one(count: int, seed: int):
+def test_an_outline_traced_to_a_millimetre_is_folded_as_quickly_as_the_drawn_one(count: int, seed: int) -> None:
     traced = noisy(CORNERS, count, 0.001, random.Random(seed))
     assert cost_s(traced) == pytest.approx(cost_s(CORNERS), abs=0.1)

@@ -35,7 +35,7 @@ print([plan.status for plan in plans], [name for _, name, _ in compiled() - befo
 
 
 @pytest.mark.long
-def test_no_garment_has_to_wait_for_the_compiler():
+def test_no_garment_has_to_wait_for_the_compiler() -> None:
     # One arm and two, drags, hanging cloth, arms that must be led past each other, and no plan with its reasons.
     garments = ("shirt", "scarf", "big-towel", "t-shirt", "scarf-halved")
     done = subprocess.run([sys.executable, "-c", PROGRAM, *garments], capture_output=True, text=True, check=True)
@@ -53,13 +53,13 @@ print([one.__name__ for one in (axis_samples, posture_samples, rolled_samples, u
 """
 
 
-def test_a_small_robot_compiles_what_arms_of_other_joints_need():
+def test_a_small_robot_compiles_what_arms_of_other_joints_need() -> None:
     # Its own arms have five joints, and need no samples for all rolls.
     done = subprocess.run([sys.executable, "-c", SAMPLING], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
 
 
-def test_every_shipped_robot_has_room_for_the_garment_that_is_planned_first():
+def test_every_shipped_robot_has_room_for_the_garment_that_is_planned_first() -> None:
     for robot in shipped_robots():
         table, (xs, ys) = default_scene(robot).table, zip(*napkin(robot).outline, strict=True)
         assert max(xs) - min(xs) <= 0.5 * min(table.depth_m, table.width_m)
@@ -67,7 +67,9 @@ def test_every_shipped_robot_has_room_for_the_garment_that_is_planned_first():
 
 
 @pytest.mark.parametrize("robot", ["pr2", "so101-pair"])
-def test_the_bound_on_the_driving_is_asked_where_nothing_is_in_reach(monkeypatch, robot):
+def test_the_bound_on_the_driving_is_asked_where_nothing_is_in_reach(
+    monkeypatch: pytest.MonkeyPatch, robot: str
+) -> None:
     # At the table two hands have a hundred ways each: for TIAGo Pro the bound took 17 s, in every process.
     asked = []
     monkeypatch.setattr("planner.planning.warm_up.DrivingBound", lambda context, start: asked.append(context))
@@ -76,7 +78,7 @@ def test_the_bound_on_the_driving_is_asked_where_nothing_is_in_reach(monkeypatch
     assert all(math.hypot(pose.x_m, pose.y_m) > 10.0 for _, pose in context.scene.stations)
 
 
-def test_the_kernels_of_a_robot_are_used_once_by_whatever_name_it_is_asked_for(monkeypatch):
+def test_the_kernels_of_a_robot_are_used_once_by_whatever_name_it_is_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
     compile_kernels()
     monkeypatch.setattr("planner.planning.warm_up.Problem.of", lambda *_: pytest.fail("used once more"))
     compile_kernels("pr2")

@@ -49,31 +49,31 @@ def random_strips(seed: int) -> tuple[NDArray[np.uint32], int]:
     return np.array(masks, dtype=np.uint32), count
 
 
-def test_where_one_standoff_suits_every_waypoint_the_base_stays():
+def test_where_one_standoff_suits_every_waypoint_the_base_stays() -> None:
     (steps,) = travel(strip_of(0b111, 0b110, 0b011)[None], 3)
     assert steps[1, 1] == 0
 
 
-def test_the_base_drives_no_further_than_the_masks_ask():
+def test_the_base_drives_no_further_than_the_masks_ask() -> None:
     # From 0 to 2 by way of 1: two steps, taken at the waypoint where all three are in reach.
     (steps,) = travel(strip_of(0b001, 0b111, 0b100)[None], 3)
     assert steps.tolist() == [[IMPOSSIBLE, IMPOSSIBLE, 2], [IMPOSSIBLE] * 3, [IMPOSSIBLE] * 3]
     assert legs(strip_of(0b001, 0b111, 0b100), 0, 2, 3) == (0, 2, 2)
 
 
-def test_a_gap_in_what_is_in_reach_cannot_be_crossed():
+def test_a_gap_in_what_is_in_reach_cannot_be_crossed() -> None:
     (steps,) = travel(strip_of(0b001, 0b101, 0b100)[None], 3)
     assert (steps == IMPOSSIBLE).all()
 
 
 @given(st.integers(0, 100_000))
-def test_travel_is_what_dijkstra_finds_on_every_strip(seed: int):
+def test_travel_is_what_dijkstra_finds_on_every_strip(seed: int) -> None:
     strips, count = random_strips(seed)
     np.testing.assert_array_equal(travel(strips, count), [brute_force(strip, count) for strip in strips])
 
 
 @given(st.integers(0, 100_000))
-def test_the_legs_realise_the_travel(seed: int):
+def test_the_legs_realise_the_travel(seed: int) -> None:
     strips, count = random_strips(seed)
     strip = strips[0]
     (steps,) = travel(strip[None], count)

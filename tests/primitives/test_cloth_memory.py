@@ -25,7 +25,7 @@ def towel(scene: Scene | None = None, placement: Pose2 = PLACE, wide_m: float = 
     return context(garment(rectangle_points(wide_m, 0.3), half, placement=placement), scene=scene or Scene())
 
 
-def test_equal_contexts_share_what_is_known_and_another_cone_or_cost_changes_nothing_of_it():
+def test_equal_contexts_share_what_is_known_and_another_cone_or_cost_changes_nothing_of_it() -> None:
     kept = towel().cloth
     assert towel().cloth is kept
     assert towel(Scene(approach_cone_rad=0.5, arm_motion_s=2.0, base_speed_m_s=0.1)).cloth is kept
@@ -41,11 +41,11 @@ def test_equal_contexts_share_what_is_known_and_another_cone_or_cost_changes_not
         towel(wide_m=0.5),
     ],
 )
-def test_a_context_that_differs_in_what_counts_knows_nothing_of_others(other: Context):
+def test_a_context_that_differs_in_what_counts_knows_nothing_of_others(other: Context) -> None:
     assert other.cloth is not towel().cloth
 
 
-def test_a_context_that_forgets_leaves_what_it_found_to_the_next():
+def test_a_context_that_forgets_leaves_what_it_found_to_the_next() -> None:
     first = towel()
     found = first.unrest(0, (0.1, 0.0)), fold_trials(first, State(0, (0.1, 0.0), 0, 0), 0)
     first.forget()
@@ -55,7 +55,7 @@ def test_a_context_that_forgets_leaves_what_it_found_to_the_next():
     assert fold_trials(next_one, State(0, (0.1, 0.0), 0, 0), 0)[0].tools is found[1][0].tools
 
 
-def test_hands_that_are_known_are_those_found_anew():
+def test_hands_that_are_known_are_those_found_anew() -> None:
     there = State(0, (0.25, 0.0), 0, 3)
     fold_trials(towel(Scene(approach_cone_rad=0.1)), there, 0)
     known = fold_trials(towel(), there, 0)
@@ -69,7 +69,7 @@ def test_hands_that_are_known_are_those_found_anew():
             np.testing.assert_array_equal(approaches, others)
 
 
-def test_why_there_are_no_hands_is_noted_in_each_context():
+def test_why_there_are_no_hands_is_noted_in_each_context() -> None:
     for _ in range(2):
         near = towel(wide_m=0.4)
         wide = Context(near.sequence, near.scene, near.reach, PLACE, near.circle_m, grips_apart_m=2.0)

@@ -19,24 +19,24 @@ def stand_at(line: tuple[Corner, ...], sweep: float) -> float:
     return float(np.interp(sweep, [corner.sweep for corner in line], [corner.stand for corner in line]))
 
 
-def test_a_base_with_room_all_the_way_drives_straight_from_the_first_standoff_to_the_last():
+def test_a_base_with_room_all_the_way_drives_straight_from_the_first_standoff_to_the_last() -> None:
     line = drive_line(strip_of(0b1111, 0b1111, 0b1111), (0.0, 0.5, 2.0), 0, 3, 4)
     assert line == (Corner(0.0, 0), Corner(2.0, 3))
 
 
-def test_the_line_bends_only_where_reach_ends():
+def test_the_line_bends_only_where_reach_ends() -> None:
     # At the sweep 1 the standoff 1 is the furthest within reach, so the line has slope 1 before it and 2 after it.
     line = drive_line(strip_of(0b0011, 0b0011, 0b1111, 0b1111), (0.0, 1.0, 1.0, 2.0), 0, 3, 4)
     assert line == (Corner(0.0, 0), Corner(1.0, 1), Corner(2.0, 3))
 
 
-def test_where_no_standoff_suits_both_the_way_there_and_the_way_on_the_base_drives_while_the_hands_rest():
+def test_where_no_standoff_suits_both_the_way_there_and_the_way_on_the_base_drives_while_the_hands_rest() -> None:
     line = drive_line(strip_of(0b001, 0b111, 0b100), (0.0, 1.0, 2.0), 0, 2, 3)
     assert line == (Corner(0.0, 0), Corner(1.0, 0), Corner(1.0, 2), Corner(2.0, 2))
 
 
 @given(st.integers(0, 100_000))
-def test_the_line_stays_between_standoffs_within_reach_and_travels_as_far_as_the_legs(seed: int):
+def test_the_line_stays_between_standoffs_within_reach_and_travels_as_far_as_the_legs(seed: int) -> None:
     strips, count = random_strips(seed)
     strip = np.append(strips[0], strips[0][-1])
     sweeps = np.linspace(0.0, 2.0, len(strip)).tolist()

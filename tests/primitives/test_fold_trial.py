@@ -18,7 +18,7 @@ def towel_at(x_m: float) -> Context:
     return context(garment(rectangle_points(0.4, 0.3), half, placement=Pose2(x_m, 0.2, -math.pi / 2)))
 
 
-def test_paths_of_dragged_cloth_are_those_worked_out_where_it_lies():
+def test_paths_of_dragged_cloth_are_those_worked_out_where_it_lies() -> None:
     # The table's near edge is at x = -0.8: some of the places are beyond it, where tools go down at the edge.
     kept, rng = towel_at(-0.3), random.Random(1)
     beyond = 0
@@ -36,7 +36,7 @@ def test_paths_of_dragged_cloth_are_those_worked_out_where_it_lies():
     assert 5 < beyond < 55, "both kinds are among them"
 
 
-def test_a_path_that_leaves_the_table_on_its_way_alone_is_not_moved():
+def test_a_path_that_leaves_the_table_on_its_way_alone_is_not_moved() -> None:
     # Both ends of the flap's way are over the table, as seen from the fold line, but it lands beyond the far edge.
     kept = towel_at(0.3)
     (trial, *_) = fold_trials(kept, State(0, (0.3, 0.0), 0, 0), 0)

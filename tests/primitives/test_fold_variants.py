@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from planner import Scene, load_garment
 from planner.folds.fold_sequence import FoldSequence
@@ -60,7 +61,7 @@ def travel_m(step: FoldStep) -> float:
     return sum(math.dist((a.x_m, a.y_m), (b.x_m, b.y_m)) for a, b in drives)
 
 
-def test_the_ways_to_one_end_come_by_rising_travel_and_none_is_shorter_than_the_searchs(context: Context):
+def test_the_ways_to_one_end_come_by_rising_travel_and_none_is_shorter_than_the_searchs(context: Context) -> None:
     for step in GFold(context).successors(START):
         fold, end = step.way.trial.fold, step.after.standoff
         found = list(fold_variants(context, START, fold, end))
@@ -70,14 +71,14 @@ def test_the_ways_to_one_end_come_by_rising_travel_and_none_is_shorter_than_the_
         assert {v.end for v in found} == {end}
 
 
-def test_each_way_is_another_one(context: Context):
+def test_each_way_is_another_one(context: Context) -> None:
     (step, *_) = GFold(context).successors(START)
     found = list(fold_variants(context, START, step.way.trial.fold, step.after.standoff))
     looks = {(v.way.trial.cover, v.way.trial.arms, v.way.approaches) for v in found}
     assert len(looks) == len(found)
 
 
-def test_the_base_stands_only_where_both_hands_reach_their_waypoint(context: Context):
+def test_the_base_stands_only_where_both_hands_reach_their_waypoint(context: Context) -> None:
     for variant in list(fold_spread(context, BACKED_OFF, 0, COUNT))[::4]:
         seen, at = masks(context, START.station, variant), variant.first
         for mask, stand in zip(seen, legs(seen, variant.first, variant.end, context.standoffs), strict=True):
@@ -87,7 +88,7 @@ def test_the_base_stands_only_where_both_hands_reach_their_waypoint(context: Con
         assert at == variant.end
 
 
-def test_the_travel_told_is_what_the_phases_drive(context: Context):
+def test_the_travel_told_is_what_the_phases_drive(context: Context) -> None:
     for variant in fold_spread(context, BACKED_OFF, 0, COUNT):
         step = step_of(context, BACKED_OFF, variant)
         assert travel_m(step) == pytest.approx(variant.steps * STANDOFF_STEP_M)
@@ -95,7 +96,7 @@ def test_the_travel_told_is_what_the_phases_drive(context: Context):
 
 
 @pytest.mark.parametrize("count", [1, 3, COUNT, 100_000])
-def test_a_spread_is_as_large_as_asked_or_has_all_there_are(context: Context, count: int):
+def test_a_spread_is_as_large_as_asked_or_has_all_there_are(context: Context, count: int) -> None:
     every = list(fold_spread(context, START, 0, 1_000_000))
     some = list(fold_spread(context, START, 0, count))
     assert min(count, len(every)) <= len(some) < 2 * count
@@ -104,7 +105,7 @@ def test_a_spread_is_as_large_as_asked_or_has_all_there_are(context: Context, co
     assert ranks[0] == min((v.driven, v.rank) for v in every)
 
 
-def test_with_grips_held_the_base_begins_where_it_stands():
+def test_with_grips_held_the_base_begins_where_it_stands() -> None:
     context = problem("letter-towel")
     held = max(GFold(context).successors(START), key=lambda s: len(s.after.held)).after
     assert held.held and held.standoff < context.standoffs
@@ -122,21 +123,23 @@ class Asking:
     def __getattr__(self, name: str) -> Any:
         return getattr(self._reach, name)
 
-    def standoffs(self, arm: int, points: FloatArray, approaches: np.ndarray, count: int, *rest: Any, **more: Any):
+    def standoffs(
+        self, arm: int, points: FloatArray, approaches: NDArray[np.int64], count: int, *rest: Any, **more: Any
+    ) -> NDArray[np.uint32]:
         self.counts.append(count)
         return self._reach.standoffs(arm, points, approaches, count, *rest, **more)
 
 
-def test_ways_that_need_no_driving_are_found_without_a_look_from_further_back(context: Context):
+def test_ways_that_need_no_driving_are_found_without_a_look_from_further_back(context: Context) -> None:
     (step, *_) = GFold(context).successors(START)
     fold, end = step.way.trial.fold, step.after.standoff
     asking = Asking(context.reach)
-    few = islice(fold_variants(replace(context, reach=asking), START, fold, end), 3)  # type: ignore[arg-type]
+    few = islice(fold_variants(replace(context, reach=asking), START, fold, end), 3)
     assert [v.steps for v in few] == [end - START.standoff] * 3
     assert set(asking.counts) == {end + 1} and end + 1 < context.standoffs
 
 
-def test_all_ways_are_those_of_a_look_from_everywhere(context: Context, monkeypatch: pytest.MonkeyPatch):
+def test_all_ways_are_those_of_a_look_from_everywhere(context: Context, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(variants_module, "_COMBINATIONS_MAX", 100_000)
     (step, *_) = GFold(context).successors(START)
     fold, end = step.way.trial.fold, step.after.standoff

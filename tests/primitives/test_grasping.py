@@ -34,19 +34,19 @@ def arms(points: list[Point2], station: int = 0) -> set[tuple[int, ...]]:
     return set(assignments(context(TOWEL), station, np.array(points)))
 
 
-def test_an_edge_is_pinched_from_within_the_cone_round_straight_in():
+def test_an_edge_is_pinched_from_within_the_cone_round_straight_in() -> None:
     # The middle of the left edge: inwards is along x, heading 0.
     assert headings((0.0, 0.15), 75.0) == [-60, -30, 0, 30, 60, 999]
     assert headings((0.0, 0.15), 60.0) == [-60, -30, 0, 30, 60, 999]
     assert headings((0.0, 0.15), 59.0) == [-30, 0, 30, 999]
 
 
-def test_a_corner_is_pinched_from_within_the_cone_round_its_bisector():
+def test_a_corner_is_pinched_from_within_the_cone_round_its_bisector() -> None:
     # The lower left corner: the bisector is at 45 degrees; +-50 degrees of it: -5..95.
     assert headings((0.0, 0.0), 50.0) == [0, 30, 60, 90, 999]
 
 
-def test_a_corner_a_micrometre_askew_is_pinched_from_the_cones_rim_as_a_true_one_is():
+def test_a_corner_a_micrometre_askew_is_pinched_from_the_cones_rim_as_a_true_one_is() -> None:
     # Its lower edge falls by 1 um on 0.4 m, so the bisector by 1.25e-6 rad; 90 degrees is just within 45 of 45.
     assert headings((0.0, 0.0), 45.0) == [0, 30, 60, 90, 999]
     askew = garment([(0.0, 0.0), (0.4, -1e-6), (0.4, 0.3), (0.0, 0.3)])
@@ -54,43 +54,43 @@ def test_a_corner_a_micrometre_askew_is_pinched_from_the_cones_rim_as_a_true_one
     assert len(approaches_from_outside(problem, 0, 0.0, (0.0, 0.0), 0)) == 5
 
 
-def test_the_article_turned_turns_the_headings():
+def test_the_article_turned_turns_the_headings() -> None:
     assert headings((0.0, 0.15), 31.0, turn_deg=90.0) == [60, 90, 120, 999]
 
 
-def test_half_a_turn_asks_for_nothing():
+def test_half_a_turn_asks_for_nothing() -> None:
     assert len(headings((0.0, 0.15), 180.0)) == 10
 
 
-def test_what_is_not_on_the_boundary_is_taken_straight_down_only():
+def test_what_is_not_on_the_boundary_is_taken_straight_down_only() -> None:
     assert headings((0.2, 0.15), 75.0) == [999]
 
 
-def test_the_left_arm_takes_the_grip_further_left():
+def test_the_left_arm_takes_the_grip_further_left() -> None:
     # From `front` left is +y; arm 0 is the left one.
     assert arms([(-0.7, 0.2), (-0.7, -0.2)]) == {(0, 1)}
     assert arms([(-0.7, -0.2), (-0.7, 0.2)]) == {(1, 0)}
 
 
-def test_left_is_as_the_robot_sees_it_from_where_it_stands():
+def test_left_is_as_the_robot_sees_it_from_where_it_stands() -> None:
     # `left` looks along -y: its left is +x.
     assert arms([(0.6, 0.3), (0.2, 0.3)], station=2) == {(0, 1)}
 
 
-def test_grips_straight_behind_each_other_may_be_taken_either_way():
+def test_grips_straight_behind_each_other_may_be_taken_either_way() -> None:
     assert arms([(-0.7, 0.1), (-0.5, 0.1)]) == {(0, 1), (1, 0)}
 
 
-def test_a_single_grip_may_be_taken_by_either_arm():
+def test_a_single_grip_may_be_taken_by_either_arm() -> None:
     assert arms([(-0.7, 0.3)]) == {(0,), (1,)}
 
 
-def test_the_nearest_pair_of_fewer_than_two_is_nowhere_near():
+def test_the_nearest_pair_of_fewer_than_two_is_nowhere_near() -> None:
     assert nearest_pair_m(np.array([[0.0, 0.0]])) == math.inf
     assert nearest_pair_m(np.array([[0.0, 0.0], [3.0, 4.0], [0.0, 1.0]])) == pytest.approx(1.0)
 
 
-def test_the_base_stands_on_the_standoff_grid():
+def test_the_base_stands_on_the_standoff_grid() -> None:
     problem = context(TOWEL)
     assert problem.standoffs == 17
     assert problem.base_pose(0, 4) == Pose2(-1.15, 0.0, 0.0)

@@ -7,7 +7,7 @@ from planner.primitives.state import Held, State
 HERE = State(0b01, (0.1, 0.2), 1, 3, (Held(0, (0.3, 0.4)),), dragged=1)
 
 
-def test_sums_in_another_order_are_the_same_state():
+def test_sums_in_another_order_are_the_same_state() -> None:
     other = State(0b01, (0.3 - 0.1 - 0.1, 0.1 + 0.1), 1, 3, (Held(0, (0.1 + 0.2, 0.4)),), dragged=1)
     assert other == HERE and hash(other) == hash(HERE)
 
@@ -26,9 +26,9 @@ def test_sums_in_another_order_are_the_same_state():
     ],
     ids=["folds", "placement", "station", "standoff", "free hands", "other arm", "other grip", "held from a fold"],
 )
-def test_whatever_differs_makes_another_state(other: State):
+def test_whatever_differs_makes_another_state(other: State) -> None:
     assert other != HERE
 
 
-def test_a_state_is_no_other_kind_of_thing():
+def test_a_state_is_no_other_kind_of_thing() -> None:
     assert HERE.key != HERE

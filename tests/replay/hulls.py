@@ -57,10 +57,12 @@ def link_vertices(name: str) -> np.ndarray:
 def _vertices(geometry: yourdfpy.Geometry) -> np.ndarray:
     if geometry.mesh is not None:
         scale = 1.0 if geometry.mesh.scale is None else geometry.mesh.scale
-        return np.asarray(trimesh.load(mesh_path(geometry.mesh.filename), force="mesh").vertices) * scale
+        mesh = trimesh.load(mesh_path(geometry.mesh.filename), force="mesh")
+        assert isinstance(mesh, trimesh.Trimesh)
+        return np.asarray(np.asarray(mesh.vertices) * scale)
     if geometry.box is not None:
-        return trimesh.creation.box(geometry.box.size).vertices
-    return trimesh.creation.cylinder(geometry.cylinder.radius, geometry.cylinder.length).vertices
+        return np.asarray(trimesh.creation.box(geometry.box.size).vertices)
+    return np.asarray(trimesh.creation.cylinder(geometry.cylinder.radius, geometry.cylinder.length).vertices)
 
 
 def body(name: str, vertices: np.ndarray) -> Body:
@@ -142,7 +144,7 @@ def contacts(joints: dict[str, float], base: tuple[float, float, float], table: 
 
 
 def _yaw(angle: float) -> np.ndarray:
-    return trimesh.transformations.rotation_matrix(angle, (0.0, 0.0, 1.0))
+    return np.asarray(trimesh.transformations.rotation_matrix(angle, (0.0, 0.0, 1.0)))
 
 
 def _depth(a: Any, pose_a: np.ndarray, b: Any, pose_b: np.ndarray) -> float:

@@ -9,7 +9,7 @@ import pytest
 from app.drawing.garment_drawing import drawing_of
 from app.drawing.solve import solve
 from planner import Garment, Scene, Task, find_plan, load_garment, make_plan, quick_plan
-from planner.folds.fold import Fold
+from planner.cloth.garment import DrawnFold
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
 from planner.motion.timeline import Timeline
@@ -19,6 +19,7 @@ from tests.planning.found import found_plan
 from tests.replay.checker import check
 from tests.replay.joints import require_clear, require_speeds
 from tests.replay.planned import IMPOSSIBLE, SOLVABLE, each_solvable, planned
+from tests.required import required
 from tests.sweep import sweep
 
 CENTIMETRE = ((0.01, 0.0), (0.0, 0.01), (-0.01, 0.0), (0.0, -0.01))
@@ -61,7 +62,7 @@ HALF = fold((0.3, 0.15), (0.0, 0.15), name="half")
 QUARTER = fold((0.15, 0.15), (0.15, 0.3), name="quarter")
 
 
-def napkin(*folds: Fold) -> Garment:
+def napkin(*folds: DrawnFold) -> Garment:
     return garment(rectangle_points(0.3, 0.3), *folds, placement=Pose2(-0.75, 0.15, -math.pi / 2))
 
 
@@ -71,7 +72,7 @@ def way(found: FoundPlan) -> list[tuple[object, ...]]:
 
 
 @each_solvable
-def test_adapted_to_the_garment_it_is_for_a_plan_is_what_it_was(name: str):
+def test_adapted_to_the_garment_it_is_for_a_plan_is_what_it_was(name: str) -> None:
     before = planned(name)
     after = soon(load_garment(name), before.found)
     assert after is not None and after.plan.cost_s == pytest.approx(before.answer.cost_s, abs=1e-9)
@@ -80,7 +81,7 @@ def test_adapted_to_the_garment_it_is_for_a_plan_is_what_it_was(name: str):
 
 
 @each_solvable
-def test_what_is_adapted_to_a_garment_with_a_vertex_moved_by_a_centimetre_replays(name: str):
+def test_what_is_adapted_to_a_garment_with_a_vertex_moved_by_a_centimetre_replays(name: str) -> None:
     before, adapted = planned(name).found, []
     for vertex in free_vertices(before.plan.garment)[::2]:
         # None of these leaves a sliver narrower than a millimetre, which the checker would not follow.
@@ -88,13 +89,13 @@ def test_what_is_adapted_to_a_garment_with_a_vertex_moved_by_a_centimetre_replay
         after = soon(cloth, before)
         if after is not None:
             check(cloth.to_dict(), Scene().to_dict(), unhurried(after))
-            assert after.plan.statistics.bound_s <= after.plan.cost_s
+            assert required(after.plan.statistics.bound_s) <= required(after.plan.cost_s)
             adapted.append(after)
     assert adapted, "each garment has a vertex that may be pulled without another plan"
 
 
 @sweep("name", SOLVABLE, ("jeans", "scarf"))
-def test_the_arms_can_follow_what_is_adapted_again_and_again(name: str):
+def test_the_arms_can_follow_what_is_adapted_again_and_again(name: str) -> None:
     # A centimetre, millimetre by millimetre: each plan's joints are near to those of the plan before.
     found = planned(name).found
     vertex = free_vertices(found.plan.garment)[-1]
@@ -106,33 +107,33 @@ def test_the_arms_can_follow_what_is_adapted_again_and_again(name: str):
     require_clear(timeline, Table(), every_s=1.7)
 
 
-def test_most_centimetres_ask_for_no_other_plan():
+def test_most_centimetres_ask_for_no_other_plan() -> None:
     before = planned("t-shirt").found
     moves = [(vertex, CENTIMETRE[vertex % 4]) for vertex in range(len(before.plan.garment.outline))]
     after = [soon(moved("t-shirt", *move), before) for move in moves]
     assert sum(found is not None and way(found) == way(before) for found in after) >= 0.8 * len(moves)
 
 
-def test_what_more_is_to_be_folded_is_folded_after_what_is_known():
+def test_what_more_is_to_be_folded_is_folded_after_what_is_known() -> None:
     once, twice = napkin(HALF), napkin(HALF, QUARTER)
     known = found_plan(once)
-    found = soon(twice, known)
+    found = required(soon(twice, known))
     check(twice.to_dict(), Scene().to_dict(), unhurried(found))
     assert way(found)[: len(way(known))] == way(known)
-    assert found.plan.cost_s >= make_plan(twice).cost_s - 1e-9
+    assert required(found.plan.cost_s) >= required(make_plan(twice).cost_s) - 1e-9
 
 
-def test_what_is_not_to_be_folded_any_more_is_left_out():
+def test_what_is_not_to_be_folded_any_more_is_left_out() -> None:
     once, twice = napkin(HALF), napkin(HALF, QUARTER)
-    found = soon(once, found_plan(twice))
+    found = required(soon(once, found_plan(twice)))
     assert way(found) == way(found_plan(once))
 
 
-def test_a_plan_whose_hands_let_go_does_not_do_for_folds_between_which_they_hold_on():
+def test_a_plan_whose_hands_let_go_does_not_do_for_folds_between_which_they_hold_on() -> None:
     over, back = fold((0.3, 0.12), (0.0, 0.12), name="over"), fold((0.0, 0.2), (0.3, 0.2), "red", name="back")
     red, blue = napkin(over, back), napkin(over, replace(back, kind="blue"))
     for cloth, other in ((red, blue), (blue, red)):
-        found = soon(cloth, found_plan(other))
+        found = required(soon(cloth, found_plan(other)))
         check(cloth.to_dict(), Scene().to_dict(), unhurried(found))
         folds = [step for step in found.plan.steps if step.kind == "fold"]
         assert [step.details["holds"] for step in folds] == [cloth is red, False]
@@ -140,29 +141,30 @@ def test_a_plan_whose_hands_let_go_does_not_do_for_folds_between_which_they_hold
 
 
 @pytest.mark.parametrize("name", IMPOSSIBLE)
-def test_where_there_is_no_plan_none_is_found_soon(name: str):
+def test_where_there_is_no_plan_none_is_found_soon(name: str) -> None:
     assert soon(load_garment(name), planned(name.removesuffix("-halved")).found) is None
 
 
-def test_a_plan_that_is_known_is_the_answer_if_none_is_quicker():
-    known = soon(moved("jeans", 2, (0.0, 0.01)), planned("jeans").found)
+def test_a_plan_that_is_known_is_the_answer_if_none_is_quicker() -> None:
+    known = required(soon(moved("jeans", 2, (0.0, 0.01)), planned("jeans").found))
     after = find_plan(known.plan.task, known=known).plan
     plainly = make_plan(known.plan.task)
-    assert after.is_solved and after.cost_s == pytest.approx(min(known.plan.cost_s, plainly.cost_s), abs=1e-9)
+    quickest_s = min(required(known.plan.cost_s), required(plainly.cost_s))
+    assert after.is_solved and after.cost_s == pytest.approx(quickest_s, abs=1e-9)
     assert after.statistics.bound_s == pytest.approx(after.cost_s, abs=1e-9), "that is proved now"
 
 
-def test_a_plan_that_is_known_is_the_answer_when_time_runs_out():
+def test_a_plan_that_is_known_is_the_answer_when_time_runs_out() -> None:
     jeans = load_garment("jeans")
-    known = soon(jeans, planned("jeans").found)
+    known = required(soon(jeans, planned("jeans").found))
     task = Task.of(jeans, max_expanded=1)
     after = find_plan(task, known=known).plan
     assert after.is_solved and after.cost_s == known.plan.cost_s
     assert after.task == task, "it answers what was asked now"
-    assert after.statistics.bound_s < after.cost_s, "whether it is the quickest is not known"
+    assert required(after.statistics.bound_s) < required(after.cost_s), "whether it is the quickest is not known"
 
 
-def test_a_slower_plan_that_is_known_gives_way_to_the_quickest():
+def test_a_slower_plan_that_is_known_gives_way_to_the_quickest() -> None:
     towel = load_garment("hand-towel")
     slow = found_plan(towel, start_station="left")
     assert find_plan(Task.of(towel), known=slow).plan.cost_s == pytest.approx(

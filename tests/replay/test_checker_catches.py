@@ -57,20 +57,20 @@ def exchange_arms(grips: list[Json]) -> None:
         grip["arm"] = {"left": "right", "right": "left"}[grip["arm"]]
 
 
-def test_two_folds_in_the_wrong_order_are_caught():
+def test_two_folds_in_the_wrong_order_are_caught() -> None:
     assert "waits for the folds [0]" in refusal("hand-towel", lambda plan: swap(plan, 0, 1))
 
 
-def test_a_drag_that_is_left_out_is_caught():
+def test_a_drag_that_is_left_out_is_caught() -> None:
     # Without it the skirt's first fold has neither the grips in hand nor the cloth where it says.
     assert "is not where cloth rests" in refusal("skirt", lambda plan: drop(plan, "drag"))
 
 
-def test_a_fold_that_is_left_out_is_caught():
+def test_a_fold_that_is_left_out_is_caught() -> None:
     assert "only the folds [0, 1] were done" in refusal("hand-towel", lambda plan: drop(plan, "fold", 2))
 
 
-def test_a_fold_done_twice_is_caught():
+def test_a_fold_done_twice_is_caught() -> None:
     def repeat(plan: Json) -> None:
         plan["primitives"].append(copy.deepcopy(nth(plan, "fold", 2)))
         retimed(plan)
@@ -78,17 +78,17 @@ def test_a_fold_done_twice_is_caught():
     assert "folded twice" in refusal("hand-towel", repeat)
 
 
-def test_a_red_fold_that_its_blue_one_lets_go_before_is_caught():
+def test_a_red_fold_that_its_blue_one_lets_go_before_is_caught() -> None:
     message = refusal("letter-towel", lambda plan: nth(plan, "fold").update(holds=False))
     assert "lets go before one" in message
 
 
-def test_holding_on_where_no_red_fold_follows_is_caught():
+def test_holding_on_where_no_red_fold_follows_is_caught() -> None:
     message = refusal("hand-towel", lambda plan: nth(plan, "fold", 1).update(holds=True))
     assert "holds on without a red fold" in message
 
 
-def test_a_drag_said_to_hold_before_another_primitive_than_a_fold_is_caught():
+def test_a_drag_said_to_hold_before_another_primitive_than_a_fold_is_caught() -> None:
     def hold_on(plan: Json) -> None:
         drag = nth(plan, "drag")
         drag["holds"] = True
@@ -100,12 +100,12 @@ def test_a_drag_said_to_hold_before_another_primitive_than_a_fold_is_caught():
 
 @pytest.mark.parametrize("axis", [0, 1])
 @pytest.mark.parametrize("kind", ["fold", "drag"])
-def test_a_grip_three_centimetres_off_is_caught(kind: str, axis: int):
+def test_a_grip_three_centimetres_off_is_caught(kind: str, axis: int) -> None:
     message = refusal("t-shirt", lambda plan: shift(nth(plan, kind)["grips"][0]["pick"], axis, 0.03))
     assert any(words in message for words in ("the grip at", "best", "nearest grip", "from the table's edge"))
 
 
-def test_a_grip_that_slides_along_the_edge_is_caught_though_it_still_holds_every_vertex():
+def test_a_grip_that_slides_along_the_edge_is_caught_though_it_still_holds_every_vertex() -> None:
     def slide(plan: Json) -> None:
         for key in ("pick", "apex", "place"):
             shift(nth(plan, "fold")["grips"][0][key], 1, -0.03)
@@ -113,32 +113,32 @@ def test_a_grip_that_slides_along_the_edge_is_caught_though_it_still_holds_every
     assert "best [0.0, 0.0]" in refusal("hand-towel", slide)
 
 
-def test_arms_that_are_exchanged_are_caught():
+def test_arms_that_are_exchanged_are_caught() -> None:
     message = refusal("hand-towel", lambda plan: exchange_arms(nth(plan, "fold")["grips"]))
     assert "the left arm takes the grip on the right" in message
 
 
-def test_arms_that_are_exchanged_while_they_hold_cloth_are_caught():
+def test_arms_that_are_exchanged_while_they_hold_cloth_are_caught() -> None:
     message = refusal("letter-towel", lambda plan: exchange_arms(nth(plan, "fold", 1)["grips"]))
     assert "arm holds" in message
 
 
-def test_a_grip_too_few_is_caught():
+def test_a_grip_too_few_is_caught() -> None:
     assert "from the nearest grip" in refusal("hand-towel", lambda plan: nth(plan, "fold")["grips"].pop())
 
 
-def test_two_grips_for_one_arm_are_caught():
+def test_two_grips_for_one_arm_are_caught() -> None:
     message = refusal("hand-towel", lambda plan: nth(plan, "fold")["grips"][0].update(arm="right"))
     assert "the arms are ['right', 'right']" in message
 
 
 @pytest.mark.parametrize("key", ["apex", "place"])
-def test_a_path_that_ends_or_turns_elsewhere_is_caught(key: str):
+def test_a_path_that_ends_or_turns_elsewhere_is_caught(key: str) -> None:
     message = refusal("shirt", lambda plan: shift(nth(plan, "fold", 3)["grips"][0][key], 2, 0.03))
     assert f"the {key} is 0.0300 m off" in message
 
 
-def test_a_hanging_corner_taken_at_the_height_of_the_table_is_caught():
+def test_a_hanging_corner_taken_at_the_height_of_the_table_is_caught() -> None:
     # The big towel's first drag, by 0.4 m, takes its near corners from 0.05 m inside the edge to 0.35 m beyond it. Let
     # go there they would hang at the edge, 0.35 m below where the tool is at rest on the table: at
     # 0.02 - 0.35 = -0.33 m, 0.03 m outside the edge.
@@ -155,15 +155,15 @@ def test_a_hanging_corner_taken_at_the_height_of_the_table_is_caught():
     assert [float(rest[1]), float(rest[3])] == pytest.approx([-0.8 - 0.03, 0.02 - 0.35])
 
 
-def test_a_drag_off_the_grid_is_caught():
+def test_a_drag_off_the_grid_is_caught() -> None:
     assert "no multiple of 0.10 m" in refusal("t-shirt", lambda plan: nth(plan, "drag").update(distance_m=0.25))
 
 
-def test_a_drag_of_another_length_is_caught():
+def test_a_drag_of_another_length_is_caught() -> None:
     assert "hand ends at" in refusal("t-shirt", lambda plan: nth(plan, "drag").update(distance_m=0.1))
 
 
-def test_a_drag_towards_an_edge_from_which_cloth_hangs_is_caught():
+def test_a_drag_towards_an_edge_from_which_cloth_hangs_is_caught() -> None:
     def drag_twice(plan: Json) -> None:
         # The big towel's first drag takes its near part beyond the edge, where it hangs once it is let go.
         drag = nth(plan, "drag")
@@ -177,7 +177,7 @@ def test_a_drag_towards_an_edge_from_which_cloth_hangs_is_caught():
 @pytest.mark.parametrize(
     ("by", "why"), [(0.1, "its legs are no multiple of 5 cm"), (-0.5, "too few for arms and base")]
 )
-def test_a_fold_with_another_duration_is_caught(by: float, why: str):
+def test_a_fold_with_another_duration_is_caught(by: float, why: str) -> None:
     def change(plan: Json) -> None:
         nth(plan, "fold", 1)["duration_s"] += by
         retimed(plan)
@@ -187,7 +187,7 @@ def test_a_fold_with_another_duration_is_caught(by: float, why: str):
 
 
 @pytest.mark.parametrize(("kind", "name"), [("drag", "t-shirt"), ("move", "jeans")])
-def test_a_drag_or_move_with_another_duration_is_caught(kind: str, name: str):
+def test_a_drag_or_move_with_another_duration_is_caught(kind: str, name: str) -> None:
     def change(plan: Json) -> None:
         nth(plan, kind)["duration_s"] += 0.2
         retimed(plan)
@@ -195,16 +195,16 @@ def test_a_drag_or_move_with_another_duration_is_caught(kind: str, name: str):
     assert "takes" in refusal(name, change)
 
 
-def test_a_way_through_the_table_is_caught():
+def test_a_way_through_the_table_is_caught() -> None:
     message = refusal("jeans", lambda plan: nth(plan, "move")["waypoints"].__delitem__(slice(2, 6)))
     assert "turns while it drives" in message or "through" in message
 
 
-def test_a_move_that_is_left_out_is_caught():
+def test_a_move_that_is_left_out_is_caught() -> None:
     assert "the base is at front_right" in refusal("jeans", lambda plan: drop(plan, "move"))
 
 
-def test_a_base_that_ends_at_another_station_is_caught():
+def test_a_base_that_ends_at_another_station_is_caught() -> None:
     message = refusal("hand-towel", lambda plan: nth(plan, "fold")["base"].update(station="left"))
     assert "the base is at left" in message
 
@@ -223,15 +223,15 @@ def test_a_base_that_ends_at_another_station_is_caught():
         ("the DAG's edges", lambda plan: plan["dag"]["edges"].append([0, 2])),
     ],
 )
-def test_bookkeeping_that_does_not_add_up_is_caught(place: str, spoil: Callable[[Json], None]):
+def test_bookkeeping_that_does_not_add_up_is_caught(place: str, spoil: Callable[[Json], None]) -> None:
     assert place in refusal("hand-towel", spoil)
 
 
-def test_cloth_that_slips_on_a_smoother_table_is_caught():
+def test_cloth_that_slips_on_a_smoother_table_is_caught() -> None:
     assert "the cloth slips" in refusal("scarf", lambda plan: None, {"friction": 0.05})
 
 
-def test_a_table_on_which_nothing_of_the_cloth_would_lie_is_caught():
+def test_a_table_on_which_nothing_of_the_cloth_would_lie_is_caught() -> None:
     table = {"depth_m": 0.2, "width_m": 0.2, "height_m": 0.79}
     assert "nothing of the cloth lies" in refusal("hand-towel", lambda plan: None, {"table": table})
 
@@ -249,7 +249,7 @@ def numbers(node: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
 
 
 @pytest.mark.parametrize("name", ["jeans", "letter-towel", "vest"])
-def test_no_number_of_a_primitive_can_be_wrong_by_three_hundredths_unnoticed(name: str):
+def test_no_number_of_a_primitive_can_be_wrong_by_three_hundredths_unnoticed(name: str) -> None:
     case = planned(name)
     for path in numbers(case.plan["primitives"]):
         plan = copy.deepcopy(case.plan)

@@ -36,7 +36,7 @@ def pulled_tie(corner: int, by_m: float, towards_rad: float) -> Garment:
         pytest.param(2, 0.01, 4.1663, marks=pytest.mark.long),
     ],
 )
-def test_two_hands_fold_a_narrow_end(corner: int, by_m: float, towards_rad: float):
+def test_two_hands_fold_a_narrow_end(corner: int, by_m: float, towards_rad: float) -> None:
     cloth = pulled_tie(corner, by_m, towards_rad)
     plan = make_plan(cloth, time_limit_s=60.0)
     assert plan.is_solved

@@ -37,21 +37,21 @@ def sampled(name: str, rate_hz: float) -> tuple[np.ndarray, dict[str, np.ndarray
 
 
 @each_looked_at
-def test_no_part_of_a_free_hand_is_in_the_table(name: str):
+def test_no_part_of_a_free_hand_is_in_the_table(name: str) -> None:
     for look in looks_at(name):
         found = list(in_table(look, Table()))
         assert not found, f"at {look.frame.t_s:.2f} s: {found}"
 
 
 @each_looked_at
-def test_no_part_of_a_free_arm_is_low_over_cloth_but_near_its_grip(name: str):
+def test_no_part_of_a_free_arm_is_low_over_cloth_but_near_its_grip(name: str) -> None:
     for look in looks_at(name):
         found = list(too_low(look, Table()))
         assert not found, f"at {look.frame.t_s:.2f} s: {found}"
 
 
 @each_solvable
-def test_no_finger_opens_before_the_cloth_lies(name: str):
+def test_no_finger_opens_before_the_cloth_lies(name: str) -> None:
     plan = planned(name).answer
     timeline, opened = Timeline.of(plan), 0
     for primitive in plan.primitives:
@@ -68,7 +68,7 @@ def test_no_finger_opens_before_the_cloth_lies(name: str):
 
 
 @each_solvable
-def test_fingers_are_no_faster_than_the_urdf_allows(name: str):
+def test_fingers_are_no_faster_than_the_urdf_allows(name: str) -> None:
     times, fingers = sampled(name, 50.0)
     for joint, limit in zip(FINGERS.values(), speed_limits([*FINGERS.values()]), strict=True):
         angles = fingers[joint]
@@ -78,7 +78,7 @@ def test_fingers_are_no_faster_than_the_urdf_allows(name: str):
 
 @pytest.mark.parametrize("rate_hz", [1.0, 10.0, 30.0, 50.0])
 @each_solvable
-def test_sample_times_strictly_grow_by_whole_steps_to_exactly_the_end(name: str, rate_hz: float):
+def test_sample_times_strictly_grow_by_whole_steps_to_exactly_the_end(name: str, rate_hz: float) -> None:
     plan = planned(name).answer
     times, _ = sampled(name, rate_hz)
     assert times[-1] == plan.cost_s

@@ -48,7 +48,7 @@ def holding(name: str, number: int, arm: str) -> list[Moment]:
 
 
 @each_solvable
-def test_the_trajectory_lasts_as_long_as_the_plan_costs_and_knows_which_primitive_is_under_way(name: str):
+def test_the_trajectory_lasts_as_long_as_the_plan_costs_and_knows_which_primitive_is_under_way(name: str) -> None:
     plan, sampled = planned(name).plan, samples(name)
     assert sampled[0]["t_s"] == 0.0
     assert sampled[-1]["t_s"] == pytest.approx(plan["cost_s"], abs=1e-9)
@@ -59,13 +59,13 @@ def test_the_trajectory_lasts_as_long_as_the_plan_costs_and_knows_which_primitiv
 
 
 @each_solvable
-def test_every_joint_of_the_trajectory_is_known_to_the_urdf_and_within_its_limits(name: str):
+def test_every_joint_of_the_trajectory_is_known_to_the_urdf_and_within_its_limits(name: str) -> None:
     for sample in samples(name):
         require_joint_limits(sample)
 
 
 @each_solvable
-def test_the_base_is_where_each_primitive_leaves_it_when_it_ends(name: str):
+def test_the_base_is_where_each_primitive_leaves_it_when_it_ends(name: str) -> None:
     for primitive in planned(name).plan["primitives"]:
         base = moment(name, primitive["start_s"] + primitive["duration_s"]).base
         wanted = (primitive["base"]["x_m"], primitive["base"]["y_m"])
@@ -74,7 +74,7 @@ def test_the_base_is_where_each_primitive_leaves_it_when_it_ends(name: str):
 
 
 @each_solvable
-def test_a_tool_passes_its_pick_its_apex_and_its_place_in_that_order(name: str):
+def test_a_tool_passes_its_pick_its_apex_and_its_place_in_that_order(name: str) -> None:
     for number, (primitive, arms) in enumerate(zip(planned(name).plan["primitives"], ways(name), strict=True)):
         for grip in primitive["grips"]:
             arm, looks = grip["arm"], holding(name, number, grip["arm"])
@@ -89,7 +89,7 @@ def test_a_tool_passes_its_pick_its_apex_and_its_place_in_that_order(name: str):
 
 
 @each_solvable
-def test_a_tool_that_holds_cloth_never_leaves_the_way_of_its_grip(name: str):
+def test_a_tool_that_holds_cloth_never_leaves_the_way_of_its_grip(name: str) -> None:
     for number, arms in enumerate(ways(name)):
         for arm, way in arms.items():
             gaps = {m.t_s: distance_to_way(m.tools[arm], list(way.points)) for m in holding(name, number, arm)}
@@ -98,7 +98,7 @@ def test_a_tool_that_holds_cloth_never_leaves_the_way_of_its_grip(name: str):
 
 
 @each_solvable
-def test_a_tool_takes_cloth_from_outside_at_an_allowed_pitch(name: str):
+def test_a_tool_takes_cloth_from_outside_at_an_allowed_pitch(name: str) -> None:
     cone = planned(name).scene["approach_cone_rad"]
     for number, arms in enumerate(ways(name)):
         for arm, way in arms.items():

@@ -21,23 +21,23 @@ TURNS = ("forearm_roll", "wrist_roll")
 
 
 @each_solvable
-def test_no_joint_of_an_arm_is_faster_than_the_urdf_allows(name: str):
+def test_no_joint_of_an_arm_is_faster_than_the_urdf_allows(name: str) -> None:
     require_speeds(Timeline.of(planned(name).answer))
 
 
 @each_solvable
-def test_rolls_are_unwound_so_that_they_never_jump_by_a_turn(name: str):
+def test_rolls_are_unwound_so_that_they_never_jump_by_a_turn(name: str) -> None:
     joints, values, _ = arm_joints(Timeline.of(planned(name).answer))
     rolls = [i for i, joint in enumerate(joints) if any(turn in joint for turn in TURNS)]
     assert max(np.abs(b - a).max() for a, b in pairwise(values[:, rolls])) < np.pi / 8
 
 
 @each_solvable
-def test_nothing_touches_anything_but_the_cloth(name: str):
+def test_nothing_touches_anything_but_the_cloth(name: str) -> None:
     case = planned(name)
     require_clear(Timeline.of(case.answer), Table(**case.scene["table"]), CHECKED_S)
 
 
-def test_the_speed_limits_are_read_from_the_urdf():
+def test_the_speed_limits_are_read_from_the_urdf() -> None:
     assert speed_limits(["l_shoulder_pan_joint"])[0] == pytest.approx(2.088)
     assert isinstance(robot()[0], pin.Model)

@@ -9,6 +9,6 @@ each_solvable = pytest.mark.parametrize("name", SOLVABLE)
 
 
 @each_solvable
-def test_the_plan_of_a_shipped_garment_replays(name: str):
+def test_the_plan_of_a_shipped_garment_replays(name: str) -> None:
     case = planned(name)
     check(case.garment, case.scene, case.plan)

@@ -15,12 +15,12 @@ from tests.small_plan import CARD, small_plan
 
 
 @each_solvable
-def test_speeds_and_accelerations_keep_their_limits_and_all_rests_between_the_steps(name: str):
+def test_speeds_and_accelerations_keep_their_limits_and_all_rests_between_the_steps(name: str) -> None:
     require_smooth(planned(name).answer, CARD)
 
 
 @each_solvable
-def test_steps_last_as_long_as_their_motions(name: str):
+def test_steps_last_as_long_as_their_motions(name: str) -> None:
     plan = planned(name).answer
     assert plan.trajectory is not None
     for number, step in enumerate(plan.steps):
@@ -30,7 +30,7 @@ def test_steps_last_as_long_as_their_motions(name: str):
 
 
 @each_solvable
-def test_a_plan_takes_little_longer_than_the_model_says_and_never_less(name: str):
+def test_a_plan_takes_little_longer_than_the_model_says_and_never_less(name: str) -> None:
     plan = planned(name).answer
     assert plan.cost_s is not None and plan.bound_s is not None
     assert plan.bound_s - 1e-9 <= plan.cost_s <= 1.04 * plan.bound_s
@@ -41,7 +41,7 @@ def jerked(plan: Plan, arms: ArmTrack) -> Plan:
     return replace(plan, trajectory=replace(plan.trajectory, arms=arms))
 
 
-def test_a_motion_that_goes_straight_from_keyframe_to_keyframe_is_none_for_a_robot():
+def test_a_motion_that_goes_straight_from_keyframe_to_keyframe_is_none_for_a_robot() -> None:
     plan = small_plan()
     assert plan.trajectory is not None
     arms = plan.trajectory.arms
@@ -50,7 +50,7 @@ def test_a_motion_that_goes_straight_from_keyframe_to_keyframe_is_none_for_a_rob
         require_smooth(jerked(plan, halved), CARD)
 
 
-def test_a_base_whose_velocity_jumps_is_found():
+def test_a_base_whose_velocity_jumps_is_found() -> None:
     plan = small_plan()
     assert plan.trajectory is not None
     segments = list(plan.trajectory.segments)
@@ -61,7 +61,7 @@ def test_a_base_whose_velocity_jumps_is_found():
         require_smooth(replace(plan, trajectory=replace(plan.trajectory, segments=tuple(segments))), CARD)
 
 
-def test_fingers_that_are_too_quick_are_found():
+def test_fingers_that_are_too_quick_are_found() -> None:
     plan = small_plan()
     assert plan.trajectory is not None
 
@@ -73,7 +73,7 @@ def test_fingers_that_are_too_quick_are_found():
         require_smooth(replace(plan, trajectory=replace(plan.trajectory, grippers=grippers)), CARD)
 
 
-def test_told_velocities_and_accelerations_are_the_derivatives():
+def test_told_velocities_and_accelerations_are_the_derivatives() -> None:
     plan = small_plan()
     path = plan.trajectory
     assert path is not None and plan.cost_s is not None

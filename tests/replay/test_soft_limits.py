@@ -25,7 +25,7 @@ def soft_limits() -> dict[str, tuple[float, float]]:
 
 
 @each_solvable
-def test_all_joints_stay_within_the_soft_limits_all_the_time(name: str):
+def test_all_joints_stay_within_the_soft_limits_all_the_time(name: str) -> None:
     path, limits = planned(name).answer.trajectory, soft_limits()
     assert path is not None and len({*path.arms.names} & {*limits}) == 10
     times_s = np.array(path.arms.times_s)

@@ -23,13 +23,13 @@ def require_way_round(primitive: dict[str, Any], start: Pose, goal: Pose, scene:
     half_y = scene["table"]["width_m"] / 2 + CIRCLE_M
     inside = box(SLACK - half_x, SLACK - half_y, half_x - SLACK, half_y - SLACK)
     seconds = 0.0
-    for a, b in pairwise(poses):
-        drive, turn = math.dist(a[:2], b[:2]), abs(math.remainder(b[2] - a[2], math.tau))
+    for one, other in pairwise(poses):
+        drive, turn = math.dist(one[:2], other[:2]), abs(math.remainder(other[2] - one[2], math.tau))
         seconds += from_rest_to_rest_s(drive, scene["base_speed_m_s"], DRIVE_M_S2)
         seconds += from_rest_to_rest_s(turn, scene["base_turn_rad_s"], TURN_RAD_S2)
-        assert drive < SLACK or turn < SLACK, f"the base turns while it drives from {a} to {b}"
+        assert drive < SLACK or turn < SLACK, f"the base turns while it drives from {one} to {other}"
         if turn > SLACK:
-            assert not inside.contains(Point(a[:2])), f"the base turns at {a[:2]}, too near the table"
+            assert not inside.contains(Point(one[:2])), f"the base turns at {one[:2]}, too near the table"
     assert abs(seconds - primitive["duration_s"]) < 1e-6, f"the way takes {seconds} s, the plan says otherwise"
     first, last = _backed_out(poses, inside), _backed_out(poses[::-1], inside)
     middle = [p[:2] for p in poses[first : len(poses) - last]]

@@ -4,10 +4,9 @@ import numpy as np
 
 from planner.geometry.pose import FloatArray, Pose2
 from planner.robots.arm import MIRROR
-from planner.robots.load_robot import load_robot
-from tests.robots.model import random_joints
+from tests.robots.model import random_joints, the_pr2
 
-ROBOT = load_robot("pr2")
+ROBOT = the_pr2()
 CARD = ROBOT.card
 HOME = np.array([ROBOT.home(0), ROBOT.home(1)])
 FAR = Pose2(-5.0, 0.0, 0.0)

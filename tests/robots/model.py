@@ -6,9 +6,18 @@ import pinocchio as pin
 from planner.geometry.pose import FloatArray
 from planner.robots.card import RobotCard
 from planner.robots.description import read_model
+from planner.robots.load_robot import load_robot
+from planner.robots.pr2 import Pr2
 
 MODEL = read_model()
 DATA = MODEL.createData()
+
+
+def the_pr2() -> Pr2:
+    """Return the PR2 that plans are made for, with its closed form."""
+    robot = load_robot("pr2")
+    assert isinstance(robot, Pr2)
+    return robot
 
 
 def random_joints(card: RobotCard, arm: int, rng: np.random.Generator) -> FloatArray:
@@ -39,5 +48,6 @@ def pin_pose(frame: str, values: dict[str, float]) -> tuple[FloatArray, FloatArr
 def pin_tool_pose(card: RobotCard, arm: int, joints: FloatArray, torso_m: float) -> tuple[FloatArray, FloatArray]:
     """Return position and rotation of an arm's tool in base_footprint."""
     names = card.arms[arm].joint_names
-    values = {card.lift_joint: torso_m, **dict(zip(names, joints, strict=True))}
+    assert card.lift_joint is not None
+    values: dict[str, float] = {card.lift_joint: torso_m, **dict(zip(names, joints, strict=True))}
     return pin_pose(card.arms[arm].tool_frame, values)

@@ -17,7 +17,7 @@ from planner.geometry.pose import BoolArray, FloatArray, Point3, Pose2
 from planner.geometry.shortfall import Shortfall, never
 from planner.geometry.table import Table
 from planner.robots.arm_paths import Together, arm_paths, arm_searches
-from planner.robots.card import ArmCard, RobotCard
+from planner.robots.card import ArmCard, ParallelogramGripper, RobotCard
 from planner.robots.collision.clearance import Clearance
 from planner.robots.collision.collisions import Collisions
 from planner.robots.collision.contact import Contact
@@ -68,6 +68,8 @@ class Mounted:
         return np.concatenate([joints, np.zeros((*joints.shape[:-1], self.idle))], axis=-1)
 
     def card(self, arm: ArmCard) -> ArmCard:
+        gripper = arm.gripper
+        assert isinstance(gripper, ParallelogramGripper)
         names = tuple(f"{self.name}_{joint}" for joint in (*arm.joint_names, *(f"idle_{n}" for n in range(self.idle))))
         return replace(
             arm,
@@ -78,7 +80,7 @@ class Mounted:
             limits=(*arm.limits, *((-1.0, 1.0),) * self.idle),
             home=(*arm.home, *(0.0,) * self.idle),
             lifting=tuple(f"{self.name}_{joint}" for joint in arm.lifting),
-            gripper=replace(arm.gripper, joint_name=f"{self.name}_{arm.gripper.joint_name}"),
+            gripper=replace(gripper, joint_name=f"{self.name}_{gripper.joint_name}"),
         )
 
 
@@ -94,6 +96,8 @@ class ShiftedArm(MirroredArm):
 
 class RemadeReach(Pr2Reach):
     """The reach of several arms."""
+
+    _arms: tuple[ShiftedArm, ...]
 
     @property
     def shoulders(self) -> tuple[Point3, ...]:
@@ -171,7 +175,12 @@ class RemadeRobot:
         return None if found is None else one.own(found)
 
     def free_postures(
-        self, arm: int, position: FloatArray, rotation: FloatArray, torso_m: float, is_free
+        self,
+        arm: int,
+        position: FloatArray,
+        rotation: FloatArray,
+        torso_m: float,
+        is_free: Callable[[FloatArray], BoolArray],
     ) -> FloatArray:
         one = self.arms[arm]
         found = self.pr2.free_postures(
@@ -257,8 +266,8 @@ class RemadeCollisions:
         assert joints.shape[1] == sum(counts)
         of_arm = dict(zip(arms, np.split(joints, np.cumsum(counts)[:-1], axis=1), strict=True))
         apart = np.ones(len(joints), dtype=bool)
-        for pair in combinations(arms, 2):
-            apart &= self._pair_apart(pair, *(of_arm[arm] for arm in pair), **how)
+        for one, other in combinations(arms, 2):
+            apart &= self._pair_apart((one, other), of_arm[one], of_arm[other], **how)
         return apart
 
     def _pair_apart(self, pair: tuple[int, int], first: FloatArray, second: FloatArray, **how: bool) -> BoolArray:
@@ -277,7 +286,7 @@ class RemadeCollisions:
 
     def free(self, bases: Pose2 | FloatArray, joints: FloatArray) -> BoolArray:
         alone = [self.arm_free(arm, bases, joints[:, self._layout.spans[arm]]) for arm in self._layout.arms]
-        return np.all([*alone, self.arms_apart(tuple(self._layout.arms), joints)], axis=0)
+        return np.asarray(np.all([*alone, self.arms_apart(tuple(self._layout.arms), joints)], axis=0))
 
     def are_all_free(self, bases: Pose2 | FloatArray, joints: FloatArray) -> bool:
         return bool(self.free(bases, joints).all())

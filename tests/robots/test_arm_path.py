@@ -5,15 +5,17 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from planner.geometry.pose import Approach, BoolArray, FloatArray
 from planner.geometry.table import Table
 from planner.robots.arm import MIRROR
-from planner.robots.load_robot import load_robot
-from planner.robots.tool_path import NoPath, ToolPath
-from tests.robots.model import limits, pin_tool_pose
+from planner.robots.tool_path import IsFree, NoPath, ToolPath
+from tests.required import required
+from tests.robots.model import limits, pin_tool_pose, the_pr2
+from tests.robots.required import joints_of, no_path_of
 
-ROBOT = load_robot("pr2")
+ROBOT = the_pr2()
 CARD = ROBOT.card
 TORSO_M, TABLE_M = 0.29, 0.79
 PITCHES_DEG = (30, 45, 60, 90)
@@ -47,19 +49,19 @@ def mirrored(path: ToolPath) -> ToolPath:
     return replace(path, positions=path.positions * SIDEWAYS, rotations=rotations)
 
 
-def everywhere(_: FloatArray, joints: FloatArray, is_certain: bool) -> BoolArray:
+def everywhere(_: NDArray[np.int64], joints: FloatArray, is_certain: bool) -> BoolArray:
     return np.ones(len(joints), dtype=bool)
 
 
-def nowhere(_: FloatArray, joints: FloatArray, is_certain: bool) -> BoolArray:
+def nowhere(_: NDArray[np.int64], joints: FloatArray, is_certain: bool) -> BoolArray:
     return np.zeros(len(joints), dtype=bool)
 
 
-def found(path: ToolPath, is_free=everywhere, arm: int = 0) -> FloatArray | NoPath:
+def found(path: ToolPath, is_free: IsFree = everywhere, arm: int = 0) -> FloatArray | NoPath:
     return ROBOT.arm_paths({arm: path}, TORSO_M, TABLE_M, {arm: is_free}, ROBOT.collisions(Table(), TORSO_M))
 
 
-def found_near(path: ToolPath, known: FloatArray, is_free=everywhere, arm: int = 0) -> FloatArray | None:
+def found_near(path: ToolPath, known: FloatArray, is_free: IsFree = everywhere, arm: int = 0) -> FloatArray | None:
     return ROBOT.arm_path_near(arm, path, TORSO_M, is_free, known)
 
 
@@ -77,133 +79,134 @@ def require_followed(path: ToolPath, joints: FloatArray, arm: int = 0) -> None:
 
 @pytest.mark.parametrize("arm", [0, 1])
 @pytest.mark.parametrize("pitch_deg", PITCHES_DEG)
-def test_the_tool_is_on_its_path_at_every_pose(pitch_deg, arm):
+def test_the_tool_is_on_its_path_at_every_pose(pitch_deg: float, arm: int) -> None:
     path = across(pitch_deg) if arm == 0 else mirrored(across(pitch_deg))
-    require_followed(path, found(path, arm=arm), arm)
+    require_followed(path, joints_of(found(path, arm=arm)), arm)
 
 
-def test_so_it_is_on_random_lines():
+def test_so_it_is_on_random_lines() -> None:
     rng, followed = np.random.default_rng(11), 0
     for _ in range(30):
         start, end = rng.uniform((0.4, 0.0, 0.82), (0.8, 0.5, 1.2)), rng.uniform((0.4, 0.0, 0.82), (0.8, 0.5, 1.2))
         path = line(tuple(start), tuple(end), rng.choice(PITCHES_DEG))
         joints = found(path)
-        is_path = not isinstance(joints, NoPath)
-        if is_path:
+        if isinstance(joints, NoPath):
+            assert not ROBOT.can_reach(0, path.positions, path.rotations, TORSO_M).all()
+        else:
             require_followed(path, joints)
             followed += 1
-        assert is_path or not ROBOT.can_reach(0, path.positions, path.rotations, TORSO_M).all()
     assert followed > 15
 
 
-def test_a_hand_that_turns_over_is_followed_too():
+def test_a_hand_that_turns_over_is_followed_too() -> None:
     path = line((0.6, 0.3, 0.9), (0.6, 0.3, 1.1), 30)
     turns = np.linspace(0.0, math.pi, len(path.positions))
     about_x = np.array([[[1, 0, 0], [0, math.cos(a), -math.sin(a)], [0, math.sin(a), math.cos(a)]] for a in turns])
     rolled = replace(path, rotations=path.rotations @ about_x)
-    require_followed(rolled, found(rolled))
+    require_followed(rolled, joints_of(found(rolled)))
 
 
-def test_a_path_that_leaves_the_reach_is_blocked_where_it_is_outside():
+def test_a_path_that_leaves_the_reach_is_blocked_where_it_is_outside() -> None:
     # The arm is 0.1 + 0.4 + 0.321 + 0.18 m long and its shoulder 0.05 m behind the base's middle: 0.951 m ahead. The
     # path goes on to 1 m; of its 41 poses, 1 cm apart from 0.6 m on, every third and the last are looked at.
-    blocked = found(line((0.6, 0.188, 0.9), (1.0, 0.188, 0.9), 30)).blocked
+    blocked = no_path_of(found(line((0.6, 0.188, 0.9), (1.0, 0.188, 0.9), 30))).blocked
     assert {36, 39, 40} <= set(blocked) <= {27, 30, 33, 36, 39, 40}, (
         "what is nearer than 0.86 m is in reach at any rate"
     )
 
 
-def test_where_everything_collides_every_pose_that_is_looked_at_is_blocked():
-    assert found(across(45), nowhere).blocked.tolist() == [*range(0, 29, 3), 29]
+def test_where_everything_collides_every_pose_that_is_looked_at_is_blocked() -> None:
+    assert no_path_of(found(across(45), nowhere)).blocked.tolist() == [*range(0, 29, 3), 29]
 
 
-def test_poses_before_and_after_the_core_are_not_told_but_may_be_all_that_is_in_the_way():
+def test_poses_before_and_after_the_core_are_not_told_but_may_be_all_that_is_in_the_way() -> None:
     # Of the 41 poses those from 0.88 m on, the 29th and later, may be out of reach, those to the 27th are not.
     path = line((0.6, 0.188, 0.9), (1.0, 0.188, 0.9), 30)
-    nearer, farther = (found(replace(path, core=core)) for core in ((0, 27), (30, 41)))
+    nearer, farther = (no_path_of(found(replace(path, core=core))) for core in ((0, 27), (30, 41)))
     assert not len(nearer.blocked) and not nearer.is_core
     assert {6, 9, 10} <= set(farther.blocked) <= {0, 3, 6, 9, 10} and farther.is_core
 
 
-def test_an_arm_goes_round_what_the_calmest_path_would_run_into():
+def test_an_arm_goes_round_what_the_calmest_path_would_run_into() -> None:
     path = across(45)
     wall_rad = 0.6
 
-    def beside(_: FloatArray, joints: FloatArray, is_certain: bool) -> BoolArray:
+    def beside(_: NDArray[np.int64], joints: FloatArray, is_certain: bool) -> BoolArray:
         return joints[:, 0] < wall_rad
 
-    calm, other = found(path), found(path, beside)
+    calm, other = joints_of(found(path)), joints_of(found(path, beside))
     assert calm[:, 0].max() > wall_rad, "else the wall is in nobody's way"
     require_followed(path, other)
     assert other[:, 0].max() < wall_rad
 
 
-def test_an_arm_goes_round_what_stands_in_its_way_for_a_while_only():
+def test_an_arm_goes_round_what_stands_in_its_way_for_a_while_only() -> None:
     path = across(45)
     middle = len(path.positions) // 2
 
-    def gate(poses: FloatArray, joints: FloatArray, is_certain: bool) -> BoolArray:
+    def gate(poses: NDArray[np.int64], joints: FloatArray, is_certain: bool) -> BoolArray:
         return (np.abs(poses - middle) > 2) | (joints[:, 0] < 0.5)
 
-    calm, other = found(path), found(path, gate)
+    calm, other = joints_of(found(path)), joints_of(found(path, gate))
     assert calm[middle, 0] > 0.5, "else the gate is wide enough"
     require_followed(path, other)
     assert other[middle - 2 : middle + 3, 0].max() < 0.5
 
 
-def test_of_what_is_only_not_certain_to_collide_a_path_may_be_made():
+def test_of_what_is_only_not_certain_to_collide_a_path_may_be_made() -> None:
     # With `certain` nothing is free: samples may be rejected for that only where the path found collides.
     path = across(45)
 
-    def doubtful(_: FloatArray, joints: FloatArray, is_certain: bool) -> BoolArray:
+    def doubtful(_: NDArray[np.int64], joints: FloatArray, is_certain: bool) -> BoolArray:
         return np.full(len(joints), not is_certain)
 
-    np.testing.assert_array_equal(found(path, doubtful), found(path))
+    np.testing.assert_array_equal(joints_of(found(path, doubtful)), joints_of(found(path)))
 
 
 @pytest.mark.parametrize("pitch_deg", PITCHES_DEG)
-def test_the_mirror_image_of_a_path_has_the_mirror_image_of_its_joints(pitch_deg):
+def test_the_mirror_image_of_a_path_has_the_mirror_image_of_its_joints(pitch_deg: float) -> None:
     path = across(pitch_deg)
-    np.testing.assert_allclose(found(mirrored(path), arm=1), found(path) * MIRROR, atol=1e-9)
-
-
-def test_so_has_what_goes_round_a_wall():
-    path = across(45)
-    left = found(path, lambda _, joints, is_certain: joints[:, 0] < 0.6)
-    right = found(mirrored(path), lambda _, joints, is_certain: joints[:, 0] > -0.6, arm=1)
+    left, right = joints_of(found(path)), joints_of(found(mirrored(path), arm=1))
     np.testing.assert_allclose(right, left * MIRROR, atol=1e-9)
 
 
-def test_elbows_stay_above_the_table_where_they_can():
+def test_so_has_what_goes_round_a_wall() -> None:
+    path = across(45)
+    left = joints_of(found(path, lambda _, joints, is_certain: joints[:, 0] < 0.6))
+    right = joints_of(found(mirrored(path), lambda _, joints, is_certain: joints[:, 0] > -0.6, arm=1))
+    np.testing.assert_allclose(right, left * MIRROR, atol=1e-9)
+
+
+def test_elbows_stay_above_the_table_where_they_can() -> None:
     for pitch_deg in PITCHES_DEG:
-        joints = found(across(pitch_deg))
+        joints = joints_of(found(across(pitch_deg)))
         assert min(ROBOT.elbow_height(0, at, TORSO_M) for at in joints) > TABLE_M
 
 
-def test_where_known_joints_still_do_they_are_kept():
+def test_where_known_joints_still_do_they_are_kept() -> None:
     path = across(45)
-    known = found(path)
+    known = joints_of(found(path))
     shifted = replace(path, positions=path.positions + np.array([0.004, 0.003, 0.002]))
-    near = found_near(shifted, known)
+    near = required(found_near(shifted, known))
     require_followed(shifted, near)
     np.testing.assert_allclose(near, known, atol=0.05)
 
 
 @pytest.mark.parametrize("arm", [0, 1])
-def test_where_known_joints_no_longer_do_there_are_none_near_to_them(arm):
+def test_where_known_joints_no_longer_do_there_are_none_near_to_them(arm: int) -> None:
     path = across(45) if arm == 0 else mirrored(across(45))
-    known = found(path, arm=arm)
+    known = joints_of(found(path, arm=arm))
     barred = known[-1, 0]
 
-    def is_free(poses: FloatArray, joints: FloatArray, is_certain: bool) -> BoolArray:
+    def is_free(poses: NDArray[np.int64], joints: FloatArray, is_certain: bool) -> BoolArray:
         """Forbid the pan's first value at the last five poses."""
-        return (np.asarray(poses) < len(known) - 5) | (np.abs(joints[:, 0] - barred) > 0.1)
+        return np.asarray((np.asarray(poses) < len(known) - 5) | (np.abs(joints[:, 0] - barred) > 0.1))
 
     assert found_near(path, known, is_free, arm) is None
-    require_followed(path, found(path, is_free, arm), arm)
+    require_followed(path, joints_of(found(path, is_free, arm)), arm)
 
 
-def test_what_is_out_of_reach_is_near_to_nothing():
+def test_what_is_out_of_reach_is_near_to_nothing() -> None:
     path = across(45)
     beyond = replace(path, positions=path.positions + np.array([1.0, 0.0, 0.0]))
-    assert found_near(beyond, found(path)) is None
+    assert found_near(beyond, joints_of(found(path))) is None

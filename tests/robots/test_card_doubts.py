@@ -2,7 +2,9 @@
 
 import json
 import math
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 import trimesh
@@ -11,7 +13,7 @@ from planner.robots.card_doubts import ArmsCrossed, ArmsTogether, OddPart, Stati
 from planner.robots.described_robot import DescribedRobot, read_described, read_robot, shipped_path, shipped_robots
 
 
-def changed(folder: Path, change, name: str = "panda-pair") -> DescribedRobot:
+def changed(folder: Path, change: Callable[[dict[str, Any]], None], name: str = "panda-pair") -> DescribedRobot:
     card = json.loads(shipped_path(name).read_text())
     change(card)
     (folder / "mine.json").write_text(json.dumps(card))
@@ -19,32 +21,38 @@ def changed(folder: Path, change, name: str = "panda-pair") -> DescribedRobot:
 
 
 @pytest.mark.parametrize("name", ["panda-pair", "ur5e-single"])
-def test_a_shipped_card_leaves_no_doubt(name: str):
+def test_a_shipped_card_leaves_no_doubt(name: str) -> None:
     assert name in shipped_robots()
     assert card_doubts(read_robot(name)) == ()
 
 
-def test_arms_that_are_mounted_in_one_place_are_told(tmp_path: Path):
-    def change(card):
+def test_arms_that_are_mounted_in_one_place_are_told(tmp_path: Path) -> None:
+    def change(card: dict[str, Any]) -> None:
         card["mounts"][1] = card["mounts"][0] | {"name": card["mounts"][1]["name"]}
 
     assert card_doubts(changed(tmp_path, change)) == (ArmsTogether(("left", "right"), 0.0),)
 
 
-def test_arms_that_are_not_named_from_left_to_right_are_told(tmp_path: Path):
-    def change(card):
+def test_arms_that_are_not_named_from_left_to_right_are_told(tmp_path: Path) -> None:
+    def change(card: dict[str, Any]) -> None:
         for mount in card["mounts"]:
             mount["y_m"] *= -1.0
 
-    assert card_doubts(changed(tmp_path, change)) == (ArmsCrossed(("left", "right"), pytest.approx(0.7)),)
+    [doubt] = card_doubts(changed(tmp_path, change))
+    assert isinstance(doubt, ArmsCrossed)
+    assert doubt.arms == ("left", "right")
+    assert doubt.left_m == pytest.approx(0.7)
 
 
 @pytest.mark.parametrize("yaw_rad", [math.pi, -2.0, 1.8])
-def test_a_base_that_turns_its_back_on_the_table_is_told(tmp_path: Path, yaw_rad: float):
-    def change(card):
+def test_a_base_that_turns_its_back_on_the_table_is_told(tmp_path: Path, yaw_rad: float) -> None:
+    def change(card: dict[str, Any]) -> None:
         card["scene"]["stations"]["edge"]["yaw_rad"] = yaw_rad
 
-    assert card_doubts(changed(tmp_path, change)) == (StationFacesAway("edge", pytest.approx(abs(yaw_rad))),)
+    [doubt] = card_doubts(changed(tmp_path, change))
+    assert isinstance(doubt, StationFacesAway)
+    assert doubt.station == "edge"
+    assert doubt.away_rad == pytest.approx(abs(yaw_rad))
 
 
 ARM = """<robot name="arm">
@@ -59,13 +67,15 @@ ARM = """<robot name="arm">
 
 
 @pytest.mark.parametrize(("scale", "size_m"), [("1 1 1", 360.0), ("0.1 0.1 0.1", 36.0), ("0.000001 " * 3, 0.00036)])
-def test_a_part_in_another_unit_is_told_with_its_size(tmp_path: Path, scale: str, size_m: float):
-    assert card_doubts(bench(tmp_path, scale)) == (
-        OddPart("forearm", pytest.approx(size_m), pytest.approx(0.4, abs=0.2)),
-    )
+def test_a_part_in_another_unit_is_told_with_its_size(tmp_path: Path, scale: str, size_m: float) -> None:
+    [doubt] = card_doubts(bench(tmp_path, scale))
+    assert isinstance(doubt, OddPart)
+    assert doubt.link == "forearm"
+    assert doubt.size_m == pytest.approx(size_m)
+    assert doubt.most_m == pytest.approx(0.4, abs=0.2)
 
 
-def test_a_part_in_its_own_unit_is_not(tmp_path: Path):
+def test_a_part_in_its_own_unit_is_not(tmp_path: Path) -> None:
     assert card_doubts(bench(tmp_path, "0.001 0.001 0.001")) == ()
 
 

@@ -1,16 +1,19 @@
 """A robot's card as JSON, and the cards that are shipped."""
 
 import json
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 import yourdfpy
 
 from planner.errors import RobotError
+from planner.robots.card import ParallelogramGripper
 from planner.robots.card_file import CardFile
-from planner.robots.card_parts import CameraFile
+from planner.robots.card_parts import CameraFile, ParallelogramDrive
 from planner.robots.chain import tool_poses
 from planner.robots.described_robot import DescribedRobot, read_robot, shipped_card, shipped_robots
 from planner.robots.load_robot import load_robot
@@ -18,23 +21,23 @@ from planner.robots.load_robot import load_robot
 SHIPPED = ("baxter", "panda-pair", "pr2", "so101-pair", "tiago-pro", "ur5e-pair", "ur5e-single")
 
 
-def card_json() -> dict:
+def card_json() -> dict[str, Any]:
     return read_robot("panda-pair").card.to_dict()
 
 
-def test_the_robots_that_people_have_are_shipped():
+def test_the_robots_that_people_have_are_shipped() -> None:
     assert shipped_robots() == SHIPPED
 
 
 @pytest.mark.parametrize("name", SHIPPED)
-def test_a_card_reads_back_from_its_json(name):
+def test_a_card_reads_back_from_its_json(name: str) -> None:
     card = read_robot(name).card
     assert CardFile.from_dict(json.loads(json.dumps(card.to_dict()))) == card
     assert card.name == name
 
 
 @pytest.mark.parametrize("name", SHIPPED)
-def test_two_kinematics_libraries_agree_on_every_tool(name, tmp_path):
+def test_two_kinematics_libraries_agree_on_every_tool(name: str, tmp_path: Path) -> None:
     robot, rng = read_robot(name), np.random.default_rng(7)
     path = tmp_path / "robot.urdf"
     path.write_text(robot.urdf)
@@ -52,7 +55,7 @@ def test_two_kinematics_libraries_agree_on_every_tool(name, tmp_path):
             np.testing.assert_allclose(pose[:3, :3] @ tool.closing, rotation[:, 1], atol=1e-9)
 
 
-def test_the_card_of_the_pr2_says_what_its_planner_takes():
+def test_the_card_of_the_pr2_says_what_its_planner_takes() -> None:
     robot, known = read_robot("pr2"), load_robot("pr2").card
     assert robot.lift_limits_m == known.lift_limits_m
     assert robot.card.base.radius_m == known.base_radius_m
@@ -62,6 +65,8 @@ def test_the_card_of_the_pr2_says_what_its_planner_takes():
         assert arm.tool.link == same.tool_frame
         np.testing.assert_allclose(arm.home, same.home)
         assert arm.gripper.drive.joint == same.gripper.joint_name
+        assert isinstance(arm.gripper.drive, ParallelogramDrive)
+        assert isinstance(same.gripper, ParallelogramGripper)
         assert arm.gripper.drive.link_x_m == pytest.approx(same.gripper.link_x_m)
         assert arm.gripper.drive.link_y_m == pytest.approx(same.gripper.link_y_m)
         assert arm.gripper.opening_max_m == same.gripper.opening_max_m
@@ -92,9 +97,9 @@ def test_the_card_of_the_pr2_says_what_its_planner_takes():
         ),
     ],
 )
-def test_a_card_that_is_wrong_is_refused_by_its_field(path, value, field):
+def test_a_card_that_is_wrong_is_refused_by_its_field(path: tuple[str | int, ...], value: object, field: str) -> None:
     data = card_json()
-    inner = data
+    inner: Any = data
     for part in path[:-1]:
         inner = inner[part]
     inner[path[-1]] = value
@@ -103,7 +108,7 @@ def test_a_card_that_is_wrong_is_refused_by_its_field(path, value, field):
     assert caught.value.field.startswith(field)
 
 
-def test_a_fixed_base_has_one_station():
+def test_a_fixed_base_has_one_station() -> None:
     data = card_json()
     data["scene"]["stations"]["behind"] = {"x_m": 1.0, "y_m": 0.0, "yaw_rad": 0.0}
     with pytest.raises(RobotError, match="one station"):
@@ -159,7 +164,9 @@ def test_a_fixed_base_has_one_station():
         (lambda d: d["urdf"].__setitem__("package", None), "urdf.path", "no file"),
     ],
 )
-def test_what_the_urdf_lacks_is_told_by_name(change, field, said, tmp_path):
+def test_what_the_urdf_lacks_is_told_by_name(
+    change: Callable[[dict[str, Any]], object], field: str, said: str, tmp_path: Path
+) -> None:
     data = card_json()
     change(data)
     with pytest.raises(RobotError) as caught:
@@ -168,33 +175,33 @@ def test_what_the_urdf_lacks_is_told_by_name(change, field, said, tmp_path):
     assert said in caught.value.message
 
 
-def test_mounts_without_names_of_their_own_are_refused(tmp_path):
+def test_mounts_without_names_of_their_own_are_refused(tmp_path: Path) -> None:
     data = read_robot("ur5e-single").card.to_dict()
     data["tools"].append(data["tools"][0])
     with pytest.raises(RobotError, match="two links are called 'gripper_base_link'"):
         read_robot(str(_written(tmp_path, data)))
 
 
-def test_an_unknown_robot_is_told_with_the_known_ones():
+def test_an_unknown_robot_is_told_with_the_known_ones() -> None:
     with pytest.raises(RobotError, match="ur5e-pair"):
         read_robot("r2d2")
 
 
 @pytest.mark.parametrize("text", ["", "{", "[" * 100_000, "\xff", '{"pleat_robot": NaN}'])
-def test_a_file_that_is_no_card_is_refused(text, tmp_path):
+def test_a_file_that_is_no_card_is_refused(text: str, tmp_path: Path) -> None:
     path = tmp_path / "card.json"
     path.write_text(text)
     with pytest.raises(RobotError):
         read_robot(str(path))
 
 
-def _written(folder: Path, data: dict) -> Path:
+def _written(folder: Path, data: dict[str, Any]) -> Path:
     path = folder / "card.json"
     path.write_text(json.dumps(data))
     return path
 
 
-def test_a_camera_on_a_link_that_is_not_there_is_refused_by_its_field():
+def test_a_camera_on_a_link_that_is_not_there_is_refused_by_its_field() -> None:
     with pytest.raises(RobotError) as refused:
         DescribedRobot.of(replace(shipped_card("ur5e-pair"), camera=CameraFile(link="nowhere")), Path())
     assert refused.value.field == "camera.link"

@@ -24,7 +24,7 @@ def pointing_down(arm: int, height_m: float, ahead_m: float = 0.55) -> np.ndarra
 
 @pytest.mark.parametrize("is_certain", [False, True])
 @pytest.mark.parametrize("arm", [0, 1])
-def test_fingertips_must_be_so_high_over_cloth_and_not_beside_it(arm: int, is_certain: bool):
+def test_fingertips_must_be_so_high_over_cloth_and_not_beside_it(arm: int, is_certain: bool) -> None:
     # Tips end 19 mm below the tool frame.
     piece = CLOTH * [1.0, 1.0 - 2.0 * arm]
     clearance = ROBOT.collisions(Table(), TORSO_M).over_cloth([piece[:: 1 - 2 * arm]], OVER_M)
@@ -36,12 +36,12 @@ def test_fingertips_must_be_so_high_over_cloth_and_not_beside_it(arm: int, is_ce
     ]
 
 
-def test_without_cloth_everything_is_clear():
+def test_without_cloth_everything_is_clear() -> None:
     clearance = ROBOT.collisions(Table(), TORSO_M).over_cloth([], OVER_M)
     assert clearance.arm_clear(0, FRONT, pointing_down(0, 0.0)[None]).tolist() == [True]
 
 
-def test_arms_at_home_are_clear_of_cloth_on_all_of_the_table():
+def test_arms_at_home_are_clear_of_cloth_on_all_of_the_table() -> None:
     whole = np.array(Table().corners)
     clearance = ROBOT.collisions(Table(), TORSO_M).over_cloth([whole], OVER_M)
     assert all(clearance.arm_clear(arm, FRONT, HOME[arm][None]).all() for arm in (0, 1))

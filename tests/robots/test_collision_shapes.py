@@ -1,19 +1,26 @@
 """Collision shapes: they contain the meshes, fit tightly, and survive a broken cache."""
 
 import xml.etree.ElementTree as ElementTree
+from collections.abc import Callable
 from itertools import combinations
+from pathlib import Path
 
 import coal
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
+from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import LENGTH_M
+from planner.robots.arm import ArmShape
 from planner.robots.collision.part_poses import EACH, PLACE, pose_arm
 from planner.robots.collision.part_shapes import OPENINGS_M, ROUNDING_MAX_M, part_shapes
 from planner.robots.collision.parts import ARM_PARTS, BODY_PARTS, FINGERS, FINGERTIPS, pairs_in_arm, pairs_with_body
 from planner.robots.collision.pr2_parts import pr2_parts
+from planner.robots.collision.robot_parts import RobotParts
 from planner.robots.collision.rounded_hull import RoundedHull, prism, rounded_hull
 from tests.replay import hulls
+from tests.required import required
 from tests.robots.collision_samples import CARD, random_postures
 from tests.robots.model import MODEL
 
@@ -23,12 +30,12 @@ ASYMMETRY_M = 0.0055
 
 
 @pytest.fixture(scope="module")
-def cache(tmp_path_factory):
+def cache(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return tmp_path_factory.mktemp("cache")
 
 
 @pytest.fixture(scope="module")
-def parts(cache):
+def parts(cache: Path) -> RobotParts:
     return pr2_parts(MODEL, CARD, cache)
 
 
@@ -45,7 +52,8 @@ def part_of(link: str) -> int | None:
     return None if not found else found[0] + EACH * (moved_by[0] == "r")
 
 
-def part_poses(parts, torso_m, posture):
+def part_poses(parts: RobotParts, torso_m: float, posture: FloatArray) -> FloatArray:
+    assert isinstance(parts.kinematics, ArmShape)
     poses = np.zeros((2 * EACH + len(BODY_PARTS), 5, 3))
     for arm in (0, 1):
         pose_arm(parts.kinematics, torso_m, posture[arm], 1.0 - 2.0 * arm, poses[EACH * arm : EACH * (arm + 1)])
@@ -65,20 +73,20 @@ def distances(points: np.ndarray, hull: RoundedHull) -> np.ndarray:
     return np.maximum(found, 0.0)
 
 
-def test_every_link_with_a_mesh_belongs_to_a_part():
+def test_every_link_with_a_mesh_belongs_to_a_part() -> None:
     without = {link.name for link in hulls.bodies() if part_of(link.name) is None}
     assert not without
 
 
 @pytest.mark.parametrize("level", range(len(OPENINGS_M)))
-def test_every_vertex_of_every_mesh_is_inside_its_parts_shape(parts, level):
+def test_every_vertex_of_every_mesh_is_inside_its_parts_shape(parts: RobotParts, level: int) -> None:
     rng = np.random.default_rng(level)
     for posture in random_postures(2, level):
         torso_m, opening_m = rng.uniform(0.0, 0.31), rng.uniform(0.0, OPENINGS_M[level])
         hulls.robot().update_cfg(CARD.joint_values(torso_m, posture, [opening_m, OPENINGS_M[level]]))
         poses = part_poses(parts, torso_m, posture)
         for link in hulls.bodies():
-            part = part_of(link.name)
+            part = required(part_of(link.name))
             to_base = hulls.robot().get_transform(link.name)
             vertices = hulls.link_vertices(link.name) @ to_base[:3, :3].T + to_base[:3, 3]
             hull = parts.hulls[level][part]
@@ -87,7 +95,7 @@ def test_every_vertex_of_every_mesh_is_inside_its_parts_shape(parts, level):
             assert outside <= LENGTH_M, f"{link.name} stands {outside:.5f} m out of {parts.names[part]}"
 
 
-def test_a_shape_stands_out_from_its_meshes_hull_by_little(parts):
+def test_a_shape_stands_out_from_its_meshes_hull_by_little(parts: RobotParts) -> None:
     posture = random_postures(1, 5)[0]
     hulls.robot().update_cfg(CARD.joint_values(0.1, posture, [0.0, 0.0]))
     poses = part_poses(parts, 0.1, posture)
@@ -105,7 +113,7 @@ def test_a_shape_stands_out_from_its_meshes_hull_by_little(parts):
         assert distances(corners, meshes).max() <= ASYMMETRY_M, parts.names[part]
 
 
-def test_all_pairs_that_the_srdf_asks_for_are_compared():
+def test_all_pairs_that_the_srdf_asks_for_are_compared() -> None:
     """The description's SRDF disables neighbours, and what never touches in its samples of the meshes."""
     srdf = ElementTree.parse(CARD.urdf_path.parent.parent / "srdf" / "pr2.srdf").getroot()
     disabled = {frozenset((one.get("link1"), one.get("link2"))) for one in srdf.iter("disable_collisions")}
@@ -115,14 +123,14 @@ def test_all_pairs_that_the_srdf_asks_for_are_compared():
     in_arm, with_body = set(pairs_in_arm()), set(pairs_with_body())
     for pair in enabled:
         assert hulls.are_compared(*pair)
-        inner, outer = sorted(part_of(link) for link in pair)
+        inner, outer = sorted(required(part_of(link)) for link in pair)
         if outer >= 2 * EACH:
             assert (inner % EACH, outer - 2 * EACH) in with_body, pair
         elif inner // EACH == outer // EACH:
             assert (outer % EACH, inner % EACH) in in_arm, pair
 
 
-def test_shapes_read_from_the_cache_are_those_made(cache, parts):
+def test_shapes_read_from_the_cache_are_those_made(cache: Path, parts: RobotParts) -> None:
     (path,) = cache.glob("*.npz")
     made, read = path.read_bytes(), part_shapes(MODEL, GRIPPER, cache)
     assert path.read_bytes() == made
@@ -142,7 +150,9 @@ def _flipped(content: bytes) -> bytes:
 
 
 @pytest.mark.parametrize("spoil", [_cut_short, _flipped, lambda _: b"", lambda _: b"not shapes at all"])
-def test_a_spoilt_cache_is_made_anew(cache, parts, tmp_path, spoil):
+def test_a_spoilt_cache_is_made_anew(
+    cache: Path, parts: RobotParts, tmp_path: Path, spoil: Callable[[bytes], bytes]
+) -> None:
     (path,) = cache.glob("*.npz")
     spoilt = tmp_path / path.name
     spoilt.write_bytes(spoil(path.read_bytes()))
@@ -152,14 +162,14 @@ def test_a_spoilt_cache_is_made_anew(cache, parts, tmp_path, spoil):
     assert list(tmp_path.iterdir()) == [spoilt]
 
 
-def test_shapes_are_made_even_where_no_cache_can_be(parts, tmp_path):
+def test_shapes_are_made_even_where_no_cache_can_be(parts: RobotParts, tmp_path: Path) -> None:
     in_the_way = tmp_path / "file"
     in_the_way.write_text("no directory")
     shapes = part_shapes(MODEL, GRIPPER, in_the_way)
     np.testing.assert_array_equal(shapes["base"].corners, parts.hulls[0][2 * EACH].corners)
 
 
-def test_a_rounded_hull_of_a_box_is_the_box():
+def test_a_rounded_hull_of_a_box_is_the_box() -> None:
     box = np.array([(x, y, z) for x in (0.0, 0.3) for y in (0.0, 0.2) for z in (0.0, 0.1)])
     rng = np.random.default_rng(1)
     hull = rounded_hull(np.vstack([box, rng.uniform((0, 0, 0), (0.3, 0.2, 0.1), (50, 3))]), 0.001)
@@ -180,19 +190,19 @@ def test_a_rounded_hull_of_a_box_is_the_box():
         (np.zeros((4, 3)), np.zeros((4, 3), np.int32), -0.1),
     ],
 )
-def test_what_is_no_hull_is_refused(corners, faces, radius_m):
+def test_what_is_no_hull_is_refused(corners: FloatArray, faces: NDArray[np.int32], radius_m: float) -> None:
     with pytest.raises(ValueError, match=r"hull|faces|radius"):
         RoundedHull(corners, faces, radius_m)
 
 
-def test_the_bodys_shapes_are_their_own_mirror_images(parts):
+def test_the_bodys_shapes_are_their_own_mirror_images(parts: RobotParts) -> None:
     for part, hull in enumerate(parts.hulls[0][2 * EACH :]):
         here = distances(hull.corners, hull.mirrored())
         assert here.max() <= LENGTH_M, parts.names[2 * EACH + part]
 
 
 @pytest.mark.parametrize("corners", [3, 4, 7, 400])
-def test_a_prism_over_a_polygon_of_many_corners_is_a_body_that_can_be_compared(corners: int):
+def test_a_prism_over_a_polygon_of_many_corners_is_a_body_that_can_be_compared(corners: int) -> None:
     around = np.linspace(0.0, 2.0 * np.pi, corners, endpoint=False)
     hull = prism(0.4 * np.column_stack([np.cos(around), np.sin(around)]), 0.03)
     a, b, c = (hull.corners[hull.faces[:, k]] for k in range(3))

@@ -22,12 +22,12 @@ STRETCHED = (0.0, 0.0, -0.2, 0.0, -0.2, 0.0)
 """All joints but the pan, of an arm that reaches out level."""
 
 
-def test_arms_at_home_are_free():
+def test_arms_at_home_are_free() -> None:
     assert COLLISIONS.free(FRONT, HOME[None]).tolist() == [True]
     assert COLLISIONS.deepest_contact(FRONT, HOME) is None
 
 
-def test_arms_that_cross_collide():
+def test_arms_that_cross_collide() -> None:
     # Pan axes are .188 m left and right of the middle. Panned inwards by .6, an arm gets there .188 / sin(.6) = .33 m
     # from its axis, and so does the other: upper arms reach from .1 to .5 m.
     crossed, parted = both(-0.6, *STRETCHED), both(0.6, *STRETCHED)
@@ -37,7 +37,7 @@ def test_arms_that_cross_collide():
     assert COLLISIONS.free(FAR, np.array([crossed, parted])).tolist() == [False, True]
 
 
-def test_an_elbow_at_the_height_of_the_table_is_in_it():
+def test_an_elbow_at_the_height_of_the_table_is_in_it() -> None:
     # The lift axis is .05 m ahead of the base's middle and 1.081 m high, .10 m before the edge; the table is .79 m
     # high. Lifted by .81 the upper arm's end, .4 m on, is .29 m lower and .28 m further ahead: at the top's height,
     # .18 m inside the edge.
@@ -50,13 +50,13 @@ def test_an_elbow_at_the_height_of_the_table_is_in_it():
     assert COLLISIONS.arm_free(0, FAR, sunk[None, 0]).tolist() == [True]
 
 
-def test_a_forearm_through_the_torso_collides():
+def test_a_forearm_through_the_torso_collides() -> None:
     # Panned inwards by .7 = 40 degrees the elbow is at x = -.05 + .5 cos 40 = .33, y = .19 - .5 sin 40 = -.13. Rolled
     # by a quarter turn it bends inwards, level: 40 and 132 degrees are nearly straight back, so the wrist, .32 m on,
     # is near x = .01, y = -.17, and 1.08 m high. The torso is there: x up to .06, y from -.26 to .26, z from .57 on.
     through = with_left(-0.7, 0.0, math.pi / 2, -2.3, 0.0, -0.2, 0.0)
     assert COLLISIONS.arm_free(0, FAR, through[None, 0]).tolist() == [False]
-    seen = hulls.contacts(CARD.joint_values(TORSO_M, through, [0.0, 0.0]), (-5.0, 0.0, 0.0), Table())
+    seen = hulls.contacts(CARD.joint_values(TORSO_M, list(through), [0.0, 0.0]), (-5.0, 0.0, 0.0), Table())
     assert ("torso_lift_link", "l_forearm_link") in [(first, second) for first, second, _ in seen]
 
 
@@ -64,7 +64,7 @@ def test_a_forearm_through_the_torso_collides():
     ("height_m", "met"),
     [(0.02, None), (0.005, "left fingertips"), (-0.02, "left fingertips"), (-0.045, "left fingers")],
 )
-def test_fingertips_may_be_a_hair_over_the_table_and_nothing_in_it(height_m, met):
+def test_fingertips_may_be_a_hair_over_the_table_and_nothing_in_it(height_m: float, met: str | None) -> None:
     # Pointing straight down, tips end 19 mm below the tool frame, and closed fingers 27 mm above the tips. The top is
     # 30 mm thick: the deepest in it, or through it, are tips, then fingers.
     joints = ROBOT.joints_near(0, np.array([0.6, 0.3, Table().height_m + height_m]), DOWN, TORSO_M, ELBOW_OUT)
@@ -76,7 +76,7 @@ def test_fingertips_may_be_a_hair_over_the_table_and_nothing_in_it(height_m, met
         assert (contact and (contact.first, contact.second)) == (met and (met, "table top"))
 
 
-def test_shoulders_turn_over_the_edge_only_when_the_torso_is_down():
+def test_shoulders_turn_over_the_edge_only_when_the_torso_is_down() -> None:
     # The edge is .20 m ahead of the pan axes at `front`. At the height of the top, .76 to .79 m, the hull of a
     # shoulder reaches .25 m from its axis when the torso is down, .17 m when it is up.
     turned = np.array([0.5, *HOME[0][1:]])
@@ -90,21 +90,21 @@ def test_shoulders_turn_over_the_edge_only_when_the_torso_is_down():
 
 
 @pytest.mark.parametrize(("torso_m", "opening_m"), [(0.0, 0.0), (0.12, 0.03), (TORSO_M, 0.06), (0.31, 0.09)])
-def test_what_is_free_is_free_for_the_full_meshes_hulls(torso_m, opening_m):
+def test_what_is_free_is_free_for_the_full_meshes_hulls(torso_m: float, opening_m: float) -> None:
     rng = np.random.default_rng(11)
     collisions, postures = ROBOT.collisions(Table(), torso_m, opening_m), random_postures(150, 12)
     agreed = 0
     for posture in postures:
         base = (rng.uniform(-1.75, -0.95), rng.uniform(-0.4, 0.4), rng.uniform(-0.4, 0.4))
         openings = rng.uniform(0.0, opening_m, 2)
-        seen = hulls.contacts(CARD.joint_values(torso_m, posture, openings), base, Table())
+        seen = hulls.contacts(CARD.joint_values(torso_m, posture, openings.tolist()), base, Table())
         is_free = bool(collisions.free(Pose2(*base), posture[None])[0])
         assert not (is_free and seen), f"free, but {seen[0]}"
         agreed += is_free == (not seen)
     assert agreed >= 0.95 * len(postures), f"only {agreed} of {len(postures)} answers are those of the meshes"
 
 
-def test_postures_are_apart_as_they_are_pair_by_pair():
+def test_postures_are_apart_as_they_are_pair_by_pair() -> None:
     rng, apart, met = np.random.default_rng(14), 0, 0
     for _ in range(12):
         # Hands beside each other over the table, 4 to 30 cm apart, each in all samples of its arm's postures.
@@ -124,7 +124,7 @@ def test_postures_are_apart_as_they_are_pair_by_pair():
     assert not COLLISIONS.are_some_apart((0, 1), np.empty((0, 7)), HOME[:1])
 
 
-def test_nothing_collides_exactly_when_body_each_arm_and_both_do_not():
+def test_nothing_collides_exactly_when_body_each_arm_and_both_do_not() -> None:
     postures = random_postures(300, 13)
     for base in (FRONT, FRONT.ahead(-0.4), FAR):
         parts = COLLISIONS.arms_apart((0, 1), postures)
@@ -133,7 +133,7 @@ def test_nothing_collides_exactly_when_body_each_arm_and_both_do_not():
         np.testing.assert_array_equal(COLLISIONS.free(base, postures), parts & COLLISIONS.body_free(base))
 
 
-def test_a_mirrored_posture_has_the_mirrored_answer():
+def test_a_mirrored_posture_has_the_mirrored_answer() -> None:
     postures = random_postures(500, 14)
     mirrored = postures[:, ::-1] * MIRROR
     base, seen_in_mirror = Pose2(-1.0, 0.2, 0.3), Pose2(-1.0, -0.2, -0.3)
@@ -143,7 +143,7 @@ def test_a_mirrored_posture_has_the_mirrored_answer():
     )
 
 
-def test_a_posture_is_answered_alike_alone_and_among_others():
+def test_a_posture_is_answered_alike_alone_and_among_others() -> None:
     postures = random_postures(60, 15)
     alone = [bool(COLLISIONS.free(FRONT, posture[None])[0]) for posture in postures]
     assert COLLISIONS.free(FRONT, postures).tolist() == alone
@@ -151,7 +151,7 @@ def test_a_posture_is_answered_alike_alone_and_among_others():
     assert COLLISIONS.free(FRONT, postures[:0]).shape == (0,)
 
 
-def test_a_posture_is_answered_alike_alone_and_on_the_way_of_moving_arms_and_a_moving_base():
+def test_a_posture_is_answered_alike_alone_and_on_the_way_of_moving_arms_and_a_moving_base() -> None:
     corners, stands = (
         random_postures(13, 22),
         np.random.default_rng(23).uniform((-1.4, -0.3, -0.3), (-0.8, 0.3, 0.3), (13, 3)),
@@ -177,7 +177,7 @@ def test_a_posture_is_answered_alike_alone_and_on_the_way_of_moving_arms_and_a_m
     assert 10 < sum(stretches) < sum(alone) < 450
 
 
-def test_each_posture_may_have_a_base_of_its_own():
+def test_each_posture_may_have_a_base_of_its_own() -> None:
     postures, rng = random_postures(60, 19), np.random.default_rng(20)
     bases = np.column_stack([rng.uniform(-1.5, -0.9, 60), rng.uniform(-0.4, 0.4, 60), rng.uniform(-0.4, 0.4, 60)])
     alone = [
@@ -188,7 +188,7 @@ def test_each_posture_may_have_a_base_of_its_own():
 
 
 @pytest.mark.parametrize("arm", [0, 1])
-def test_the_quick_answer_is_never_wrong_and_knows_nearly_all_that_is_free_by_a_centimetre(arm):
+def test_the_quick_answer_is_never_wrong_and_knows_nearly_all_that_is_free_by_a_centimetre(arm: int) -> None:
     postures = random_postures(5000, 21)[:, arm]
     is_free, is_certain = (COLLISIONS.arm_free(arm, FRONT, postures, is_certain=only) for only in (False, True))
     assert not np.any(is_certain & ~is_free)
@@ -197,14 +197,14 @@ def test_the_quick_answer_is_never_wrong_and_knows_nearly_all_that_is_free_by_a_
     assert np.count_nonzero(is_certain[clear]) > 0.998 * clear.sum()
 
 
-def test_the_deepest_contact_is_none_exactly_where_nothing_collides():
+def test_the_deepest_contact_is_none_exactly_where_nothing_collides() -> None:
     postures = random_postures(100, 16)
     contacts = [COLLISIONS.deepest_contact(FRONT, posture) for posture in postures]
     assert [contact is None for contact in contacts] == COLLISIONS.free(FRONT, postures).tolist()
     assert all(contact.depth_m >= 0.0 for contact in contacts if contact)
 
 
-def test_a_margin_deepens_every_contact_by_itself_but_fingertips_with_the_top():
+def test_a_margin_deepens_every_contact_by_itself_but_fingertips_with_the_top() -> None:
     postures, margin_m = random_postures(200, 17), 0.02
     wary = ROBOT.collisions(Table(), TORSO_M, margin_m=margin_m)
     is_free, keeps_off = COLLISIONS.free(FRONT, postures), wary.free(FRONT, postures)
@@ -218,7 +218,7 @@ def test_a_margin_deepens_every_contact_by_itself_but_fingertips_with_the_top():
             assert with_margin.depth_m == pytest.approx(bare.depth_m + margin_m, abs=LENGTH_M)
 
 
-def test_wider_open_fingers_collide_wherever_closed_ones_do():
+def test_wider_open_fingers_collide_wherever_closed_ones_do() -> None:
     postures = random_postures(300, 18)
     closed, wide = (ROBOT.collisions(Table(), TORSO_M, opening_m).free(FRONT, postures) for opening_m in (0.0, 0.09))
     assert np.all(closed[wide])

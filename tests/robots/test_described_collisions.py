@@ -15,6 +15,7 @@ from planner.robots.collision.described_parts import described_parts
 from planner.robots.collision.link_shapes import link_shapes, require_shown
 from planner.robots.described_robot import DescribedRobot, read_robot, shipped_robots
 from tests.replay.described_hulls import Hulls
+from tests.required import required
 from tests.sweep import sweep
 
 OPENING_M = 0.04
@@ -47,7 +48,7 @@ def columns(robot: DescribedRobot, arm: int) -> slice:
 
 
 @pytest.mark.parametrize("name", shipped_robots())
-def test_every_robot_is_free_at_home_at_its_stations(name):
+def test_every_robot_is_free_at_home_at_its_stations(name: str) -> None:
     robot = read_robot(name)
     asked = collisions(robot)
     for _, pose in robot.card.scene.stations:
@@ -57,7 +58,7 @@ def test_every_robot_is_free_at_home_at_its_stations(name):
 
 
 @sweep("name", ["ur5e-pair", "panda-pair", "so101-pair", "baxter", "tiago-pro"], ("panda-pair", "so101-pair"))
-def test_what_is_free_is_free_for_the_hulls_of_pinocchio(name):
+def test_what_is_free_is_free_for_the_hulls_of_pinocchio(name: str) -> None:
     robot, count = read_robot(name), 60
     truth, asked, base = Hulls(robot), collisions(robot, opening_m=OPENING_M), station(robot)
     postures, rng = anywhere(robot, count, 3), np.random.default_rng(4)
@@ -143,7 +144,7 @@ def three(folder: Path, rod: str = ROD, **options: float) -> tuple[Collisions, P
     return Collisions(described_parts(robot, folder), scene.table, 0.0, **options), station(robot)
 
 
-def test_arms_of_different_joints_meet_where_their_sliders_do(tmp_path):
+def test_arms_of_different_joints_meet_where_their_sliders_do(tmp_path: Path) -> None:
     # Sliders are .1 m wide and their rails .6 m apart; the last arm stays where it is.
     asked, base = three(tmp_path)
     nearly, met = np.array([0.48, 0.0, 0.0, 0.0, 0.0]), np.array([0.52, 0.0, 0.0, 0.0, 0.0])
@@ -159,12 +160,12 @@ def test_arms_of_different_joints_meet_where_their_sliders_do(tmp_path):
     assert asked.arms_apart((1, 2), last[:, 2:]).tolist() == [False]
 
 
-def test_a_joint_may_be_called_as_its_link_is(tmp_path):
+def test_a_joint_may_be_called_as_its_link_is(tmp_path: Path) -> None:
     robot = bench(tmp_path, bend="rod")
     assert described_parts(robot, tmp_path).names[:3] == ("port slider", "port rod", "port fingers")
 
 
-def test_postures_of_two_arms_are_apart_as_they_are_pair_by_pair(tmp_path):
+def test_postures_of_two_arms_are_apart_as_they_are_pair_by_pair(tmp_path: Path) -> None:
     asked, _ = three(tmp_path)
     first, second = np.array([[s, 0.0] for s in (0.0, 0.3, 0.48, 0.56)]), np.array([[s, 0.0] for s in (0.1, 0.0)])
     for slides in first:  # one posture each, as its tool is in the same pose in all that are asked at once
@@ -174,7 +175,7 @@ def test_postures_of_two_arms_are_apart_as_they_are_pair_by_pair(tmp_path):
         assert asked.are_some_apart((0, 1), slides[None], second[1:]) == found[1]
 
 
-def test_fingers_may_come_close_to_the_table_and_a_rod_only_to_the_margin(tmp_path):
+def test_fingers_may_come_close_to_the_table_and_a_rod_only_to_the_margin(tmp_path: Path) -> None:
     # Bent by .5 the rod's end, .4 m out and .03 m thick, is at 1 - .4 sin .5 - .03 cos .5 = .782 m, the finger's at
     # 1 - .45 sin .5 - .03 cos .5 = .758 m; the table is .75 m high. Bent by .6 the finger is .035 m in it.
     bent = np.array([[0.5], [0.6]])
@@ -187,7 +188,7 @@ def test_fingers_may_come_close_to_the_table_and_a_rod_only_to_the_margin(tmp_pa
     assert (contact.first, contact.second) == ("lee fingers", "table top")
 
 
-def test_arms_keep_a_height_over_cloth(tmp_path):
+def test_arms_keep_a_height_over_cloth(tmp_path: Path) -> None:
     asked, base = three(tmp_path)
     cloth = np.array([[-0.3, 0.5], [-0.3, 0.7], [0.0, 0.7], [0.0, 0.5]])[::-1]
     low, high = np.array([[0.0, 0.45]]), np.array([[0.0, 0.2]])
@@ -196,7 +197,7 @@ def test_arms_keep_a_height_over_cloth(tmp_path):
     assert over.arm_clear(1, base, np.vstack([low, high])).tolist() == [True, True]
 
 
-def test_parts_are_the_same_when_they_are_read_again_and_when_the_cache_is_spoilt(tmp_path):
+def test_parts_are_the_same_when_they_are_read_again_and_when_the_cache_is_spoilt(tmp_path: Path) -> None:
     robot = bench(tmp_path)
     made = described_parts(robot, tmp_path)
     (path,) = (tmp_path / "shapes").glob("*.npz")
@@ -207,18 +208,21 @@ def test_parts_are_the_same_when_they_are_read_again_and_when_the_cache_is_spoil
         assert (read.names, read.skipped) == (made.names, made.skipped)
         for one, other in zip(read.hulls[-1], made.hulls[-1], strict=True):
             np.testing.assert_array_equal(one.corners, other.corners)
-        for one, other in zip(read.own_pairs, made.own_pairs, strict=True):
-            np.testing.assert_array_equal(one, other)
+        for pairs, same in zip(read.own_pairs, made.own_pairs, strict=True):
+            np.testing.assert_array_equal(pairs, same)
 
 
 def test_parts_are_made_once_for_copies_under_other_names_in_other_folders_but_not_for_other_meshes(
-    tmp_path, monkeypatch
-):
-    made = []
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    made: list[str] = []
     make = part_source.make_parts
-    monkeypatch.setattr(
-        "planner.robots.collision.described_parts.make_parts", lambda robot: made.append(1) or make(robot)
-    )
+
+    def counted(robot: DescribedRobot) -> list[part_source.Part]:
+        made.append(robot.card.name)
+        return make(robot)
+
+    monkeypatch.setattr("planner.robots.collision.described_parts.make_parts", counted)
     for name, side_m, times in (("first", 1, 1), ("second", 1, 1), ("third", 2, 2)):
         folder = tmp_path / name
         folder.mkdir()
@@ -231,7 +235,9 @@ def test_parts_are_made_once_for_copies_under_other_names_in_other_folders_but_n
         assert len(made) == times
 
 
-def test_a_mesh_counts_once_for_all_its_links_and_with_the_meshes_before_it(tmp_path, monkeypatch):
+def test_a_mesh_counts_once_for_all_its_links_and_with_the_meshes_before_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr("planner.robots.collision.link_shapes.TRIANGLES_MAX", 6)
     corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
     (tmp_path / "rod.obj").write_text(corners + "f 1 1 2\nf 3 3 3\n")  # the last two have no area
@@ -243,7 +249,9 @@ def test_a_mesh_counts_once_for_all_its_links_and_with_the_meshes_before_it(tmp_
         require_shown(f"<robot name='r'>{link.format('a', rod)}{link.format('b', other)}</robot>")
 
 
-def test_a_mesh_of_more_triangles_than_may_be_is_refused_by_its_name(tmp_path, monkeypatch):
+def test_a_mesh_of_more_triangles_than_may_be_is_refused_by_its_name(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr("planner.robots.collision.link_shapes.TRIANGLES_MAX", 4)
     corners, faces = ("v 0 0 0", "v 1 0 0", "v 0 1 0", "v 0 0 1"), ["f 1 3 2", "f 1 2 4", "f 1 4 3", "f 2 3 4"]
     for number, more in enumerate(([], ["f 2 4 3"])):
@@ -258,14 +266,14 @@ def test_a_mesh_of_more_triangles_than_may_be_is_refused_by_its_name(tmp_path, m
             described_parts(robot, folder)
 
 
-def test_a_triangle_that_a_mesh_repeats_is_one_of_its_shape(tmp_path):
+def test_a_triangle_that_a_mesh_repeats_is_one_of_its_shape(tmp_path: Path) -> None:
     faces = ["f 1 3 2", "f 1 2 4", "f 1 4 3", "f 2 3 4", "f 4 2 3", "f 6 5 7"]
     corners = ["v 0 0 0", "v .1 0 0", "v 0 .1 0", "v 0 0 .1", "v 0 0 0", "v .1 0 0", "v 0 .1 0"]
     (tmp_path / "rod.obj").write_text("\n".join([*corners, *faces]))
     link = f'<link name="rod"><visual><geometry><mesh filename="{tmp_path}/rod.obj"/></geometry></visual></link>'
     urdf = f'<robot name="r">{link}</robot>'
     [shape] = link_shapes(pin.buildModelFromXML(urdf), urdf)
-    assert shape.triangles.tolist() == [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+    assert required(shape.triangles).tolist() == [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
     assert shape.geometry.num_vertices == len(shape.corners) == 4
 
 
@@ -280,7 +288,7 @@ def test_a_triangle_that_a_mesh_repeats_is_one_of_its_shape(tmp_path):
         ("<torus/>", "unsupported shape 'torus'"),
     ],
 )
-def test_a_shape_that_is_none_is_told_with_its_link(tmp_path, rod, said):
+def test_a_shape_that_is_none_is_told_with_its_link(tmp_path: Path, rod: str, said: str) -> None:
     (tmp_path / "rod.obj").write_text("nothing")
     with pytest.raises(RobotError, match=r"link '(port_)?rod'") as caught:
         described_parts(bench(tmp_path, rod), tmp_path)

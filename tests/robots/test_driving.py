@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from planner.geometry.driving import IMPOSSIBLE, Driving
 from planner.robots.approaches import APPROACHES
-from planner.robots.load_robot import load_robot
 from planner.robots.reach import Pr2Reach
+from tests.robots.model import the_pr2
 
-ROBOT = load_robot("pr2")
+ROBOT = the_pr2()
 TORSO_M = 0.29
 STEP_M = 0.05
 COUNT = 17
@@ -88,7 +88,7 @@ def least(reach: Pr2Reach, case: Case) -> NDArray[np.int64]:
     """Return the least steps to each end over all combinations of approaches."""
     hands = comfort(reach, case)
     ways = [dijkstra(np.logical_and.reduce(good), case.begun) for good in product(*hands)]
-    return np.min(ways, axis=0)
+    return np.asarray(np.min(ways, axis=0))
 
 
 def unbeaten(steps: NDArray[np.int64]) -> NDArray[np.int64]:
@@ -98,7 +98,7 @@ def unbeaten(steps: NDArray[np.int64]) -> NDArray[np.int64]:
 
 
 @pytest.mark.parametrize("comfort_m", [0.0, 0.03])
-def test_the_steps_are_those_of_the_shortest_way_through_all_places_in_comfort(comfort_m: float):
+def test_the_steps_are_those_of_the_shortest_way_through_all_places_in_comfort(comfort_m: float) -> None:
     naive, driven = ROBOT.reach(TORSO_M, comfort_m), 0
     for case in cases(1, 60):
         expected = least(naive, case)
@@ -111,7 +111,7 @@ def test_the_steps_are_those_of_the_shortest_way_through_all_places_in_comfort(c
     assert driven > 10, "some cases need driving"
 
 
-def test_three_hands_drive_as_far_as_all_three_need():
+def test_three_hands_drive_as_far_as_all_three_need() -> None:
     # Arms of a PR2 stand for those of a robot that has three: no two of them are asked whether they are in each
     # other's way.
     naive, driven = ROBOT.reach(TORSO_M, 0.03), 0
@@ -123,7 +123,7 @@ def test_three_hands_drive_as_far_as_all_three_need():
     assert 5 < driven < 55
 
 
-def test_an_answer_can_be_driven_in_its_approaches_from_where_it_says():
+def test_an_answer_can_be_driven_in_its_approaches_from_where_it_says() -> None:
     reach = ROBOT.reach(TORSO_M, 0.03)
     ends = 0
     for case in cases(2, 90):
@@ -141,7 +141,7 @@ def test_an_answer_can_be_driven_in_its_approaches_from_where_it_says():
 
 
 @pytest.mark.parametrize("most", [0, 1, 3, 8])
-def test_what_takes_too_many_steps_is_left_for_later_and_announced(most: int):
+def test_what_takes_too_many_steps_is_left_for_later_and_announced(most: int) -> None:
     reach = ROBOT.reach(TORSO_M, 0.03)
     for case in cases(3, 60):
         everything = asked(reach, case).steps
@@ -152,7 +152,7 @@ def test_what_takes_too_many_steps_is_left_for_later_and_announced(most: int):
         assert early.more <= left.min(initial=IMPOSSIBLE)
 
 
-def test_just_any_end_is_found_exactly_where_there_is_one():
+def test_just_any_end_is_found_exactly_where_there_is_one() -> None:
     reach, found = ROBOT.reach(TORSO_M, 0.03), []
     for case in cases(4, 60):
         following = reach.following(case.arms, case.paths, case.approaches, STEP_M)
@@ -161,7 +161,7 @@ def test_just_any_end_is_found_exactly_where_there_is_one():
     assert 10 < sum(found) < 50
 
 
-def test_the_best_approaches_are_taken_where_the_base_need_not_drive():
+def test_the_best_approaches_are_taken_where_the_base_need_not_drive() -> None:
     """Straight ahead, 30 degrees down, a short fold half a metre ahead: any approach will do, so the first is taken."""
     turn = np.linspace(0.0, np.pi, 7)
     path = np.stack((0.55 + 0.05 * (1.0 - np.cos(turn)), 0.2 + 0.0 * turn, 0.85 + 0.05 * np.sin(turn)), axis=1)
@@ -174,7 +174,7 @@ def test_the_best_approaches_are_taken_where_the_base_need_not_drive():
         assert found.approaches(0, (allowed,)) == (first,)
 
 
-def test_what_other_plans_have_asked_is_answered_and_charged_as_if_nobody_had():
+def test_what_other_plans_have_asked_is_answered_and_charged_as_if_nobody_had() -> None:
     some, others = cases(31, 12), cases(32, 12)
     fresh = ROBOT.reach(TORSO_M, 0.03, is_passing=True)
     expected = [asked(fresh, case) for case in some]

@@ -35,34 +35,34 @@ def hand(*, jaw_m: float = THICK_M, palm_m: float = PALM_M, rounding_m: float = 
 
 
 @pytest.mark.parametrize("pitch_deg", [45, 60])
-def test_the_lower_finger_of_boxes_just_clears_the_table(pitch_deg: float):
+def test_the_lower_finger_of_boxes_just_clears_the_table(pitch_deg: float) -> None:
     pitch = math.radians(pitch_deg)
     sole_m = HEIGHT_M - (THICK_M + EDGE_OPEN_M / 2) * math.cos(pitch)
     assert edge_raised_m(hand(), HEIGHT_M, pitch) == pytest.approx(FINGER_CLEAR_M - sole_m)
 
 
-def test_what_shapes_are_rounded_by_keeps_the_hand_as_much_higher():
+def test_what_shapes_are_rounded_by_keeps_the_hand_as_much_higher() -> None:
     plain, rounded = (edge_raised_m(hand(rounding_m=r), HEIGHT_M, math.radians(45)) for r in (0.0, 0.001))
     assert plain is not None and rounded == pytest.approx(plain + 0.001)
 
 
-def test_a_palm_that_would_be_in_the_table_allows_no_such_grip():
+def test_a_palm_that_would_be_in_the_table_allows_no_such_grip() -> None:
     # At 30 degrees its lower corner is .04 sin 30 - .05 cos 30 = -2.3 cm from the tool's height.
     assert edge_raised_m(hand(), HEIGHT_M, math.radians(30)) is None
     assert edge_raised_m(hand(palm_m=0.02), HEIGHT_M, math.radians(30)) is not None
 
 
-def test_a_palm_that_comes_lowest_says_how_far_the_hand_may_be_lowered():
+def test_a_palm_that_comes_lowest_says_how_far_the_hand_may_be_lowered() -> None:
     pitch, palm_m = math.radians(45), 0.053
     low_m = HEIGHT_M + 0.04 * math.sin(pitch) - palm_m * math.cos(pitch)
     assert edge_raised_m(hand(palm_m=palm_m), HEIGHT_M, pitch) == pytest.approx(BODY_CLEAR_M - low_m)
 
 
-def test_fingers_too_thick_for_the_room_over_the_table_allow_none():
+def test_fingers_too_thick_for_the_room_over_the_table_allow_none() -> None:
     assert edge_raised_m(hand(jaw_m=0.0285), HEIGHT_M, math.radians(45)) is None
 
 
-def test_the_finger_that_can_come_lower_is_the_lower_one():
+def test_the_finger_that_can_come_lower_is_the_lower_one() -> None:
     # A jaw that stays where it is on one side, and one that opens widely on the other.
     plain = hand()
     shifted = tuple(
@@ -80,7 +80,7 @@ SHIPPED = {"pr2": (45,), "panda-pair": (60, 75), "tiago-pro": (30, 45, 60, 75)}
 
 
 @pytest.mark.parametrize("name", SHIPPED)
-def test_the_meshes_of_a_hand_clear_the_table_and_its_lower_finger_slides_on_it(name: str):
+def test_the_meshes_of_a_hand_clear_the_table_and_its_lower_finger_slides_on_it(name: str) -> None:
     robot, described = load_robot(name), read_robot(name)
     found = {p: robot.edge_raised_m(0, HEIGHT_M, math.radians(p)) for p in PITCHES_DEG}
     assert tuple(pitch for pitch, raised_m in found.items() if raised_m is not None) == SHIPPED[name]

@@ -18,7 +18,7 @@ PERIODS = np.where(np.isin(np.arange(14).reshape(2, 7), [4, 6, 11, 13]), math.ta
 def _link_cost(before: np.ndarray, after: np.ndarray, speeds: np.ndarray, span: float) -> float:
     costs = np.empty((2, 1))
     link_costs(before[:, None].copy(), 1, after, speeds, PERIODS[0], JUMP, span, costs)
-    return costs[0, 0]
+    return float(costs[0, 0])
 
 
 class ArmQuery:
@@ -44,7 +44,7 @@ class ArmQuery:
     def node_cost(self, pose: int, a: int, b: int) -> float:
         return self.costs[0, pose, a] + self.costs[1, pose, b] if self.is_allowed[pose, a, b] else math.inf
 
-    def step_cost(self, pose: int, *ways: np.ndarray) -> float:
+    def step_cost(self, pose: int, *ways: np.ndarray | tuple[int, int]) -> float:
         """Return the cost of both arms' motion to a pose from the one before."""
         return sum(
             _link_cost(
@@ -75,11 +75,11 @@ class ArmQuery:
                     graph.add_edge((pose, a, b), "end", weight=0.0)
         if not graph.has_node("end") or not nx.has_path(graph, "start", "end"):
             return math.inf
-        return nx.shortest_path_length(graph, "start", "end", weight="weight")
+        return float(nx.shortest_path_length(graph, "start", "end", weight="weight"))
 
 
 @pytest.mark.parametrize("share_allowed", [0.2, 0.5, 1.0])
-def test_no_pair_of_chains_is_cheaper(share_allowed: float):
+def test_no_pair_of_chains_is_cheaper(share_allowed: float) -> None:
     solved = 0
     for seed in range(12):
         query = ArmQuery(seed, share_allowed)
@@ -91,7 +91,7 @@ def test_no_pair_of_chains_is_cheaper(share_allowed: float):
     assert solved > 0
 
 
-def test_where_all_pairs_are_allowed_each_chain_is_what_it_is_alone():
+def test_where_all_pairs_are_allowed_each_chain_is_what_it_is_alone() -> None:
     for seed in range(12):
         query = ArmQuery(seed, 1.1)
         alone = [
@@ -101,7 +101,7 @@ def test_where_all_pairs_are_allowed_each_chain_is_what_it_is_alone():
             np.testing.assert_array_equal(query.found(), alone)
 
 
-def test_without_a_pair_at_one_pose_there_is_no_way():
+def test_without_a_pair_at_one_pose_there_is_no_way() -> None:
     query = ArmQuery(3, 1.1)
     assert query.found().shape == (2, POSES)
     query.is_allowed[2] = False

@@ -4,15 +4,15 @@ import numpy as np
 import pytest
 
 from planner.geometry.pose import Approach
-from planner.robots.load_robot import load_robot
-from tests.robots.model import limits, pin_tool_pose, random_joints
+from tests.required import required
+from tests.robots.model import limits, pin_tool_pose, random_joints, the_pr2
 
-ROBOT = load_robot("pr2")
+ROBOT = the_pr2()
 CARD = ROBOT.card
 
 
 @pytest.mark.parametrize("arm", [0, 1])
-def test_the_tool_is_where_pinocchio_says(arm):
+def test_the_tool_is_where_pinocchio_says(arm: int) -> None:
     rng = np.random.default_rng(1)
     for _ in range(200):
         joints, torso_m = random_joints(CARD, arm, rng), rng.uniform(*CARD.lift_limits_m)
@@ -23,7 +23,7 @@ def test_the_tool_is_where_pinocchio_says(arm):
 
 
 @pytest.mark.parametrize("arm", [0, 1])
-def test_joints_found_bring_the_tool_to_the_pose_within_limits(arm):
+def test_joints_found_bring_the_tool_to_the_pose_within_limits(arm: int) -> None:
     rng = np.random.default_rng(2)
     low, high = limits(CARD, arm)
     for _ in range(500):
@@ -38,29 +38,29 @@ def test_joints_found_bring_the_tool_to_the_pose_within_limits(arm):
 
 
 @pytest.mark.parametrize("arm", [0, 1])
-def test_the_joints_nearest_to_a_solution_are_that_solution(arm):
+def test_the_joints_nearest_to_a_solution_are_that_solution(arm: int) -> None:
     rng = np.random.default_rng(4)
     for _ in range(300):
         joints = random_joints(CARD, arm, rng)
-        found = ROBOT.joints_near(arm, *ROBOT.tool_pose(arm, joints, 0.1), 0.1, joints)
+        found = required(ROBOT.joints_near(arm, *ROBOT.tool_pose(arm, joints, 0.1), 0.1, joints))
         np.testing.assert_allclose(found, joints, atol=1e-6)
 
 
-def test_no_other_solution_is_much_nearer():
+def test_no_other_solution_is_much_nearer() -> None:
     rng = np.random.default_rng(5)
     for _ in range(100):
         near, other = random_joints(CARD, 0, rng), random_joints(CARD, 0, rng)
-        found = ROBOT.joints_near(0, *ROBOT.tool_pose(0, other, 0.1), 0.1, near)
+        found = required(ROBOT.joints_near(0, *ROBOT.tool_pose(0, other, 0.1), 0.1, near))
         other[[4, 6]] -= np.round((other - near)[[4, 6]] / (2 * np.pi)) * 2 * np.pi
         assert np.linalg.norm(found - near) <= np.linalg.norm(other - near) + 1e-6
 
 
-def test_out_of_reach_there_are_no_joints():
+def test_out_of_reach_there_are_no_joints() -> None:
     assert ROBOT.joints_near(0, np.array([2.0, 0.0, 1.0]), np.eye(3), 0.1, ROBOT.home(0)) is None
 
 
 @pytest.mark.parametrize("arm", [0, 1])
-def test_small_steps_of_the_tool_are_small_steps_of_the_joints_unless_one_is_at_its_limit(arm):
+def test_small_steps_of_the_tool_are_small_steps_of_the_joints_unless_one_is_at_its_limit(arm: int) -> None:
     rng = np.random.default_rng(6)
     low, high = limits(CARD, arm)
     smooth = 0
@@ -80,18 +80,20 @@ def _path_along_a_line(arm: int, rng: np.random.Generator) -> list[np.ndarray]:
     rotation = Approach(side * rng.uniform(-0.6, 0.3), rng.uniform(0.3, 1.0)).rotation
     path = [ROBOT.home(arm)]
     for y in np.linspace(0.05, 0.35, 31):
-        path.append(ROBOT.joints_near(arm, np.array([ahead, side * y, height]), rotation, 0.25, path[-1]))
+        place = np.array([ahead, side * y, height])
+        path.append(required(ROBOT.joints_near(arm, place, rotation, 0.25, path[-1])))
     return path[1:]
 
 
 @pytest.mark.parametrize("torso_m", [0.0, 0.3])
-def test_mirrored_poses_have_mirrored_joints(torso_m):
+def test_mirrored_poses_have_mirrored_joints(torso_m: float) -> None:
     rng = np.random.default_rng(7)
     mirror = np.array([1.0, -1.0, 1.0])
     sides = np.array([-1, 1, -1, 1, -1, 1, -1])
     for _ in range(50):
         near = random_joints(CARD, 0, rng)
         position, rotation = ROBOT.tool_pose(0, random_joints(CARD, 0, rng), torso_m)
-        left = ROBOT.joints_near(0, position, rotation, torso_m, near)
-        right = ROBOT.joints_near(1, mirror * position, mirror[:, None] * rotation * mirror, torso_m, sides * near)
+        left = required(ROBOT.joints_near(0, position, rotation, torso_m, near))
+        turned = mirror[:, None] * rotation * mirror
+        right = required(ROBOT.joints_near(1, mirror * position, turned, torso_m, sides * near))
         np.testing.assert_allclose(right, sides * left, atol=1e-9)

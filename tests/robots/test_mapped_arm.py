@@ -1,19 +1,24 @@
 """Arms of any robot: what their reach maps answer, against the PR2's closed form and another kinematics."""
 
 import os
+from pathlib import Path
+from typing import TypeAlias
 
 import numpy as np
 import pytest
 
+from planner.geometry.pose import FloatArray
 from planner.robots import reach_maps
 from planner.robots.chain import tool_poses
 from planner.robots.described_robot import DescribedArm, read_robot
-from planner.robots.load_robot import load_robot
 from planner.robots.mapped_arm import ALL_ROUND, MappedArm, heights, mapped_arm
 from planner.robots.posture_layers import covered_heights, covering
 from planner.robots.reach_map import ReachMap
-from planner.robots.reach_maps import grid_of, reach_map
-from tests.robots.model import pin_pose
+from planner.robots.reach_maps import Progress, grid_of, reach_map
+from tests.robots.model import pin_pose, the_pr2
+
+Poses: TypeAlias = tuple[FloatArray, FloatArray]
+"""Positions and rotations of a tool, shapes (n, 3) and (n, 3, 3)."""
 
 TORSO_M = 0.29
 LOW_M, HIGH_M = 0.80, 0.95
@@ -21,11 +26,11 @@ LOW_M, HIGH_M = 0.80, 0.95
 
 
 @pytest.fixture(scope="module")
-def cache(tmp_path_factory):
+def cache(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return tmp_path_factory.mktemp("cache")
 
 
-def mapped(cache, progress=None) -> MappedArm:
+def mapped(cache: Path, progress: Progress | None = None) -> MappedArm:
     arm = read_robot("pr2").arms[0]
     shoulder_m = float(arm.root[2]) + TORSO_M
     heights_m = (LOW_M - shoulder_m, HIGH_M - shoulder_m)
@@ -33,22 +38,22 @@ def mapped(cache, progress=None) -> MappedArm:
 
 
 @pytest.fixture(scope="module")
-def poses():
+def poses() -> Poses:
     rng = np.random.default_rng(11)
     points = rng.uniform((-0.6, -0.6, LOW_M), (1.0, 1.1, HIGH_M), (3000, 3))
     chosen = rng.integers(0, len(ALL_ROUND), len(points))
     return points, np.array([ALL_ROUND[number].rotation for number in chosen])
 
 
-def test_the_map_of_a_pr2_answers_as_its_closed_form(cache, poses):
-    arm, reference = mapped(cache), load_robot("pr2")
+def test_the_map_of_a_pr2_answers_as_its_closed_form(cache: Path, poses: Poses) -> None:
+    arm, reference = mapped(cache), the_pr2()
     found, true = arm.can_reach(*poses, TORSO_M), reference.can_reach(0, *poses, TORSO_M)
     assert true.sum() > 300
     assert not (found & ~true).any()
     assert (found & true).sum() >= 0.998 * true.sum()
 
 
-def test_every_yes_has_joints_within_limits_that_take_the_pose(cache, poses):
+def test_every_yes_has_joints_within_limits_that_take_the_pose(cache: Path, poses: Poses) -> None:
     arm, chain = mapped(cache), read_robot("pr2").arms[0].chain
     found, joints = arm.joints(*poses, TORSO_M)
     names = read_robot("pr2").card.arms[0].joints
@@ -61,7 +66,7 @@ def test_every_yes_has_joints_within_limits_that_take_the_pose(cache, poses):
         np.testing.assert_allclose(rotation[:, 0], poses[1][number][:, 0], atol=1e-4)
 
 
-def test_joints_nearby_lead_to_the_whole_pose(cache, poses):
+def test_joints_nearby_lead_to_the_whole_pose(cache: Path, poses: Poses) -> None:
     arm = mapped(cache)
     found, joints = arm.joints(*poses, TORSO_M)
     for row in joints[found][:40]:
@@ -71,7 +76,7 @@ def test_joints_nearby_lead_to_the_whole_pose(cache, poses):
         np.testing.assert_allclose(near, row, atol=1e-4)
 
 
-def test_a_map_is_built_once_and_then_read(tmp_path, poses):
+def test_a_map_is_built_once_and_then_read(tmp_path: Path, poses: Poses) -> None:
     told: list[float] = []
     built = mapped(tmp_path, told.append)
     assert told
@@ -82,7 +87,7 @@ def test_a_map_is_built_once_and_then_read(tmp_path, poses):
     np.testing.assert_array_equal(built.can_reach(*poses, TORSO_M), read.can_reach(*poses, TORSO_M))
 
 
-def test_a_short_arm_reaches_what_random_joints_reach():
+def test_a_short_arm_reaches_what_random_joints_reach() -> None:
     # Its reach at a steep pitch is a thin shell, narrower than a cell of the map.
     robot = read_robot("so101-pair")
     arm, chain = mapped_arm(robot, 0), robot.arms[0].chain
@@ -97,9 +102,11 @@ def test_a_short_arm_reaches_what_random_joints_reach():
     assert found.mean() >= 0.998
 
 
-def test_what_is_asked_above_or_below_a_map_is_looked_for_in_layers_of_it(cache, poses, monkeypatch):
+def test_what_is_asked_above_or_below_a_map_is_looked_for_in_layers_of_it(
+    cache: Path, poses: Poses, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(reach_maps, "user_cache_path", lambda _: cache)
-    arm, reference = mapped(cache), load_robot("pr2")
+    arm, reference = mapped(cache), the_pr2()
     before = arm.can_reach(*poses, TORSO_M)
     low_m, high_m = covered_heights(arm.known.grid)
     for below_m in (0.1, -0.1 - (HIGH_M - LOW_M)):
@@ -121,7 +128,7 @@ def unknown(arm: DescribedArm, heights_m: tuple[float, float]) -> ReachMap:
     return ReachMap(grid, starts, np.zeros((0, len(arm.chain.low)), dtype=np.int8))
 
 
-def test_no_layer_is_built_below_the_floor_or_beyond_the_arms_length(monkeypatch):
+def test_no_layer_is_built_below_the_floor_or_beyond_the_arms_length(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("planner.robots.posture_layers.kept_map", lambda *_: pytest.fail("a layer was built"))
     described = read_robot("pr2").arms[0]
     floor_m = -float(described.root[2]) - TORSO_M
@@ -131,14 +138,14 @@ def test_no_layer_is_built_below_the_floor_or_beyond_the_arms_length(monkeypatch
 
 
 @pytest.mark.long
-def test_a_map_that_cannot_be_read_is_built_again(tmp_path, poses):
+def test_a_map_that_cannot_be_read_is_built_again(tmp_path: Path, poses: Poses) -> None:
     built = mapped(tmp_path)
     for path in (tmp_path / "postures").iterdir():
         path.write_bytes(b"broken")
     np.testing.assert_array_equal(built.can_reach(*poses, TORSO_M), mapped(tmp_path).can_reach(*poses, TORSO_M))
 
 
-def test_maps_that_were_not_used_lately_are_dropped(tmp_path, monkeypatch):
+def test_maps_that_were_not_used_lately_are_dropped(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(reach_maps, "_KEPT_MAX", 1)
     old = tmp_path / "postures" / "old.npz"
     old.parent.mkdir()

@@ -2,10 +2,12 @@
 
 import math
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pinocchio as pin
 import pytest
+from numpy.typing import NDArray
 
 from planner.geometry.pose import Approach, BoolArray, FloatArray
 from planner.robots.arm_path import ArmSearch
@@ -15,7 +17,9 @@ from planner.robots.described_robot import read_robot
 from planner.robots.mapped_arm import ALL_ROUND, MappedArm
 from planner.robots.newton import solve_from
 from planner.robots.reach_maps import reach_map
-from planner.robots.tool_path import NoPath, ToolPath, free_postures, near_path
+from planner.robots.tool_path import IsFree, NoPath, ToolPath, free_postures, near_path
+from tests.required import required
+from tests.robots.required import joints_of
 
 LEAP_RAD = 0.4
 HALF_TURN = np.diag([1.0, -1.0, -1.0])
@@ -25,7 +29,7 @@ HALF_TURN = np.diag([1.0, -1.0, -1.0])
 class Bench:
     """The first arm of a robot at its table, with a map of a slice over it: whole maps take seconds."""
 
-    def __init__(self, name: str, cache) -> None:
+    def __init__(self, name: str, cache: Path) -> None:
         robot = read_robot(name)
         self.card, arm = robot.card, robot.arms[0]
         self.table_m = robot.card.scene.table.height_m
@@ -37,10 +41,10 @@ class Bench:
         self._model = pin.buildModelFromXML(robot.urdf)
         self._data = self._model.createData()
 
-    def search(self, path: ToolPath, is_free=None) -> ArmSearch:
+    def search(self, path: ToolPath, is_free: IsFree | None = None) -> ArmSearch:
         return ArmSearch(self.arm, self.speeds, path, 0.0, self.table_m, is_free or everywhere)
 
-    def found(self, path: ToolPath, is_free=None) -> FloatArray | NoPath:
+    def found(self, path: ToolPath, is_free: IsFree | None = None) -> FloatArray | NoPath:
         return self.search(path, is_free).found()
 
     def pin_pose(self, joints: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -69,23 +73,23 @@ class Bench:
                 np.testing.assert_allclose(axes, rotation @ HALF_TURN if is_over else rotation, atol=1e-4)
 
 
-def everywhere(_: FloatArray, joints: FloatArray, is_certain: bool) -> BoolArray:
+def everywhere(_: NDArray[np.int64], joints: FloatArray, is_certain: bool) -> BoolArray:
     return np.ones(len(joints), dtype=bool)
 
 
 @pytest.fixture(scope="module")
-def benches(tmp_path_factory):
+def benches(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Bench]:
     cache = tmp_path_factory.mktemp("cache")
     return {name: Bench(name, cache) for name in ("so101-pair", "ur5e-pair")}
 
 
 @pytest.fixture
-def so101(benches) -> Bench:
+def so101(benches: dict[str, Bench]) -> Bench:
     return benches["so101-pair"]
 
 
 @pytest.fixture
-def ur5e(benches) -> Bench:
+def ur5e(benches: dict[str, Bench]) -> Bench:
     return benches["ur5e-pair"]
 
 
@@ -114,7 +118,8 @@ def turning(place: FloatArray, pitch_deg: float, turns: float) -> ToolPath:
 
 def random_lines(bench: Bench, count: int, length_m: float) -> list[ToolPath]:
     """Return lines over the table all of whose poses are within reach."""
-    rng, lines = np.random.default_rng(3), []
+    rng = np.random.default_rng(3)
+    lines: list[ToolPath] = []
     while len(lines) < count:
         ahead, aside, over = rng.uniform((0.1, -0.6, 0.0), (1.0, 0.6, 0.1)) * (length_m / 0.3, length_m / 0.3, 1.0)
         start = before(bench, ahead, aside, over)
@@ -127,20 +132,20 @@ def random_lines(bench: Bench, count: int, length_m: float) -> list[ToolPath]:
 
 
 @pytest.mark.long
-def test_an_arm_of_six_joints_is_on_its_path_at_every_pose(ur5e):
+def test_an_arm_of_six_joints_is_on_its_path_at_every_pose(ur5e: Bench) -> None:
     for pitch_deg in (30, 60, 90):
         path = line(before(ur5e, 0.5, -0.15, 0.03), before(ur5e, 0.6, 0.15, 0.1), pitch_deg)
-        ur5e.require_followed(path, ur5e.found(path))
+        ur5e.require_followed(path, joints_of(ur5e.found(path)))
 
 
-def test_an_arm_of_five_joints_is_on_its_path_with_the_pitch_that_is_asked(so101):
+def test_an_arm_of_five_joints_is_on_its_path_with_the_pitch_that_is_asked(so101: Bench) -> None:
     for pitch_deg in (45, 60, 75):
         path = line(before(so101, 0.2, -0.08, 0.02), before(so101, 0.25, 0.08, 0.04), pitch_deg)
-        so101.require_followed(path, so101.found(path))
+        so101.require_followed(path, joints_of(so101.found(path)))
 
 
 @pytest.mark.parametrize(("name", "length_m"), [("ur5e-pair", 0.3), ("so101-pair", 0.12)])
-def test_nearly_every_line_within_reach_has_joints(benches, name, length_m):
+def test_nearly_every_line_within_reach_has_joints(benches: dict[str, Bench], name: str, length_m: float) -> None:
     bench, followed = benches[name], 0
     for path in random_lines(bench, 40, length_m):
         joints = bench.found(path)
@@ -150,7 +155,7 @@ def test_nearly_every_line_within_reach_has_joints(benches, name, length_m):
     assert followed >= 38, "of 40; whether the others have any is a question for a denser search"
 
 
-def test_samples_of_a_pose_take_it_with_the_fingers_either_way_round(ur5e):
+def test_samples_of_a_pose_take_it_with_the_fingers_either_way_round(ur5e: Bench) -> None:
     pose = line(before(ur5e, 0.5, 0.0, 0.05), before(ur5e, 0.5, 0.01, 0.05), 60)
     position, rotation = pose.positions[0], pose.rotations[0]
     able = free_postures(ur5e.arm, position, rotation, 0.0, lambda joints: np.ones(len(joints), dtype=bool))
@@ -167,33 +172,33 @@ def test_samples_of_a_pose_take_it_with_the_fingers_either_way_round(ur5e):
     assert (low[:, 2] < 0.0).all()
 
 
-def test_near_to_known_joints_there_are_joints_for_a_path_nearby(ur5e):
+def test_near_to_known_joints_there_are_joints_for_a_path_nearby(ur5e: Bench) -> None:
     path = line(before(ur5e, 0.5, -0.15, 0.03), before(ur5e, 0.6, 0.15, 0.1), 60)
-    known = ur5e.found(path)
+    known = joints_of(ur5e.found(path))
     shifted = replace(path, positions=path.positions + np.array([0.004, 0.003, 0.002]))
-    near = near_path(ur5e.arm, shifted, 0.0, everywhere, known)
+    near = required(near_path(ur5e.arm, shifted, 0.0, everywhere, known))
     ur5e.require_followed(shifted, near)
     np.testing.assert_allclose(near, known, atol=0.05)
     beyond = replace(path, positions=path.positions + np.array([1.5, 0.0, 0.0]))
     assert near_path(ur5e.arm, beyond, 0.0, everywhere, known) is None
 
 
-def test_an_arm_goes_round_what_the_calmest_path_would_run_into(ur5e):
+def test_an_arm_goes_round_what_the_calmest_path_would_run_into(ur5e: Bench) -> None:
     path = line(before(ur5e, 0.5, -0.15, 0.03), before(ur5e, 0.6, 0.15, 0.1), 60)
-    side = np.sign(ur5e.found(path)[:, 2])
-    other = ur5e.found(path, lambda poses, joints, is_certain: np.sign(joints[:, 2]) != side[poses])
+    side = np.sign(joints_of(ur5e.found(path))[:, 2])
+    other = joints_of(ur5e.found(path, lambda poses, joints, is_certain: np.sign(joints[:, 2]) != side[poses]))
     ur5e.require_followed(path, other)
     assert (np.sign(other[:, 2]) != side).all()
 
 
-def test_a_hand_rolls_as_far_as_its_last_joint_has_turns_and_no_farther(ur5e):
+def test_a_hand_rolls_as_far_as_its_last_joint_has_turns_and_no_farther(ur5e: Bench) -> None:
     place = before(ur5e, 0.5, 0.0, 0.05)
     path = turning(place, 60, 1.6)
-    ur5e.require_followed(path, ur5e.found(path))
+    ur5e.require_followed(path, joints_of(ur5e.found(path)))
     assert isinstance(ur5e.found(turning(place, 60, 2.4)), NoPath), "the last joint has two turns"
 
 
-def test_a_chain_is_wound_up_within_the_limits_wherever_it_begins(ur5e):
+def test_a_chain_is_wound_up_within_the_limits_wherever_it_begins(ur5e: Bench) -> None:
     rng = np.random.default_rng(5)
     smooth = np.cumsum(rng.uniform(-0.2, 0.2, (50, 6)), axis=0)
     wrapped = smooth + rng.uniform(-3.0, 3.0, 6)
@@ -216,20 +221,20 @@ class UnlikeSides:
         return first[:, 1][:, None] * second[:, 2] < 0.0
 
 
-def test_arms_of_unlike_joints_samples_and_strides_give_way_to_each_other(so101, ur5e):
+def test_arms_of_unlike_joints_samples_and_strides_give_way_to_each_other(so101: Bench, ur5e: Bench) -> None:
     assert so101.arm.stride < ur5e.arm.stride
     small = line(before(so101, 0.2, -0.08, 0.02), before(so101, 0.25, 0.08, 0.04), 60)
     large = line(before(ur5e, 0.5, -0.08, 0.02), before(ur5e, 0.55, 0.08, 0.04), 60)
-    alone = np.hstack([so101.found(small), ur5e.found(large)])
+    alone = np.hstack([joints_of(so101.found(small)), joints_of(ur5e.found(large))])
     assert not UnlikeSides().arms_apart((0, 1), alone).all(), "else neither gives way"
-    found = arm_paths({0: so101.search(small), 1: ur5e.search(large)}, UnlikeSides())
+    found = joints_of(arm_paths({0: so101.search(small), 1: ur5e.search(large)}, UnlikeSides()))
     assert UnlikeSides().arms_apart((0, 1), found).all()
     so101.require_followed(small, found[:, :5])
     ur5e.require_followed(large, found[:, 5:])
 
 
-def test_a_pose_half_a_turn_off_is_not_taken_for_the_pose(ur5e):
-    joints = ur5e.found(line(before(ur5e, 0.5, 0.0, 0.05), before(ur5e, 0.5, 0.1, 0.05), 60))
+def test_a_pose_half_a_turn_off_is_not_taken_for_the_pose(ur5e: Bench) -> None:
+    joints = joints_of(ur5e.found(line(before(ur5e, 0.5, 0.0, 0.05), before(ur5e, 0.5, 0.1, 0.05), 60)))
     points, rotations = tool_poses(ur5e.chain, joints)
     for over in (HALF_TURN, np.diag([-1.0, 1.0, -1.0]), np.diag([-1.0, -1.0, 1.0])):
         found, ends = solve_from(ur5e.chain, points, rotations @ over, WHOLE, joints)

@@ -7,11 +7,11 @@ import numpy as np
 from planner.geometry.pose import Approach, BoolArray
 from planner.geometry.table import Table
 from planner.robots.approaches import APPROACHES
-from planner.robots.load_robot import load_robot
 from planner.robots.place_memory import empty_memory, learn, place_key, slot_of
 from tests.robots.collision_samples import FAR, HOME
+from tests.robots.model import the_pr2
 
-ROBOT = load_robot("pr2")
+ROBOT = the_pr2()
 TORSO_M = 0.29
 LEVEL = APPROACHES.index(Approach(0.0, math.radians(15)))
 
@@ -44,17 +44,17 @@ def free_postures(place: tuple[float, float, float]) -> int:
     return len(ROBOT.free_postures(0, np.array(place), APPROACHES[LEVEL].rotation, TORSO_M, is_free))
 
 
-def test_joint_limits_allow_what_is_just_before_the_own_shoulder_and_the_body_does_not():
+def test_joint_limits_allow_what_is_just_before_the_own_shoulder_and_the_body_does_not() -> None:
     assert is_within_limits(AT_THE_SHOULDER) and free_postures(AT_THE_SHOULDER) == 0
     assert not is_in_reach(AT_THE_SHOULDER)
 
 
-def test_what_is_well_ahead_has_room():
+def test_what_is_well_ahead_has_room() -> None:
     assert is_within_limits(AHEAD) and free_postures(AHEAD) > 0
     assert is_in_reach(AHEAD)
 
 
-def test_the_right_arm_has_the_mirror_image_of_the_left_arms_room():
+def test_the_right_arm_has_the_mirror_image_of_the_left_arms_room() -> None:
     rng = np.random.default_rng(3)
     places = rng.uniform((0.1, -0.1, 0.7), (0.5, 0.6, 1.3), size=(100, 3))
     left = [is_in_reach(place) for place in places]
@@ -62,7 +62,7 @@ def test_the_right_arm_has_the_mirror_image_of_the_left_arms_room():
     assert 0 < sum(left) < len(left)
 
 
-def test_a_memory_tells_places_and_labels_apart():
+def test_a_memory_tells_places_and_labels_apart() -> None:
     memory = empty_memory(4)
     asked = [(label, x, y, -x) for label in (1, 7) for x in (-3, 5) for y in (-2, 2)]
     for number, place in enumerate(asked):
@@ -73,7 +73,7 @@ def test_a_memory_tells_places_and_labels_apart():
         assert memory.table[slot_of(memory.table, key)] == 2 * key + (number % 3 == 0)
 
 
-def test_a_memory_that_is_three_quarters_full_learns_no_more_and_keeps_its_answers():
+def test_a_memory_that_is_three_quarters_full_learns_no_more_and_keeps_its_answers() -> None:
     memory = empty_memory(4)
     keys = [place_key(1, x, 0, 0) for x in range(20)]
     for key in keys:

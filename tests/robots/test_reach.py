@@ -1,20 +1,21 @@
 """The robot's reach, against forward kinematics and against single queries."""
 
+from collections.abc import Iterator
+
 import numpy as np
 import pytest
 
 from planner.errors import RequestError, SceneError
-from planner.geometry.pose import Approach
+from planner.geometry.pose import Approach, FloatArray
 from planner.robots import comfort, comfort_reach
 from planner.robots.approaches import APPROACHES
 from planner.robots.arm import read_arm
 from planner.robots.comfort_memories import Memories
-from planner.robots.load_robot import load_robot
 from planner.robots.mirrored_arm import MirroredArm
 from planner.robots.reach import Pr2Reach
-from tests.robots.model import MODEL, limits, pin_tool_pose, random_joints
+from tests.robots.model import MODEL, limits, pin_tool_pose, random_joints, the_pr2
 
-ROBOT = load_robot("pr2")
+ROBOT = the_pr2()
 CARD = ROBOT.card
 TORSO_M = 0.29
 STEP_M = 0.05
@@ -28,13 +29,13 @@ def bodiless(comfort_m: float, memories: Memories | None = None) -> Pr2Reach:
     return Pr2Reach(("left", "right"), arms, TORSO_M, comfort_m, memories=memories)
 
 
-def test_there_is_a_fan_of_approaches_at_four_pitches_and_one_straight_down():
+def test_there_is_a_fan_of_approaches_at_four_pitches_and_one_straight_down() -> None:
     assert len(APPROACHES) == 4 * 13 + 1
     assert [approach for approach in APPROACHES if approach.is_vertical] == [Approach(0.0, np.pi / 2)]
 
 
 @pytest.mark.parametrize("arm", [0, 1])
-def test_every_pose_of_a_configuration_within_limits_is_reachable(arm):
+def test_every_pose_of_a_configuration_within_limits_is_reachable(arm: int) -> None:
     rng = np.random.default_rng(11)
     poses = [ROBOT.tool_pose(arm, random_joints(CARD, arm, rng), TORSO_M) for _ in range(20_000)]
     positions, rotations = (np.array(part) for part in zip(*poses, strict=True))
@@ -46,7 +47,7 @@ def test_every_pose_of_a_configuration_within_limits_is_reachable(arm):
 
 
 @pytest.mark.parametrize("arm", [0, 1])
-def test_everything_reachable_has_joints_within_limits_that_reach_it(arm):
+def test_everything_reachable_has_joints_within_limits_that_reach_it(arm: int) -> None:
     rng = np.random.default_rng(12)
     positions = rng.uniform((-0.2, -1.1, 0.2), (1.0, 1.1, 1.8), (4000, 3))
     rotations = np.array([_random_rotation(rng) for _ in positions])
@@ -61,7 +62,7 @@ def test_everything_reachable_has_joints_within_limits_that_reach_it(arm):
         assert max(abs(reached - position).max(), abs(turned - rotation).max()) < 1e-6
 
 
-def test_mirrored_questions_have_the_same_answer():
+def test_mirrored_questions_have_the_same_answer() -> None:
     rng = np.random.default_rng(13)
     mirror = np.array([1.0, -1.0, 1.0])
     positions = rng.uniform((0.1, -0.9, 0.5), (1.0, 0.9, 1.5), (5000, 3))
@@ -71,7 +72,7 @@ def test_mirrored_questions_have_the_same_answer():
     np.testing.assert_array_equal(left, right)
 
 
-def test_rolling_the_tool_about_its_axis_changes_nothing():
+def test_rolling_the_tool_about_its_axis_changes_nothing() -> None:
     rng = np.random.default_rng(14)
     positions = rng.uniform((0.1, -0.9, 0.5), (1.0, 0.9, 1.5), (2000, 3))
     rotations = np.array([_random_rotation(rng) for _ in positions])
@@ -83,7 +84,7 @@ def test_rolling_the_tool_about_its_axis_changes_nothing():
 
 @pytest.mark.parametrize("comfort_m", [0.0, 0.03])
 @pytest.mark.parametrize("arm", [0, 1])
-def test_standoffs_are_what_the_naive_loop_finds(arm, comfort_m):
+def test_standoffs_are_what_the_naive_loop_finds(arm: int, comfort_m: float) -> None:
     asked = bodiless(comfort_m)
     for points in _paths(np.random.default_rng(15)):
         masks = asked.standoffs(arm, points, EVERY_APPROACH, COUNT, STEP_M)
@@ -93,23 +94,23 @@ def test_standoffs_are_what_the_naive_loop_finds(arm, comfort_m):
 
 
 @pytest.mark.parametrize("arm", [0, 1])
-def test_standoffs_that_matter_are_what_the_naive_loop_finds_among_them(arm):
+def test_standoffs_that_matter_are_what_the_naive_loop_finds_among_them(arm: int) -> None:
     rng, able = np.random.default_rng(21), 0
     for points in _paths(rng):
-        among = rng.integers(1, 1 << COUNT, len(points), dtype=np.uint32) | (1 << COUNT // 2)
+        among = rng.integers(1, 1 << COUNT, len(points), dtype=np.uint32) | np.uint32(1 << COUNT // 2)
         for end in range(COUNT):
             asked = bodiless(0.03)
             masks = asked.standoffs(arm, points, EVERY_APPROACH, COUNT, STEP_M, end=end, among=among)
             expected = _naive_masks(arm, points, 0.03, among)
             expected[(expected[:, -1:] >> end & 1 == 0)[:, 0]] = 0
             np.testing.assert_array_equal(masks, expected)
-            able += np.count_nonzero(masks[:, 0])
+            able += int(np.count_nonzero(masks[:, 0]))
     assert able > 0
 
 
 @pytest.mark.parametrize("comfort_m", [0.0, 0.03])
 @pytest.mark.parametrize("arm", [0, 1])
-def test_from_anywhere_is_what_the_naive_loop_finds(arm, comfort_m):
+def test_from_anywhere_is_what_the_naive_loop_finds(arm: int, comfort_m: float) -> None:
     asked = bodiless(comfort_m)
     points = np.vstack(list(_paths(np.random.default_rng(20))))
     few = 3
@@ -122,7 +123,7 @@ def test_from_anywhere_is_what_the_naive_loop_finds(arm, comfort_m):
     assert asked.queries == queries
 
 
-def test_from_anywhere_and_standoffs_share_what_they_remember():
+def test_from_anywhere_and_standoffs_share_what_they_remember() -> None:
     asked = bodiless(0.03)
     point = np.array([[0.3, 0.1, 0.9]])
     masks = asked.standoffs(0, point, EVERY_APPROACH, COUNT, STEP_M)
@@ -132,7 +133,7 @@ def test_from_anywhere_and_standoffs_share_what_they_remember():
     assert asked.queries == queries
 
 
-def test_what_was_asked_before_is_not_queried_again():
+def test_what_was_asked_before_is_not_queried_again() -> None:
     asked = bodiless(0.03)
     points = next(_paths(np.random.default_rng(16)))
     asked.standoffs(0, points, EVERY_APPROACH, COUNT, STEP_M)
@@ -143,7 +144,7 @@ def test_what_was_asked_before_is_not_queried_again():
     assert asked.queries == queries
 
 
-def test_the_right_arm_profits_from_what_the_left_one_was_asked():
+def test_the_right_arm_profits_from_what_the_left_one_was_asked() -> None:
     asked = bodiless(0.03)
     points = next(_paths(np.random.default_rng(17)))
     left = asked.standoffs(0, points, EVERY_APPROACH, COUNT, STEP_M)
@@ -155,7 +156,7 @@ def test_the_right_arm_profits_from_what_the_left_one_was_asked():
     assert asked.queries == queries
 
 
-def test_a_plan_answers_from_what_another_has_asked_and_is_charged_as_if_it_were_the_first():
+def test_a_plan_answers_from_what_another_has_asked_and_is_charged_as_if_it_were_the_first() -> None:
     memories, paths = Memories(), list(_paths(np.random.default_rng(19)))
     first, fresh = bodiless(0.03, memories), bodiless(0.03)
     expected = [first.standoffs(0, points, EVERY_APPROACH, COUNT, STEP_M) for points in paths]
@@ -174,7 +175,7 @@ def test_a_plan_answers_from_what_another_has_asked_and_is_charged_as_if_it_were
     assert left.bits[:, comfort.TESTED].any()
 
 
-def test_plans_made_at_once_have_memories_of_their_own():
+def test_plans_made_at_once_have_memories_of_their_own() -> None:
     memories = Memories()
     one, other = memories.take(), memories.take()
     assert one.keys is not other.keys
@@ -182,7 +183,7 @@ def test_plans_made_at_once_have_memories_of_their_own():
     assert memories.take().keys is one.keys and memories.take().keys is not other.keys
 
 
-def test_a_full_memory_changes_no_answer(monkeypatch):
+def test_a_full_memory_changes_no_answer(monkeypatch: pytest.MonkeyPatch) -> None:
     usual = bodiless(0.03)
     tiny = comfort.empty_memory(size_bits=2)
     monkeypatch.setattr(comfort_reach, "empty_memory", lambda: tiny)
@@ -194,12 +195,12 @@ def test_a_full_memory_changes_no_answer(monkeypatch):
         )
 
 
-def test_no_points_have_no_standoffs():
+def test_no_points_have_no_standoffs() -> None:
     masks = bodiless(0.0).standoffs(0, np.empty((0, 3)), EVERY_APPROACH, COUNT, STEP_M)
     assert masks.shape == (len(APPROACHES), 0)
 
 
-def test_what_cannot_be_asked_is_refused():
+def test_what_cannot_be_asked_is_refused() -> None:
     with pytest.raises(SceneError, match="torso_m"):
         ROBOT.reach(0.5, 0.03)
     with pytest.raises(RequestError, match="comfort_radius_m"):
@@ -208,7 +209,7 @@ def test_what_cannot_be_asked_is_refused():
         ROBOT.reach(0.1, 0.0).standoffs(0, np.zeros((1, 3)), EVERY_APPROACH, 33, STEP_M)
 
 
-def test_a_standoff_beyond_a_gap_does_not_count():
+def test_a_standoff_beyond_a_gap_does_not_count() -> None:
     """The base cannot drive through a place from which the tool, resting, is out of reach."""
     asked = bodiless(0.0)
     for points in _paths(np.random.default_rng(19)):
@@ -233,13 +234,14 @@ def _connected(seeds: int, mask: int) -> int:
         found = grown
 
 
-def _paths(rng: np.random.Generator):
+def _paths(rng: np.random.Generator) -> Iterator[FloatArray]:
     """Return half circles over a table top at 0.79 m, as folds make them, on the grid of the queries."""
     for _ in range(6):
         turn = np.linspace(0.0, np.pi, 5)
         x, y, radius = rng.uniform(0.1, 0.7), rng.uniform(-0.3, 0.3), rng.uniform(0.05, 0.2)
         heights = 0.79 + radius * np.sin(turn)
-        yield np.round(np.stack((x + 0.0 * turn, y + radius * np.cos(turn), heights), axis=1), 5)
+        places: FloatArray = np.stack((x + 0.0 * turn, y + radius * np.cos(turn), heights), axis=1)
+        yield np.round(places, 5)
 
 
 def _naive_masks(arm: int, points: np.ndarray, comfort_m: float, among: np.ndarray | int = -1) -> np.ndarray:
@@ -263,15 +265,15 @@ def _naive_comfort(arm: int, points: np.ndarray, comfort_m: float) -> np.ndarray
         ROBOT.can_reach(arm, asked, np.broadcast_to(approach.rotation, (len(asked), 3, 3)), TORSO_M)
         for approach in APPROACHES
     ]
-    return np.reshape(answers, (len(APPROACHES), len(points), COUNT, len(ring))).all(axis=3)
+    return np.asarray(np.reshape(answers, (len(APPROACHES), len(points), COUNT, len(ring))).all(axis=3))
 
 
 def _random_rotation(rng: np.random.Generator) -> np.ndarray:
     rotation = np.linalg.qr(rng.normal(size=(3, 3)))[0]
-    return rotation * np.linalg.det(rotation)
+    return np.asarray(rotation * np.linalg.det(rotation))
 
 
-def test_a_plan_that_is_begun_meanwhile_knows_what_has_been_asked_and_is_charged_for_it():
+def test_a_plan_that_is_begun_meanwhile_knows_what_has_been_asked_and_is_charged_for_it() -> None:
     memories, paths = Memories(), list(_paths(np.random.default_rng(23)))
     first = bodiless(0.03, memories)
     known = [first.standoffs(0, points, EVERY_APPROACH, COUNT, STEP_M) for points in paths]

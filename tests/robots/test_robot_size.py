@@ -5,6 +5,7 @@ from types import FunctionType, ModuleType
 
 import numpy as np
 
+from planner.robots.card_robot import CardRobot
 from planner.robots.described_robot import read_robot
 from planner.robots.load_robot import load_robot
 from planner.robots.mapped_arm import all_arms
@@ -32,6 +33,7 @@ def held_mb(root: object) -> float:
 @sweep("name", ["so101-pair", "ur5e-pair"], quick=["so101-pair"])
 def test_the_maps_of_a_robots_arms_are_in_memory_once(name: str) -> None:
     robot = load_robot(name)
+    assert isinstance(robot, CardRobot)
     robot.forget_reach()  # what other tests have asked of it is more than its maps
     robot.reach(0.0, 0.03)
     arms = all_arms(read_robot(name))

@@ -17,7 +17,7 @@ FLOOR_M = 0.75
 
 
 @pytest.fixture(scope="module")
-def ur5e(tmp_path_factory) -> MappedArm:
+def ur5e(tmp_path_factory: pytest.TempPathFactory) -> MappedArm:
     """Return an arm with a map one cell high: whole maps take seconds."""
     arm = read_robot("ur5e-pair").arms[0]
     height_m = FLOOR_M + 0.02 - float(arm.root[2])
@@ -27,21 +27,21 @@ def ur5e(tmp_path_factory) -> MappedArm:
 
 def rolled(approach: Approach, roll_rad: float) -> FloatArray:
     c, s = math.cos(roll_rad), math.sin(roll_rad)
-    return approach.rotation @ np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
+    return np.asarray(approach.rotation @ np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]]))
 
 
 def samples(found: tuple[FloatArray, FloatArray]) -> FloatArray:
     """Return the samples of one pose, shape (k, joints)."""
     joints, costs = found
-    return joints[0, np.isfinite(costs[0])]
+    return np.asarray(joints[0, np.isfinite(costs[0])])
 
 
-def test_an_arm_whose_tool_is_beside_its_last_axis_is_not_one_of_them():
+def test_an_arm_whose_tool_is_beside_its_last_axis_is_not_one_of_them() -> None:
     assert gives_roll_alone(read_robot("ur5e-pair").arms[0].chain)
     assert not gives_roll_alone(read_robot("so101-pair").arms[0].chain)
 
 
-def test_equal_axes_have_equal_rotations_whatever_their_roll():
+def test_equal_axes_have_equal_rotations_whatever_their_roll() -> None:
     approach = Approach(0.4, math.radians(60))
     (one, other) = unrolled(np.array([rolled(approach, 0.0), rolled(approach, 0.5 * math.pi)]))
     assert one.tobytes() == other.tobytes()
@@ -49,7 +49,7 @@ def test_equal_axes_have_equal_rotations_whatever_their_roll():
     np.testing.assert_allclose(one @ one.T, np.eye(3), atol=1e-12)
 
 
-def test_samples_take_their_pose_or_one_rolled_by_half_a_turn_as_those_of_the_whole_pose_do(ur5e):
+def test_samples_take_their_pose_or_one_rolled_by_half_a_turn_as_those_of_the_whole_pose_do(ur5e: MappedArm) -> None:
     rng, chain, shoulder, posed = np.random.default_rng(1), ur5e.chain, ur5e.shoulder(0.0), 0
     for _ in range(40):
         point = np.array([*rng.uniform((0.3, -0.3), (0.7, 0.3)), FLOOR_M + 0.025]) - shoulder

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from planner.geometry.pose import FloatArray
 from planner.robots.sample_memory import SampleMemory
 
 JOINTS = 5
@@ -14,7 +15,7 @@ class Sampler:
     def __init__(self) -> None:
         self.asked = 0
 
-    def __call__(self, points, rotations, floor):
+    def __call__(self, points: FloatArray, rotations: FloatArray, floor: float) -> tuple[FloatArray, FloatArray]:
         self.asked += len(points)
         joints, costs = np.zeros((len(points), 9, JOINTS)), np.full((len(points), 9), np.inf)
         for number, point in enumerate(points):
@@ -25,16 +26,16 @@ class Sampler:
         return joints[:, :most], costs[:, :most]
 
 
-def poses(*samples):
+def poses(*samples: int) -> tuple[FloatArray, FloatArray]:
     return np.array([[count, 0.1 * count, 0.0] for count in samples], dtype=float), np.array([np.eye(3)] * len(samples))
 
 
-def same(left, right):
+def same(left: tuple[FloatArray, FloatArray], right: tuple[FloatArray, FloatArray]) -> None:
     for one, other in zip(left, right, strict=True):
         np.testing.assert_array_equal(one, other)
 
 
-def test_it_answers_as_the_sampler_and_asks_it_once_for_each_pose():
+def test_it_answers_as_the_sampler_and_asks_it_once_for_each_pose() -> None:
     sampler = Sampler()
     memory = SampleMemory(sampler)
     for asked in ((3, 0, 8), (8, 8, 2, 3), (0,), (2, 0)):
@@ -43,7 +44,7 @@ def test_it_answers_as_the_sampler_and_asks_it_once_for_each_pose():
 
 
 @pytest.mark.parametrize("other", ["floor", "rotation"])
-def test_another_floor_or_rotation_is_another_question(other):
+def test_another_floor_or_rotation_is_another_question(other: str) -> None:
     sampler = Sampler()
     memory = SampleMemory(sampler)
     points, rotations = poses(4)
@@ -53,14 +54,14 @@ def test_another_floor_or_rotation_is_another_question(other):
     assert sampler.asked == 2
 
 
-def test_what_the_caller_does_to_an_answer_is_not_remembered():
+def test_what_the_caller_does_to_an_answer_is_not_remembered() -> None:
     memory = SampleMemory(Sampler())
     _, costs = memory.samples(*poses(4), 0.0)
     costs[:] = np.inf
     same(memory.samples(*poses(4), 0.0), Sampler()(*poses(4), 0.0))
 
 
-def test_poses_asked_longest_ago_are_forgotten_first(monkeypatch):
+def test_poses_asked_longest_ago_are_forgotten_first(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("planner.robots.sample_memory._POSES_KEPT", 2)
     sampler = Sampler()
     memory = SampleMemory(sampler)

@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 
 from planner.geometry.pose import Approach
+from planner.robots.armed_robot import ArmedRobot
 from planner.robots.described_robot import read_robot, shipped_robots
 from planner.robots.load_robot import load_robot
 from planner.robots.soft_limits import limits_of
+from tests.robots.model import the_pr2
 
 
 def joint(limits: str, soft: str, kind: str = "revolute") -> ElementTree.Element:
@@ -25,17 +27,17 @@ def joint(limits: str, soft: str, kind: str = "revolute") -> ElementTree.Element
         ('lower="-2" upper="1"', '<safety_controller k_velocity="2"/>', (-2.0, 1.0)),
     ],
 )
-def test_the_narrower_of_hard_and_soft_limits_counts(limits: str, soft: str, kept: tuple[float, float]):
+def test_the_narrower_of_hard_and_soft_limits_counts(limits: str, soft: str, kept: tuple[float, float]) -> None:
     assert limits_of(joint(limits, soft)) == kept
 
 
-def test_a_joint_that_turns_without_end_has_none():
+def test_a_joint_that_turns_without_end_has_none() -> None:
     soft = '<safety_controller soft_lower_limit="-1" soft_upper_limit="1"/>'
     assert limits_of(joint('effort="1"', soft, "continuous")) == (-np.inf, np.inf)
 
 
 @pytest.mark.parametrize("name", shipped_robots())
-def test_homes_and_lifts_of_shipped_robots_are_within_the_soft_limits(name: str):
+def test_homes_and_lifts_of_shipped_robots_are_within_the_soft_limits(name: str) -> None:
     robot, described = load_robot(name), read_robot(name)
     soft = {one.get("name"): one.find("safety_controller") for one in ElementTree.fromstring(described.urdf)}
     values = dict(zip(*_home(robot), strict=True)) | {described.card.lift: described.card.scene.torso_m}
@@ -45,15 +47,15 @@ def test_homes_and_lifts_of_shipped_robots_are_within_the_soft_limits(name: str)
             assert float(own.attrib["soft_lower_limit"]) <= value <= float(own.attrib["soft_upper_limit"]), joint_name
 
 
-def _home(robot: object) -> tuple[list[str], list[float]]:
-    arms = robot.card.arms  # type: ignore[attr-defined]
+def _home(robot: ArmedRobot) -> tuple[list[str], list[float]]:
+    arms = robot.card.arms
     return [name for arm in arms for name in arm.joint_names], [q for arm in arms for q in arm.home]
 
 
-def test_a_pr2_does_not_reach_what_only_a_straight_elbow_reaches():
+def test_a_pr2_does_not_reach_what_only_a_straight_elbow_reaches() -> None:
     # Shoulder, elbow and wrist 0.4 and 0.321 m apart: at -0.15 rad, the soft limit, the wrist is 2.0 mm nearer to the
     # shoulder than with the elbow straight.
-    pr2 = load_robot("pr2")
+    pr2 = the_pr2()
     shape = pr2._arms[0].shape
     ahead = np.array([1.0, 0.0, 0.0])
     straight = Approach(0.0, 0.0).rotation[None]

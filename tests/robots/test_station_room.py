@@ -10,7 +10,7 @@ from planner.robots.station_room import StationInTable, stations_in_table
 from planner.task.scene import DEFAULT_STATIONS, Scene
 
 
-def test_only_stations_in_the_table_are_found_and_from_where_they_are_free():
+def test_only_stations_in_the_table_are_found_and_from_where_they_are_free() -> None:
     front = DEFAULT_STATIONS["front"]
     table = load_robot("pr2").collisions(Table(), Scene().torso_m)
     assert stations_in_table(tuple(DEFAULT_STATIONS.items()), table) == ()
@@ -21,7 +21,7 @@ def test_only_stations_in_the_table_are_found_and_from_where_they_are_free():
     assert not table.body_free(front.ahead(0.3 - found.back_m + 0.01))
 
 
-def test_a_base_that_is_not_free_within_a_metre_has_no_way_back():
+def test_a_base_that_is_not_free_within_a_metre_has_no_way_back() -> None:
     class Everywhere:
         def body_free(self, base_in_table: Pose2) -> bool:
             return False
@@ -30,6 +30,6 @@ def test_a_base_that_is_not_free_within_a_metre_has_no_way_back():
 
 
 @pytest.mark.parametrize("name", ["tiago-pro", "pr2"])
-def test_no_shipped_robot_that_drives_has_a_station_in_its_table(name: str):
+def test_no_shipped_robot_that_drives_has_a_station_in_its_table(name: str) -> None:
     robot, scene = load_robot(name), read_robot(name).card.scene
     assert stations_in_table(scene.stations, robot.collisions(scene.table, scene.torso_m)) == ()

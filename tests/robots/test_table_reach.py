@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from planner.geometry.pose import BoolArray, FloatArray
 from planner.robots import table_reach as module
 from planner.robots.described_robot import read_robot
 from planner.robots.table_reach import table_reach
@@ -15,21 +16,21 @@ BALL_M = 0.3
 class Ball:
     """An arm that reaches all that is near to its root, from straight above alone."""
 
-    def __init__(self, root):
+    def __init__(self, root: FloatArray) -> None:
         self.root = root
 
-    def can_reach(self, positions, rotations, torso_m):
+    def can_reach(self, positions: FloatArray, rotations: FloatArray, torso_m: float) -> BoolArray:
         is_down = rotations[:, 2, 0] < -math.cos(0.01)
-        return is_down & (np.linalg.norm(positions - self.root, axis=1) <= BALL_M)
+        return np.asarray(is_down & (np.linalg.norm(positions - self.root, axis=1) <= BALL_M))
 
 
 @pytest.fixture
-def balls(monkeypatch):
+def balls(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(module, "all_arms", lambda robot, progress: [Ball(arm.root) for arm in robot.arms])
 
 
 @pytest.mark.usefixtures("balls")
-def test_shares_are_those_of_the_points_in_reach():
+def test_shares_are_those_of_the_points_in_reach() -> None:
     robot = read_robot("so101-pair")
     scene = robot.card.scene
     station = scene.stations[0][1]
@@ -47,13 +48,13 @@ def test_shares_are_those_of_the_points_in_reach():
 
 
 @pytest.mark.usefixtures("balls")
-def test_one_arm_never_reaches_with_two():
+def test_one_arm_never_reaches_with_two() -> None:
     assert table_reach(read_robot("ur5e-single")).two_arms == 0.0
 
 
 @pytest.mark.slow
-def test_two_small_arms_reach_the_middle_of_their_table_together():
-    shares = []
+def test_two_small_arms_reach_the_middle_of_their_table_together() -> None:
+    shares: list[float] = []
     found = table_reach(read_robot("so101-pair"), shares.append)
     assert 0.2 < found.two_arms < found.any_arm <= 1.0
     assert found.arms["left"] == pytest.approx(found.arms["right"], abs=0.05)

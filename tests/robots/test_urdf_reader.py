@@ -1,11 +1,15 @@
 """What is read of a URDF, and what is refused."""
 
+from pathlib import Path
+from xml.etree.ElementTree import Element
+
 import pytest
 
 from planner.errors import RobotError
 from planner.robots.card_parts import UrdfFile
 from planner.robots.urdf_reader import locate, read_urdf
 from planner.robots.urdf_shapes import MESH_BYTES_MAX
+from tests.required import required
 
 ARM = """<robot name="arm">
   <link name="body"><visual><geometry><mesh filename="{mesh}"/></geometry></visual></link>
@@ -17,7 +21,7 @@ ARM = """<robot name="arm">
 </robot>"""
 
 
-def read(folder, text):
+def read(folder: Path, text: str) -> Element:
     (folder / "robot").mkdir(exist_ok=True)
     (folder / "robot" / "body.stl").touch()
     (folder / "secret.stl").touch()
@@ -26,9 +30,9 @@ def read(folder, text):
 
 
 @pytest.mark.parametrize("mesh", ["body.stl", "./body.stl", "package://body.stl", "package://robot/body.stl"])
-def test_the_paths_of_meshes_become_absolute(tmp_path, mesh):
+def test_the_paths_of_meshes_become_absolute(tmp_path: Path, mesh: str) -> None:
     found = read(tmp_path, ARM.format(mesh=mesh, lower=-1))
-    assert found.find("link/visual/geometry/mesh").get("filename") == str(tmp_path / "robot" / "body.stl")
+    assert required(found.find("link/visual/geometry/mesh")).get("filename") == str(tmp_path / "robot" / "body.stl")
 
 
 @pytest.mark.parametrize(
@@ -42,13 +46,13 @@ def test_the_paths_of_meshes_become_absolute(tmp_path, mesh):
         ("hand.stl", "no mesh 'hand.stl'"),
     ],
 )
-def test_no_mesh_is_read_outside_of_the_robots_folder(tmp_path, mesh, said):
+def test_no_mesh_is_read_outside_of_the_robots_folder(tmp_path: Path, mesh: str, said: str) -> None:
     with pytest.raises(RobotError, match="link 'body'") as caught:
         read(tmp_path, ARM.format(mesh=mesh, lower=-1))
     assert said in caught.value.message
 
 
-def test_a_link_to_a_file_outside_is_not_followed(tmp_path):
+def test_a_link_to_a_file_outside_is_not_followed(tmp_path: Path) -> None:
     (tmp_path / "robot").mkdir()
     (tmp_path / "robot" / "inner.stl").symlink_to(tmp_path / "secret.stl")
     with pytest.raises(RobotError, match="leads out"):
@@ -56,12 +60,12 @@ def test_a_link_to_a_file_outside_is_not_followed(tmp_path):
 
 
 @pytest.mark.parametrize("lower", ["nan", "-inf", "low", "1 nan"])
-def test_limits_that_are_no_numbers_are_told_with_their_joint(tmp_path, lower):
+def test_limits_that_are_no_numbers_are_told_with_their_joint(tmp_path: Path, lower: str) -> None:
     with pytest.raises(RobotError, match="joint 'elbow': limit has lower"):
         read(tmp_path, ARM.format(mesh="body.stl", lower=lower))
 
 
-def test_a_document_type_is_refused_and_with_it_every_entity(tmp_path):
+def test_a_document_type_is_refused_and_with_it_every_entity(tmp_path: Path) -> None:
     bomb = '<!DOCTYPE robot [<!ENTITY a "ha"><!ENTITY b "&a;&a;">]>' + ARM.format(mesh="&b;", lower=-1)
     with pytest.raises(RobotError, match="document type"):
         read(tmp_path, bomb)
@@ -77,12 +81,12 @@ def test_a_document_type_is_refused_and_with_it_every_entity(tmp_path):
         ("<robot>" * 1000 + "</robot>" * 1000, "nests more than"),
     ],
 )
-def test_what_is_no_urdf_is_refused(tmp_path, text, said):
+def test_what_is_no_urdf_is_refused(tmp_path: Path, text: str, said: str) -> None:
     with pytest.raises(RobotError, match=said):
         read(tmp_path, text)
 
 
-def test_a_mesh_of_a_million_triangles_is_refused(tmp_path):
+def test_a_mesh_of_a_million_triangles_is_refused(tmp_path: Path) -> None:
     (tmp_path / "robot").mkdir()
     with (tmp_path / "robot" / "huge.stl").open("wb") as file:
         file.truncate(84 + 50 * 1_000_000)
@@ -91,7 +95,7 @@ def test_a_mesh_of_a_million_triangles_is_refused(tmp_path):
         read(tmp_path, ARM.format(mesh="huge.stl", lower=-1))
 
 
-def test_a_missing_shape_for_collisions_is_left_out_where_the_link_is_seen(tmp_path):
+def test_a_missing_shape_for_collisions_is_left_out_where_the_link_is_seen(tmp_path: Path) -> None:
     more = '</visual><collision><geometry><mesh filename="gone.stl"/></geometry></collision>'
     found = read(tmp_path, ARM.format(mesh="body.stl", lower=-1).replace("</visual>", more))
     assert found.find("link/collision") is None
@@ -106,13 +110,13 @@ def test_a_missing_shape_for_collisions_is_left_out_where_the_link_is_seen(tmp_p
         ARM.format(mesh="$(find arm)/body.stl", lower=-1),
     ],
 )
-def test_xacro_that_was_not_expanded_is_called_so(tmp_path, text):
+def test_xacro_that_was_not_expanded_is_called_so(tmp_path: Path, text: str) -> None:
     with pytest.raises(RobotError, match=r"arm\.urdf is xacro that was not expanded"):
         read(tmp_path, text)
 
 
-def test_what_xacro_leaves_behind_is_no_xacro(tmp_path):
+def test_what_xacro_leaves_behind_is_no_xacro(tmp_path: Path) -> None:
     text = ARM.format(mesh="body.stl", lower=-1).replace(
         '<robot name="arm">', '<robot name="arm" xmlns:xacro="x"><xacro:arg name="prefix" default="$(arg side)"/>'
     )
-    assert read(tmp_path, text).find("link").get("name") == "body"
+    assert required(read(tmp_path, text).find("link")).get("name") == "body"

@@ -1,5 +1,6 @@
 """What is refused of a URDF's links and joints, by name, and what is brought into a common form."""
 
+from pathlib import Path
 from xml.etree.ElementTree import Element
 
 import pytest
@@ -7,6 +8,7 @@ import pytest
 from planner.errors import RobotError
 from planner.robots.card_parts import UrdfFile
 from planner.robots.urdf_reader import locate, read_urdf
+from tests.required import required
 
 LIMIT = '<limit lower="-1" upper="1" velocity="2" effort="3"/>'
 ARM = f"""<robot name="arm"><link name="body"/><link name="hand"/><link name="thumb"/>
@@ -15,7 +17,7 @@ ARM = f"""<robot name="arm"><link name="body"/><link name="hand"/><link name="th
 </robot>"""
 
 
-def read(folder, text) -> Element:
+def read(folder: Path, text: str) -> Element:
     (folder / "arm.urdf").write_text(text)
     return read_urdf(locate(UrdfFile("arm.urdf"), folder, "urdf"), "urdf")
 
@@ -41,35 +43,36 @@ def read(folder, text) -> Element:
         (LIMIT, LIMIT + '<mimic joint="grip" offset="nan"/>', "joint 'elbow': mimic has offset 'nan'"),
     ],
 )
-def test_what_makes_no_tree_is_refused_by_name(tmp_path, old, new, said):
+def test_what_makes_no_tree_is_refused_by_name(tmp_path: Path, old: str, new: str, said: str) -> None:
     with pytest.raises(RobotError) as caught:
         read(tmp_path, ARM.replace(old, new, 1))
     assert caught.value.field == "urdf"
     assert said in caught.value.message
 
 
-def test_a_robot_without_links_is_refused(tmp_path):
+def test_a_robot_without_links_is_refused(tmp_path: Path) -> None:
     with pytest.raises(RobotError, match="has no link"):
         read(tmp_path, "<robot/>")
 
 
-def test_numbers_that_planning_does_not_need_may_be_missing_or_wrong(tmp_path):
+def test_numbers_that_planning_does_not_need_may_be_missing_or_wrong(tmp_path: Path) -> None:
     mass = '<link name="hand"><inertial><mass value="much"/></inertial></link>'
     text = ARM.replace('<link name="hand"/>', mass).replace(' velocity="2" effort="3"', "")
     found = read(tmp_path, text)
     assert found.find("link/inertial") is None
-    assert found.find("joint/limit").attrib == {"lower": "-1", "upper": "1", "effort": "0.0", "velocity": "0.0"}
+    limit = required(found.find("joint/limit"))
+    assert limit.attrib == {"lower": "-1", "upper": "1", "effort": "0.0", "velocity": "0.0"}
 
 
-def test_a_joint_of_many_turns_has_no_end(tmp_path):
+def test_a_joint_of_many_turns_has_no_end(tmp_path: Path) -> None:
     kinds = [
-        read(tmp_path, ARM.replace('lower="-1"', f'lower="{low}"', 1)).find("joint").get("type")
+        required(read(tmp_path, ARM.replace('lower="-1"', f'lower="{low}"', 1)).find("joint")).get("type")
         for low in (-12.6, -1e16)
     ]
     assert kinds == ["revolute", "continuous"]
 
 
-def test_a_joint_that_mimics_one_that_mimics_follows_the_one_that_is_driven(tmp_path):
+def test_a_joint_that_mimics_one_that_mimics_follows_the_one_that_is_driven(tmp_path: Path) -> None:
     # third = 2 second + .1 = 2 (-3 elbow + .2) + .1 = -6 elbow + .5
     joints = "".join(
         f'<link name="of {name}"/><joint name="{name}" type="revolute"><parent link="body"/><child link="of {name}"/>'
@@ -77,14 +80,14 @@ def test_a_joint_that_mimics_one_that_mimics_follows_the_one_that_is_driven(tmp_
         for name, driver, factor, offset in (("third", "second", 2, 0.1), ("second", "elbow", -3, 0.2))
     )
     found = read(tmp_path, ARM.replace("</robot>", joints + "</robot>"))
-    third = found.find("joint[@name='third']/mimic")
+    third = required(found.find("joint[@name='third']/mimic"))
     assert third.get("joint") == "elbow"
-    assert float(third.get("multiplier")) == pytest.approx(-6.0)
-    assert float(third.get("offset")) == pytest.approx(0.5)
+    assert float(third.attrib["multiplier"]) == pytest.approx(-6.0)
+    assert float(third.attrib["offset"]) == pytest.approx(0.5)
 
 
 @pytest.mark.parametrize("driver", ["nobody", "rigid"])
-def test_a_joint_that_mimics_what_does_not_move_rests(tmp_path, driver):
+def test_a_joint_that_mimics_what_does_not_move_rests(tmp_path: Path, driver: str) -> None:
     rigid = '<link name="nail"/><joint name="rigid" type="fixed"><parent link="body"/><child link="nail"/></joint>'
     mimic = LIMIT + f'<mimic joint="{driver}"/>'
     found = read(tmp_path, ARM.replace(LIMIT, mimic, 1).replace("</robot>", rigid + "</robot>"))

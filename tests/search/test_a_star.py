@@ -2,7 +2,8 @@
 
 import math
 import random
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Hashable, Iterable, Sequence
+from typing import TypeVar
 
 import networkx as nx
 import pytest
@@ -11,18 +12,28 @@ from hypothesis import strategies as st
 
 from planner.search.a_star import DeferredEdges, Edge, Outcome, SearchResult, a_star
 
+S = TypeVar("S", bound=Hashable)
+A = TypeVar("A")
+
 
 def search(
-    start: object,
-    successors: Callable[[object], Iterable[Edge[object, object]]],
-    goal: object,
-    heuristic: Callable[[object], float] = lambda state: 0.0,
+    start: S,
+    successors: Callable[[S], Iterable[Edge[S, A]]],
+    goal: S,
+    heuristic: Callable[[S], float] = lambda state: 0.0,
     max_expanded: int = 10_000,
     should_stop: Callable[[], bool] = lambda: False,
     limit: float = math.inf,
-) -> SearchResult[object, object]:
-    leaving = lambda state, cost: successors(state)  # noqa: E731
-    return a_star(start, leaving, lambda state: state == goal, heuristic, max_expanded, should_stop, limit)
+) -> SearchResult[S, A]:
+    return a_star(
+        start,
+        lambda state, cost: successors(state),
+        lambda state: state == goal,
+        heuristic,
+        max_expanded,
+        should_stop,
+        limit,
+    )
 
 
 def number_line(n: int) -> list[Edge[int, int]]:
@@ -30,7 +41,7 @@ def number_line(n: int) -> list[Edge[int, int]]:
     return [Edge(1, 1.0, n + 1), Edge(-1, 1.0, n - 1), Edge(5, 3.0, n + 5)]
 
 
-def test_on_a_number_line_the_cheapest_steps_are_found():
+def test_on_a_number_line_the_cheapest_steps_are_found() -> None:
     # 9 = 5 + 5 - 1: 3 + 3 + 1 = 7; by ones after the first five it would be 3 + 4 = 7 too; all by ones 9.
     found = search(0, number_line, 9, lambda n: 0.6 * max(0, 9 - n))
     assert found.outcome is Outcome.SOLVED
@@ -39,12 +50,12 @@ def test_on_a_number_line_the_cheapest_steps_are_found():
     assert found.bound == found.cost
 
 
-def test_where_the_start_is_the_goal_there_is_nothing_to_do():
+def test_where_the_start_is_the_goal_there_is_nothing_to_do() -> None:
     found = search(3, number_line, 3)
     assert (found.outcome, found.path, found.cost, found.expanded) == (Outcome.SOLVED, (), 0.0, 0)
 
 
-def test_a_path_leads_from_the_start_to_the_goal():
+def test_a_path_leads_from_the_start_to_the_goal() -> None:
     found = search(0, number_line, 13)
     at = 0
     for edge in found.path:
@@ -53,41 +64,41 @@ def test_a_path_leads_from_the_start_to_the_goal():
     assert at == 13
 
 
-def test_an_exhausted_space_is_a_proof():
+def test_an_exhausted_space_is_a_proof() -> None:
     found = search(0, lambda n: [Edge("up", 1.0, n + 1)] if n < 5 else [], 7)
     assert found.outcome is Outcome.INFEASIBLE
     assert found.path == () and found.cost == float("inf")
     assert found.expanded == 6 and found.explored == 5
 
 
-def test_a_budget_of_expansions_ends_the_search_with_a_bound():
+def test_a_budget_of_expansions_ends_the_search_with_a_bound() -> None:
     found = search(0, number_line, 1000, max_expanded=10)
     assert found.outcome is Outcome.BUDGET_EXCEEDED
     assert found.expanded == 10 and found.path == ()
     assert 0.0 < found.bound <= 600.0
 
 
-def test_ways_that_cost_as_much_as_the_limit_or_more_are_as_good_as_none():
+def test_ways_that_cost_as_much_as_the_limit_or_more_are_as_good_as_none() -> None:
     assert search(0, number_line, 9, limit=7.0).outcome is Outcome.INFEASIBLE
     assert search(0, number_line, 9, limit=7.1).cost == pytest.approx(7.0)
     # Below 3 there are the numbers that two single steps lead to; none of the line's ends is needed to end the search.
     assert search(0, number_line, 9, limit=3.0).expanded == len({-2, -1, 0, 1, 2})
 
 
-def test_a_budget_that_just_suffices_suffices():
+def test_a_budget_that_just_suffices_suffices() -> None:
     needed = search(0, number_line, 9).expanded
     assert search(0, number_line, 9, max_expanded=needed).outcome is Outcome.SOLVED
     assert search(0, number_line, 9, max_expanded=needed - 1).outcome is Outcome.BUDGET_EXCEEDED
 
 
-def test_whoever_asks_to_stop_is_heard_before_the_first_expansion():
+def test_whoever_asks_to_stop_is_heard_before_the_first_expansion() -> None:
     found = search(0, number_line, 9, should_stop=lambda: True)
     assert (found.outcome, found.expanded) == (Outcome.BUDGET_EXCEEDED, 0)
 
 
-def test_a_sum_in_another_order_is_no_better_path():
+def test_a_sum_in_another_order_is_no_better_path() -> None:
     # 0.1 + 0.2 + 0.3 and 0.3 + 0.2 + 0.1 differ in their last digit: the first found is kept.
-    edges = {
+    edges: dict[str, list[Edge[str, str]]] = {
         "s": [Edge("up", 0.1, "a"), Edge("down", 0.3, "x")],
         "a": [Edge("up", 0.2, "b")],
         "b": [Edge("up", 0.3, "g")],
@@ -98,9 +109,9 @@ def test_a_sum_in_another_order_is_no_better_path():
     assert search("s", edges.__getitem__, "g").cost == pytest.approx(0.6)
 
 
-def test_of_equal_estimates_the_larger_cost_so_far_goes_first():
+def test_of_equal_estimates_the_larger_cost_so_far_goes_first() -> None:
     # Two ways of cost 2 with a perfect heuristic: the search runs down one of them without looking at the other.
-    edges = {"s": ["a", "x"], "a": ["b"], "x": ["y"], "b": ["g"], "y": ["g"], "g": []}
+    edges: dict[str, list[str]] = {"s": ["a", "x"], "a": ["b"], "x": ["y"], "b": ["g"], "y": ["g"], "g": []}
     left = {"s": 3.0, "a": 2.0, "x": 2.0, "b": 1.0, "y": 1.0, "g": 0.0}
     found = search("s", lambda s: [Edge(t, 1.0, t) for t in edges[s]], "g", left.__getitem__)
     assert found.expanded == 3
@@ -116,7 +127,7 @@ def grid(size: int) -> Callable[[tuple[int, int]], list[Edge[tuple[int, int], st
     return successors
 
 
-def test_ties_are_broken_the_same_way_every_time():
+def test_ties_are_broken_the_same_way_every_time() -> None:
     paths = {tuple(e.action for e in search((0, 0), grid(6), (5, 5)).path) for _ in range(5)}
     assert len(paths) == 1
 
@@ -130,10 +141,10 @@ def random_graph(seed: int) -> nx.DiGraph:
 
 
 @given(st.integers(0, 100_000))
-def test_random_graphs_cost_what_dijkstra_finds(seed: int):
+def test_random_graphs_cost_what_dijkstra_finds(seed: int) -> None:
     graph = random_graph(seed)
 
-    def successors(node: object) -> list[Edge[object, object]]:
+    def successors(node: int) -> list[Edge[int, int]]:
         return [Edge(b, data["weight"], b) for _, b, data in graph.out_edges(node, data=True)]
 
     exact = nx.single_source_dijkstra_path_length(graph.reverse(), 24)
@@ -149,10 +160,10 @@ def test_random_graphs_cost_what_dijkstra_finds(seed: int):
 
 
 @given(st.integers(0, 100_000))
-def test_no_state_is_expanded_twice(seed: int):
-    graph, asked = random_graph(seed), []
+def test_no_state_is_expanded_twice(seed: int) -> None:
+    graph, asked = random_graph(seed), list[int]()
 
-    def successors(node: object) -> list[Edge[object, object]]:
+    def successors(node: int) -> list[Edge[int, int]]:
         asked.append(node)
         return [Edge(b, data["weight"], b) for _, b, data in graph.out_edges(node, data=True)]
 
@@ -160,9 +171,9 @@ def test_no_state_is_expanded_twice(seed: int):
     assert len(asked) == len(set(asked)) == found.expanded
 
 
-def test_a_state_left_before_is_left_again_if_a_deferred_edge_leads_there_at_less_cost():
+def test_a_state_left_before_is_left_again_if_a_deferred_edge_leads_there_at_less_cost() -> None:
     # The edge to b takes 1, but is deferred until 5, since from b on 4 more are needed than the heuristic says.
-    ways = {
+    ways: dict[str, Sequence[Edge[str, str] | DeferredEdges[str, str]]] = {
         "a": [Edge("late", 2.0, "b"), DeferredEdges(5.0, "b", lambda: [Edge("soon", 1.0, "b")])],
         "b": [Edge("on", 4.5, "goal")],
     }

@@ -20,6 +20,7 @@ from planner.motion.timeline import Timeline
 from planner.task.plan import VERSION
 from tests.planning.found import found_plan
 from tests.replay.planned import planned
+from tests.required import required
 
 NAMES = ("t-shirt", "vest", "tie", "hand-towel", "tie-halved")
 HELD = ("letter-towel", "big-towel")
@@ -76,7 +77,7 @@ def played(plan: Plan) -> Iterator[Any]:
 
 
 @pytest.mark.parametrize("name", (*NAMES, *HELD))
-def test_a_plan_is_read_back_from_its_json_as_it_was(name: str):
+def test_a_plan_is_read_back_from_its_json_as_it_was(name: str) -> None:
     plan = plan_of(name)
     read = Plan.from_dict(json.loads(text_of(name)))
     assert read == plan
@@ -85,7 +86,9 @@ def test_a_plan_is_read_back_from_its_json_as_it_was(name: str):
 
 
 @each_name
-def test_a_plan_is_read_in_a_process_without_the_planner_and_played_there_to_the_last_digit(name: str, tmp_path: Path):
+def test_a_plan_is_read_in_a_process_without_the_planner_and_played_there_to_the_last_digit(
+    name: str, tmp_path: Path
+) -> None:
     path = tmp_path / "plan.json"
     path.write_text(text_of(name))
     command = [sys.executable, "-c", PROGRAM, str(path), str(RATE_HZ)]
@@ -97,39 +100,39 @@ def test_a_plan_is_read_in_a_process_without_the_planner_and_played_there_to_the
     assert frames == (list(played(plan)) if plan.is_solved else [])
 
 
-def test_a_table_that_is_open_on_one_side_is_so_when_it_is_read_back():
+def test_a_table_that_is_open_on_one_side_is_so_when_it_is_read_back() -> None:
     plan = plan_of("big-towel")
     assert any(step.after.held for step in plan.steps)
     tops = [segment["phase"]["cloth"]["top"] for segment in data_of("big-towel")["trajectory"]["segments"]]
     assert any(number is None for top in tops for corner in top for number in corner)
     read = Plan.from_dict(data_of("big-towel"))
-    found = [segment.phase.cloth.top for segment in read.trajectory.segments]
-    assert found == [segment.phase.cloth.top for segment in plan.trajectory.segments]
+    found = [segment.phase.cloth.top for segment in required(read.trajectory).segments]
+    assert found == [segment.phase.cloth.top for segment in required(plan.trajectory).segments]
 
 
 @each_name
-def test_a_plan_is_the_same_when_it_comes_from_another_process(name: str):
+def test_a_plan_is_the_same_when_it_comes_from_another_process(name: str) -> None:
     plan = plan_of(name)
     sent = pickle.dumps(plan)
     assert plan.final_layers, "what is worked out once is not sent along"
     assert pickle.loads(sent) == plan and len(pickle.dumps(plan)) == len(sent)
 
 
-def test_a_plan_that_was_found_within_no_limits_is_one_too():
+def test_a_plan_that_was_found_within_no_limits_is_one_too() -> None:
     plan = found_plan(load_garment("t-shirt"), max_expanded=1).plan
     assert (plan.status, plan.steps, plan.trajectory) == ("budget_exceeded", (), None)
     assert Plan.from_dict(json.loads(json.dumps(plan.to_dict()))) == plan
 
 
 @each_name
-def test_the_file_holds_all_that_rest_answers(name: str):
+def test_the_file_holds_all_that_rest_answers(name: str) -> None:
     plan = plan_of(name)
     assert plan.answer().items() <= plan.to_dict().items()
     assert "trajectory" not in plan.answer() and "task" not in plan.answer()
 
 
 @each_name
-def test_steps_follow_one_another_from_the_start_to_the_end(name: str):
+def test_steps_follow_one_another_from_the_start_to_the_end(name: str) -> None:
     plan = plan_of(name)
     assert plan.state_after(-1) == plan.task.start
     assert [plan.state_after(number) for number in range(len(plan.steps))] == [step.after for step in plan.steps]
@@ -143,7 +146,7 @@ def test_steps_follow_one_another_from_the_start_to_the_end(name: str):
         assert plan.end.held == ()
 
 
-def test_the_state_after_a_step_that_a_plan_has_not_is_refused():
+def test_the_state_after_a_step_that_a_plan_has_not_is_refused() -> None:
     plan = plan_of("hand-towel")
     for step in (-2, len(plan.steps)):
         with pytest.raises(FieldError) as caught:
@@ -151,19 +154,19 @@ def test_the_state_after_a_step_that_a_plan_has_not_is_refused():
         assert caught.value.field == "after_step"
 
 
-def test_a_newer_version_is_refused_by_its_number():
+def test_a_newer_version_is_refused_by_its_number() -> None:
     newer = refusal({**data_of("hand-towel"), "pleat_plan": VERSION + 1})
     assert newer.field == "pleat_plan"
     assert str(VERSION + 1) in newer.message and f"newer than {VERSION}" in newer.message
 
 
 @pytest.mark.parametrize("version", [None, 0, -1, True, "1", 1.5])
-def test_what_is_no_version_is_refused(version: object):
+def test_what_is_no_version_is_refused(version: object) -> None:
     assert refusal({**data_of("hand-towel"), "pleat_plan": version}).field == "pleat_plan"
 
 
 @pytest.mark.parametrize("data", [None, 3, "plan", [], [{}]])
-def test_what_is_no_object_is_refused(data: object):
+def test_what_is_no_object_is_refused(data: object) -> None:
     assert "is not a JSON object" in refusal(data).message
 
 
@@ -194,21 +197,21 @@ def _at(data: Any, path: tuple[str | int, ...]) -> Any:
         (("trajectory", "grippers", 1), "trajectory.grippers[1]."),
     ],
 )
-def test_an_unknown_field_is_refused_by_its_name_and_path(path: tuple[str | int, ...], field: str):
+def test_an_unknown_field_is_refused_by_its_name_and_path(path: tuple[str | int, ...], field: str) -> None:
     data = data_of("hand-towel")
     _at(data, path)["colour"] = 1
     error = refusal(data)
     assert (error.field, error.message) == (f"{field}colour", "is not a known field")
 
 
-def test_an_unknown_field_of_a_reason_is_refused_by_its_name_and_path():
+def test_an_unknown_field_of_a_reason_is_refused_by_its_name_and_path() -> None:
     data = data_of("tie-halved")
     data["reasons"][1]["colour"] = 1
     assert refusal(data).field == "reasons[1].colour"
 
 
 @pytest.mark.parametrize("name", sorted(planned("hand-towel").plan))
-def test_a_missing_field_is_refused_by_its_name(name: str):
+def test_a_missing_field_is_refused_by_its_name(name: str) -> None:
     data = data_of("hand-towel")
     del data[name]
     error = refusal(data)
@@ -254,7 +257,7 @@ def _without_motion(data: dict[str, Any]) -> None:
 )
 def test_what_does_not_follow_from_the_rest_is_refused_by_its_field(
     change: Callable[[dict[str, Any]], object], field: str
-):
+) -> None:
     data = data_of("hand-towel")
     assert len(data["steps"]) > 1
     whole = deepcopy(data)
@@ -278,13 +281,13 @@ def test_what_does_not_follow_from_the_rest_is_refused_by_its_field(
         (lambda data: data["task"]["scene"].update(friction=-1.0), "task.scene.friction"),
     ],
 )
-def test_a_field_of_another_kind_is_refused_by_its_path(change: Callable[[dict[str, Any]], object], field: str):
+def test_a_field_of_another_kind_is_refused_by_its_path(change: Callable[[dict[str, Any]], object], field: str) -> None:
     data = data_of("hand-towel")
     change(data)
     assert refusal(data).field == field
 
 
-def test_a_plan_from_before_velocities_were_kept_goes_straight_from_keyframe_to_keyframe():
+def test_a_plan_from_before_velocities_were_kept_goes_straight_from_keyframe_to_keyframe() -> None:
     data = json.loads(json.dumps(data_of("hand-towel")))
     path = data["trajectory"]
     for owner, names in (

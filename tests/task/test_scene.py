@@ -10,7 +10,7 @@ from planner.geometry.table import Table
 from planner.task.scene import Scene
 
 
-def test_the_default_scene_is_the_one_in_which_the_nine_plan():
+def test_the_default_scene_is_the_one_in_which_the_nine_plan() -> None:
     data = Scene().to_dict()
     assert data["table"] == {"depth_m": 1.6, "width_m": 0.98, "height_m": 0.79}
     assert list(data["stations"]) == ["front", "front_left", "left", "front_right", "right"]
@@ -21,25 +21,25 @@ def test_the_default_scene_is_the_one_in_which_the_nine_plan():
     assert (data["arm_motion_s"], data["base_speed_m_s"], data["base_turn_rad_s"]) == (3.0, 0.25, 0.5)
 
 
-def test_the_right_stations_mirror_the_left_ones():
+def test_the_right_stations_mirror_the_left_ones() -> None:
     stations = dict(Scene().stations)
     for left, right in (("front_left", "front_right"), ("left", "right")):
         one, other = stations[left], stations[right]
         assert (other.x_m, other.y_m, other.yaw_rad) == (one.x_m, -one.y_m, -one.yaw_rad)
 
 
-def test_a_scene_as_json_is_read_back_the_same():
+def test_a_scene_as_json_is_read_back_the_same() -> None:
     assert Scene.from_dict(Scene().to_dict()) == Scene()
     assert Scene.from_dict({}) == Scene()
     assert Scene.from_dict({"table": None, "friction": None}) == Scene()
 
 
-def test_given_stations_replace_the_five():
+def test_given_stations_replace_the_five() -> None:
     scene = Scene.from_dict({"stations": {"here": {"x_m": -1, "y_m": 0, "yaw_rad": 0}}})
     assert scene.stations == (("here", Pose2(-1.0, 0.0, 0.0)),)
 
 
-def test_a_table_given_in_part_keeps_the_rest():
+def test_a_table_given_in_part_keeps_the_rest() -> None:
     table = Scene.from_dict({"table": {"width_m": 1.2}}).table
     assert (table.depth_m, table.width_m, table.height_m) == (1.6, 1.2, 0.79)
 
@@ -74,19 +74,19 @@ def test_a_table_given_in_part_keeps_the_rest():
         ({"base_turn_rad_s": -1.0}, "base_turn_rad_s"),
     ],
 )
-def test_what_is_no_scene_is_refused_by_its_field(data: dict[str, object], field: str):
+def test_what_is_no_scene_is_refused_by_its_field(data: dict[str, object], field: str) -> None:
     with pytest.raises(SceneError) as caught:
         Scene.from_dict(data)
     assert caught.value.field == field
 
 
-def test_a_table_built_directly_is_held_to_the_same():
+def test_a_table_built_directly_is_held_to_the_same() -> None:
     with pytest.raises(SceneError, match=r"width_m: 11\.0 is not between 0\.1 and 10"):
         Table(width_m=11.0)
 
 
 @pytest.mark.parametrize("value", ["1", True, [1.0]])
-def test_a_scene_built_directly_of_what_is_no_number_is_refused_by_its_field(value: object):
+def test_a_scene_built_directly_of_what_is_no_number_is_refused_by_its_field(value: object) -> None:
     with pytest.raises(SceneError) as caught:
         Scene(torso_m=value)  # type: ignore[arg-type]
     assert caught.value.field == "torso_m" and "is no number" in caught.value.message

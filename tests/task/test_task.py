@@ -14,7 +14,7 @@ from planner.geometry.pose import Pose2
 from planner.planning.robot_task import task_for
 from planner.task.grip import BaseStop
 from planner.task.scene import DEFAULT_STATIONS
-from planner.task.task import VERSION, at_station
+from planner.task.task import VERSION, TaskOptions, at_station
 from planner.task.world_state import HeldPoint
 
 FRONT = BaseStop.at("front", DEFAULT_STATIONS["front"])
@@ -35,10 +35,10 @@ def tasks() -> dict[str, Task]:
     towel = load_garment("hand-towel")
     held = (HeldPoint("left", (0.1, 0.2)), HeldPoint("right", (0.3, 0.2)))
     elsewhere = BaseStop(None, 0.0, -1.2, 0.3, 0.1)
-    limits = {"comfort_radius_m": 0.0, "heuristic": "zero", "time_limit_s": 3.0, "work_limit_s": 2.5}
+    limits = TaskOptions(comfort_radius_m=0.0, heuristic="zero", time_limit_s=3.0, work_limit_s=2.5, max_expanded=7)
     return {
         **{name: Task.of(load_garment(name)) for name in NAMES},
-        "limited": Task.of(towel, max_expanded=7, **limits),
+        "limited": Task.of(towel, **limits),
         "elsewhere": Task.of(towel, Scene(friction=0.5), start_station="left", placement=Pose2(-0.5, 0.1, 0.3)),
         "held": Task.of(towel, start=WorldState((), towel.placement, FRONT, held, 0.3)),
         "folded": Task.of(towel, start=WorldState((0,), towel.placement, elsewhere)),
@@ -60,13 +60,13 @@ def refusal(given: Any) -> FieldError:
 
 
 @each_task
-def test_a_task_is_read_back_from_its_json_as_it_was(task: Task):
+def test_a_task_is_read_back_from_its_json_as_it_was(task: Task) -> None:
     read = Task.from_dict(json.loads(json.dumps(task.to_dict(), allow_nan=False)))
     assert read == task and hash(read) == hash(task)
     assert read.to_dict() == task.to_dict()
 
 
-def test_a_task_is_read_in_a_process_without_the_planner():
+def test_a_task_is_read_in_a_process_without_the_planner() -> None:
     text = json.dumps(tasks()["folded"].to_dict())
     done = subprocess.run([sys.executable, "-c", PROGRAM], input=text, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
@@ -75,14 +75,14 @@ def test_a_task_is_read_in_a_process_without_the_planner():
     assert imported == []
 
 
-def test_what_is_left_out_is_as_usual():
+def test_what_is_left_out_is_as_usual() -> None:
     towel = load_garment("hand-towel")
     task = Task.of(towel)
     assert (task.scene, task.robot, task.limits) == (Scene(), "pr2", Limits())
     assert task.start == WorldState((), towel.placement, FRONT)
 
 
-def test_a_task_is_moved_limited_and_put_into_another_scene():
+def test_a_task_is_moved_limited_and_put_into_another_scene() -> None:
     task = Task.of(load_garment("hand-towel"), start_station="left")
     there = Pose2(-0.4, 0.2, 1.0)
     assert task.at(there).start == replace(task.start, placement=there)
@@ -92,20 +92,20 @@ def test_a_task_is_moved_limited_and_put_into_another_scene():
     assert task.in_scene(Scene(stations=(("far", there),))).start.base == task.start.base
 
 
-def test_a_base_that_has_backed_off_stands_behind_its_station():
+def test_a_base_that_has_backed_off_stands_behind_its_station() -> None:
     # Front looks along the table's x, from x = -0.95.
     base = at_station(Scene(), Pose2(0.0, 0.0, 0.0), "front", 0.25).base
     assert (base.station, base.back_off_m, base.x_m, base.y_m, base.yaw_rad) == ("front", 0.25, -1.2, 0.0, 0.0)
 
 
-def test_a_newer_version_is_refused_by_its_number():
+def test_a_newer_version_is_refused_by_its_number() -> None:
     error = refusal({**data(), "version": VERSION + 1})
     assert error.field == "version"
     assert str(VERSION + 1) in error.message and f"newer than {VERSION}" in error.message
 
 
 @pytest.mark.parametrize("version", [None, 0, True, "1", 1.5])
-def test_what_is_no_version_is_refused(version: object):
+def test_what_is_no_version_is_refused(version: object) -> None:
     assert refusal({**data(), "version": version}).field == "version"
 
 
@@ -124,7 +124,7 @@ def test_what_is_no_version_is_refused(version: object):
         (("limits",), "limits."),
     ],
 )
-def test_an_unknown_field_is_refused_by_its_name_and_path(path: tuple[str | int, ...], field: str):
+def test_an_unknown_field_is_refused_by_its_name_and_path(path: tuple[str | int, ...], field: str) -> None:
     given = data()
     here: Any = given
     for part in path:
@@ -135,7 +135,7 @@ def test_an_unknown_field_is_refused_by_its_name_and_path(path: tuple[str | int,
 
 
 @pytest.mark.parametrize("name", sorted(data()))
-def test_a_missing_field_is_refused_by_its_name(name: str):
+def test_a_missing_field_is_refused_by_its_name(name: str) -> None:
     given = data()
     del given[name]
     error = refusal(given)
@@ -156,7 +156,7 @@ def test_a_missing_field_is_refused_by_its_name(name: str):
         ({"limits": {"heuristic": "magic"}}, "limits.heuristic"),
     ],
 )
-def test_a_field_of_another_kind_is_refused_by_its_path(changes: dict[str, Any], field: str):
+def test_a_field_of_another_kind_is_refused_by_its_path(changes: dict[str, Any], field: str) -> None:
     assert refusal({**data(), **changes}).field == field
 
 
@@ -171,20 +171,20 @@ def test_a_field_of_another_kind_is_refused_by_its_path(changes: dict[str, Any],
         ({"max_expanded": 0}, "max_expanded"),
     ],
 )
-def test_an_option_out_of_range_is_refused_by_its_name(options: dict[str, Any], field: str):
+def test_an_option_out_of_range_is_refused_by_its_name(options: dict[str, Any], field: str) -> None:
     with pytest.raises(RequestError) as caught:
         Task.of(load_garment("hand-towel"), **options)
     assert caught.value.field == field
 
 
 @pytest.mark.parametrize("what", ["t-shirt", None, {"name": "t-shirt"}])
-def test_what_is_neither_a_task_nor_a_garment_is_refused(what: object):
+def test_what_is_neither_a_task_nor_a_garment_is_refused(what: object) -> None:
     with pytest.raises(RequestError) as caught:
         make_plan(what)  # type: ignore[arg-type]
     assert caught.value.field == "garment" and "load_garment" in caught.value.message
 
 
-def test_folds_done_that_are_none_or_named_twice_are_refused():
+def test_folds_done_that_are_none_or_named_twice_are_refused() -> None:
     towel = load_garment("hand-towel")
     count = len(towel.folds)
     for done, number in (((count,), 0), ((0, -1), 1), ((0, 0), 1)):
@@ -203,7 +203,7 @@ def test_folds_done_that_are_none_or_named_twice_are_refused():
         ("robot", None, "None is no name"),
     ],
 )
-def test_an_option_that_is_unknown_or_of_the_wrong_kind_is_named(name: str, value: Any, said: str):
+def test_an_option_that_is_unknown_or_of_the_wrong_kind_is_named(name: str, value: Any, said: str) -> None:
     with pytest.raises(RequestError, match=said) as caught:
         task_for(load_garment("hand-towel"), **{name: value})
     assert caught.value.field == name

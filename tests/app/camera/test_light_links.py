@@ -25,7 +25,7 @@ def same(one: tuple[Link, ...], other: tuple[Link, ...]) -> bool:
     )
 
 
-def test_links_are_read_once_and_then_from_the_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+def test_links_are_read_once_and_then_from_the_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     card = load_robot("pr2").card
     first = light_links(card.urdf_path, card.package_dir, tmp_path)
 
@@ -36,7 +36,7 @@ def test_links_are_read_once_and_then_from_the_cache(tmp_path: Path, monkeypatch
     assert same(light_links(card.urdf_path, card.package_dir, tmp_path), first)
 
 
-def test_links_keep_their_joints_and_the_size_of_each_part(tmp_path: Path):
+def test_links_keep_their_joints_and_the_size_of_each_part(tmp_path: Path) -> None:
     card = load_robot("pr2").card
     whole, light = (
         load_robot_model(card.urdf_path, card.package_dir),
@@ -49,7 +49,7 @@ def test_links_keep_their_joints_and_the_size_of_each_part(tmp_path: Path):
         assert np.array_equal([few.min(axis=0), few.max(axis=0)], [many.min(axis=0), many.max(axis=0)])
 
 
-def test_a_cache_that_cannot_be_read_is_made_again(tmp_path: Path):
+def test_a_cache_that_cannot_be_read_is_made_again(tmp_path: Path) -> None:
     card = load_robot("pr2").card
     first = light_links(card.urdf_path, card.package_dir, tmp_path)
     (kept,) = (tmp_path / "links").iterdir()
@@ -58,7 +58,7 @@ def test_a_cache_that_cannot_be_read_is_made_again(tmp_path: Path):
     assert kept.stat().st_size > 1000
 
 
-def test_another_urdf_or_mesh_is_another_robot_to_the_cache(tmp_path: Path):
+def test_another_urdf_or_mesh_is_another_robot_to_the_cache(tmp_path: Path) -> None:
     look = '<visual><geometry><mesh filename="package://{}"/></geometry></visual>'
     box = f'<robot name="box"><link name="a">{look}</link></robot>'
     corners = "vertex 0 0 0\nvertex {0} 0 0\nvertex 0 {0} 0.1"

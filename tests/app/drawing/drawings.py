@@ -3,6 +3,8 @@
 from dataclasses import replace
 from typing import Any
 
+import pytest
+
 from app.drawing.drawing import Corner, Crease, Drawing, End, Tie
 from app.drawing.garment_drawing import drawing_of
 from app.drawing.solve import solve
@@ -18,12 +20,17 @@ def towel_drawing(*folds: Crease, **changes: Any) -> Drawing:
 
 
 def crease(name: str, start: Point2 | End, end: Point2 | End, kind: str = "blue") -> Crease:
-    ends = (point if isinstance(point, End) else End(point) for point in (start, end))
-    return Crease(name, name, kind, *ends)
+    start, end = (point if isinstance(point, End) else End(point) for point in (start, end))
+    return Crease(name, name, kind, start, end)
 
 
 def tied(point: Point2, tie: Tie) -> End:
     return End(point, tie)
+
+
+def about(part: float) -> float:
+    """Return a number that equals all those next to it, for a tie to compare with."""
+    return pytest.approx(part)  # type: ignore[return-value]
 
 
 def pulled(drawing: Drawing, corner: int, dx_m: float, dy_m: float) -> Drawing:

@@ -28,7 +28,7 @@ def bulges(drawing: Drawing) -> list[float]:
     return [corner.curve.across for corner in drawing.outline if corner.curve is not None]
 
 
-def test_a_circle_becomes_four_quarters():
+def test_a_circle_becomes_four_quarters() -> None:
     before = drawn('<circle cx="30" cy="20" r="18"/>')
     after = with_arcs(before)
     assert len(before.outline) > 40
@@ -38,7 +38,7 @@ def test_a_circle_becomes_four_quarters():
 
 
 @pytest.mark.parametrize("way", ["M 10 10 H 50 A 8 8 0 0 1 50 26 H 10 Z", "M 10 10 V 26 H 50 A 8 8 0 0 0 50 10 Z"])
-def test_half_a_circle_between_straight_edges_is_one_curve_whichever_way_it_was_drawn(way):
+def test_half_a_circle_between_straight_edges_is_one_curve_whichever_way_it_was_drawn(way: str) -> None:
     after = with_arcs(drawn(f'<path d="{way}"/>'))
     assert len(after.outline) == 4
     (across,) = bulges(after)
@@ -46,7 +46,7 @@ def test_half_a_circle_between_straight_edges_is_one_curve_whichever_way_it_was_
     assert area(after) == pytest.approx(0.40 * 0.16 + math.pi * 0.08**2 / 2, rel=0.005)
 
 
-def test_a_notch_and_a_rounded_corner_bend_to_their_own_sides():
+def test_a_notch_and_a_rounded_corner_bend_to_their_own_sides() -> None:
     path = "M 10 10 H 25 A 6 6 0 0 0 37 10 H 50 V 26 A 8 8 0 0 1 42 34 H 10 Z"
     after = with_arcs(drawn(f'<path d="{path}"/>'))
     assert len(after.outline) == 7
@@ -69,12 +69,12 @@ def test_a_notch_and_a_rounded_corner_bend_to_their_own_sides():
     ],
     ids=["rectangle", "sixteen corners", "Bezier", "ellipse"],
 )
-def test_what_is_no_arc_stays_as_it_is(shape):
+def test_what_is_no_arc_stays_as_it_is(shape: str) -> None:
     before = drawn(shape)
     assert with_arcs(before) is before
 
 
-def test_folds_that_end_on_an_arc_are_tied_to_it():
+def test_folds_that_end_on_an_arc_are_tied_to_it() -> None:
     fold = '<line x1="30" y1="2" x2="30" y2="38" stroke="blue"/>'
     after = solve(with_arcs(drawn('<circle cx="30" cy="20" r="18"/>', fold)))
     assert after.problems == ()

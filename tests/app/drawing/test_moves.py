@@ -23,7 +23,7 @@ def moves() -> list[tuple[float, float]]:
 
 
 @sweep("name", NINE, ("t-shirt", "tie", "hand-towel"))
-def test_no_corner_pulled_by_a_centimetre_makes_a_fold_illegal(name: str):
+def test_no_corner_pulled_by_a_centimetre_makes_a_fold_illegal(name: str) -> None:
     drawing = solve(drawing_of(load_garment(name))).drawing
     for corner in range(len(drawing.outline)):
         for dx_m, dy_m in moves():
@@ -32,7 +32,7 @@ def test_no_corner_pulled_by_a_centimetre_makes_a_fold_illegal(name: str):
 
 
 @pytest.mark.parametrize("name", ["t-shirt", "jeans", "letter-towel"])
-def test_what_was_solved_is_legal_for_the_planner_too(name: str):
+def test_what_was_solved_is_legal_for_the_planner_too(name: str) -> None:
     drawing = solve(drawing_of(load_garment(name))).drawing
     for corner in range(len(drawing.outline)):
         garment = solve(pulled(drawing, corner, -MOVE_M, MOVE_M)).garment
@@ -42,7 +42,7 @@ def test_what_was_solved_is_legal_for_the_planner_too(name: str):
             assert fold.line.end == pytest.approx(drawn.end, abs=2e-5)
 
 
-def test_as_points_they_would_be_illegal():
+def test_as_points_they_would_be_illegal() -> None:
     """Without ties the ends of its folds stay where they were, and nearly every other pulled T-shirt is illegal."""
     garment = load_garment("t-shirt")
     illegal = 0
@@ -57,7 +57,7 @@ def test_as_points_they_would_be_illegal():
     assert illegal > 20
 
 
-def test_a_fold_keeps_to_its_part_of_the_cloth_when_a_corner_is_pulled():
+def test_a_fold_keeps_to_its_part_of_the_cloth_when_a_corner_is_pulled() -> None:
     """The T-shirt's sleeves end at the armpit and the shoulder, wherever those are."""
     drawing = solve(drawing_of(load_garment("t-shirt"))).drawing
     moved = solve(pulled(drawing, 1, 0.03, -0.02))

@@ -31,18 +31,18 @@ def red(fold: Crease) -> Crease:
     return replace(fold, kind="red")
 
 
-def test_nothing_is_offered_where_nothing_is_wrong():
+def test_nothing_is_offered_where_nothing_is_wrong() -> None:
     assert offered(towel_drawing()) == ()
 
 
-def test_a_red_fold_that_is_the_first_is_made_blue():
+def test_a_red_fold_that_is_the_first_is_made_blue() -> None:
     first, *_ = offered(towel_drawing(red(HALF)))
     assert first.label == "Make fold 0 'half' blue"
     assert solve(first.drawing).problems == ()
     assert first.drawing.folds[0].kind == "blue"
 
 
-def test_a_red_fold_that_misses_the_flap_is_made_blue():
+def test_a_red_fold_that_misses_the_flap_is_made_blue() -> None:
     """Of the flap, the right near corner folded in, nothing is near the line across the left far corner."""
     corner = crease("corner", (0.3, 0.0), (0.4, 0.1))
     drawing = towel_drawing(
@@ -53,7 +53,7 @@ def test_a_red_fold_that_misses_the_flap_is_made_blue():
     assert all(solve(quick_fix.drawing).problems == () for quick_fix in offered(drawing))
 
 
-def test_a_fold_that_ends_in_the_cloth_is_put_onto_its_edge_along_its_line():
+def test_a_fold_that_ends_in_the_cloth_is_put_onto_its_edge_along_its_line() -> None:
     first, *_, last = offered(towel_drawing(crease("half", (0.3, 0.15), (0.0, 0.15))))
     assert first.label == "Put fold 0 'half' onto the cloth"
     assert first.drawing.folds[0].start.point == pytest.approx((0.4, 0.15))
@@ -61,12 +61,12 @@ def test_a_fold_that_ends_in_the_cloth_is_put_onto_its_edge_along_its_line():
     assert last.label == "Delete fold 0 'half'"
 
 
-def test_a_fold_beside_the_cloth_can_only_be_deleted():
+def test_a_fold_beside_the_cloth_can_only_be_deleted() -> None:
     drawing = towel_drawing(crease("beside", (0.7, 0.0), (0.7, 0.3)), ACROSS)
     assert labels(drawing) == ["Delete fold 0 'beside'"]
 
 
-def test_of_two_folds_that_both_miss_the_cloth_one_after_the_other_is_mended():
+def test_of_two_folds_that_both_miss_the_cloth_one_after_the_other_is_mended() -> None:
     beside, ends_inside = crease("beside", (0.7, 0.0), (0.7, 0.3)), crease("half", (0.3, 0.15), (0.0, 0.15))
     (first,) = offered(towel_drawing(beside, ends_inside))
     assert [problem.fold for problem in solve(first.drawing).problems] == [0]
@@ -75,13 +75,13 @@ def test_of_two_folds_that_both_miss_the_cloth_one_after_the_other_is_mended():
     assert solve(second.drawing).problems == ()
 
 
-def test_a_fold_without_length_can_be_deleted_and_its_twin_is_left_alone():
+def test_a_fold_without_length_can_be_deleted_and_its_twin_is_left_alone() -> None:
     nothing = replace(crease("nothing", (0.2, 0.15), (0.2, 0.15)), twin="half")
     (quick_fix,) = offered(towel_drawing(nothing, replace(HALF, twin="nothing")))
     assert [(fold.id, fold.twin) for fold in quick_fix.drawing.folds] == [("half", None)]
 
 
-def test_what_leaves_nothing_wrong_comes_before_what_uncovers_the_next_problem():
+def test_what_leaves_nothing_wrong_comes_before_what_uncovers_the_next_problem() -> None:
     """Without the first fold the second, which is red, would be the first: that is wrong in another way."""
     first = crease("first", (0.3, 0.15), (0.0, 0.15))
     drawing = towel_drawing(first, red(crease("second", (0.0, 0.25), (0.4, 0.25))))
@@ -90,7 +90,7 @@ def test_what_leaves_nothing_wrong_comes_before_what_uncovers_the_next_problem()
     assert not wrong[0]
 
 
-def test_corners_that_were_dragged_past_each_other_are_exchanged():
+def test_corners_that_were_dragged_past_each_other_are_exchanged() -> None:
     """The near corners of a towel have changed places: its sides cross in the middle."""
     drawing = towel_drawing()
     points = drawing.points
@@ -101,7 +101,7 @@ def test_corners_that_were_dragged_past_each_other_are_exchanged():
     assert sorted(first.drawing.points) == sorted(points)
 
 
-def test_a_corner_dragged_across_the_garment_may_be_left_out():
+def test_a_corner_dragged_across_the_garment_may_be_left_out() -> None:
     shirt = drawing_of(load_garment("t-shirt"))
     x, y = shirt.outline[1].point
     crossed = with_corner(shirt, 1, (x, y + 0.9))
@@ -110,7 +110,7 @@ def test_a_corner_dragged_across_the_garment_may_be_left_out():
     assert "Delete one corner" in labels(crossed)
 
 
-def test_many_crossings_are_all_uncrossed():
+def test_many_crossings_are_all_uncrossed() -> None:
     """A star of seven points, drawn in one stroke with every third corner next."""
     star = [(math.cos(2 * math.pi * 3 * k / 7), math.sin(2 * math.pi * 3 * k / 7)) for k in range(7)]
     drawing = replace(outlined(towel_drawing(), *star), folds=())
@@ -119,7 +119,7 @@ def test_many_crossings_are_all_uncrossed():
     assert solve(quick_fix.drawing).problems == ()
 
 
-def test_two_corners_in_one_place_are_merged_and_what_was_tied_to_one_stays_tied():
+def test_two_corners_in_one_place_are_merged_and_what_was_tied_to_one_stays_tied() -> None:
     drawing = towel_drawing(crease("corner", tied((0.2, 0.0), CornerTie("new")), (0.4, 0.1)))
     first, *others = drawing.outline
     twice = (first, Corner("old", (0.2, 0.0)), Corner("new", (0.2004, 0.0)), *others)
@@ -130,20 +130,20 @@ def test_two_corners_in_one_place_are_merged_and_what_was_tied_to_one_stays_tied
     assert quick_fix.drawing.folds[0].start.tie == CornerTie("old")
 
 
-def test_all_corners_that_are_too_near_are_merged_at_once_round_the_start_too():
+def test_all_corners_that_are_too_near_are_merged_at_once_round_the_start_too() -> None:
     points = [(0.0, 0.0), (0.4, 0.0), (0.4, 0.0005), (0.4, 0.3), (0.0, 0.3), (0.0, 0.0004)]
     (quick_fix,) = offered(replace(outlined(towel_drawing(), *points), folds=()))
     assert quick_fix.label == "Merge corners nearer than 1 mm"
     assert quick_fix.drawing.points == (points[0], points[1], points[3], points[4])
 
 
-def test_an_unknown_station_is_replaced_by_the_first():
+def test_an_unknown_station_is_replaced_by_the_first() -> None:
     (quick_fix,) = offered(replace(towel_drawing(), start_station="nowhere"))
     assert quick_fix.label == "Start at front"
     assert solve(quick_fix.drawing).problems == ()
 
 
-def test_where_nothing_else_helps_the_last_step_is_taken_back():
+def test_where_nothing_else_helps_the_last_step_is_taken_back() -> None:
     before = replace(towel_drawing(), folds=())
     tiny = outlined(before, (0.0, 0.0), (0.005, 0.0), (0.0, 0.005))
     draft = draft_of(before).edited(Edit("Scale", tiny), 0.0)
@@ -154,6 +154,6 @@ def test_where_nothing_else_helps_the_last_step_is_taken_back():
     assert quick_fixes(Draft(draft.solution)) == ()
 
 
-def test_there_are_few_enough_to_be_read():
+def test_there_are_few_enough_to_be_read() -> None:
     off = crease("off", (0.3, 0.15), (0.0, 0.15))
     assert len(offered(towel_drawing(off))) <= QUICK_FIXES_MAX

@@ -48,27 +48,27 @@ def folded_garments(draw: st.DrawFn) -> Garment:
 
 
 @given(garment=folded_garments())
-def test_a_garment_that_is_opened_and_saved_is_the_same(garment: Garment):
+def test_a_garment_that_is_opened_and_saved_is_the_same(garment: Garment) -> None:
     solution = solve(drawing_of(garment))
     assert solution.problems == ()
     assert garment_of(solution.drawing) == garment
 
 
 @given(garment=folded_garments())
-def test_a_drawing_that_is_solved_again_is_the_same(garment: Garment):
+def test_a_drawing_that_is_solved_again_is_the_same(garment: Garment) -> None:
     once = solve(drawing_of(garment)).drawing
     assert all(end.tie is not None for fold in once.folds for end in fold.ends)
     assert solve(once).drawing == once
 
 
 @given(garment=folded_garments())
-def test_a_drawing_read_from_its_json_is_the_same(garment: Garment):
+def test_a_drawing_read_from_its_json_is_the_same(garment: Garment) -> None:
     drawing = draft_of(drawing_of(garment)).drawing
     assert drawing_from_dict(json.loads(json.dumps(drawing_to_dict(drawing)))) == drawing
 
 
 @pytest.mark.parametrize("name", shipped_garment_names())
-def test_a_shipped_garment_stays_as_it_is_but_for_ends_that_are_off_the_boundary(name: str):
+def test_a_shipped_garment_stays_as_it_is_but_for_ends_that_are_off_the_boundary(name: str) -> None:
     """Ends on the boundary keep their numbers; ends off it are put onto it, and then stay."""
     garment = load_garment(name)
     saved = Garment.from_dict(garment_to_dict(solve(drawing_of(garment)).drawing))
@@ -80,12 +80,12 @@ def test_a_shipped_garment_stays_as_it_is_but_for_ends_that_are_off_the_boundary
     assert again == saved
 
 
-def test_the_t_shirt_stays_as_it_is_to_the_last_digit():
+def test_the_t_shirt_stays_as_it_is_to_the_last_digit() -> None:
     garment = load_garment("t-shirt")
     assert garment_to_dict(solve(drawing_of(garment)).drawing) == garment.to_dict()
 
 
-def test_every_kind_of_tie_is_read_as_it_was_written():
+def test_every_kind_of_tie_is_read_as_it_was_written() -> None:
     drawing = drawing_of(Garment.from_dict(towel()))
     ties = (CornerTie("v0"), EdgeTie("v1", "v2", 0.25), CreaseTie("f0", 0.5, ("f1",)), ChordTie(), None)
     fold = drawing.folds[0]
@@ -94,7 +94,7 @@ def test_every_kind_of_tie_is_read_as_it_was_written():
         assert drawing_from_dict(json.loads(json.dumps(drawing_to_dict(drawn)))) == drawn
 
 
-def test_corners_and_folds_without_names_are_given_some():
+def test_corners_and_folds_without_names_are_given_some() -> None:
     data = drawing_to_dict(drawing_of(Garment.from_dict(towel())))
     for corner in data["outline"][1:]:
         del corner["id"]
@@ -119,14 +119,14 @@ def test_corners_and_folds_without_names_are_given_some():
         ({"comfort_radius_m": 0.2}, "comfort_radius_m"),
     ],
 )
-def test_what_is_no_drawing_is_refused_by_its_field(change: dict[str, object], field: str):
+def test_what_is_no_drawing_is_refused_by_its_field(change: dict[str, object], field: str) -> None:
     data = {**drawing_to_dict(drawing_of(Garment.from_dict(towel()))), **change}
     with pytest.raises(FieldError) as refused:
         drawing_from_dict(data)
     assert refused.value.field == field
 
 
-def test_a_twin_that_is_not_there_is_forgotten():
+def test_a_twin_that_is_not_there_is_forgotten() -> None:
     data = drawing_to_dict(drawing_of(Garment.from_dict(towel())))
     data["folds"][0]["twin"] = "f7"
     assert drawing_from_dict(data).folds[0].twin is None

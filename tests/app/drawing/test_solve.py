@@ -11,7 +11,8 @@ from app.drawing.garment_drawing import drawing_of
 from app.drawing.solution import Solution
 from app.drawing.solve import solve
 from planner import load_garment
-from tests.app.drawing.drawings import crease, outlined, pulled, tied, towel_drawing, with_corner
+from planner.geometry.pose import Point2
+from tests.app.drawing.drawings import about, crease, outlined, pulled, tied, towel_drawing, with_corner
 
 HALF = crease("half", (0.4, 0.15), (0.0, 0.15))
 ACROSS = crease("across", (0.2, 0.15), (0.2, 0.3))
@@ -26,22 +27,22 @@ def ends(solution: Solution, fold: int) -> tuple[object, object]:
     return drawn.start.point, drawn.end.point
 
 
-def test_ends_just_drawn_are_tied_to_what_is_there():
+def test_ends_just_drawn_are_tied_to_what_is_there() -> None:
     solution = solve(towel_drawing(HALF, ACROSS))
     assert solution.problems == ()
     half, across = solution.drawing.folds
-    assert half.start.tie == EdgeTie("v1", "v2", pytest.approx(0.5))
-    assert half.end.tie == EdgeTie("v3", "v0", pytest.approx(0.5))
-    assert across.start.tie == CreaseTie("half", pytest.approx(0.5))
-    assert across.end.tie == EdgeTie("v2", "v3", pytest.approx(0.5))
+    assert half.start.tie == EdgeTie("v1", "v2", about(0.5))
+    assert half.end.tie == EdgeTie("v3", "v0", about(0.5))
+    assert across.start.tie == CreaseTie("half", about(0.5))
+    assert across.end.tie == EdgeTie("v2", "v3", about(0.5))
 
 
-def test_an_end_within_five_millimetres_is_put_onto_the_boundary():
+def test_an_end_within_five_millimetres_is_put_onto_the_boundary() -> None:
     solution = solve(towel_drawing(crease("half", (0.396, 0.15), (0.0, 0.15))))
     assert ends(solution, 0) == (near(0.4, 0.15), near(0.0, 0.15))
 
 
-def test_ends_follow_the_corners_that_are_pulled():
+def test_ends_follow_the_corners_that_are_pulled() -> None:
     """The right side runs from (0.4, -0.1) to (0.4, 0.3): its half is at y = 0.1."""
     drawn = solve(towel_drawing(HALF, ACROSS)).drawing
     solution = solve(pulled(drawn, 1, 0.0, -0.1))
@@ -49,16 +50,16 @@ def test_ends_follow_the_corners_that_are_pulled():
     assert ends(solution, 1)[0] == near(0.2, 0.125)
 
 
-def test_an_end_under_cloth_slides_along_the_line_to_its_edge():
+def test_an_end_under_cloth_slides_along_the_line_to_its_edge() -> None:
     """The near right corner, pulled 2 cm down, lands 2 cm beyond the far edge; at x = 0.2 cloth ends 1 cm beyond."""
     drawn = towel_drawing(crease("half", tied((0.4, 0.15), ChordTie()), tied((0.0, 0.15), ChordTie())), ACROSS)
     solution = solve(pulled(solve(drawn).drawing, 1, 0.0, -0.02))
     assert ends(solution, 0) == (near(0.4, 0.15), near(0.0, 0.15))
     assert ends(solution, 1) == (near(0.2, 0.15), near(0.2, 0.31))
-    assert solution.drawing.folds[1].end.tie == EdgeTie("v2", "v3", pytest.approx(0.5))
+    assert solution.drawing.folds[1].end.tie == EdgeTie("v2", "v3", about(0.5))
 
 
-def test_an_end_that_slid_comes_back_with_the_corner():
+def test_an_end_that_slid_comes_back_with_the_corner() -> None:
     drawn = solve(towel_drawing(HALF, ACROSS)).drawing
     there = solve(pulled(drawn, 1, 0.0, -0.02)).drawing
     back = solve(with_corner(there, 1, drawn.outline[1].point)).drawing
@@ -66,15 +67,15 @@ def test_an_end_that_slid_comes_back_with_the_corner():
     assert ends(solve(back), 1) == (near(0.2, 0.15), near(0.2, 0.3))
 
 
-def test_a_corner_put_into_an_edge_moves_no_fold():
+def test_a_corner_put_into_an_edge_moves_no_fold() -> None:
     drawn = solve(towel_drawing(HALF)).drawing
     more = (*drawn.outline[:2], Corner("new", (0.4, 0.06)), *drawn.outline[2:])
     solution = solve(replace(drawn, outline=more))
     assert ends(solution, 0) == (near(0.4, 0.15), near(0.0, 0.15))
-    assert solution.drawing.folds[0].start.tie == EdgeTie("new", "v2", pytest.approx((0.15 - 0.06) / 0.24))
+    assert solution.drawing.folds[0].start.tie == EdgeTie("new", "v2", about((0.15 - 0.06) / 0.24))
 
 
-def test_when_a_corner_goes_the_line_is_kept_and_finds_new_ends():
+def test_when_a_corner_goes_the_line_is_kept_and_finds_new_ends() -> None:
     """A diagonal between corners 1 and 3; without corner 1 it ends on the new edge from (0, 0) to (0.4, 0.3)."""
     diagonal = crease("diagonal", tied((0.0, 0.3), CornerTie("v3")), tied((0.4, 0.0), CornerTie("v1")))
     solution = solve(towel_drawing(diagonal))
@@ -83,18 +84,18 @@ def test_when_a_corner_goes_the_line_is_kept_and_finds_new_ends():
     without = solve(replace(solution.drawing, outline=rest))
     assert without.problems == ()
     assert ends(without, 0) == (near(0.0, 0.3), near(0.2, 0.15))
-    assert without.drawing.folds[0].end.tie == EdgeTie("v0", "v2", pytest.approx(0.5))
+    assert without.drawing.folds[0].end.tie == EdgeTie("v0", "v2", about(0.5))
 
 
-def test_when_a_fold_goes_what_was_tied_to_its_crease_finds_the_cloth_again():
+def test_when_a_fold_goes_what_was_tied_to_its_crease_finds_the_cloth_again() -> None:
     drawn = solve(towel_drawing(HALF, ACROSS)).drawing
     solution = solve(replace(drawn, folds=drawn.folds[1:]))
     assert solution.problems == ()
     assert ends(solution, 0) == (near(0.2, 0.0), near(0.2, 0.3))
-    assert solution.drawing.folds[0].start.tie == EdgeTie("v0", "v1", pytest.approx(0.5))
+    assert solution.drawing.folds[0].start.tie == EdgeTie("v0", "v1", about(0.5))
 
 
-def test_an_end_off_the_cloth_is_kept_and_told_of_where_it_is():
+def test_an_end_off_the_cloth_is_kept_and_told_of_where_it_is() -> None:
     off = crease("off", (0.2, 0.1), (0.0, 0.15))
     solution = solve(towel_drawing(off))
     assert solution.drawing.folds == (off,)
@@ -105,7 +106,7 @@ def test_an_end_off_the_cloth_is_kept_and_told_of_where_it_is():
     assert "100.0 mm" in problem.message
 
 
-def test_folds_after_an_illegal_one_are_kept_and_not_looked_at():
+def test_folds_after_an_illegal_one_are_kept_and_not_looked_at() -> None:
     off = crease("off", (0.2, 0.1), (0.0, 0.15))
     solution = solve(towel_drawing(HALF, off, ACROSS))
     assert [state["status"] for state in solution.fold_states()] == ["legal", "illegal", "unchecked"]
@@ -113,7 +114,7 @@ def test_folds_after_an_illegal_one_are_kept_and_not_looked_at():
     assert len(solution.steps) == 2
 
 
-def test_a_fold_that_comes_back_onto_the_cloth_is_legal_again():
+def test_a_fold_that_comes_back_onto_the_cloth_is_legal_again() -> None:
     drawn = solve(towel_drawing(HALF)).drawing
     crossing = outlined(drawn, (0.0, 0.0), (0.4, 0.3), (0.4, 0.0), (0.0, 0.3))
     lost = solve(crossing)
@@ -132,7 +133,7 @@ def test_a_fold_that_comes_back_onto_the_cloth_is_legal_again():
         (((0.0, 0.0), (0.01, 0.0), (0.01, 0.01)), "outline_too_small", "outline"),
     ],
 )
-def test_an_outline_that_is_none_is_kept_and_told_of(points, code: str, field: str):
+def test_an_outline_that_is_none_is_kept_and_told_of(points: tuple[Point2, ...], code: str, field: str) -> None:
     solution = solve(outlined(towel_drawing(HALF), *points))
     assert solution.drawing.points == points
     assert (solution.problems[0].code, solution.problems[0].field) == (code, field)
@@ -140,7 +141,7 @@ def test_an_outline_that_is_none_is_kept_and_told_of(points, code: str, field: s
     assert solution.steps == []
 
 
-def test_a_crossing_is_told_where_it_is():
+def test_a_crossing_is_told_where_it_is() -> None:
     """The diagonals of a rectangle of 0.4 x 0.3 m meet in its middle."""
     solution = solve(outlined(towel_drawing(), (0.0, 0.0), (0.4, 0.3), (0.4, 0.0), (0.0, 0.3)))
     (problem,) = solution.problems
@@ -148,25 +149,25 @@ def test_a_crossing_is_told_where_it_is():
     assert {problem.lines[0].start, problem.lines[0].end} == {(0.0, 0.0), (0.4, 0.3)}
 
 
-def test_every_crossing_is_told_of():
+def test_every_crossing_is_told_of() -> None:
     """A zigzag of three strokes across one long edge crosses it twice in all."""
     zigzag = ((0.0, 0.0), (0.4, 0.0), (0.3, 0.1), (0.3, -0.1), (0.2, -0.1), (0.2, 0.1), (0.0, 0.1))
     solution = solve(outlined(towel_drawing(), *zigzag))
     assert [problem.points for problem in solution.problems] == [(near(0.3, 0.0),), (near(0.2, 0.0),)]
 
 
-def test_the_first_fold_cannot_be_red():
+def test_the_first_fold_cannot_be_red() -> None:
     (problem,) = solve(towel_drawing(replace(HALF, kind="red"))).problems
     assert problem.field == "folds[0].kind"
 
 
-def test_a_station_that_is_not_there_is_told_of():
+def test_a_station_that_is_not_there_is_told_of() -> None:
     (problem,) = solve(replace(towel_drawing(), start_station="nowhere")).problems
     assert problem.field == "start_station"
     assert "front" in problem.message
 
 
-def test_steps_tell_what_moves_and_where_it_lands():
+def test_steps_tell_what_moves_and_where_it_lands() -> None:
     step, after = solve(towel_drawing(HALF)).steps
     assert sorted(map(tuple, step["moving"][0])) == [near(0.0, 0.0), near(0.0, 0.15), near(0.4, 0.0), near(0.4, 0.15)]
     assert sorted(map(tuple, step["landed"][0])) == [near(0.0, 0.15), near(0.0, 0.3), near(0.4, 0.15), near(0.4, 0.3)]
@@ -175,11 +176,11 @@ def test_steps_tell_what_moves_and_where_it_lands():
     assert step["flap"] == [] and after["flap"] != []
 
 
-def test_a_red_fold_sees_the_flap_alone():
+def test_a_red_fold_sees_the_flap_alone() -> None:
     red = crease("back", End((0.0, 0.25)), End((0.4, 0.25)), kind="red")
     solution = solve(towel_drawing(HALF, red))
     assert solution.problems == ()
-    assert solution.drawing.folds[1].start.tie == EdgeTie("v3", "v0", pytest.approx(0.25 / 0.3))
+    assert solution.drawing.folds[1].start.tie == EdgeTie("v3", "v0", about(0.25 / 0.3))
 
 
 def reordered(drawing: Drawing, index: int, to: int) -> Drawing:

@@ -67,7 +67,8 @@ def rings(frame: dict[str, Any]) -> list[np.ndarray]:
 
 
 def signed_area(ring: np.ndarray) -> float:
-    return sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(ring, np.roll(ring, -1, axis=0), strict=True)) / 2
+    doubled: float = sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(ring, np.roll(ring, -1, axis=0), strict=True))
+    return doubled / 2
 
 
 def sides(frame: dict[str, Any]) -> dict[tuple[int, int], int]:

@@ -1,8 +1,8 @@
 import io
 
-import ezdxf
 import numpy as np
 import pytest
+from ezdxf import filemanagement
 from ezdxf.document import Drawing
 
 from app.files.import_errors import ImportedFileError, UnitsNeededError
@@ -13,7 +13,7 @@ MM, NO_UNIT = 4, 0
 
 
 def drawing(units: int = MM) -> Drawing:
-    made = ezdxf.new("R2004")
+    made = filemanagement.new("R2004")
     made.header["$INSUNITS"] = units
     return made
 
@@ -48,21 +48,21 @@ def pattern_piece(made: Drawing, width: float, height: float, name: str = "FRONT
     made.modelspace().add_blockref(name, (x, 50))
 
 
-def test_a_closed_polyline_is_the_outline_in_the_units_of_the_header():
+def test_a_closed_polyline_is_the_outline_in_the_units_of_the_header() -> None:
     made = drawing()
     made.modelspace().add_lwpolyline(SQUARE, close=True)
     assert outline(read(made)) == [(0.0, 0.0), (0.6, 0.0), (0.6, 0.4), (0.0, 0.4)]
 
 
 @pytest.mark.parametrize(("code", "unit_m"), [(1, 0.0254), (2, 0.3048), (4, 0.001), (5, 0.01), (6, 1.0), (14, 0.1)])
-def test_the_headers_code_says_the_unit(code: int, unit_m: float):
+def test_the_headers_code_says_the_unit(code: int, unit_m: float) -> None:
     made = drawing(code)
     made.modelspace().add_lwpolyline([(0, 0), (3, 0), (3, 2), (0, 2)], close=True)
     found = import_file("piece.dxf", saved(made), None, 0.1 / unit_m).garment
     assert max(x for x, _ in found.outline) == pytest.approx(0.3)
 
 
-def test_a_plain_file_without_units_asks_for_them_and_takes_them():
+def test_a_plain_file_without_units_asks_for_them_and_takes_them() -> None:
     made = drawing(NO_UNIT)
     made.modelspace().add_lwpolyline(SQUARE, close=True)
     with pytest.raises(UnitsNeededError) as caught:
@@ -74,13 +74,13 @@ def test_a_plain_file_without_units_asks_for_them_and_takes_them():
 METRES = 6
 
 
-def test_a_plain_file_in_metres_is_taken_as_it_is():
+def test_a_plain_file_in_metres_is_taken_as_it_is() -> None:
     made = drawing(METRES)
     made.modelspace().add_lwpolyline([(0, 0), (0.6, 0), (0.6, 0.4), (0, 0.4)], close=True)
     assert outline(read(made)) == [(0.0, 0.0), (0.6, 0.0), (0.6, 0.4), (0.0, 0.4)]
 
 
-def test_a_file_that_says_metres_of_millimetres_asks_for_its_units():
+def test_a_file_that_says_metres_of_millimetres_asks_for_its_units() -> None:
     made = drawing(METRES)
     made.modelspace().add_lwpolyline(SQUARE, close=True)
     with pytest.raises(UnitsNeededError, match="600 m long") as caught:
@@ -90,14 +90,14 @@ def test_a_file_that_says_metres_of_millimetres_asks_for_its_units():
 
 
 @pytest.mark.parametrize(("is_bent", "told"), [(False, "4 corners."), (True, "at most 0.5 mm off.")])
-def test_arcs_are_said_to_be_replaced_and_straight_lines_are_not(is_bent: bool, told: str):
+def test_arcs_are_said_to_be_replaced_and_straight_lines_are_not(is_bent: bool, told: str) -> None:
     made = drawing()
     corners = [(0, 0, 0.2 if is_bent else 0.0), (600, 0, 0), (600, 400, 0), (0, 400, 0)]
     made.modelspace().add_lwpolyline(corners, format="xyb", close=True)
     assert any(note.text.startswith("The outline has") and note.text.endswith(told) for note in read(made).notes)
 
 
-def test_blue_and_red_lines_are_folds_by_their_colour_that_of_their_layer_or_its_name():
+def test_blue_and_red_lines_are_folds_by_their_colour_that_of_their_layer_or_its_name() -> None:
     made = drawing()
     made.layers.add("marks", color=1)
     space = made.modelspace()
@@ -115,7 +115,7 @@ def test_blue_and_red_lines_are_folds_by_their_colour_that_of_their_layer_or_its
     ]
 
 
-def test_of_a_sewing_pattern_layer_1_is_the_outline_and_only_layer_8_carries_folds():
+def test_of_a_sewing_pattern_layer_1_is_the_outline_and_only_layer_8_carries_folds() -> None:
     made = drawing()
     pattern_piece(made, 600, 400)
     found = read(made)
@@ -125,7 +125,7 @@ def test_of_a_sewing_pattern_layer_1_is_the_outline_and_only_layer_8_carries_fol
     assert any(note.text.startswith("2 lines on its other layers") for note in found.notes)
 
 
-def test_of_several_pieces_the_largest_is_taken():
+def test_of_several_pieces_the_largest_is_taken() -> None:
     made = drawing()
     pattern_piece(made, 600, 400)
     pattern_piece(made, 50, 50, "POCKET", 1700.0)
@@ -137,14 +137,14 @@ def test_of_several_pieces_the_largest_is_taken():
 
 
 @pytest.mark.parametrize(("word", "unit_m"), [("METRIC", 0.001), ("ENGLISH", 0.0254)])
-def test_the_text_of_a_style_says_the_units_of_a_sewing_pattern(word: str, unit_m: float):
+def test_the_text_of_a_style_says_the_units_of_a_sewing_pattern(word: str, unit_m: float) -> None:
     made = drawing(NO_UNIT)
     pattern_piece(made, 60, 40)
     made.modelspace().add_text(f"UNITS: {word}", dxfattribs={"layer": "1"})
     assert max(x for x, _ in read(made).garment.outline) == pytest.approx(60 * unit_m)
 
 
-def test_inserted_blocks_are_placed_turned_and_scaled():
+def test_inserted_blocks_are_placed_turned_and_scaled() -> None:
     made = drawing()
     bar = made.blocks.new("BAR")
     bar.add_lwpolyline([(0, 0), (20, 0), (20, 10), (0, 10)], close=True)
@@ -157,14 +157,14 @@ def test_inserted_blocks_are_placed_turned_and_scaled():
     assert lines(found) == [("blue", [0.1, 0.1], [0.0, 0.1])]
 
 
-def test_bulges_arcs_and_splines_are_followed():
+def test_bulges_arcs_and_splines_are_followed() -> None:
     made = drawing()
     # A stadium: a square of 200 between two half circles of radius 100 (a bulge of 1 is half a circle).
     made.modelspace().add_lwpolyline([(0, 0), (200, 0, 0, 0, 1), (200, 200), (0, 200, 0, 0, 1)], close=True)
     assert read(made).garment.pattern.area == pytest.approx(0.04 + np.pi * 0.01, rel=0.01)
 
 
-def test_loose_lines_and_arcs_that_meet_make_the_outline():
+def test_loose_lines_and_arcs_that_meet_make_the_outline() -> None:
     made = drawing()
     space = made.modelspace()
     space.add_line((0, 0), (200, 0))
@@ -191,7 +191,9 @@ def test_loose_lines_and_arcs_that_meet_make_the_outline():
         "a centre line that overshoots",
     ],
 )
-def test_edges_drawn_twice_and_lines_across_leave_the_outline_whole(more: list[tuple[float, float, float, float]]):
+def test_edges_drawn_twice_and_lines_across_leave_the_outline_whole(
+    more: list[tuple[float, float, float, float]],
+) -> None:
     made = drawing()
     sides = [(0, 0, 600, 0), (600, 0.9, 600, 400), (600, 400, 0, 400), (0, 400, 0, 0)]
     for x1, y1, x2, y2 in (*sides, *more):
@@ -203,7 +205,7 @@ def test_edges_drawn_twice_and_lines_across_leave_the_outline_whole(more: list[t
     assert [kind for kind, *_ in lines(found)] == ["blue"]
 
 
-def test_lines_that_cross_too_often_are_refused():
+def test_lines_that_cross_too_often_are_refused() -> None:
     made = drawing()
     for number in range(400):
         made.modelspace().add_line((number, 0), (400 - number, 400))
@@ -212,7 +214,7 @@ def test_lines_that_cross_too_often_are_refused():
         read(made)
 
 
-def test_what_is_on_a_layer_that_is_off_is_not_there():
+def test_what_is_on_a_layer_that_is_off_is_not_there() -> None:
     made = drawing()
     made.layers.add("notes", color=5).off()
     made.modelspace().add_lwpolyline(SQUARE, close=True)
@@ -220,7 +222,7 @@ def test_what_is_on_a_layer_that_is_off_is_not_there():
     assert read(made).garment.folds == ()
 
 
-def test_blocks_that_multiply_are_refused():
+def test_blocks_that_multiply_are_refused() -> None:
     made = drawing()
     made.blocks.new("B0").add_line((0, 0), (1, 1))
     for number in range(1, 8):
@@ -232,7 +234,7 @@ def test_blocks_that_multiply_are_refused():
         read(made)
 
 
-def test_a_spline_that_would_take_long_to_find_is_refused():
+def test_a_spline_that_would_take_long_to_find_is_refused() -> None:
     made = drawing()
     made.modelspace().add_spline(fit_points=[(number, number % 7, 0) for number in range(1500)])
     with pytest.raises(ImportedFileError, match="spline in it has more than 1000 points"):
@@ -243,7 +245,7 @@ def test_a_spline_that_would_take_long_to_find_is_refused():
     "data",
     [b"", b"hello", b"\x00\x01" * 50, b"AutoCAD Binary DXF\r\n\x1a\x00junk", b"  0\nSECTION\n  2\nENTI", b"0\nEOF\n"],
 )
-def test_what_is_no_dxf_is_refused_as_such(data: bytes):
+def test_what_is_no_dxf_is_refused_as_such(data: bytes) -> None:
     with pytest.raises(ImportedFileError) as caught:
         import_file("piece.dxf", data)
     assert caught.value.field == "file"

@@ -61,9 +61,11 @@ class Player:
         assert np.all(np.diff(times) > 0.0)
         t = float(np.clip(t_s, times[0], times[-1]))
         if sampler.interpolation == "STEP":
-            return values[np.searchsorted(times, t, side="right") - 1]
+            row: np.ndarray = values[np.searchsorted(times, t, side="right") - 1]
+            return row
         if path == "rotation":
-            return Slerp(times, Rotation.from_quat(values))(t).as_quat()
+            turned: np.ndarray = Slerp(times, Rotation.from_quat(values))(t).as_quat()
+            return turned
         return np.array([np.interp(t, times, column) for column in values.T])
 
     def pose(self, name: str, t_s: float) -> np.ndarray:
@@ -84,7 +86,7 @@ def player(glb: bytes) -> Player:
     return Player(glb)
 
 
-def test_it_is_a_scene_for_other_readers_and_small(glb: bytes):
+def test_it_is_a_scene_for_other_readers_and_small(glb: bytes) -> None:
     scene = trimesh.load_scene(io.BytesIO(glb), file_type="glb")
     assert len(glb) < 20e6
     robot = [name for name in scene.graph.nodes_geometry if "visual" in name]
@@ -95,7 +97,7 @@ def test_it_is_a_scene_for_other_readers_and_small(glb: bytes):
 
 
 @pytest.mark.parametrize("share", SHARES)
-def test_links_are_where_forward_kinematics_says(player: Player, share: float):
+def test_links_are_where_forward_kinematics_says(player: Player, share: float) -> None:
     t_s = share * timeline().duration_s
     model = pin.buildModelFromUrdf(str(CARD.urdf_path), mimic=True)
     data, q, sample = model.createData(), pin.neutral(model), timeline().at(t_s)
@@ -114,7 +116,7 @@ def test_links_are_where_forward_kinematics_says(player: Player, share: float):
 
 
 @pytest.mark.parametrize("share", SHARES)
-def test_one_shape_of_the_cloth_is_seen_and_it_is_that_of_this_moment(player: Player, share: float):
+def test_one_shape_of_the_cloth_is_seen_and_it_is_that_of_this_moment(player: Player, share: float) -> None:
     t_s = share * timeline().duration_s
     nodes = [(n, node) for n, node in enumerate(player.gltf.nodes) if (node.name or "").startswith("cloth ")]
     seen = [node for n, node in nodes if np.any(player.value(n, "scale", t_s) != 0.0)]
@@ -127,7 +129,7 @@ def test_one_shape_of_the_cloth_is_seen_and_it_is_that_of_this_moment(player: Pl
         assert np.abs(np.vstack([shown.min(axis=0), shown.max(axis=0)]) - corner).max(axis=1).min() < 0.03
 
 
-def test_keyframes_turn_the_short_way(player: Player):
+def test_keyframes_turn_the_short_way(player: Player) -> None:
     (animation,) = player.gltf.animations
     for channel in animation.channels:
         if channel.target.path == "rotation":
@@ -136,11 +138,11 @@ def test_keyframes_turn_the_short_way(player: Player):
             assert all(first @ second > 0.0 for first, second in pairwise(turns))
 
 
-def test_arms_that_look_alike_share_their_meshes(player: Player):
+def test_arms_that_look_alike_share_their_meshes(player: Player) -> None:
     nodes = {node.name: node for node in player.gltf.nodes}
     left, right = nodes["l_forearm_link visual 0"], nodes["r_forearm_link visual 0"]
     assert left.mesh is not None and left.mesh == right.mesh
 
 
-def test_a_film_that_is_stopped_is_empty():
+def test_a_film_that_is_stopped_is_empty() -> None:
     assert animation_glb(small_plan(), lambda: True) == b""

@@ -2,21 +2,21 @@
 
 import io
 
-import ezdxf
 import numpy as np
 import pytest
+from ezdxf import filemanagement
 from ezdxf.document import Drawing
 
 from app.files.import_errors import ImportedFileError
 from app.files.import_file import Imported, import_file
 from app.files.piece_labels import in_order, size_in
 
-GROWTH_MM = {"S": -10, "M": 0, "L": 10}
+GROWTH_MM: dict[str, float] = {"S": -10, "M": 0, "L": 10}
 
 
 def pattern(sizes: dict[str, float], *, sample: str | None = None, say: bool = True, seams: bool = False) -> Drawing:
     """Return pieces of 500 by 700 mm that grow by so much on all sides, upon each other, in the form of ASTM D6673."""
-    made = ezdxf.new("R12")
+    made = filemanagement.new("R12")
     space = made.modelspace()
     space.add_text("UNITS: METRIC", dxfattribs={"layer": "1"})
     if sample:
@@ -47,7 +47,7 @@ def sides(imported: Imported) -> tuple[float, float]:
 
 
 @pytest.mark.parametrize("say", [True, False], ids=["by text", "by the block's name"])
-def test_the_sizes_of_a_pattern_are_listed_and_the_middle_one_is_taken(say: bool):
+def test_the_sizes_of_a_pattern_are_listed_and_the_middle_one_is_taken(say: bool) -> None:
     found = read(pattern(GROWTH_MM, say=say))
     assert found.graded is not None
     assert (found.graded.size, found.graded.sizes) == ("M", ("S", "M", "L"))
@@ -57,32 +57,32 @@ def test_the_sizes_of_a_pattern_are_listed_and_the_middle_one_is_taken(say: bool
 
 
 @pytest.mark.parametrize(("size", "wide"), [("S", 0.48), ("l", 0.52), (" m ", 0.5)])
-def test_a_size_is_taken_by_its_name(size: str, wide: float):
+def test_a_size_is_taken_by_its_name(size: str, wide: float) -> None:
     found = read(pattern(GROWTH_MM), size)
     assert sides(found)[0] == wide
     assert len(found.garment.folds) == 1
 
 
-def test_the_sample_size_is_taken_where_the_pattern_names_one():
+def test_the_sample_size_is_taken_where_the_pattern_names_one() -> None:
     assert sides(read(pattern({"36": -20, "38": -10, "40": 0, "42": 10}, sample="40"))) == (0.5, 0.7)
     assert sides(read(pattern(GROWTH_MM, sample="XL"))) == (0.5, 0.7)
 
 
 @pytest.mark.parametrize("size", ["XL", "", "40"])
-def test_a_size_that_is_not_there_is_refused_with_the_list(size: str):
+def test_a_size_that_is_not_there_is_refused_with_the_list(size: str) -> None:
     with pytest.raises(ImportedFileError, match="one of S, M, L") as caught:
         read(pattern(GROWTH_MM), size)
     assert caught.value.field == "size"
 
 
-def test_a_size_of_a_drawing_in_one_size_is_refused():
+def test_a_size_of_a_drawing_in_one_size_is_refused() -> None:
     with pytest.raises(ImportedFileError, match="has one size") as caught:
         read(pattern({"M": 0}), "M")
     assert caught.value.field == "size"
 
 
-def test_layers_of_a_plain_drawing_may_be_sizes():
-    made = ezdxf.new("R2004")
+def test_layers_of_a_plain_drawing_may_be_sizes() -> None:
+    made = filemanagement.new("R2004")
     made.header["$INSUNITS"] = 4
     for size, by in GROWTH_MM.items():
         made.modelspace().add_lwpolyline(
@@ -107,27 +107,27 @@ def svg(label: str, sizes: list[str], extra: str = "") -> bytes:
 @pytest.mark.parametrize(
     "label", ['id="{}"', 'i:label="Size {}"', 'id="back-{}"', 'class="size-{}"', 'data-name="Größe {}"', 'id="{}_back"']
 )
-def test_groups_of_an_svg_may_be_sizes(label: str):
+def test_groups_of_an_svg_may_be_sizes(label: str) -> None:
     data = svg(label, ["XS", "M", "XL"])
     assert sides(import_file("back.svg", data)) == (0.5, 0.7)
     large = import_file("back.svg", data, size="xl")
     assert sides(large) == (0.52, 0.72) and len(large.garment.folds) == 1
 
 
-def test_what_is_of_no_size_belongs_to_all():
+def test_what_is_of_no_size_belongs_to_all() -> None:
     line = '<line x1="35" y1="9" x2="35" y2="81" stroke="blue"/>'
     found = import_file("back.svg", svg('id="_{}"', ["38", "40", "42"], line), size="42")
     assert sides(found) == (0.52, 0.72) and len(found.garment.folds) == 2
 
 
-def test_the_size_counts_where_units_are_asked_for_too():
+def test_the_size_counts_where_units_are_asked_for_too() -> None:
     data = svg('id="{}"', ["S", "M", "L"]).replace(b'width="90cm" height="90cm"', b"")
     found = import_file("back.svg", data, "cm", size="L")
     assert sides(found) == (0.52, 0.72)
     assert found.sizes is not None and found.sizes["cm"] == pytest.approx((0.52, 0.72))
 
 
-def test_a_cut_line_and_a_seam_line_are_still_told_from_each_other():
+def test_a_cut_line_and_a_seam_line_are_still_told_from_each_other() -> None:
     rects = '<rect x="1" y="1" width="60" height="80"/><rect x="2" y="2" width="58" height="78"/>'
     head = '<svg xmlns="http://www.w3.org/2000/svg" width="90cm" height="90cm" viewBox="0 0 90 90">'
     found = import_file("back.svg", f'{head}<g fill="none" stroke="black">{rects}</g></svg>'.encode())
@@ -135,7 +135,7 @@ def test_a_cut_line_and_a_seam_line_are_still_told_from_each_other():
     assert sides(found) == (0.58, 0.78)
 
 
-def test_three_lines_inside_each_other_without_names_have_no_seam_line():
+def test_three_lines_inside_each_other_without_names_have_no_seam_line() -> None:
     rects = "".join(
         f'<rect x="{5 - by}" y="{5 - by}" width="{50 + 2 * by}" height="{70 + 2 * by}"/>' for by in range(3)
     )
@@ -163,10 +163,10 @@ def test_three_lines_inside_each_other_without_names_have_no_seam_line():
         ("resize", None),
     ],
 )
-def test_a_label_names_a_size(label: str, size: str | None):
+def test_a_label_names_a_size(label: str, size: str | None) -> None:
     assert size_in(label) == size
 
 
-def test_sizes_are_listed_from_small_to_large():
+def test_sizes_are_listed_from_small_to_large() -> None:
     assert in_order({"L", "XXS", "M", "2XL", "S", "XL", "XS"}) == ["XXS", "XS", "S", "M", "L", "XL", "2XL"]
     assert in_order({"44", "8", "36"}) == ["8", "36", "44"]

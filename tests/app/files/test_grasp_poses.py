@@ -19,7 +19,8 @@ MOMENTS = ("pre_grasp", "grasp", "lift", "place", "retreat")
 
 @cache
 def told() -> dict[str, Any]:
-    return json.loads(poses_json(small_plan()))
+    poses: dict[str, Any] = json.loads(poses_json(small_plan()))
+    return poses
 
 
 def grips() -> list[tuple[dict[str, Any], dict[str, Any]]]:
@@ -32,12 +33,12 @@ def placed(pose: dict[str, Any]) -> np.ndarray[Any, Any]:
     return matrix
 
 
-def test_yaml_says_what_json_says():
+def test_yaml_says_what_json_says() -> None:
     assert yaml.safe_load(poses_yaml(small_plan())) == told()
     assert told()["version"] == 1 and told()["garment"] == "letter-towel" and told()["robot"] == "pr2"
 
 
-def test_each_fold_is_there_with_the_hands_that_the_plan_gives_it():
+def test_each_fold_is_there_with_the_hands_that_the_plan_gives_it() -> None:
     for step, planned in zip(told()["steps"], small_plan().steps, strict=True):
         assert (step["kind"], step["fold"]) == (planned.kind, planned.fold)
         assert [grip["arm"] for grip in step["grips"]] == [grip.arm for grip in planned.grips]
@@ -48,7 +49,7 @@ def test_each_fold_is_there_with_the_hands_that_the_plan_gives_it():
             assert grip["lift"]["in_table"]["position"] == pytest.approx(wanted.apex, abs=2e-3)
 
 
-def test_tools_are_where_forward_kinematics_of_the_urdf_says():
+def test_tools_are_where_forward_kinematics_of_the_urdf_says() -> None:
     path = small_plan().trajectory
     assert path is not None
     model = pin.buildModelFromUrdf(str(CARD.urdf_path))
@@ -65,7 +66,7 @@ def test_tools_are_where_forward_kinematics_of_the_urdf_says():
             np.testing.assert_allclose(placed(pose["in_base"]), found, atol=1e-4)
 
 
-def test_both_frames_say_the_same():
+def test_both_frames_say_the_same() -> None:
     for _, grip in grips():
         for pose in (grip[moment] for moment in MOMENTS if grip[moment] is not None):
             base = pose["base_in_table"]
@@ -75,7 +76,7 @@ def test_both_frames_say_the_same():
             np.testing.assert_allclose(base_in_table @ placed(pose["in_base"]), placed(pose["in_table"]), atol=1e-7)
 
 
-def test_hands_come_from_a_distance_open_and_go_with_their_fingers_closed():
+def test_hands_come_from_a_distance_open_and_go_with_their_fingers_closed() -> None:
     for step, grip in grips():
         if grip["held_before"]:
             assert grip["pre_grasp"] is None and step["step"] > 0
@@ -87,12 +88,12 @@ def test_hands_come_from_a_distance_open_and_go_with_their_fingers_closed():
         assert before["opening_m"] > grasp["opening_m"] == grip["lift"]["opening_m"]
 
 
-def test_cloth_that_is_held_on_is_told_on_both_sides():
+def test_cloth_that_is_held_on_is_told_on_both_sides() -> None:
     first, second = told()["steps"]
     assert all(grip["held_after"] and grip["retreat"] is None for grip in first["grips"])
     assert all(grip["held_before"] and grip["pre_grasp"] is None for grip in second["grips"])
 
 
-def test_without_a_plan_there_are_no_poses():
+def test_without_a_plan_there_are_no_poses() -> None:
     with pytest.raises(UnsolvedPlanError):
         grasp_poses(unsolved())

@@ -81,7 +81,7 @@ ODD = (
 @pytest.mark.parametrize("filename", BASES)
 @settings(max_examples=120, derandomize=True, deadline=None)
 @given(data=st.data())
-def test_a_file_that_was_damaged_is_imported_or_refused_by_name(filename: str, data: st.DataObject):
+def test_a_file_that_was_damaged_is_imported_or_refused_by_name(filename: str, data: st.DataObject) -> None:
     content = bytearray(data.draw(st.sampled_from(BASES[filename])))
     for _ in range(data.draw(st.integers(1, 3))):
         numbers = list(NUMBER.finditer(content))
@@ -100,7 +100,7 @@ def test_a_file_that_was_damaged_is_imported_or_refused_by_name(filename: str, d
         assert 3 <= len(found.garment.outline) <= 400
 
 
-def test_what_the_damage_is_done_to_is_whole():
+def test_what_the_damage_is_done_to_is_whole() -> None:
     for filename, contents in BASES.items():
         for content in contents:
             assert import_file(filename, content).garment.outline

@@ -17,6 +17,7 @@ from planner.motion.motion_limits import MotionLimits
 from planner.motion.motion_values import positions_at
 from planner.robots.load_robot import load_robot
 from tests.builders import fold, garment
+from tests.required import required
 from tests.small_plan import CARD, small_plan
 
 
@@ -41,7 +42,7 @@ def frames(folder: Path, info: dict[str, Any]) -> dict[str, np.ndarray]:
 
 def test_every_feature_has_the_shape_and_the_type_that_it_is_told_with(
     folder: Path, info: dict[str, Any], frames: dict[str, np.ndarray]
-):
+) -> None:
     assert (info["codebase_version"], info["fps"], info["robot_type"]) == ("v3.0", FPS, "pr2")
     assert set(info["features"]) == set(frames)
     schema = pq.read_schema(folder / info["data_path"].format(chunk_index=0, file_index=0))
@@ -54,27 +55,26 @@ def test_every_feature_has_the_shape_and_the_type_that_it_is_told_with(
     assert len(info["features"]["action"]["names"]) == info["features"]["action"]["shape"][0]
 
 
-def test_frames_come_at_the_rate_and_actions_are_the_next_states(frames: dict[str, np.ndarray]):
+def test_frames_come_at_the_rate_and_actions_are_the_next_states(frames: dict[str, np.ndarray]) -> None:
     np.testing.assert_allclose(frames["timestamp"], np.arange(len(frames["index"])) / FPS, rtol=1e-6)
     np.testing.assert_array_equal(frames["action"][:-1], frames["observation.state"][1:])
     np.testing.assert_array_equal(frames["frame_index"], frames["index"])
 
 
-def test_states_are_those_of_the_motion_that_is_sent(info: dict[str, Any], frames: dict[str, np.ndarray]):
+def test_states_are_those_of_the_motion_that_is_sent(info: dict[str, Any], frames: dict[str, np.ndarray]) -> None:
     limits = MotionLimits.of(CARD, small_plan().scene)
     state = info["features"]["observation.state"]
     assert tuple(state["names"]) == limits.names
     assert state["units"] == ["rad"] * (len(limits.names) - 3) + ["m", "m", "rad"]
     plan = small_plan()
     assert plan.trajectory is not None
-    assert frames["timestamp"][-1] == pytest.approx(small_plan().cost_s, abs=1.0 / FPS)
-    wanted = positions_at(
-        small_plan().trajectory, np.append(frames["timestamp"][:-1].astype(float), small_plan().cost_s)
-    )
+    assert frames["timestamp"][-1] == pytest.approx(plan.cost_s, abs=1.0 / FPS)
+    times_s = np.append(frames["timestamp"][:-1].astype(float), required(plan.cost_s))
+    wanted = positions_at(plan.trajectory, times_s)
     np.testing.assert_allclose(frames["observation.state"], wanted, atol=1e-5)
 
 
-def test_the_episode_and_its_task_are_told(folder: Path, info: dict[str, Any], frames: dict[str, np.ndarray]):
+def test_the_episode_and_its_task_are_told(folder: Path, info: dict[str, Any], frames: dict[str, np.ndarray]) -> None:
     (episode,) = pq.read_table(folder / "meta/episodes/chunk-000/file-000.parquet").to_pylist()
     count = len(frames["index"])
     assert (episode["dataset_from_index"], episode["dataset_to_index"], episode["length"]) == (0, count, count)
@@ -84,7 +84,7 @@ def test_the_episode_and_its_task_are_told(folder: Path, info: dict[str, Any], f
     assert info["total_episodes"] == info["total_tasks"] == 1
 
 
-def test_statistics_are_those_of_the_frames(folder: Path, frames: dict[str, np.ndarray]):
+def test_statistics_are_those_of_the_frames(folder: Path, frames: dict[str, np.ndarray]) -> None:
     stats = json.loads((folder / "meta/stats.json").read_text())
     assert set(stats) == set(frames)
     for name, values in frames.items():
@@ -109,7 +109,7 @@ def napkin_plan() -> Plan:
     return plan
 
 
-def test_so_101_arms_have_the_names_and_units_of_lerobots_own_driver(napkin_plan: Plan, tmp_path: Path):
+def test_so_101_arms_have_the_names_and_units_of_lerobots_own_driver(napkin_plan: Plan, tmp_path: Path) -> None:
     info, actions = written(napkin_plan, tmp_path / "dataset")
     joints = ("shoulder_pan", "shoulder_lift", "elbow_flex", "wrist_flex", "wrist_roll", "gripper")
     feature = info["features"]["action"]
@@ -130,7 +130,7 @@ def test_so_101_arms_have_the_names_and_units_of_lerobots_own_driver(napkin_plan
         assert shares.min() >= -1e-3 and shares.max() <= 100.0 + 1e-3
 
 
-def test_the_type_of_a_robot_is_the_name_on_its_card_wherever_the_card_lies(tmp_path: Path):
+def test_the_type_of_a_robot_is_the_name_on_its_card_wherever_the_card_lies(tmp_path: Path) -> None:
     card = Path(load_robot.__code__.co_filename).parent / "cards" / "so101-pair.json"
     shutil.copy(card, tmp_path / "bench.json")
     napkin = garment([(0.0, 0.0), (0.2, 0.0), (0.2, 0.16), (0.0, 0.16)])

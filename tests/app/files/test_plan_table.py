@@ -33,7 +33,7 @@ def big_towel() -> Plan:
     return make_plan(load_garment("big-towel"))
 
 
-def test_there_is_one_row_for_each_primitive_and_they_follow_one_another(big_towel: Plan):
+def test_there_is_one_row_for_each_primitive_and_they_follow_one_another(big_towel: Plan) -> None:
     rows = rows_of(big_towel)
     assert [row["kind"] for row in rows] == [primitive.kind for primitive in big_towel.primitives]
     starts, ends = ([float(row[name]) for row in rows] for name in ("start_s", "end_s"))
@@ -43,7 +43,7 @@ def test_there_is_one_row_for_each_primitive_and_they_follow_one_another(big_tow
         assert float(row["driving_s"]) + float(row["arms_s"]) == pytest.approx(float(row["duration_s"]))
 
 
-def test_a_fold_made_from_where_the_robot_starts_has_its_points_in_both_frames(hand_towel: Plan):
+def test_a_fold_made_from_where_the_robot_starts_has_its_points_in_both_frames(hand_towel: Plan) -> None:
     # The towel lies from x = -0.75 m on, its near corners at y = +-0.343 m; the tools are 2 cm over the table. `front`
     # is at (-0.95, 0) looking along x, and the table is 0.79 m high. At the apex a tool stands over the line at
     # x = -0.75 + 0.2095 m by as much higher as the corner was from it, and comes down as far beyond.
@@ -57,7 +57,7 @@ def test_a_fold_made_from_where_the_robot_starts_has_its_points_in_both_frames(h
     assert point(row, "right", "place", "base") == pytest.approx([0.2 + 0.419, -0.343, 0.02 + HEIGHT_M])
 
 
-def test_each_point_is_seen_from_where_the_base_is_at_its_moment(big_towel: Plan):
+def test_each_point_is_seen_from_where_the_base_is_at_its_moment(big_towel: Plan) -> None:
     for row in rows_of(big_towel):
         for arm in ("left", "right"):
             for moment in ("pick", "apex", "place"):
@@ -72,7 +72,7 @@ def test_each_point_is_seen_from_where_the_base_is_at_its_moment(big_towel: Plan
                     assert seen == pytest.approx(point(row, arm, moment, "table"))
 
 
-def test_during_a_drag_the_hands_stay_where_they_are_as_the_base_sees_them(big_towel: Plan):
+def test_during_a_drag_the_hands_stay_where_they_are_as_the_base_sees_them(big_towel: Plan) -> None:
     drag = rows_of(big_towel)[0]
     assert drag["kind"] == "drag"
     assert point(drag, "left", "pick", "base") == pytest.approx(point(drag, "left", "place", "base"))
@@ -81,7 +81,7 @@ def test_during_a_drag_the_hands_stay_where_they_are_as_the_base_sees_them(big_t
     assert moved == pytest.approx([-float(drag["distance_m"]), 0.0, 0.0])
 
 
-def test_the_base_of_a_move_is_where_it_leaves_it_and_there_are_no_hands():
+def test_the_base_of_a_move_is_where_it_leaves_it_and_there_are_no_hands() -> None:
     plan = make_plan(load_garment("jeans"))
     move = next(row for row in rows_of(plan) if row["kind"] == "move")
     end = DEFAULT_STATIONS[move["station"]]
@@ -89,21 +89,21 @@ def test_the_base_of_a_move_is_where_it_leaves_it_and_there_are_no_hands():
     assert move["left_pick_in_table_x_m"] == move["base_at_pick_x_m"] == ""
 
 
-def test_heights_in_the_base_frame_are_above_the_floor_whatever_the_table():
+def test_heights_in_the_base_frame_are_above_the_floor_whatever_the_table() -> None:
     scene = Scene(table=replace(Scene().table, height_m=0.74))
     plan = make_plan(load_garment("hand-towel"), scene)
     assert plan.is_solved
     assert point(rows_of(plan)[0], "left", "pick", "base")[2] == pytest.approx(0.76)
 
 
-def test_a_fold_whose_name_looks_like_a_formula_is_no_formula(hand_towel: Plan):
+def test_a_fold_whose_name_looks_like_a_formula_is_no_formula(hand_towel: Plan) -> None:
     cloth = load_garment("hand-towel")
     named = replace(cloth, folds=(replace(cloth.folds[0], name='=HYPERLINK("there")'), *cloth.folds[1:]))
     assert rows_of(make_plan(named))[0]["what"] == '\'=HYPERLINK("there")'
 
 
 @pytest.mark.parametrize("name", ["t-shirt", "jeans", "vest"])
-def test_no_number_ends_in_the_noise_of_the_computation(name: str):
+def test_no_number_ends_in_the_noise_of_the_computation(name: str) -> None:
     plan = make_plan(load_garment(name))
     for row, primitive in zip(rows_of(plan), plan.primitives, strict=True):
         numbers = {name: text for name, text in row.items() if name.endswith(("_m", "_s", "_rad")) and text}

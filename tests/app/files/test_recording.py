@@ -10,6 +10,7 @@ import zstandard
 from app.files.recording import HOLD_S, recording
 from planner import load_garment, make_plan
 from planner.task.plan import Plan
+from tests.required import required
 
 DATA = re.compile(r'__VISER_EMBED_DATA__="([A-Za-z0-9+/=]+)"')
 
@@ -27,32 +28,33 @@ def page(plan: Plan) -> str:
 @pytest.fixture(scope="module")
 def film(page: str) -> dict[str, Any]:
     """Return the recording that the page plays, in viser's format: sizes, messages with their times, numbers."""
-    packed = base64.b64decode(DATA.search(page).group(1))
+    packed = base64.b64decode(required(DATA.search(page)).group(1))
     whole = zstandard.ZstdDecompressor().decompress(packed[8:])
     length = int.from_bytes(whole[:8], "little")
-    return msgspec.msgpack.decode(whole[8 : 8 + length])
+    film: dict[str, Any] = msgspec.msgpack.decode(whole[8 : 8 + length])
+    return film
 
 
-def test_the_recording_lasts_as_long_as_the_plan_and_a_moment_more(plan: Plan, film: dict[str, Any]):
-    assert film["durationSeconds"] == pytest.approx(plan.cost_s + HOLD_S)
+def test_the_recording_lasts_as_long_as_the_plan_and_a_moment_more(plan: Plan, film: dict[str, Any]) -> None:
+    assert film["durationSeconds"] == pytest.approx(required(plan.cost_s) + HOLD_S)
 
 
-def test_there_is_a_frame_at_each_time_asked_for_and_one_at_the_end(plan: Plan, film: dict[str, Any]):
+def test_there_is_a_frame_at_each_time_asked_for_and_one_at_the_end(plan: Plan, film: dict[str, Any]) -> None:
     times = {round(t, 6) for t, _ in film["messages"]}
-    frames = {round(number / 2.0, 6) for number in range(math.ceil(2.0 * plan.cost_s))}
-    assert times <= frames | {round(plan.cost_s, 6)}
+    frames = {round(number / 2.0, 6) for number in range(math.ceil(2.0 * required(plan.cost_s)))}
+    assert times <= frames | {round(required(plan.cost_s), 6)}
     # The hands move nearly always: while they do, a frame has something to say.
     assert len(times) > 0.9 * len(frames)
 
 
-def test_robot_and_cloth_are_in_it_and_the_camera(film: dict[str, Any]):
+def test_robot_and_cloth_are_in_it_and_the_camera(film: dict[str, Any]) -> None:
     names = {message.get("name") for _, message in film["messages"]}
     kinds = {message["type"] for _, message in film["messages"]}
     assert {"/cloth/front", "/robot"} <= names
     assert "SetCameraPositionMessage" in kinds
 
 
-def test_each_step_is_told_in_a_caption_while_it_goes_on(plan: Plan, film: dict[str, Any]):
+def test_each_step_is_told_in_a_caption_while_it_goes_on(plan: Plan, film: dict[str, Any]) -> None:
     told = [
         (t_s, text)
         for t_s, message in film["messages"]
@@ -66,13 +68,13 @@ def test_each_step_is_told_in_a_caption_while_it_goes_on(plan: Plan, film: dict[
         assert step.kind in text
 
 
-def test_the_page_is_one_file_with_the_garments_title_that_asks_for_nothing_elsewhere(page: str):
+def test_the_page_is_one_file_with_the_garments_title_that_asks_for_nothing_elsewhere(page: str) -> None:
     assert "<title>Hand towel - Pleat</title>" in page
     assert not re.search(r'<(?:script|link|img)[^>]+(?:src|href)="(?!data:)', page)
     assert "darkMode:true" in page
 
 
-def test_it_stops_between_frames_when_nobody_wants_it_any_more(plan: Plan):
+def test_it_stops_between_frames_when_nobody_wants_it_any_more(plan: Plan) -> None:
     asked = []
 
     def should_stop() -> bool:

@@ -51,14 +51,16 @@ def about(mcap: bytes) -> dict[str, Any]:
     return told
 
 
-def test_there_is_a_message_for_each_step_and_controller(messages: dict[str, list[Any]]):
+def test_there_is_a_message_for_each_step_and_controller(messages: dict[str, list[Any]]) -> None:
     assert set(messages) == {*JOINT_TOPICS, "/base_path"}
     assert all(len(read) == len(small_plan().steps) for read in messages.values())
     for topic, joints in JOINT_TOPICS.items():
         assert [tuple(message.joint_names) for message in messages[topic]] == [joints] * len(small_plan().steps)
 
 
-def test_every_joint_trajectory_begins_at_once_and_the_bag_has_the_plans_clock(mcap: bytes, about: dict[str, Any]):
+def test_every_joint_trajectory_begins_at_once_and_the_bag_has_the_plans_clock(
+    mcap: bytes, about: dict[str, Any]
+) -> None:
     decoding = make_reader(io.BytesIO(mcap), decoder_factories=[DecoderFactory()])
     starts_s = [step["start_s"] for step in about["steps"]]
     logged_s: dict[str, list[float]] = {}
@@ -72,7 +74,7 @@ def test_every_joint_trajectory_begins_at_once_and_the_bag_has_the_plans_clock(m
         assert times_s == pytest.approx(starts_s)
 
 
-def test_times_grow_from_the_beginning_of_the_step(messages: dict[str, list[Any]], about: dict[str, Any]):
+def test_times_grow_from_the_beginning_of_the_step(messages: dict[str, list[Any]], about: dict[str, Any]) -> None:
     for topic in JOINT_TOPICS:
         for message, step in zip(messages[topic], about["steps"], strict=True):
             times = np.array([seconds(point.time_from_start) for point in message.points])
@@ -80,7 +82,7 @@ def test_times_grow_from_the_beginning_of_the_step(messages: dict[str, list[Any]
             assert times[-1] == pytest.approx(step["duration_s"])
 
 
-def test_the_arms_go_from_where_the_plan_begins_a_step_to_where_it_ends_it(messages: dict[str, list[Any]]):
+def test_the_arms_go_from_where_the_plan_begins_a_step_to_where_it_ends_it(messages: dict[str, list[Any]]) -> None:
     path = small_plan().trajectory
     assert path is not None
     for topic, joints in JOINT_TOPICS.items():
@@ -91,7 +93,9 @@ def test_the_arms_go_from_where_the_plan_begins_a_step_to_where_it_ends_it(messa
                 np.testing.assert_allclose(point.velocities, 0.0, atol=1e-9)
 
 
-def test_velocities_lead_from_point_to_point_within_the_limits(messages: dict[str, list[Any]], about: dict[str, Any]):
+def test_velocities_lead_from_point_to_point_within_the_limits(
+    messages: dict[str, list[Any]], about: dict[str, Any]
+) -> None:
     for topic, joints in JOINT_TOPICS.items():
         if topic.startswith("/lift"):
             continue
@@ -108,7 +112,7 @@ def test_velocities_lead_from_point_to_point_within_the_limits(messages: dict[st
             assert np.all(np.abs(accelerations) <= [1.02 * about["accelerations"][name] for name in joints])
 
 
-def test_the_base_goes_from_stop_to_stop(messages: dict[str, list[Any]]):
+def test_the_base_goes_from_stop_to_stop(messages: dict[str, list[Any]]) -> None:
     for message, step in zip(messages["/base_path"], small_plan().steps, strict=True):
         assert message.header.frame_id == TABLE_FRAME
         stamps = [seconds(pose.header.stamp) for pose in message.poses]
@@ -120,7 +124,7 @@ def test_the_base_goes_from_stop_to_stop(messages: dict[str, list[Any]]):
     assert min(stamped.pose.position.x for stamped in messages["/base_path"][0].poses) < -0.99, "it backs off"
 
 
-def test_a_bag_has_the_same_messages_and_says_what_they_are(messages: dict[str, list[Any]], tmp_path: Path):
+def test_a_bag_has_the_same_messages_and_says_what_they_are(messages: dict[str, list[Any]], tmp_path: Path) -> None:
     folder = tmp_path / "bag"
     unpack(rosbag2_folder(small_plan()), folder)
     types = get_typestore(Stores.ROS2_JAZZY)
@@ -144,7 +148,7 @@ def test_a_bag_has_the_same_messages_and_says_what_they_are(messages: dict[str, 
     assert "JointTrajectoryPoint[] points" in definitions["trajectory_msgs/msg/JointTrajectory"]
 
 
-def test_a_robot_with_one_arm_and_a_fixed_base_has_its_two_controllers():
+def test_a_robot_with_one_arm_and_a_fixed_base_has_its_two_controllers() -> None:
     plan, card = one_armed()
     topics = {message.topic for message in ros_motion(plan, card).messages}
     assert topics == {"/left_arm_controller/joint_trajectory", "/left_gripper_controller/joint_trajectory"}

@@ -17,7 +17,7 @@ def slow() -> Plan:
     return slowed(small_plan(), SPEED)
 
 
-def test_the_path_stays_and_times_velocities_and_accelerations_scale(slow: Plan):
+def test_the_path_stays_and_times_velocities_and_accelerations_scale(slow: Plan) -> None:
     quick = small_plan()
     assert slow.trajectory is not None and quick.trajectory is not None and quick.cost_s is not None
     assert slow.cost_s == pytest.approx(quick.cost_s / SPEED)
@@ -33,12 +33,12 @@ def test_the_path_stays_and_times_velocities_and_accelerations_scale(slow: Plan)
     )
 
 
-def test_a_slowed_plan_replays_like_any_other(slow: Plan):
+def test_a_slowed_plan_replays_like_any_other(slow: Plan) -> None:
     again = Plan.from_dict(slow.to_dict())
     assert again == slow
     require_replay(again)
 
 
-def test_at_full_speed_or_without_a_motion_a_plan_stays_as_it_is():
+def test_at_full_speed_or_without_a_motion_a_plan_stays_as_it_is() -> None:
     assert slowed(small_plan(), 1.0) is small_plan()
     assert slowed(unsolved(), SPEED) == unsolved()

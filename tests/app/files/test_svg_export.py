@@ -30,7 +30,7 @@ def require_same(one: Garment, other: Garment) -> None:
 
 
 @pytest.mark.parametrize("name", shipped_garment_names())
-def test_a_garment_comes_back_from_its_drawing_to_a_micrometre(name: str):
+def test_a_garment_comes_back_from_its_drawing_to_a_micrometre(name: str) -> None:
     cloth = load_garment(name)
     require_same(cloth, round_trip(cloth))
 
@@ -44,19 +44,21 @@ def test_a_garment_comes_back_from_its_drawing_to_a_micrometre(name: str):
     radius=st.floats(0.01, 9.0),
     name=st.text(st.characters(exclude_categories=["C", "Z"]), min_size=1, max_size=40),
 )
-def test_any_place_size_and_name_comes_back(x: float, y: float, width: float, height: float, radius: float, name: str):
+def test_any_place_size_and_name_comes_back(
+    x: float, y: float, width: float, height: float, radius: float, name: str
+) -> None:
     line = fold((x + width / 3, y), (x + width / 3, y + height), name=name, radius_m=radius)
     back = fold((x + width / 2, y), (x + width / 2, y + height), "red", 'second & <last> "one"')
     cloth = garment(rectangle_points(width, height, x, y), line, back, placement=Pose2(0.1, -0.2, 0.3))
     require_same(cloth, round_trip(cloth))
 
 
-def test_a_title_that_xml_cannot_hold_is_made_to_fit():
+def test_a_title_that_xml_cannot_hold_is_made_to_fit() -> None:
     cloth = replace(garment(rectangle_points(0.4, 0.3)), title="a\x00b\ud800c")
     assert round_trip(cloth).title == "a b c"
 
 
-def test_a_drawing_says_its_size_in_centimetres_and_shows_the_folds_in_their_colours_with_arrows():
+def test_a_drawing_says_its_size_in_centimetres_and_shows_the_folds_in_their_colours_with_arrows() -> None:
     # 40 by 30 cm and a margin of 2 cm all round; a fold from (10, 0) up to (10, 30): in SVG y goes down.
     cloth = garment(rectangle_points(0.4, 0.3), fold((0.1, 0.0), (0.1, 0.3)), fold((0.25, 0.0), (0.25, 0.3), "red"))
     root = ET.fromstring(svg_drawing(cloth))
@@ -70,7 +72,7 @@ def test_a_drawing_says_its_size_in_centimetres_and_shows_the_folds_in_their_col
     assert outline.attrib["d"].endswith("Z")
 
 
-def test_what_a_drawing_keeps_beside_its_lines_is_left_out_when_it_makes_no_sense():
+def test_what_a_drawing_keeps_beside_its_lines_is_left_out_when_it_makes_no_sense() -> None:
     text = svg_drawing(load_garment("t-shirt")).replace('"areal_density_kg_m2": 0.16', '"areal_density_kg_m2": -1')
     found = import_file("drawing.svg", text.encode())
     assert found.garment.areal_density_kg_m2 == 0.2

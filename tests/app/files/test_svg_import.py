@@ -1,12 +1,14 @@
 import math
 import time
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from app.files.import_errors import ImportedFileError, UnitsNeededError
 from app.files.import_file import Imported, import_file
+from app.files.seam_allowance import Line
 
 # A square of 60 by 40 in a drawing whose unit is a centimetre, and whose y goes down.
 SQUARE = '<path d="M 0 0 H 60 V 40 H 0 Z"/>'
@@ -37,25 +39,25 @@ def refusal(data: bytes) -> str:
     return caught.value.message
 
 
-def test_a_closed_path_is_the_outline_in_metres_with_y_up_and_its_lower_left_corner_at_the_origin():
+def test_a_closed_path_is_the_outline_in_metres_with_y_up_and_its_lower_left_corner_at_the_origin() -> None:
     found = read(svg('<path d="M 10 10 H 40 V 30 H 10 Z"/>'))
     assert outline(found) == [(0.0, 0.2), (0.3, 0.2), (0.3, 0.0), (0.0, 0.0)]
 
 
-def test_the_name_comes_from_the_file_and_the_title_from_the_drawing():
+def test_the_name_comes_from_the_file_and_the_title_from_the_drawing() -> None:
     plain = read(svg(SQUARE)).garment
     titled = read(svg("<title> Sunday  shirt </title>", SQUARE)).garment
     assert (plain.name, plain.title) == ("my-shirt", "my shirt")
     assert (titled.name, titled.title) == ("sunday-shirt", "Sunday shirt")
 
 
-def test_the_largest_closed_path_is_taken_and_said_to_be():
+def test_the_largest_closed_path_is_taken_and_said_to_be() -> None:
     found = read(svg('<rect x="1" y="1" width="5" height="5"/>', SQUARE, '<circle cx="20" cy="20" r="3"/>'))
     assert outline(found) == [(0.0, 0.4), (0.6, 0.4), (0.6, 0.0), (0.0, 0.0)]
     assert any("2 other closed lines" in note.text for note in found.notes)
 
 
-def test_lines_are_folds_by_the_colour_of_their_stroke_however_it_is_given_in_the_direction_of_the_line():
+def test_lines_are_folds_by_the_colour_of_their_stroke_however_it_is_given_in_the_direction_of_the_line() -> None:
     found = read(
         svg(
             "<style>/* made up */ .mark, #last { stroke: #00F } path.mark { fill: none }</style>",
@@ -78,7 +80,7 @@ def test_lines_are_folds_by_the_colour_of_their_stroke_however_it_is_given_in_th
     assert np.allclose([found.folds[1].start, found.folds[1].end], [(0.0, 0.3), (0.3, 0.3)])
 
 
-def test_a_style_attribute_beats_a_style_sheet_and_a_sheet_beats_a_plain_attribute():
+def test_a_style_attribute_beats_a_style_sheet_and_a_sheet_beats_a_plain_attribute() -> None:
     found = read(
         svg(
             "<style>line { stroke: blue } .late { stroke: red }</style>",
@@ -91,7 +93,7 @@ def test_a_style_attribute_beats_a_style_sheet_and_a_sheet_beats_a_plain_attribu
     assert [fold.kind for fold in found.garment.folds] == ["blue", "red", "blue"]
 
 
-def test_lines_of_other_colours_and_what_is_hidden_are_no_folds():
+def test_lines_of_other_colours_and_what_is_hidden_are_no_folds() -> None:
     found = read(
         svg(
             SQUARE,
@@ -105,7 +107,7 @@ def test_lines_of_other_colours_and_what_is_hidden_are_no_folds():
     assert any("neither blue nor red" in note.text for note in found.notes)
 
 
-def test_transforms_of_groups_shapes_and_references_are_all_made():
+def test_transforms_of_groups_shapes_and_references_are_all_made() -> None:
     # The bar from (0, 0) to (20, 10), turned by a quarter about the origin, lies at x -10..0, y 0..20; carried by
     # (30, 5), and by the use, drawn twice as large, by (2, 0) more, it lies at x 44..64, y 10..50: 20 wide, 40 high.
     bar = '<defs><rect id="bar" width="20" height="10" transform="translate(30 5) rotate(90)"/></defs>'
@@ -117,7 +119,7 @@ def test_transforms_of_groups_shapes_and_references_are_all_made():
     assert np.allclose(found.garment.folds[0].end, (0.2, 0.2))
 
 
-def test_a_curve_becomes_straight_edges_that_are_off_by_half_a_millimetre_at_most():
+def test_a_curve_becomes_straight_edges_that_are_off_by_half_a_millimetre_at_most() -> None:
     circle = read(svg('<circle cx="30" cy="20" r="20"/>')).garment
     middle = np.array([0.2, 0.2])
     corners = np.array(circle.outline)
@@ -127,7 +129,7 @@ def test_a_curve_becomes_straight_edges_that_are_off_by_half_a_millimetre_at_mos
     assert len(corners) <= 400
 
 
-def test_bezier_curves_of_both_degrees_are_followed():
+def test_bezier_curves_of_both_degrees_are_followed() -> None:
     # Both bend from (0, 0) to (20, 20) towards the corner (20, 0), with which the ends make a triangle of 200. A
     # parabola cuts off 2/3 of it. From the corner the cubic's ends have the weights (1-t)^3 and t^3, so what it leaves
     # of the triangle is 1/2 * 400 * integral of 3 t^2 (1-t)^2 = 200 * 3/30 = 20: it cuts off 9/10.
@@ -137,7 +139,7 @@ def test_bezier_curves_of_both_degrees_are_followed():
     assert area(cubic) == pytest.approx(9 / 10 * 200e-4, rel=0.01)
 
 
-def test_an_outline_of_many_points_is_simplified_to_400_and_the_deviation_is_said():
+def test_an_outline_of_many_points_is_simplified_to_400_and_the_deviation_is_said() -> None:
     turns = np.linspace(0.0, math.tau, 3000, endpoint=False)
     points = " ".join(f"{30 + 19 * math.cos(a):.5f},{20 + 19 * math.sin(a):.5f}" for a in turns)
     found = read(svg(f'<polygon points="{points}"/>'))
@@ -159,50 +161,50 @@ def test_an_outline_of_many_points_is_simplified_to_400_and_the_deviation_is_sai
         ('width="60cm" height="60cm" preserveAspectRatio="xMidYMid slice"', "0 0 60 40", 0.9),
     ],
 )
-def test_the_size_of_the_sheet_says_how_long_a_unit_is(size: str, box: str, width_m: float):
+def test_the_size_of_the_sheet_says_how_long_a_unit_is(size: str, box: str, width_m: float) -> None:
     assert read(svg(SQUARE, size=size, box=box)).garment.pattern.length == pytest.approx(width_m)
 
 
-def test_a_sheet_that_is_stretched_stretches_the_garment():
+def test_a_sheet_that_is_stretched_stretches_the_garment() -> None:
     stretched = svg(SQUARE, size='width="60cm" height="80cm" preserveAspectRatio="none"')
     assert sorted(outline(read(stretched)))[-1] == (0.6, 0.8)
 
 
-def test_without_a_view_box_a_unit_is_a_px_of_which_96_make_an_inch():
+def test_without_a_view_box_a_unit_is_a_px_of_which_96_make_an_inch() -> None:
     data = b'<svg xmlns="http://www.w3.org/2000/svg" width="10cm"><rect width="960" height="480"/></svg>'
     assert sorted(outline(read(data)))[-1] == (0.254, 0.127)
 
 
 @pytest.mark.parametrize("size", ["", 'width="600" height="400"', 'width="100%"', 'width="600px"'])
-def test_a_drawing_without_physical_units_asks_for_them_and_says_how_large_it_would_be(size: str):
+def test_a_drawing_without_physical_units_asks_for_them_and_says_how_large_it_would_be(size: str) -> None:
     with pytest.raises(UnitsNeededError) as caught:
         read(svg(SQUARE, size=size))
     assert caught.value.sizes["mm"] == pytest.approx((0.06, 0.04))
     assert caught.value.sizes["in"] == pytest.approx((1.524, 1.016))
 
 
-def test_units_that_are_given_overrule_the_file_and_a_scale_multiplies():
+def test_units_that_are_given_overrule_the_file_and_a_scale_multiplies() -> None:
     assert sorted(outline(read(svg(SQUARE), "mm", 5.0)))[-1] == (0.3, 0.2)
 
 
-def test_lines_that_meet_at_their_ends_make_an_outline_together():
+def test_lines_that_meet_at_their_ends_make_an_outline_together() -> None:
     sides = ['<path d="M 0 0 H 60"/>', '<path d="M 0 0 V 40 H 30"/>', '<path d="M 60 0 V 40 H 30"/>']
     assert area(read(svg(*sides))) == pytest.approx(0.24)
 
 
-def test_a_bent_fold_line_is_straightened_and_said_to_be():
+def test_a_bent_fold_line_is_straightened_and_said_to_be() -> None:
     found = read(svg(SQUARE, '<path stroke="blue" d="M 0 20 Q 30 30 60 20"/>'))
     assert np.allclose([found.garment.folds[0].start, found.garment.folds[0].end], [(0.0, 0.2), (0.6, 0.2)])
     assert any("not straight" in note.text for note in found.notes)
 
 
-def test_a_red_line_that_comes_first_becomes_blue_and_is_said_to():
+def test_a_red_line_that_comes_first_becomes_blue_and_is_said_to() -> None:
     found = read(svg(SQUARE, '<path stroke="red" d="M 0 20 H 60"/>'))
     assert found.garment.folds[0].kind == "blue"
     assert any("made blue" in note.text for note in found.notes)
 
 
-def test_entities_are_refused_and_none_is_expanded():
+def test_entities_are_refused_and_none_is_expanded() -> None:
     laughs = '<!ENTITY a "ha">'
     for a, b in pairwise("abcdefghij"):
         laughs += f'<!ENTITY {b} "{10 * f"&{a};"}">'
@@ -210,7 +212,7 @@ def test_entities_are_refused_and_none_is_expanded():
     assert "declares an entity" in refusal(bomb)
 
 
-def test_nothing_outside_the_file_is_read(tmp_path):
+def test_nothing_outside_the_file_is_read(tmp_path: Path) -> None:
     secret = tmp_path / "secret.txt"
     secret.write_text("60 40")
     entity = f'<!DOCTYPE svg [<!ENTITY there SYSTEM "{secret.as_uri()}">]><svg><title>&there;</title></svg>'
@@ -220,7 +222,7 @@ def test_nothing_outside_the_file_is_read(tmp_path):
     assert len(read(typed).garment.outline) == 4
 
 
-def test_references_that_multiply_are_refused():
+def test_references_that_multiply_are_refused() -> None:
     groups = ['<g id="g0"><path d="M 0 0 H 1"/></g>']
     for i in range(1, 12):
         inside = 10 * f'<use href="#g{i - 1}"/>'
@@ -246,7 +248,7 @@ def test_references_that_multiply_are_refused():
     ],
     ids=range(11),
 )
-def test_what_is_made_to_take_long_is_refused_at_once(data: bytes):
+def test_what_is_made_to_take_long_is_refused_at_once(data: bytes) -> None:
     began = time.thread_time()
     assert refusal(data)
     assert time.thread_time() - began < 5.0
@@ -272,7 +274,7 @@ def test_what_is_made_to_take_long_is_refused_at_once(data: bytes):
         (b"<a>" * 200, "nested more than 100 deep"),
     ],
 )
-def test_what_is_wrong_is_said_with_its_place(data: bytes, message: str):
+def test_what_is_wrong_is_said_with_its_place(data: bytes, message: str) -> None:
     assert message in refusal(data)
 
 
@@ -283,20 +285,22 @@ TINY = '<path d="M 0 0 H 0.6 V 0.4 H 0 Z"/>'
 @pytest.mark.parametrize(
     ("shape", "told", "mm"), [(LONG, "60 m long", (6.0, 0.04)), (TINY, "0.006 m long", (6e-4, 4e-4))]
 )
-def test_where_the_units_of_the_file_cannot_be_meant_they_are_asked_for(shape: str, told: str, mm: tuple[float, float]):
+def test_where_the_units_of_the_file_cannot_be_meant_they_are_asked_for(
+    shape: str, told: str, mm: tuple[float, float]
+) -> None:
     with pytest.raises(UnitsNeededError, match=told) as caught:
         read(svg(shape))
     assert caught.value.sizes["mm"] == pytest.approx(mm)
 
 
-def test_a_drawing_larger_than_a_room_by_the_units_that_were_said_is_refused_with_its_size():
+def test_a_drawing_larger_than_a_room_by_the_units_that_were_said_is_refused_with_its_size() -> None:
     with pytest.raises(ImportedFileError) as caught:
         read(svg(LONG), "cm")
     assert caught.value.field == "scale"
     assert "the outline is 60 m wide" in caught.value.message
 
 
-def test_the_sizes_in_other_units_are_told_with_the_garment():
+def test_the_sizes_in_other_units_are_told_with_the_garment() -> None:
     sizes = read(svg(SQUARE)).sizes
     assert sizes is not None
     assert sizes["cm"] == pytest.approx((0.6, 0.4))
@@ -313,12 +317,12 @@ def test_the_sizes_in_other_units_are_told_with_the_garment():
     ],
     ids=["straight", "a curve that is straight", "bent", "corners too near to each other"],
 )
-def test_curves_are_said_to_be_replaced_only_where_there_are_some(shape: str, told: str):
+def test_curves_are_said_to_be_replaced_only_where_there_are_some(shape: str, told: str) -> None:
     notes = read(svg(shape)).notes
     assert next(note.text for note in notes if note.text.startswith("The outline has")).endswith(told)
 
 
-def test_an_odd_size_is_pointed_out():
+def test_an_odd_size_is_pointed_out() -> None:
     assert any("odd size" in note.text for note in read(svg(SQUARE), "mm", 0.5).notes)
 
 
@@ -327,11 +331,14 @@ SEAM = '<path d="M 2 2 H 58 V 38 H 2 Z"/>'
 
 
 @pytest.mark.parametrize(("line", "size"), [(None, (0.56, 0.36)), ("seam", (0.56, 0.36)), ("cut", (0.58, 0.38))])
-def test_of_a_cut_line_and_a_seam_line_the_one_that_is_wanted_is_taken(line, size):
+def test_of_a_cut_line_and_a_seam_line_the_one_that_is_wanted_is_taken(
+    line: Line | None, size: tuple[float, float]
+) -> None:
     found = import_file("piece.svg", svg(CUT, SEAM), line=line)
     assert np.ptp(np.array(found.garment.outline), axis=0) == pytest.approx(size)
     assert found.allowance is not None
-    assert (found.allowance.line, found.allowance.width_m) == (line or "seam", pytest.approx(0.01))
+    assert found.allowance.line == (line or "seam")
+    assert found.allowance.width_m == pytest.approx(0.01)
     assert not any("left out" in note.text for note in found.notes)
     assert any("10.0 mm" in note.text for note in found.notes)
 
@@ -345,13 +352,13 @@ def test_of_a_cut_line_and_a_seam_line_the_one_that_is_wanted_is_taken(line, siz
         '<path d="M 12 12 H 48 V 28 H 12 Z"/>',  # parallel, but far too wide
     ],
 )
-def test_another_closed_line_that_is_no_seam_line_is_left_out(inner):
+def test_another_closed_line_that_is_no_seam_line_is_left_out(inner: str) -> None:
     found = read(svg(CUT, inner))
     assert found.allowance is None
     assert np.ptp(np.array(found.garment.outline), axis=0) == pytest.approx((0.58, 0.38))
 
 
-def test_a_round_pattern_and_one_with_sharp_corners_have_their_allowance_told():
+def test_a_round_pattern_and_one_with_sharp_corners_have_their_allowance_told() -> None:
     rounded = read(svg('<circle cx="30" cy="20" r="19"/>', '<circle cx="30" cy="20" r="18.2"/>'))
     assert rounded.allowance is not None and rounded.allowance.width_m == pytest.approx(0.008, rel=0.05)
     # A triangle of 50 by 30: each side of the inner one is 1 inside, its corners are up to 3.6 away.

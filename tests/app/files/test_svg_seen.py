@@ -39,14 +39,14 @@ def sides(imported: Imported) -> tuple[float, float]:
     ],
     ids=range(10),
 )
-def test_the_page_is_no_outline(page: str):
+def test_the_page_is_no_outline(page: str) -> None:
     found = read(page, PIECE, FOLD)
     assert sides(found) == (0.4, 0.3)
     assert [fold.kind for fold in found.garment.folds] == ["blue"]
     assert not any("does not fit" in note.text for note in found.notes)
 
 
-def test_a_page_without_a_view_box_is_as_large_as_the_sheet():
+def test_a_page_without_a_view_box_is_as_large_as_the_sheet() -> None:
     rect = (
         '<rect width="100%" height="100%" fill="white"/><rect x="10" y="10" width="300" height="200" stroke="black"/>'
     )
@@ -54,7 +54,7 @@ def test_a_page_without_a_view_box_is_as_large_as_the_sheet():
     assert sides(found) == (0.3, 0.2)
 
 
-def test_what_fills_its_sheet_is_the_outline_if_there_is_no_other():
+def test_what_fills_its_sheet_is_the_outline_if_there_is_no_other() -> None:
     assert sides(read('<rect width="100%" height="100%" fill="white"/>')) == (0.5, 0.4)
     assert sides(
         read('<rect width="50" height="40" stroke="black"/>', '<circle cx="9" cy="9" r="3" stroke="red"/>')
@@ -64,7 +64,7 @@ def test_what_fills_its_sheet_is_the_outline_if_there_is_no_other():
     )
 
 
-def test_white_cloth_is_seen_on_a_dark_page():
+def test_white_cloth_is_seen_on_a_dark_page() -> None:
     page = '<rect width="100%" height="100%" fill="#333"/>'
     assert sides(read(page, '<rect x="5" y="5" width="30" height="20" fill="white"/>')) == (0.3, 0.2)
 
@@ -91,7 +91,7 @@ def test_white_cloth_is_seen_on_a_dark_page():
         'clip-path="url(#aside)"',
     ],
 )
-def test_what_cannot_be_seen_is_no_outline(attributes: str):
+def test_what_cannot_be_seen_is_no_outline(attributes: str) -> None:
     style = "<style>.BoundingBox { stroke: none; fill: none }</style>"
     clip = '<clipPath id="aside"><rect x="60" y="0" width="9" height="9"/></clipPath>'
     box = f'<rect {attributes} x="2" y="2" width="46" height="36"/>'
@@ -100,14 +100,14 @@ def test_what_cannot_be_seen_is_no_outline(attributes: str):
     assert not any("other closed line" in note.text for note in found.notes if attributes != 'fill="white"')
 
 
-def test_a_group_that_cannot_be_seen_hides_its_lines():
+def test_a_group_that_cannot_be_seen_hides_its_lines() -> None:
     hidden = '<g opacity="0"><rect x="1" y="1" width="48" height="38" stroke="black"/></g>'
     fold = '<g style="stroke-opacity: 0"><line x1="15" y1="5" x2="15" y2="35" stroke="blue"/></g>'
     found = read(hidden, fold, PIECE)
     assert sides(found) == (0.4, 0.3) and found.garment.folds == ()
 
 
-def test_an_outline_ends_where_it_is_clipped():
+def test_an_outline_ends_where_it_is_clipped() -> None:
     clip = '<clipPath id="c"><rect x="10" y="5" width="20" height="100"/></clipPath>'
     found = read(clip, f'<g clip-path="url(#c)">{PIECE}</g>')
     assert sides(found) == (0.2, 0.3)
@@ -116,12 +116,12 @@ def test_an_outline_ends_where_it_is_clipped():
     assert sides(read(page, f'<g clip-path="url(#p)">{PIECE}</g>')) == (0.4, 0.3)
 
 
-def test_a_drawing_with_nothing_to_be_seen_is_refused():
+def test_a_drawing_with_nothing_to_be_seen_is_refused() -> None:
     with pytest.raises(ImportedFileError, match="nothing drawn"):
         read('<rect x="5" y="5" width="30" height="20" fill="none"/>')
 
 
-def test_percentages_are_of_the_viewport_around_them():
+def test_percentages_are_of_the_viewport_around_them() -> None:
     # 80 % of 50 by 75 % of 40; then half of a nested drawing that is 20 by 10 and drawn twice as large.
     assert sides(read('<rect x="10%" y="10%" width="80%" height="75%"/>')) == (0.4, 0.3)
     nested = '<svg x="5" y="5" width="40" height="20" viewBox="0 0 20 10"><rect width="50%" height="50%"/></svg>'
@@ -151,7 +151,7 @@ def test_percentages_are_of_the_viewport_around_them():
     ],
     ids=range(12),
 )
-def test_style_sheets_reach_lines_through_what_is_around_them(sheet: str):
+def test_style_sheets_reach_lines_through_what_is_around_them(sheet: str) -> None:
     outline = '<g id="outline"><path d="M5 5H45V35H5Z"/></g>'
     folds = '<g id="folds" class="late"><g class="late"><path id="middle" data-kind="fold" d="M25 5V35"/></g></g>'
     flat = folds.replace('<g class="late">', "", 1).replace("</g></g>", "</g>")
@@ -160,7 +160,7 @@ def test_style_sheets_reach_lines_through_what_is_around_them(sheet: str):
     assert sides(found) == (0.4, 0.3)
 
 
-def test_a_selector_asks_for_all_of_its_steps():
+def test_a_selector_asks_for_all_of_its_steps() -> None:
     sheet = "<style>#folds .a > path { stroke: blue } g { stroke: none; fill: none }</style>"
     near = '<g id="folds"><g class="a"><path d="M25 5V35"/></g><g class="a"><g><path d="M15 5V35"/></g></g></g>'
     far = '<g class="a"><path d="M35 5V35"/></g>'
@@ -185,7 +185,7 @@ def test_a_selector_asks_for_all_of_its_steps():
         ("url(#gradient)", None),
     ],
 )
-def test_a_line_is_a_fold_by_its_colour_however_that_is_written(paint: str, kind: str | None):
+def test_a_line_is_a_fold_by_its_colour_however_that_is_written(paint: str, kind: str | None) -> None:
     drawn = f'<path d="M 15 5 V 35" style="stroke: {paint}" fill="none"/>'
     kinds = [fold.kind for fold in read(PIECE, FOLD, drawn).garment.folds]
     assert kinds == (["blue"] if kind is None else ["blue", kind])

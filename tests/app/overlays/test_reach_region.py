@@ -7,10 +7,12 @@ import pytest
 from app.overlays.reach_region import Grid, reach_regions, region_where, takeable, takeable_region
 from planner import load_garment, make_plan
 from planner.geometry.isometry import Isometry
-from planner.geometry.pose import FloatArray
+from planner.geometry.pose import BoolArray, FloatArray
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 from planner.robots.load_robot import load_robot
+from planner.robots.pr2 import Pr2
+from tests.required import required
 
 TORSO_M, HEIGHT_M = 0.29, 0.79
 GRID = Grid.beside((0.0, 0.2))
@@ -26,11 +28,12 @@ def bare() -> tuple[Region, ...]:
     return reach_regions(load_robot("pr2"), TORSO_M, 0.0, HEIGHT_M)
 
 
-def test_a_disc_is_found_to_a_sixteenth_of_the_grid():
+def test_a_disc_is_found_to_a_sixteenth_of_the_grid() -> None:
     middle, radius = np.array([0.411, -0.137]), 0.5
 
-    def is_in_disc(points: FloatArray) -> np.ndarray:
-        return np.hypot(*(points - middle).T) <= radius
+    def is_in_disc(points: FloatArray) -> BoolArray:
+        inside: BoolArray = np.hypot(*(points - middle).T) <= radius
+        return inside
 
     found = region_where(is_in_disc, GRID)
     away = np.hypot(*(found.coordinates - middle).T)
@@ -40,10 +43,11 @@ def test_a_disc_is_found_to_a_sixteenth_of_the_grid():
     assert found.area == pytest.approx(math.pi * radius**2, rel=0.01)
 
 
-def test_holes_and_separate_parts_are_kept():
-    def is_in(points: FloatArray) -> np.ndarray:
+def test_holes_and_separate_parts_are_kept() -> None:
+    def is_in(points: FloatArray) -> BoolArray:
         away = np.hypot(*(points - [0.4, 0.0]).T)
-        return ((away > 0.2) & (away < 0.4)) | (np.hypot(*(points - [0.4, 0.9]).T) < 0.1)
+        inside: BoolArray = ((away > 0.2) & (away < 0.4)) | (np.hypot(*(points - [0.4, 0.9]).T) < 0.1)
+        return inside
 
     found = region_where(is_in, GRID)
     assert len(found.pieces) == 2
@@ -51,12 +55,12 @@ def test_holes_and_separate_parts_are_kept():
     assert not found.contains((0.4, 0.0))
 
 
-def test_where_nothing_can_be_reached_the_region_is_empty():
+def test_where_nothing_can_be_reached_the_region_is_empty() -> None:
     assert region_where(lambda points: np.zeros(len(points), dtype=bool), GRID).area == 0.0
 
 
 @pytest.mark.parametrize(("torso_m", "height_m"), [(0.29, 0.79), (0.02, 0.5)])
-def test_what_is_left_out_as_too_far_is_out_of_reach(torso_m: float, height_m: float):
+def test_what_is_left_out_as_too_far_is_out_of_reach(torso_m: float, height_m: float) -> None:
     reach = load_robot("pr2").reach(torso_m, 0.02)
     for arm in range(2):
         asked = partial(takeable, reach, arm, height_m)
@@ -65,14 +69,16 @@ def test_what_is_left_out_as_too_far_is_out_of_reach(torso_m: float, height_m: f
         assert quick.difference(plain).area + plain.difference(quick).area == 0.0
 
 
-def test_both_arms_reach_mirror_images(bare: tuple[Region, ...]):
+def test_both_arms_reach_mirror_images(bare: tuple[Region, ...]) -> None:
     left, right = bare
     mirrored = right.moved(Isometry.reflection(Segment((0.0, 0.0), (1.0, 0.0))))
     # But for what the body and the other arm hinder, which is not quite the same on both sides.
     assert left.difference(mirrored).area + mirrored.difference(left).area < 0.02 * left.area
 
 
-def test_with_comfort_an_arm_reaches_less_and_nothing_more(comfortable: tuple[Region, ...], bare: tuple[Region, ...]):
+def test_with_comfort_an_arm_reaches_less_and_nothing_more(
+    comfortable: tuple[Region, ...], bare: tuple[Region, ...]
+) -> None:
     for little, much in zip(comfortable, bare, strict=True):
         assert 0.3 < little.area < much.area
         assert little.difference(much).area < 0.002
@@ -80,8 +86,9 @@ def test_with_comfort_an_arm_reaches_less_and_nothing_more(comfortable: tuple[Re
 
 def test_what_is_well_inside_can_be_reached_by_the_arms_joints_and_what_is_far_outside_cannot(
     bare: tuple[Region, ...],
-):
+) -> None:
     robot, approaches = load_robot("pr2"), load_robot("pr2").reach(TORSO_M, 0.0).approaches
+    assert isinstance(robot, Pr2)
     rotations = np.array([approach.rotation for approach in approaches])
     rng = np.random.default_rng(5)
     for x, y in rng.uniform((0.0, -1.0), (1.2, 1.0), (150, 2)):
@@ -94,12 +101,12 @@ def test_what_is_well_inside_can_be_reached_by_the_arms_joints_and_what_is_far_o
             assert is_near or not bare[0].contains((x, y))
 
 
-def test_whatever_a_plan_picks_up_with_free_hands_lies_in_the_region(comfortable: tuple[Region, ...]):
+def test_whatever_a_plan_picks_up_with_free_hands_lies_in_the_region(comfortable: tuple[Region, ...]) -> None:
     plan = make_plan(load_garment("t-shirt"))
     arms = {arm.name: number for number, arm in enumerate(load_robot(plan.task.robot).card.arms)}
     picked = 0
     for number, step in enumerate(plan.steps):
-        phases = (segment.phase for segment in plan.trajectory.of_step(number))
+        phases = (segment.phase for segment in required(plan.trajectory).of_step(number))
         held = [phase for phase in phases if any(hand and hand.is_closed for hand in phase.hands)]
         for grip in step.grips:
             x, y, _ = held[0].base[0].to_inner(np.array(grip.pick))

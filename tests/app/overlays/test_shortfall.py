@@ -11,6 +11,7 @@ from app.overlays.shortfall import Lack, NearReach, near_reach
 from planner import load_garment
 from planner.geometry.pose import FloatArray, Pose2
 from planner.robots.load_robot import load_robot
+from planner.robots.pr2 import Pr2
 
 pytestmark = pytest.mark.anyio
 
@@ -42,7 +43,9 @@ def near(lacking: Lack) -> NearReach:
 
 
 @pytest.mark.parametrize(("point", "approach"), [FAR_AHEAD, FAR_ASIDE])
-def test_the_edge_is_as_far_from_the_point_as_it_is_said_to_be_short(point: tuple[float, float, float], approach: int):
+def test_the_edge_is_as_far_from_the_point_as_it_is_said_to_be_short(
+    point: tuple[float, float, float], approach: int
+) -> None:
     lacking = lack(point, approach)
     found = near(lacking)
     start, along = np.array(point[:2]), towards(lacking)[:2]
@@ -56,7 +59,7 @@ def test_the_edge_is_as_far_from_the_point_as_it_is_said_to_be_short(point: tupl
     assert min(gaps) < 0.01
 
 
-def test_what_is_straight_too_high_has_no_reach_at_that_height_that_could_hide_it():
+def test_what_is_straight_too_high_has_no_reach_at_that_height_that_could_hide_it() -> None:
     point, approach = TOO_HIGH
     lacking = lack(point, approach)
     assert towards(lacking)[2] == -1.0
@@ -68,9 +71,10 @@ def test_what_is_straight_too_high_has_no_reach_at_that_height_that_could_hide_i
     assert found.beyond.area == pytest.approx(whole, rel=1e-4)
 
 
-def test_beyond_the_edge_the_hand_cannot_be_whatever_its_joints_and_before_it_it_can():
+def test_beyond_the_edge_the_hand_cannot_be_whatever_its_joints_and_before_it_it_can() -> None:
     point, approach = FAR_AHEAD
     robot = load_robot("pr2")
+    assert isinstance(robot, Pr2)
     lacking = lack(point, approach)
     found = near(lacking)
     rng = np.random.default_rng(3)

@@ -42,7 +42,7 @@ def hold(lifted_m: float = 0.0, heading_rad: float | None = 0.0, *, opens: bool 
     return StepMotion(0, "drag", 0.4, (grip,))
 
 
-def test_fingers_lie_on_both_sides_of_the_cloth_and_reach_back_from_it():
+def test_fingers_lie_on_both_sides_of_the_cloth_and_reach_back_from_it() -> None:
     points = np.array([[0.1, 0.0, 0.02], [0.1, 0.0, 0.026]])
     lower, upper = around(points, UP, math.pi / 2.0, SIZE, 0.0)
     assert lower.middle[2] + SIZE.thickness_m / 2.0 == pytest.approx(0.02, abs=1e-3)
@@ -53,7 +53,7 @@ def test_fingers_lie_on_both_sides_of_the_cloth_and_reach_back_from_it():
     assert around(points, np.array([1.0, 0.0, 0.0]), 0.0, SIZE, 0.0) == []
 
 
-def test_a_finger_under_cloth_lifts_it_by_its_thickness_and_one_beside_it_does_not():
+def test_a_finger_under_cloth_lifts_it_by_its_thickness_and_one_beside_it_does_not() -> None:
     thickness_m = robot_card_file("pr2").arms[0].gripper.finger_thickness_m
     heights = []
     for heading_rad in (0.0, None):
@@ -64,7 +64,7 @@ def test_a_finger_under_cloth_lifts_it_by_its_thickness_and_one_beside_it_does_n
     assert heights[1] < 0.003
 
 
-def test_cloth_that_lies_upon_a_finger_is_held_up_by_it_until_that_is_drawn_out():
+def test_cloth_that_lies_upon_a_finger_is_held_up_by_it_until_that_is_drawn_out() -> None:
     table = world()
     table.perform(hold(opens=False))
     table._let_go({"left"})
@@ -77,7 +77,7 @@ def test_cloth_that_lies_upon_a_finger_is_held_up_by_it_until_that_is_drawn_out(
     assert table.simulation.positions[near, 2] < 0.005
 
 
-def test_a_stack_higher_than_fingers_hold_slips_out_of_them():
+def test_a_stack_higher_than_fingers_hold_slips_out_of_them() -> None:
     # At the edge is every second row: 2 and 9 layers, 4 and 18 mm when they are pressed on one another.
     motion, (few, many) = hold(), (world(layers) for layers in (3, 17))
     assert few.perform(motion).has_cloth == {"left": True}
@@ -85,12 +85,12 @@ def test_a_stack_higher_than_fingers_hold_slips_out_of_them():
     assert not many.simulation.held
 
 
-def test_the_highest_stack_is_half_of_what_fingers_open_at_a_stack():
+def test_the_highest_stack_is_half_of_what_fingers_open_at_a_stack() -> None:
     assert SIZE.stack_max_m == pytest.approx(0.015)
     assert replace(SIZE, opening_m=0.02).stack_max_m == pytest.approx(0.01)
 
 
-def test_hands_point_where_the_plan_has_them_point():
+def test_hands_point_where_the_plan_has_them_point() -> None:
     (motion,) = step_motions(towel_plan())
     path = towel_plan().trajectory
     assert path is not None

@@ -27,7 +27,7 @@ def fold(turned_rad: tuple[float, ...] = ()) -> GripMotion:
     return GripMotion("left", (0.0, 1.0, 2.0), points, turned_rad=turned_rad)
 
 
-def test_cloth_beside_the_fingers_lies_on_their_other_side_after_a_fold():
+def test_cloth_beside_the_fingers_lies_on_their_other_side_after_a_fold() -> None:
     # 1.5 cm inwards of the tip before the fold, as far inwards of it afterwards: the fold's mirror image.
     way = HandWay(fold(), held((0.0, 0.0, 0.0), (-0.015, 0.004, 0.0)), is_fold=True, top=TOP)
     assert way.at(0.0)[7] == pytest.approx([0.085, 0.004, 0.0])
@@ -35,7 +35,7 @@ def test_cloth_beside_the_fingers_lies_on_their_other_side_after_a_fold():
     assert way.at(2.0)[7] == pytest.approx([-0.085, 0.004, 0.0])
 
 
-def test_cloth_between_the_fingers_turns_over_only_with_a_hand_that_rolls():
+def test_cloth_between_the_fingers_turns_over_only_with_a_hand_that_rolls() -> None:
     between = held((-0.01, 0.0, 0.001), (0.0, 0.0, 0.0))
     still = HandWay(fold(), between, is_fold=True, top=TOP)
     rolls = HandWay(fold((0.0, math.pi / 2.0, math.pi)), between, is_fold=True, top=TOP)
@@ -43,7 +43,7 @@ def test_cloth_between_the_fingers_turns_over_only_with_a_hand_that_rolls():
     assert rolls.at(2.0)[7] == pytest.approx([-0.09, 0.0, -0.001])
 
 
-def test_cloth_turns_over_round_the_ends_of_fingers_that_point_along_the_way_and_do_not_roll():
+def test_cloth_turns_over_round_the_ends_of_fingers_that_point_along_the_way_and_do_not_roll() -> None:
     # Fingers point from x = 10 cm to x = -10 cm and end PAD_M ahead of their tip: what is beyond lies under them then.
     along = replace(fold(), heading_rad=math.pi)
     for ahead, after in ((-0.005, -0.005), (-0.5 * PAD_M, -0.5 * PAD_M), (-0.02, 0.02 - 2.0 * PAD_M)):
@@ -52,12 +52,12 @@ def test_cloth_turns_over_round_the_ends_of_fingers_that_point_along_the_way_and
         assert way.at(2.0)[7] == pytest.approx([-0.1 + after, 0.004, 0.0], abs=1e-9)
 
 
-def test_nothing_turns_over_in_a_drag():
+def test_nothing_turns_over_in_a_drag() -> None:
     way = HandWay(fold(), held((0.0, 0.0, 0.0), (-0.015, 0.0, 0.0)), is_fold=False, top=TOP)
     assert way.at(2.0)[7] == pytest.approx([-0.115, 0.0, 0.0])
 
 
-def test_cloth_that_hung_beside_the_table_turns_over_by_a_quarter_more():
+def test_cloth_that_hung_beside_the_table_turns_over_by_a_quarter_more() -> None:
     # It hangs up to the edge from the fingers; laid down it leads back towards the edge.
     x = -Table().depth_m / 2.0
     points = ((x - 0.03, 0.0, -0.1), (x, 0.0, 0.1), (x + 0.1, 0.0, 0.02))
@@ -67,7 +67,7 @@ def test_cloth_that_hung_beside_the_table_turns_over_by_a_quarter_more():
     assert not way.held_at(2.0).hangs
 
 
-def test_cloth_taken_on_the_table_turns_over_by_half_a_turn_wherever_it_was_dragged_before():
+def test_cloth_taken_on_the_table_turns_over_by_half_a_turn_wherever_it_was_dragged_before() -> None:
     # The tie's folds begin beyond the table's edge, where drags end: its creases were turned by a quarter too far.
     x = -Table().depth_m / 2.0
     points = ((x - 0.1, 0.0, 0.02), (x + 0.1, 0.0, 0.2), (x + 0.3, 0.0, 0.02))
@@ -77,7 +77,7 @@ def test_cloth_taken_on_the_table_turns_over_by_half_a_turn_wherever_it_was_drag
     assert way.at(2.0)[7] - fingertip(np.array(points[-1])) == pytest.approx([-0.015, 0.0, 0.0])
 
 
-def test_the_lowest_cloth_in_a_hand_is_laid_on_the_stack_and_stays_as_high_if_the_hand_holds_on():
+def test_the_lowest_cloth_in_a_hand_is_laid_on_the_stack_and_stays_as_high_if_the_hand_holds_on() -> None:
     layers = HeldCloth((1, 2), np.array([[0.0, 0.0, 0.001], [0.0, 0.0, 0.003]]), np.zeros((2, 3)))
     way = HandWay(fold(), layers, is_fold=True, top=TOP).landing_on(0.009)
     assert way.at(0.0)[1] == pytest.approx([0.1, 0.0, 0.001])
@@ -87,7 +87,7 @@ def test_the_lowest_cloth_in_a_hand_is_laid_on_the_stack_and_stays_as_high_if_th
     assert HandWay(fold(), layers, is_fold=True, top=TOP).landing_on(0.0).rise_m == 0.0
 
 
-def test_fingers_close_a_loop_and_leave_layers_that_lie_on_one_another_as_they_are():
+def test_fingers_close_a_loop_and_leave_layers_that_lie_on_one_another_as_they_are() -> None:
     loop = HeldCloth(
         (1, 2), np.array([[0.0, 0.0, 0.001], [0.0, 0.0, 0.015]]), np.array([[0.0] * 3, [0.0, 0.01, 0.006]])
     )
@@ -99,12 +99,12 @@ def test_fingers_close_a_loop_and_leave_layers_that_lie_on_one_another_as_they_a
     assert layers.pressed(0.002).between == pytest.approx(layers.between)
 
 
-def test_a_hand_that_holds_on_keeps_a_finger_between_its_cloth_and_the_stack():
+def test_a_hand_that_holds_on_keeps_a_finger_between_its_cloth_and_the_stack() -> None:
     way = HandWay(replace(fold(), opens=False), held((0.0, 0.0, 0.001), (0.0, 0.0, 0.0)), is_fold=True, top=TOP)
     assert way.landing_on(0.009).at(2.0)[7][2] == pytest.approx(0.009 + way.under_m)
 
 
-def test_a_vertex_is_held_as_far_beside_the_fingers_as_it_is():
+def test_a_vertex_is_held_as_far_beside_the_fingers_as_it_is() -> None:
     # One triangle whose edge passes under the tip, 2 cm from either of its ends: the vertex nearest to it is held.
     positions = np.array([[0.0, 0.02, 0.001], [0.0, -0.021, 0.001], [0.03, 0.0, 0.001]])
     found = pinched(positions, np.array([[0, 1, 2]]), np.array([0.0, 0.0, REST_HEIGHT_M]), TOP, 0.03)
@@ -115,14 +115,14 @@ def test_a_vertex_is_held_as_far_beside_the_fingers_as_it_is():
     assert cloth.beside == pytest.approx(np.array([[0.0, 0.02, 0.0]]))
 
 
-def test_of_several_triangles_at_a_vertex_the_one_nearest_to_the_fingers_tells_where_they_are():
+def test_of_several_triangles_at_a_vertex_the_one_nearest_to_the_fingers_tells_where_they_are() -> None:
     positions = np.array([[0.0, 0.0, 0.0], [0.02, 0.0, 0.0], [0.02, 0.02, 0.0], [0.0, -0.02, 0.0], [0.02, -0.02, 0.0]])
     triangles = np.array([[0, 3, 4], [0, 1, 2]])
     found = pinched(positions, triangles, np.array([0.008, 0.004, REST_HEIGHT_M]), TOP, 0.03)
     assert found[0] == pytest.approx([0.008, 0.004, 0.0])
 
 
-def test_fingers_hold_a_sheet_at_one_line_and_each_sheet_at_its_own():
+def test_fingers_hold_a_sheet_at_one_line_and_each_sheet_at_its_own() -> None:
     # Two strips of two triangles on one another, of which the tip touches the first triangle, and only the lower
     # strip reaches the tip: all that is held of a strip turns about where that comes nearest to the fingers.
     strip = np.array([[0.0, -0.01, 0.001], [0.0, 0.01, 0.001], [0.02, -0.01, 0.001], [0.02, 0.01, 0.001]])
@@ -134,7 +134,7 @@ def test_fingers_hold_a_sheet_at_one_line_and_each_sheet_at_its_own():
         assert point == pytest.approx([0.001, -0.002, 0.001] if vertex < 4 else [0.006, -0.002, 0.003])
 
 
-def test_the_two_sheets_that_meet_at_a_crease_are_each_held_at_their_own_height():
+def test_the_two_sheets_that_meet_at_a_crease_are_each_held_at_their_own_height() -> None:
     # Held at one line they would change places as they turn about it, and the other layers of the stack would not: a
     # layer beside such a crease was pushed out of the stack by 5 cm in a T-shirt's last fold.
     rows = ((0.0, 0.003), (-0.02, 0.001), (-0.02, 0.005))
@@ -148,7 +148,7 @@ def test_the_two_sheets_that_meet_at_a_crease_are_each_held_at_their_own_height(
 @pytest.mark.parametrize(("way", "second"), [((1.0, 0.0), 2), ((0.0, -1.0), 1)])
 def test_fingers_hold_two_vertices_across_their_way_so_that_cloth_does_not_turn_in_them(
     way: tuple[float, float], second: int
-):
+) -> None:
     # Of a square that is held by its first corner the one after it lies along x, the other along y.
     positions = np.array([[0.0, 0.0, 0.0], [0.02, 0.0, 0.0], [0.0, 0.02, 0.0], [0.02, 0.02, 0.0]])
     triangles, point, tip = np.array([[0, 1, 2], [1, 3, 2]]), np.array([0.001, 0.002, 0.0]), np.zeros(3)
@@ -158,7 +158,7 @@ def test_fingers_hold_two_vertices_across_their_way_so_that_cloth_does_not_turn_
     assert clamped(taken, positions, triangles, tip, np.array(way)).keys() == taken.keys()
 
 
-def test_at_a_crease_fingers_hold_a_vertex_beside_it_in_each_of_the_two_sheets():
+def test_at_a_crease_fingers_hold_a_vertex_beside_it_in_each_of_the_two_sheets() -> None:
     # A crease at x = 0 and a row of each sheet behind it, the upper one 2 mm further back: with its lower sheet alone
     # held, the upper one slid out of the hand by as much as it liked.
     rows = ((0.0, 0.003), (-0.02, 0.001), (-0.022, 0.005))
@@ -182,18 +182,20 @@ def test_at_a_crease_fingers_hold_a_vertex_beside_it_in_each_of_the_two_sheets()
         ((-3.0, -4.0), (1.0, 0.0, 0.0)),
     ],
 )
-def test_the_weights_of_a_triangle_are_those_of_its_nearest_point(point: tuple[float, ...], wanted: tuple[float, ...]):
+def test_the_weights_of_a_triangle_are_those_of_its_nearest_point(
+    point: tuple[float, ...], wanted: tuple[float, ...]
+) -> None:
     triangle = np.array([[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]])
     assert nearest_weights(triangle, np.array(point))[0] == pytest.approx(wanted)
 
 
-def test_layers_between_fingers_are_as_high_as_they_are_many():
+def test_layers_between_fingers_are_as_high_as_they_are_many() -> None:
     layers = HeldCloth((1, 2, 3), np.array([[0.0, 0.0, z] for z in (0.001, 0.003, 0.015)]), np.zeros((3, 3)))
     assert layers.stack_m(0.002) == pytest.approx(0.006)
     beside = HeldCloth((1, 2), np.array([[0.0, 0.0, 0.001]] * 2), np.array([[0.0] * 3, [0.01, 0.0, 0.0005]]))
     assert beside.stack_m(0.002) == pytest.approx(0.002)
 
 
-def test_a_hand_with_a_finger_under_its_cloth_lays_it_down_as_much_higher():
+def test_a_hand_with_a_finger_under_its_cloth_lays_it_down_as_much_higher() -> None:
     way = HandWay(replace(fold(), heading_rad=0.0), held((0.0, 0.0, 0.001), (0.0, 0.0, 0.0)), True, TOP, 0.012)
     assert way.landing_on(0.009).at(2.0)[7][2] == pytest.approx(0.009 + 0.012)

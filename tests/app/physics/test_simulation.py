@@ -28,7 +28,7 @@ def lying(length_m: float, width_m: float, fabric: Fabric, edge_m: float, x_m: f
 
 
 @pytest.mark.parametrize("fabric", [Fabric(), LIGHT])
-def test_cloth_that_lies_stays_where_it_is(fabric: Fabric):
+def test_cloth_that_lies_stays_where_it_is(fabric: Fabric) -> None:
     cloth = lying(0.2, 0.2, fabric, 0.04)
     before = cloth.positions
     cloth.run(1.0)
@@ -37,7 +37,7 @@ def test_cloth_that_lies_stays_where_it_is(fabric: Fabric):
 
 @pytest.mark.parametrize("fabric", [Fabric(), LIGHT])
 @pytest.mark.parametrize("friction", [0.3, 0.6])
-def test_sliding_cloth_stops_after_the_way_of_a_block(fabric: Fabric, friction: float):
+def test_sliding_cloth_stops_after_the_way_of_a_block(fabric: Fabric, friction: float) -> None:
     # v^2 / (2 mu g); the air is left out.
     cloth, speed = lying(0.12, 0.12, replace(fabric, friction=friction, drag_per_s=0.0), 0.04), 0.5
     cloth.push(np.array([speed, 0.0, 0.0]))
@@ -48,7 +48,7 @@ def test_sliding_cloth_stops_after_the_way_of_a_block(fabric: Fabric, friction: 
 
 
 @pytest.mark.parametrize("bias_rad", [0.0, math.pi / 4.0])
-def test_hung_cloth_stretches_by_its_weight_along_its_threads_and_more_across(bias_rad: float):
+def test_hung_cloth_stretches_by_its_weight_along_its_threads_and_more_across(bias_rad: float) -> None:
     # The end of a strip that hangs by its edge sinks by w L^2 / (2 K). Pulled at 45 degrees to threads that do not
     # contract, it grows by both threads' stretch and by shear: 4 / K is 2 / stretch + 1 / shear.
     fabric, length = Fabric(stretch_n_m=100.0, push_n_m=100.0, shear_n_m=20.0), 0.3
@@ -64,7 +64,7 @@ def test_hung_cloth_stretches_by_its_weight_along_its_threads_and_more_across(bi
     assert sunk == pytest.approx(fabric.density_kg_m2 * G * length**2 / (2.0 * stiffness), rel=0.1)
 
 
-def test_a_panel_that_stands_gives_way_to_its_weight_where_a_hung_one_hardly_stretches():
+def test_a_panel_that_stands_gives_way_to_its_weight_where_a_hung_one_hardly_stretches() -> None:
     # Upright, held by its lower or its upper edge, and too stiff to topple: the free edge sinks by w L^2 / (2 K), with
     # the stiffness of threads that are pushed together, or of threads that are pulled.
     fabric, length = Fabric(push_n_m=10.0, bending_length_m=0.1), 0.1
@@ -81,7 +81,7 @@ def test_a_panel_that_stands_gives_way_to_its_weight_where_a_hung_one_hardly_str
     assert 0.0 < sunk[1] < 0.02 * sunk[0]
 
 
-def test_threads_pushed_together_give_way_before_they_bear_what_buckles_a_row():
+def test_threads_pushed_together_give_way_before_they_bear_what_buckles_a_row() -> None:
     # Euler: a row of width 1 m and the bending stiffness B buckles under pi^2 B over its length squared, and bears no
     # more however far it is pushed. Layers that bore ten times as much stood over creases as folded plates.
     fabric, row_m = Fabric(), Resolution().edge_m
@@ -90,7 +90,7 @@ def test_threads_pushed_together_give_way_before_they_bear_what_buckles_a_row():
     assert fabric.pushed_n_m(row_m / 2.0) == pytest.approx(4.0 * fabric.pushed_n_m(row_m))
 
 
-def test_cloth_over_an_edge_droops_as_a_cantilever_of_its_bending_length():
+def test_cloth_over_an_edge_droops_as_a_cantilever_of_its_bending_length() -> None:
     # Peirce (1930): where a strip of length l hangs over an edge and the line to its end is theta below the horizontal,
     # its bending length is l (cos(theta / 2) / (8 tan(theta)))^(1/3): half of l at 41.5 degrees.
     bending, edge = 0.03, 0.005
@@ -108,7 +108,7 @@ def test_cloth_over_an_edge_droops_as_a_cantilever_of_its_bending_length():
     assert length == pytest.approx(bending, rel=0.1)
 
 
-def test_the_loop_at_a_fold_is_as_high_as_an_elastica_makes_it():
+def test_the_loop_at_a_fold_is_as_high_as_an_elastica_makes_it() -> None:
     # A strip that lies on itself leaves the table without curvature and comes to lie without. Between is a loop of the
     # heavy elastica: without thickness and tension, as a boundary value problem, .907 bending lengths high.
     bending, half, edge, duration = 0.03, 0.15, 0.01, 2.0
@@ -128,7 +128,7 @@ def test_the_loop_at_a_fold_is_as_high_as_an_elastica_makes_it():
     assert np.abs(places[:, 0] + np.abs(flat[:, 0])).mean() < 0.005
 
 
-def test_a_crease_folded_flat_rolls_on_when_the_upper_layer_is_pulled():
+def test_a_crease_folded_flat_rolls_on_when_the_upper_layer_is_pulled() -> None:
     # The upper layer is pulled by 3 cm, so the crease rolls by 1.5 cm, over a row of the mesh. The lower layer, twice
     # as long, is held by friction of .6 times the weight of both; the upper one drags it with .5 times its own at most.
     fabric, edge, pulled_m, duration = Fabric(friction=0.6), 0.02, 0.03, 0.5
@@ -147,7 +147,7 @@ def test_a_crease_folded_flat_rolls_on_when_the_upper_layer_is_pulled():
     assert cloth.positions[:, 0].max() == pytest.approx(crease - pulled_m / 2.0, abs=0.007)
 
 
-def test_a_loop_pressed_to_half_its_width_resists_half_as_much_as_an_elastica_between_two_plates():
+def test_a_loop_pressed_to_half_its_width_resists_half_as_much_as_an_elastica_between_two_plates() -> None:
     # Between plates at a distance h the curvature is (2 F sin(angle) / D)^(1/2), so h is the integral of
     # (D sin(angle) / (2 F))^(1/2) over half a turn.
     fabric, width, edge = Fabric(), 0.01, 0.02
@@ -158,7 +158,7 @@ def test_a_loop_pressed_to_half_its_width_resists_half_as_much_as_an_elastica_be
     assert stiffness * width / 2.0 == pytest.approx(force / 2.0, rel=1e-3)
 
 
-def test_vertices_two_rows_apart_have_one_between_them_along_or_across_the_threads():
+def test_vertices_two_rows_apart_have_one_between_them_along_or_across_the_threads() -> None:
     points, triangles = woven_mesh(rectangle(0.1, 0.1), 0.02)
     pairs = two_rows_apart(points, triangles)
     along = np.abs(points[pairs[:, 0]] - points[pairs[:, 1]])
@@ -168,7 +168,7 @@ def test_vertices_two_rows_apart_have_one_between_them_along_or_across_the_threa
     assert np.hypot(*along.T).max() < 0.075
 
 
-def test_cloth_held_by_its_edge_beside_its_middle_hangs_level_and_does_not_turn_in_the_fingers():
+def test_cloth_held_by_its_edge_beside_its_middle_hangs_level_and_does_not_turn_in_the_fingers() -> None:
     # An upright strip, 10 cm long, is held 3 cm from one end. Free to turn it would hang with its middle below.
     points, triangles = woven_mesh(rectangle(0.1, 0.04), 0.02)
     rest = np.column_stack([points[:, 0], np.zeros(len(points)), points[:, 1]])
@@ -186,7 +186,7 @@ def test_cloth_held_by_its_edge_beside_its_middle_hangs_level_and_does_not_turn_
     assert abs(sunk[True]) < 0.005
 
 
-def test_fingers_pinch_all_layers_at_their_place_and_nothing_beside_the_cloth():
+def test_fingers_pinch_all_layers_at_their_place_and_nothing_beside_the_cloth() -> None:
     points, triangles = woven_mesh(rectangle(0.1, 0.1), 0.02)
     count, top = len(points), TableTop.of(Table())
     stack = np.concatenate([np.column_stack([points, np.full(count, z)]) for z in (0.001, 0.003)])

@@ -17,7 +17,7 @@ FLAT = np.column_stack([POINTS, np.zeros(len(POINTS))])
 ALIKE = Fabric(stretch_n_m=300.0, push_n_m=300.0, shear_n_m=150.0)
 
 
-def test_cloth_alike_in_all_directions_has_the_stiffness_that_mujoco_gives_it():
+def test_cloth_alike_in_all_directions_has_the_stiffness_that_mujoco_gives_it() -> None:
     model = mujoco.MjModel.from_xml_string(model_xml(FLAT, POINTS, TRIANGLES, ALIKE, Resolution(), None))
     own = model.flex_stiffness.reshape(len(TRIANGLES), -1)
     found = Weave.of(POINTS, TRIANGLES, ALIKE, 0.03).stiffness(1.1 * FLAT)
@@ -25,7 +25,7 @@ def test_cloth_alike_in_all_directions_has_the_stiffness_that_mujoco_gives_it():
     assert not own[:, 6:].any()
 
 
-def test_the_stiffness_depends_on_how_threads_run_and_on_whether_they_are_pulled():
+def test_the_stiffness_depends_on_how_threads_run_and_on_whether_they_are_pulled() -> None:
     turn = np.array([[0.8, -0.6], [0.6, 0.8]])
     fabric = replace(ALIKE, shear_n_m=30.0, push_n_m=60.0)
     woven = Weave.of(POINTS, TRIANGLES, fabric, 0.03)

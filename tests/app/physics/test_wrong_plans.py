@@ -55,7 +55,7 @@ def hung(beyond: float, friction: float, edge_m: float) -> tuple[PhysicsWorld, T
 @pytest.mark.parametrize(("beyond", "friction", "holds"), [(0.2, 0.5, True), (0.5, 0.3, False)])
 def test_cloth_hung_beyond_friction_slides_off_the_table_and_less_of_it_stays(
     beyond: float, friction: float, *, holds: bool
-):
+) -> None:
     # By the model friction / (1 + friction) of it may hang: a third and .23. The edge itself holds a little more.
     world, task = hung(beyond, friction, 0.04)
     world.simulation.run(1.0)
@@ -77,7 +77,7 @@ def test_half_of_a_strip_holds_the_other_half_where_friction_holds_a_rope_round_
 
 
 @pytest.mark.long
-def test_folds_made_out_of_order_are_lost():
+def test_folds_made_out_of_order_are_lost() -> None:
     lies = Pose2(-LONG / 2.0, -WIDE / 2.0, 0.0)
     task = Task.of(garment(rectangle_points(LONG, WIDE), HALF, QUARTER, placement=lies))
     left, right, low = -LONG / 2.0, LONG / 2.0, -WIDE / 2.0

@@ -16,7 +16,7 @@ from tests.app.rehearsal.flat_cloth import FlatCloth, home, no_plan
 from tests.app.rehearsal.towel import towel_plan
 
 
-def test_hands_that_are_seen_beside_their_places_close_where_they_should():
+def test_hands_that_are_seen_beside_their_places_close_where_they_should() -> None:
     plan, cloth = towel_plan(), FlatCloth(0.0, 0.0)
     noisy = NoisyWorld(CameraWorld(cloth, plan.task, home(), 3), Noise(arm_m=0.006), 2, plan.task)
     done = Performer(plan, noisy, Gate(), no_plan).performed()
@@ -27,7 +27,7 @@ def test_hands_that_are_seen_beside_their_places_close_where_they_should():
     assert dict(done.decisions[-1].numbers)["beside_m"] == pytest.approx(0.012, abs=0.003)
 
 
-def test_a_hand_that_holds_on_begins_where_it_was_seen_to_be_and_ends_as_asked():
+def test_a_hand_that_holds_on_begins_where_it_was_seen_to_be_and_ends_as_asked() -> None:
     (fold,) = step_motions(towel_plan())
     held = replace(fold, grips=tuple(replace(grip, closes=False) for grip in fold.grips))
     hands = {"left": (0.004, -0.002)}

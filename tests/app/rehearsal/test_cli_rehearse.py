@@ -11,7 +11,7 @@ from tests.app.test_cli import pleat
 
 
 @pytest.mark.parametrize("option", [("--runs", "0"), ("--seed", "-1"), ("--noise", "loud"), ("--robot", "ur5e-pair")])
-def test_an_option_that_cannot_be_is_refused_by_its_name(option: tuple[str, str], tmp_path: Path):
+def test_an_option_that_cannot_be_is_refused_by_its_name(option: tuple[str, str], tmp_path: Path) -> None:
     path = tmp_path / "towel.plan.json"
     write_plan(towel_plan(), path)
     refused = pleat("rehearse", str(path), *option)
@@ -21,7 +21,7 @@ def test_an_option_that_cannot_be_is_refused_by_its_name(option: tuple[str, str]
 
 def test_each_step_is_named_as_in_the_plan_also_after_the_rest_was_planned_again(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-):
+) -> None:
     # Two steps of another plan were made: the second one leaves the towel folded as the plan's only step does.
     path = tmp_path / "towel.plan.json"
     write_plan(towel_plan(), path)
@@ -33,7 +33,7 @@ def test_each_step_is_named_as_in_the_plan_also_after_the_rest_was_planned_again
 
 
 @pytest.mark.long
-def test_a_towel_is_rehearsed_from_its_plan_file(tmp_path: Path):
+def test_a_towel_is_rehearsed_from_its_plan_file(tmp_path: Path) -> None:
     path = tmp_path / "towel.plan.json"
     write_plan(towel_plan(), path)
     done = pleat("rehearse", str(path), "--json", "-")

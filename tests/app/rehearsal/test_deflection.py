@@ -31,7 +31,7 @@ def tools(robot: str, posture: Posture) -> list[FloatArray]:
 
 
 @sweep("robot", ["pr2", "panda-pair", "so101-pair", "tiago-pro"], quick=["pr2", "so101-pair"])
-def test_tools_come_to_be_beside_their_places_by_small_turns_of_all_joints(robot: str):
+def test_tools_come_to_be_beside_their_places_by_small_turns_of_all_joints(robot: str) -> None:
     posture, arms = home(robot), load_robot(robot).card.arms
     beside = {arm.name: np.array([0.003, -0.002 * number]) for number, arm in enumerate(arms)}
     stands = deflected(robot, posture, beside)
@@ -42,7 +42,7 @@ def test_tools_come_to_be_beside_their_places_by_small_turns_of_all_joints(robot
     assert stands.base == posture.base
 
 
-def test_other_arms_and_joints_stay():
+def test_other_arms_and_joints_stay() -> None:
     posture = home("pr2")
     stands = deflected("pr2", posture, {"left": np.array([0.002, 0.001])})
     right = load_robot("pr2").card.arms[1]

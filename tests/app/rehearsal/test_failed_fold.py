@@ -42,7 +42,7 @@ def performed(left_behind_m: float) -> tuple[FoldedCloth, Performance]:
     return cloth, Performer(towel_plan(), world, Gate(), no_plan).performed()
 
 
-def test_a_fold_that_left_a_quarter_of_the_edge_behind_is_looked_at_again_and_ends_the_run_with_its_picture():
+def test_a_fold_that_left_a_quarter_of_the_edge_behind_is_looked_at_again_and_ends_the_run_with_its_picture() -> None:
     cloth, done = performed(0.1)
     assert "after the last step" in done.reason and "fold has failed" in done.reason
     assert [picture.is_clear for picture in done.pictures] == [False, False, True]
@@ -52,7 +52,7 @@ def test_a_fold_that_left_a_quarter_of_the_edge_behind_is_looked_at_again_and_en
     assert dict(decision.numbers)["overlap"] < FOLDED_OVERLAP
 
 
-def test_a_fold_as_planned_is_looked_at_once_and_is_done():
+def test_a_fold_as_planned_is_looked_at_once_and_is_done() -> None:
     cloth, done = performed(0.0)
     assert not done.reason
     assert [picture.is_clear for picture in done.pictures] == [False, False]
@@ -86,7 +86,7 @@ def outlines(plan: Plan, after: int) -> tuple[FloatArray, FloatArray]:
 
 
 @pytest.mark.parametrize("is_failed", [True, False])
-def test_no_step_is_made_after_a_fold_that_is_seen_to_have_failed(*, is_failed: bool):
+def test_no_step_is_made_after_a_fold_that_is_seen_to_have_failed(*, is_failed: bool) -> None:
     plan = make_plan(Task.of(load_garment("jeans")))
     first = next(number for number, step in enumerate(plan.steps) if step.fold is not None)
     flat, folded = outlines(plan, first)
@@ -103,7 +103,7 @@ def test_no_step_is_made_after_a_fold_that_is_seen_to_have_failed(*, is_failed: 
 @pytest.mark.parametrize("overlaps", [(1.0, 0.79), (0.79, 1.0)])
 def test_a_fold_that_one_of_two_looks_sees_as_planned_has_not_failed(
     overlaps: tuple[float, float], monkeypatch: pytest.MonkeyPatch
-):
+) -> None:
     # In the first case it was looked at again for an edge that an arm had hidden.
     plan = towel_plan()
     (step,) = plan.steps

@@ -65,7 +65,7 @@ def no_plan(task: Task) -> Plan:
     raise AssertionError(f"nobody should plan again from {task.start}")
 
 
-def test_grips_follow_cloth_that_lies_two_centimetres_away():
+def test_grips_follow_cloth_that_lies_two_centimetres_away() -> None:
     world = NotedWorld(outline_at(0.012, -0.016))
     done = Performer(towel_plan(), world, Gate(), no_plan).performed()
     (asked,), (planned,) = world.asked, step_motions(towel_plan())
@@ -76,7 +76,7 @@ def test_grips_follow_cloth_that_lies_two_centimetres_away():
             assert gone == pytest.approx([0.012, -0.016, 0.0], abs=1e-3)
 
 
-def test_a_fold_by_hands_that_hold_on_from_a_drag_is_not_carried_along_again():
+def test_a_fold_by_hands_that_hold_on_from_a_drag_is_not_carried_along_again() -> None:
     # Cloth 2 cm aside is taken there and dragged to where it should be: the fold after it is the planned one.
     plan = make_plan(Task.of(load_garment("skirt")))
     lies = plan.task.start.placement
@@ -110,7 +110,7 @@ class SwingingWorld(NotedWorld):
         return super().perform(motion)
 
 
-def test_the_fold_after_a_drag_goes_over_the_line_as_the_cloth_lies_then():
+def test_the_fold_after_a_drag_goes_over_the_line_as_the_cloth_lies_then() -> None:
     # A tie swings behind the one hand that drags it. The hand stays where it is, and lands where the fold brings that,
     # short by what its fingers reach ahead, twice, and their thickness: cloth turns over round their ends.
     plan = make_plan(Task.of(load_garment("tie")))
@@ -131,7 +131,7 @@ def test_the_fold_after_a_drag_goes_over_the_line_as_the_cloth_lies_then():
     assert math.dist(end, step_motions(plan)[1].grips[0].points[-1][:2]) > 0.01
 
 
-def test_a_hand_that_misses_tries_again_within_the_comfort_radius():
+def test_a_hand_that_misses_tries_again_within_the_comfort_radius() -> None:
     world = NotedWorld(outline_at(0.0, 0.0), misses=2)
     done = Performer(towel_plan(), world, Gate(), no_plan).performed()
     assert [decision.code for decision in done.decisions] == ["seen", "corrected", "regrasped", "regrasped"]
@@ -148,7 +148,7 @@ def test_a_hand_that_misses_tries_again_within_the_comfort_radius():
 
 
 @pytest.mark.parametrize("name", ["tie", "scarf", "skirt"])
-def test_a_hand_that_misses_the_edge_of_cloth_that_it_pulls_behind_it_tries_again_inside_it(name: str):
+def test_a_hand_that_misses_the_edge_of_cloth_that_it_pulls_behind_it_tries_again_inside_it(name: str) -> None:
     # Ahead of that hand there is no cloth.
     plan = make_plan(Task.of(load_garment(name)))
     lies = plan.task.start.placement
@@ -165,7 +165,7 @@ def test_a_hand_that_misses_the_edge_of_cloth_that_it_pulls_behind_it_tries_agai
     assert cloth.contains(tuple(tried), margin_m=0.006)
 
 
-def test_cloth_beyond_the_comfort_radius_is_planned_from_where_it_lies_and_given_up_in_the_end():
+def test_cloth_beyond_the_comfort_radius_is_planned_from_where_it_lies_and_given_up_in_the_end() -> None:
     asked: list[Task] = []
 
     def same(task: Task) -> Plan:
@@ -184,7 +184,7 @@ def test_cloth_beyond_the_comfort_radius_is_planned_from_where_it_lies_and_given
     assert done.steps == ()
 
 
-def test_the_rest_is_planned_again_with_as_much_work_as_the_plan_had_time_however_slow_the_machine():
+def test_the_rest_is_planned_again_with_as_much_work_as_the_plan_had_time_however_slow_the_machine() -> None:
     asked: list[Task] = []
 
     def same(task: Task) -> Plan:
@@ -198,7 +198,7 @@ def test_the_rest_is_planned_again_with_as_much_work_as_the_plan_had_time_howeve
     assert {task.limits.time_limit_s for task in asked} == {TIME_LIMIT_S[1]}
 
 
-def test_a_scarf_that_lies_closer_than_planned_is_still_taken_by_both_corners():
+def test_a_scarf_that_lies_closer_than_planned_is_still_taken_by_both_corners() -> None:
     # Its edge is 25.4 cm wide, and one hand in the middle would be quicker by half a second.
     plan = make_plan(Task.of(load_garment("scarf")))
     last = plan.steps[2]
@@ -207,7 +207,7 @@ def test_a_scarf_that_lies_closer_than_planned_is_still_taken_by_both_corners():
     assert [len(step.holdings) for step in make_plan(rest).steps] == [2, 2]
 
 
-def test_a_fold_taken_at_another_point_lands_where_the_fold_brings_that_point():
+def test_a_fold_taken_at_another_point_lands_where_the_fold_brings_that_point() -> None:
     (motion,) = step_motions(towel_plan())
     (fold,) = towel_plan().sequence.folds
     lies = towel_plan().task.start.placement
@@ -221,7 +221,7 @@ def test_a_fold_taken_at_another_point_lands_where_the_fold_brings_that_point():
         assert trial.grips[1] == motion.grips[1]
 
 
-def test_a_hand_that_missed_where_the_cloth_was_seen_tries_again_round_there_within_the_radius_of_its_grip():
+def test_a_hand_that_missed_where_the_cloth_was_seen_tries_again_round_there_within_the_radius_of_its_grip() -> None:
     (motion,) = step_motions(towel_plan())
     grip = motion.grips[0]
     trials = list(regrasps(motion, frozenset({grip.arm}), 0.03, {grip.arm: (1.0, 0.0)}, {grip.arm: (0.0, 0.02)}, None))
@@ -230,7 +230,7 @@ def test_a_hand_that_missed_where_the_cloth_was_seen_tries_again_round_there_wit
     assert max(float(np.hypot(*gone)) for gone in beside) <= 0.03 + 1e-9
 
 
-def test_a_hand_that_took_the_cloth_beside_its_grip_holds_it_there_in_the_red_fold_after_it():
+def test_a_hand_that_took_the_cloth_beside_its_grip_holds_it_there_in_the_red_fold_after_it() -> None:
     plan = make_plan(Task.of(load_garment("letter-towel")))
     world = NotedWorld(evenly_along(plan.task.start.placement.to_outer(plan.garment.pattern.ring), 0.01), misses=1)
     Performer(plan, world, Gate(), no_plan).performed()
@@ -244,7 +244,7 @@ def test_a_hand_that_took_the_cloth_beside_its_grip_holds_it_there_in_the_red_fo
     assert sorted(offsets) == pytest.approx([SHORT_M, 0.01 + SHORT_M], abs=2e-3)
 
 
-def test_a_correction_carries_a_step_along_and_its_shift_is_that_of_the_furthest_grip():
+def test_a_correction_carries_a_step_along_and_its_shift_is_that_of_the_furthest_grip() -> None:
     (motion,) = step_motions(towel_plan())
     carried = carry(Pose2(0.1, 0.2, 0.3), Pose2(0.1, 0.21, 0.3))
     assert shift_of(motion, carried) == pytest.approx(0.01)
@@ -252,7 +252,7 @@ def test_a_correction_carries_a_step_along_and_its_shift_is_that_of_the_furthest
     assert corrected(motion, Isometry()) == motion
 
 
-def test_a_robot_that_sees_from_where_it_stands_corrects_its_base_error_too():
+def test_a_robot_that_sees_from_where_it_stands_corrects_its_base_error_too() -> None:
     world = NotedWorld(outline_at(0.0, 0.0))
     noisy = NoisyWorld(world, Noise(base_m=0.005, base_rad=0.005), 3, towel_plan().task)
     Performer(towel_plan(), noisy, Gate(), no_plan).performed()
@@ -261,7 +261,7 @@ def test_a_robot_that_sees_from_where_it_stands_corrects_its_base_error_too():
         assert math.dist(grip.points[0], former.points[0]) < 2e-3
 
 
-def test_a_robot_stands_where_its_base_and_its_tools_really_are():
+def test_a_robot_stands_where_its_base_and_its_tools_really_are() -> None:
     plan = towel_plan()
     world, (fold,) = NotedWorld(np.empty((0, 2))), step_motions(plan)
     noisy = NoisyWorld(world, Noise(base_m=0.01, arm_m=0.003), 3, plan.task)
@@ -281,7 +281,7 @@ def test_a_robot_stands_where_its_base_and_its_tools_really_are():
         assert np.linalg.norm(beside) > 1e-4
 
 
-def test_hands_that_hold_on_go_on_from_where_a_drag_has_stopped_short():
+def test_hands_that_hold_on_go_on_from_where_a_drag_has_stopped_short() -> None:
     # Else the cloth in them would jump by as much within one time step.
     plan = make_plan(Task.of(load_garment("skirt")))
     world = NotedWorld(np.empty((0, 2)))
@@ -296,11 +296,11 @@ def test_hands_that_hold_on_go_on_from_where_a_drag_has_stopped_short():
         assert 0.8 * planned_way < way + 0.006 and way < 0.99 * planned_way
         assert fold.grips[number].points[0] == pytest.approx(grip.points[-1], abs=2e-3)
     closing = next(motion for motion in planned[1:] if motion.grips[0].closes)
-    (grip, former) = (world.asked[closing.step].grips[0].points[0], closing.grips[0].points[0])
-    assert math.dist(grip, former) < 0.02  # hands free, the base was driven to where it should be
+    begun, former = world.asked[closing.step].grips[0].points[0], closing.grips[0].points[0]
+    assert math.dist(begun, former) < 0.02  # hands free, the base was driven to where it should be
 
 
-def test_what_is_seen_while_a_drag_has_stopped_short_is_seen_from_where_the_base_really_stands():
+def test_what_is_seen_while_a_drag_has_stopped_short_is_seen_from_where_the_base_really_stands() -> None:
     plan = make_plan(Task.of(load_garment("tie")))
     lies = np.array([[0.0, 0.0], [0.3, 0.1]])
     world = NotedWorld(lies, shows_folded=True)

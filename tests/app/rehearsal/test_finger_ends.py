@@ -36,7 +36,7 @@ def rounded(grip: GripMotion, most_m: float = 1.0, kind: str = "fold") -> GripMo
     return motion.grips[0]
 
 
-def test_the_ends_of_fingers_that_point_along_the_way_turn_about_the_line():
+def test_the_ends_of_fingers_that_point_along_the_way_turn_about_the_line() -> None:
     planned = over_the_line(0.0)
     made = rounded(planned)
     assert made.points[0] == pytest.approx(planned.points[0])
@@ -45,16 +45,16 @@ def test_the_ends_of_fingers_that_point_along_the_way_turn_about_the_line():
     assert made.at(2.0) == pytest.approx([2.0 * (LINE_M - PAD_M) - THICKNESS_M, 0.12, REST_HEIGHT_M], abs=1e-6)
 
 
-def test_the_less_fingers_point_along_the_way_the_less_hands_land_short():
+def test_the_less_fingers_point_along_the_way_the_less_hands_land_short() -> None:
     short_m = 2.0 * LINE_M - rounded(over_the_line(math.radians(60.0))).points[-1][0]
     assert short_m == pytest.approx(PAD_M + THICKNESS_M)
 
 
-def test_hands_land_no_further_short_than_they_may():
+def test_hands_land_no_further_short_than_they_may() -> None:
     assert rounded(over_the_line(0.0), 0.01).points[-1][0] == pytest.approx(2.0 * LINE_M - 0.01)
 
 
-def test_hands_that_roll_or_hold_on_or_point_down_or_across_or_drag_keep_their_paths():
+def test_hands_that_roll_or_hold_on_or_point_down_or_across_or_drag_keep_their_paths() -> None:
     for grip in (
         over_the_line(math.pi / 2.0, rolls=True),
         over_the_line(0.0, opens=False),
@@ -66,7 +66,7 @@ def test_hands_that_roll_or_hold_on_or_point_down_or_across_or_drag_keep_their_p
 
 
 @pytest.mark.parametrize("kind", ["drag", "fold"])
-def test_a_hand_that_holds_on_from_a_drag_lands_short_and_one_that_does_so_from_a_fold_keeps_to_it(kind: str):
+def test_a_hand_that_holds_on_from_a_drag_lands_short_and_one_that_does_so_from_a_fold_keeps_to_it(kind: str) -> None:
     holds, after = over_the_line(0.0, opens=False), replace(over_the_line(0.0), closes=False)
     steps = [StepMotion(0, kind, 2.0, (holds,)), StepMotion(1, "fold", 2.0, (after,))]
     first, second = round_finger_ends(steps, {"left": THICKNESS_M}, 1.0)
@@ -83,7 +83,7 @@ def edge_laid_at(motion: StepMotion) -> float:
     return float(world.truth().positions[edge, 0])
 
 
-def test_an_edge_is_laid_down_beyond_its_place_by_fingers_round_which_it_turned_and_less_if_short():
+def test_an_edge_is_laid_down_beyond_its_place_by_fingers_round_which_it_turned_and_less_if_short() -> None:
     fingers = robot_card_file("pr2").arms[0].gripper
     planned = StepMotion(0, "fold", 2.0, (over_the_line(0.0),))
     beyond_m = edge_laid_at(planned) - 2.0 * LINE_M

@@ -28,7 +28,7 @@ from planner.task.grip import Holding
 from planner.task.plan_step import PlanStep
 
 
-def test_a_part_that_moved_last_is_taken_where_it_was_seen():
+def test_a_part_that_moved_last_is_taken_where_it_was_seen() -> None:
     # The near half was folded up at y = .25 m. With its crease 4 mm to the left of the line, towards y = 0, its edge is
     # 8 mm short. The article is turned by -90 degrees: its -y is -x of the table.
     plan = make_plan(Task.of(load_garment("letter-towel")))
@@ -42,7 +42,7 @@ def test_a_part_that_moved_last_is_taken_where_it_was_seen():
     assert where_seen(step, Isometry(), None, 0.03) == {}
 
 
-def test_a_hand_takes_an_edge_where_it_is_seen():
+def test_a_hand_takes_an_edge_where_it_is_seen() -> None:
     # The crease, at y = .25 m, is seen 9 mm inside of its line, 4 mm at the other end; the rest is where it should be.
     plan = make_plan(Task.of(load_garment("letter-towel")))
     ring = plan.sequence.cloth(1).silhouette.ring
@@ -71,7 +71,7 @@ def test_a_hand_takes_an_edge_where_it_is_seen():
     assert offsets["inside"] == pytest.approx((0.0, 0.0), abs=1e-9)
 
 
-def test_hands_take_corners_of_several_layers_inside_of_where_they_are_seen_as_far_as_that_is_in_reach():
+def test_hands_take_corners_of_several_layers_inside_of_where_they_are_seen_as_far_as_that_is_in_reach() -> None:
     plan = make_plan(Task.of(load_garment("letter-towel")))
     step, turned = plan.steps[0], Isometry.rotation(0.1)
     inwards = inwards_at(step, plan.sequence, turned)
@@ -100,7 +100,7 @@ def test_hands_take_corners_of_several_layers_inside_of_where_they_are_seen_as_f
     assert inside(seen, {}, 0.03) == {"left": pytest.approx((0.0, 0.004))}  # not at an edge
 
 
-def test_an_edge_of_which_nothing_was_seen_is_hidden():
+def test_an_edge_of_which_nothing_was_seen_is_hidden() -> None:
     # An arm hides what is within 8 cm of the middle of the crease.
     plan = make_plan(Task.of(load_garment("letter-towel")))
     ring = plan.sequence.cloth(1).silhouette.ring
@@ -123,7 +123,7 @@ def test_an_edge_of_which_nothing_was_seen_is_hidden():
     assert not are_edges_hidden(taken_at(middle), None)
 
 
-def test_an_edge_that_the_same_hands_lift_again_lands_short_and_others_where_they_should():
+def test_an_edge_that_the_same_hands_lift_again_lands_short_and_others_where_they_should() -> None:
     plan = make_plan(Task.of(load_garment("letter-towel")))
     blue, red = plan.steps
     assert laid_short(plan, blue) == {"left", "right"}
@@ -131,8 +131,8 @@ def test_an_edge_that_the_same_hands_lift_again_lands_short_and_others_where_the
     assert laid_short(plan, red) == frozenset()  # it goes on from there
     scarf = make_plan(Task.of(load_garment("scarf")))  # in quarters, so that edges lie upon the stack
     assert {laid_short(scarf, step) for step in scarf.steps} == {frozenset()}
-    red = step_motions(plan)[1]
-    for grip, former in zip(landing_short(red, frozenset({"left"}), SHORT_M).grips, red.grips, strict=True):
+    motion = step_motions(plan)[1]
+    for grip, former in zip(landing_short(motion, frozenset({"left"}), SHORT_M).grips, motion.grips, strict=True):
         assert grip.points[0] == former.points[0]
         short = np.subtract(grip.points[-1], former.points[-1])
         back = np.subtract(former.points[0], former.points[-1])

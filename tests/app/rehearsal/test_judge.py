@@ -55,13 +55,13 @@ def doubled_back(width_m: float, height_m: float) -> StepVerdict:
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_cloth_just_as_planned_overlaps_wholly_wherever_the_rows_of_its_mesh_lie(seed: int):
+def test_cloth_just_as_planned_overlaps_wholly_wherever_the_rows_of_its_mesh_lie(seed: int) -> None:
     found = verdict(np.zeros((2, 3)), seed)
     assert found.iou == pytest.approx(1.0, abs=1e-6)
     assert (found.outline_mm, found.mean_mm, found.slid_mm) == pytest.approx((0.0, 0.0, 0.0), abs=1e-6)
 
 
-def test_layers_four_centimetres_apart_are_seen_as_that_and_lost():
+def test_layers_four_centimetres_apart_are_seen_as_that_and_lost() -> None:
     # Apart along the towel's 40 cm, each layer is 2 cm off when what both have slid is taken off: 40 of 44 cm overlap.
     found = verdict(np.array([[0.0, 0.0, 0.0], [0.0, 0.04, 0.0]]), 0)
     assert found.mean_mm == pytest.approx(20.0, abs=1.0)
@@ -71,7 +71,7 @@ def test_layers_four_centimetres_apart_are_seen_as_that_and_lost():
     assert not found.held
 
 
-def test_a_flap_doubled_back_upon_the_stack_is_lost_though_all_but_five_in_a_hundred_points_are_in_place():
+def test_a_flap_doubled_back_upon_the_stack_is_lost_though_all_but_five_in_a_hundred_points_are_in_place() -> None:
     # 5 x 8 cm of 1,200 cm2: the silhouette does not change, and 96.7 % of the points lie as planned.
     found, gate = doubled_back(0.05, 0.08), Gate()
     assert found.outline_mm < gate.outline_mm and found.mean_mm < gate.mean_mm and found.p95_mm < gate.p95_mm
@@ -79,13 +79,13 @@ def test_a_flap_doubled_back_upon_the_stack_is_lost_though_all_but_five_in_a_hun
     assert not found.held
 
 
-def test_a_corner_of_a_few_square_centimetres_that_is_doubled_back_still_holds():
+def test_a_corner_of_a_few_square_centimetres_that_is_doubled_back_still_holds() -> None:
     found = doubled_back(0.03, 0.03)
     assert 0.0 < found.wrong_face_m2 < Gate().wrong_face_m2
     assert found.held
 
 
-def test_cloth_beside_a_crease_may_face_either_way():
+def test_cloth_beside_a_crease_may_face_either_way() -> None:
     # What lies up to 2 cm from the fold line has not been turned over: the crease has rolled on by as much.
     lies = towel_plan().steps[-1].after.placement
 
@@ -96,6 +96,6 @@ def test_cloth_beside_a_crease_may_face_either_way():
     assert verdict_on(unturned).wrong_face_m2 == 0.0
 
 
-def test_cloth_that_hangs_over_the_edge_as_planned_faces_as_it_should():
+def test_cloth_that_hangs_over_the_edge_as_planned_faces_as_it_should() -> None:
     hangs = replace(towel_plan().steps[-1].after.placement, x_m=-0.75)
     assert verdict_on(lambda _, there: there, placement=hangs).wrong_face_m2 == pytest.approx(0.0, abs=1e-9)

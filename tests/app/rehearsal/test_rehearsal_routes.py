@@ -22,7 +22,7 @@ NAPKIN = {
 pytestmark = pytest.mark.anyio
 
 
-async def test_the_trace_of_a_run_can_be_read_by_its_id_and_shown_on_the_stage(client: httpx.AsyncClient):
+async def test_the_trace_of_a_run_can_be_read_by_its_id_and_shown_on_the_stage(client: httpx.AsyncClient) -> None:
     document = (await client.post("/api/documents", json={"garment": NAPKIN})).json()
     page = listening(client, document["id"])
     plan = (await page.until_planned(document["version"]))["plan"]
@@ -56,12 +56,14 @@ async def test_the_trace_of_a_run_can_be_read_by_its_id_and_shown_on_the_stage(c
     await page.hang_up()
 
 
-async def test_an_unknown_trace_is_not_found(client: httpx.AsyncClient):
+async def test_an_unknown_trace_is_not_found(client: httpx.AsyncClient) -> None:
     for path in ("/api/rehearsals/traces/unknown", "/api/rehearsals/traces/unknown/cloth"):
         assert (await client.get(path)).status_code == 404
 
 
-async def test_without_mujoco_it_is_said_what_to_install(client: httpx.AsyncClient, monkeypatch: pytest.MonkeyPatch):
+async def test_without_mujoco_it_is_said_what_to_install(
+    client: httpx.AsyncClient, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr("app.rehearsal.rehearse.find_spec", lambda _: None)
     answer = await client.post("/api/rehearsals", json={"plan": towel_plan().to_dict()})
     assert answer.status_code == 422
@@ -81,17 +83,17 @@ async def test_without_mujoco_it_is_said_what_to_install(client: httpx.AsyncClie
 )
 async def test_a_rehearsal_that_cannot_be_is_refused_by_its_field(
     client: httpx.AsyncClient, change: dict[str, Any], field: str
-):
+) -> None:
     answer = await client.post("/api/rehearsals", json={"plan": towel_plan().to_dict(), **change})
     assert answer.status_code == 422, answer.text
     assert [error["field"] for error in answer.json()["errors"]] == [field]
 
 
-async def test_an_unknown_plan_cannot_be_rehearsed(client: httpx.AsyncClient):
+async def test_an_unknown_plan_cannot_be_rehearsed(client: httpx.AsyncClient) -> None:
     assert (await client.post("/api/rehearsals", json={"plan": "unknown"})).status_code == 404
 
 
-async def test_a_rehearsal_of_a_plan_file_is_a_job_that_can_be_cancelled(client: httpx.AsyncClient):
+async def test_a_rehearsal_of_a_plan_file_is_a_job_that_can_be_cancelled(client: httpx.AsyncClient) -> None:
     answer = await client.post("/api/rehearsals", json={"plan": towel_plan().to_dict(), "runs": 50})
     assert answer.status_code == 202, answer.text
     path = answer.headers["location"]

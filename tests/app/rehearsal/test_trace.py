@@ -16,6 +16,7 @@ from app.rehearsal.world import Observation, Performed, StepMotion, Truth
 from planner import Plan, Task, load_garment, make_plan
 from planner.geometry.woven_mesh import woven_mesh
 from tests.app.rehearsal.towel import COARSE, towel_plan
+from tests.required import required
 
 
 @pytest.fixture(scope="module")
@@ -57,14 +58,14 @@ def height_m(frame: np.ndarray) -> float:
     return UNIT_M * float(frame[:, 2].mean())
 
 
-def test_a_film_runs_along_the_plan_and_is_still_while_nothing_is_held(letter: Plan):
+def test_a_film_runs_along_the_plan_and_is_still_while_nothing_is_held(letter: Plan) -> None:
     told: list[float] = []
     world = filmed(letter, told.append)
     for motion in step_motions(letter):
         world.perform(motion)
     assert told == sorted(told) and 0.0 < told[0] < 0.5 < told[-1] <= 1.0
     times = [t_s for t_s, _ in world.frames]
-    assert times == sorted(set(times)) and times[0] == 0.0 and times[-1] <= letter.cost_s
+    assert times == sorted(set(times)) and times[0] == 0.0 and times[-1] <= required(letter.cost_s)
     first = step_motions(letter)[0].grips[0].times_s[0]
     lies = height_m(world.frames[0][1])
     for t_s, frame in world.frames:
@@ -75,7 +76,7 @@ def test_a_film_runs_along_the_plan_and_is_still_while_nothing_is_held(letter: P
     assert height_m(world.frames[-1][1]) > lies + 0.05
 
 
-def test_of_a_step_that_is_tried_again_the_last_time_is_kept_and_nothing_after_another_plan(letter: Plan):
+def test_of_a_step_that_is_tried_again_the_last_time_is_kept_and_nothing_after_another_plan(letter: Plan) -> None:
     world, motion = filmed(letter), step_motions(letter)[0]
     world.perform(motion)
     once, ends = len(world.frames), height_m(world.frames[-1][1])
@@ -88,7 +89,7 @@ def test_of_a_step_that_is_tried_again_the_last_time_is_kept_and_nothing_after_a
     assert len(world.frames) == kept
 
 
-def test_a_run_of_a_towel_is_traced_from_where_it_lies_to_where_the_plan_has_it():
+def test_a_run_of_a_towel_is_traced_from_where_it_lies_to_where_the_plan_has_it() -> None:
     plan = towel_plan()
     options = RehearsalOptions(1, resolution=COARSE, workers=1, traced=1)
     (run,) = rehearse(plan, options).runs
@@ -101,26 +102,27 @@ def test_a_run_of_a_towel_is_traced_from_where_it_lies_to_where_the_plan_has_it(
     for name, area in (("planned", 0.06), ("found", 0.06)):
         xs, ys = np.array(step.outlines[name][0]).T
         assert abs(np.dot(xs, np.roll(ys, 1)) - np.dot(ys, np.roll(xs, 1))) / 2 == pytest.approx(area, rel=0.1)
-    middle = trace.at(0.5 * plan.cost_s)
+    cost_s = required(plan.cost_s)
+    middle = trace.at(0.5 * cost_s)
     assert middle[:, 2].max() > 0.05 > trace.at(0.0)[:, 2].max()
-    np.testing.assert_array_equal(trace.at(plan.cost_s + 1.0), UNIT_M * step.found)
+    np.testing.assert_array_equal(trace.at(cost_s + 1.0), UNIT_M * step.found)
     look, _ = trace.pictures  # before the fold, and after it
     assert look["of_plan"] == 0 and look["known"] and len(look["expected_px"]) == len(look["fitted_px"]) == 4
     assert look["start"]["placement"] == look["fit"]["placement"]
     again = RunTrace.unpacked(trace.packed())
-    for t_s in (0.0, 3.3, plan.cost_s):
+    for t_s in (0.0, 3.3, cost_s):
         np.testing.assert_array_equal(again.at(t_s), trace.at(t_s))
     np.testing.assert_array_equal(again.triangles, trace.triangles)
     assert (again.pictures, again.steps[0].outlines) == (trace.pictures, step.outlines)
 
 
 @pytest.mark.long
-def test_runs_beyond_those_that_are_traced_have_no_trace():
+def test_runs_beyond_those_that_are_traced_have_no_trace() -> None:
     options = RehearsalOptions(2, resolution=replace(COARSE, edge_m=0.06, settle_s=0.1), workers=1, traced=1)
     assert [run.trace is None for run in rehearse(towel_plan(), options).runs] == [False, True]
 
 
-def test_a_step_of_another_plan_stands_for_the_one_that_leaves_the_same_folded(letter: Plan):
+def test_a_step_of_another_plan_stands_for_the_one_that_leaves_the_same_folded(letter: Plan) -> None:
     assert [counterpart(letter, step) for step in letter.steps] == list(range(len(letter.steps)))
     again = make_plan(replace(letter.task, start=letter.state_after(-1)))
     assert [counterpart(letter, step) for step in again.steps] == [
@@ -131,7 +133,7 @@ def test_a_step_of_another_plan_stands_for_the_one_that_leaves_the_same_folded(l
     assert looked_before(letter, letter.end) is None
 
 
-def test_of_long_runs_frames_are_left_out_evenly(monkeypatch: pytest.MonkeyPatch):
+def test_of_long_runs_frames_are_left_out_evenly(monkeypatch: pytest.MonkeyPatch) -> None:
     plan = towel_plan()
     lies = Lifted(plan, lambda: None).truth()
     film = [(float(t_s), rounded(lies.positions + np.array([0.0, 0.0, 0.01 * t_s]))) for t_s in range(9)]

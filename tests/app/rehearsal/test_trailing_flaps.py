@@ -61,31 +61,32 @@ def motion_of(step: PlanStep) -> StepMotion:
 def inwards_m(made: StepMotion, planned: StepMotion, way: Point2) -> list[float]:
     """Return how far inwards of its path the first hand of a step is at its points (m)."""
     one, other = (np.array(motion.grips[0].points) for motion in (made, planned))
-    return ((one - other)[:, :2] @ np.array(way)).tolist()
+    inwards: list[float] = ((one - other)[:, :2] @ np.array(way)).tolist()
+    return inwards
 
 
-def test_a_flap_hangs_beside_the_hand_at_its_crease_and_not_beside_the_other():
+def test_a_flap_hangs_beside_the_hand_at_its_crease_and_not_beside_the_other() -> None:
     found = flaps_beside(half_by(CREASED, OPEN), SEQUENCE, Isometry())
     ways = TASK.start.placement.to_outer(np.array([(0.0, 0.0), (-1.0, 0.0)]))
     assert found == {"left": pytest.approx(tuple(ways[1] - ways[0]))}
 
 
-def test_no_flap_hangs_open_that_another_hand_holds_too():
+def test_no_flap_hangs_open_that_another_hand_holds_too() -> None:
     assert not flaps_beside(half_by(CREASED, (SIDE - FLAP, LONG)), SEQUENCE, Isometry())
 
 
-def test_a_hand_alone_which_would_carry_all_the_cloth_along_stays_on_its_path():
+def test_a_hand_alone_which_would_carry_all_the_cloth_along_stays_on_its_path() -> None:
     assert not flaps_beside(half_by(CREASED), SEQUENCE, Isometry())
 
 
-def test_no_flap_hangs_from_cloth_that_is_spread_out_or_that_is_dragged():
+def test_no_flap_hangs_from_cloth_that_is_spread_out_or_that_is_dragged() -> None:
     step = half_by(CREASED, OPEN)
     spread_out = replace(step, before=SPREAD_OUT.start, details={"fold": 0})
     assert not flaps_beside(spread_out, SEQUENCE, Isometry())
     assert not flaps_beside(replace(step, kind="drag", details={}), SEQUENCE, Isometry())
 
 
-def test_a_hand_beside_a_flap_begins_and_ends_as_planned_and_is_inwards_while_it_hangs():
+def test_a_hand_beside_a_flap_begins_and_ends_as_planned_and_is_inwards_while_it_hangs() -> None:
     step = half_by(CREASED, OPEN)
     planned, flaps = motion_of(step), flaps_beside(step, SEQUENCE, Isometry())
     made = trailing(planned, planned, flaps, Isometry(), RADIUS_M)
@@ -96,7 +97,7 @@ def test_a_hand_beside_a_flap_begins_and_ends_as_planned_and_is_inwards_while_it
 
 
 @pytest.mark.parametrize("shift_m", [0.02, 0.04])
-def test_hands_go_inwards_no_further_than_is_in_reach(shift_m: float):
+def test_hands_go_inwards_no_further_than_is_in_reach(shift_m: float) -> None:
     step = half_by(CREASED, OPEN)
     flaps = flaps_beside(step, SEQUENCE, Isometry())
     (x, y), planned = flaps["left"], motion_of(step)
@@ -105,7 +106,7 @@ def test_hands_go_inwards_no_further_than_is_in_reach(shift_m: float):
     assert max(apart) == pytest.approx(max(0.0, RADIUS_M - shift_m), abs=1e-6)
 
 
-def test_a_flap_that_trails_behind_its_crease_does_not_land_open():
+def test_a_flap_that_trails_behind_its_crease_does_not_land_open() -> None:
     # On the planned path its crease stands up on the flap's free edge, and falls out of the stack by 2 cm.
     step = half_by(CREASED, OPEN)
     planned = motion_of(step)

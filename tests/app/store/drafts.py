@@ -1,7 +1,7 @@
 """Drafts to be stored."""
 
 import random
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 from app.drawing.draft import Draft, draft_of
 from app.drawing.drawing import Drawing
@@ -25,12 +25,14 @@ def worked_on(seed: int, count: int) -> Iterator[Draft]:
     for number in range(count):
         now_s += rng.choice([0.1, 5.0])
         drawing, label = moved(rng.randrange(5)), f"step {number}"
-        edits = [
+        ways: list[Edit | Callable[[Draft], Draft]] = [
+            Draft.undone,
+            Draft.redone,
             Edit(label, drawing),
             Edit(label, drawing, coalesce="run"),
             Edit(label, drawing, Phase.PREVIEW, gesture="drag"),
             Edit(label, None, Phase.CANCEL),
         ]
-        wanted = rng.choice([Draft.undone, Draft.redone, *edits])
+        wanted = rng.choice(ways)
         draft = draft.edited(wanted, now_s) if isinstance(wanted, Edit) else wanted(draft)
         yield draft

@@ -41,7 +41,7 @@ def run_and_kill(folder: Path) -> int:
 
 
 @pytest.mark.long
-def test_a_study_killed_five_times_loses_no_answer_and_gives_the_table_of_one_that_was_not(tmp_path: Path):
+def test_a_study_killed_five_times_loses_no_answer_and_gives_the_table_of_one_that_was_not(tmp_path: Path) -> None:
     told = [run_and_kill(tmp_path / "parts") for _ in range(KILLS)]
     assert told == sorted(told)
     last = run_aloud(tmp_path / "parts")

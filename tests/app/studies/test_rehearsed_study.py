@@ -28,7 +28,7 @@ REHEARSED = {
 
 
 @pytest.mark.long
-def test_noise_is_an_axis_and_every_solved_plan_is_performed_with_it(tmp_path: Path):
+def test_noise_is_an_axis_and_every_solved_plan_is_performed_with_it(tmp_path: Path) -> None:
     asked = study(**REHEARSED)
     with Results(tmp_path) as results:
         results.begin(asked, resume=True)
@@ -57,13 +57,13 @@ def test_noise_is_an_axis_and_every_solved_plan_is_performed_with_it(tmp_path: P
     assert "<h2>What holds</h2>" in (tmp_path / "report.html").read_text()
 
 
-def test_a_study_without_rehearsals_has_no_columns_of_them():
+def test_a_study_without_rehearsals_has_no_columns_of_them() -> None:
     asked = study()
     assert asked.rehearsal is None and asked.cell(0).rehearsal is None
     assert "runs" not in answered(asked.cell(0), fake_plan).row
 
 
-def test_a_study_with_rehearsals_reads_back_and_other_runs_are_another_study():
+def test_a_study_with_rehearsals_reads_back_and_other_runs_are_another_study() -> None:
     asked = study(**REHEARSED)
     again = Study.from_dict(asked.to_dict())
     assert again == asked
@@ -71,12 +71,12 @@ def test_a_study_with_rehearsals_reads_back_and_other_runs_are_another_study():
     assert study(**more).digest != asked.digest
 
 
-def test_each_run_counts_as_a_cell(tmp_path: Path):
+def test_each_run_counts_as_a_cell(tmp_path: Path) -> None:
     with pytest.raises(StudyError, match="40 runs"):
         study(rehearsal={"runs": 40}, cells_max=100)
 
 
-def test_without_the_physics_the_file_is_refused(monkeypatch: pytest.MonkeyPatch):
+def test_without_the_physics_the_file_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     def missing() -> None:
         raise PhysicsMissingError
 

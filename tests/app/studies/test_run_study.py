@@ -2,7 +2,7 @@ import csv
 import gzip
 import json
 import sqlite3
-from collections.abc import Iterator
+from collections.abc import Generator, Iterable
 from contextlib import closing
 from pathlib import Path
 from typing import Any
@@ -10,6 +10,8 @@ from typing import Any
 import pytest
 from pyarrow import parquet
 
+from app.studies.answer import Answer
+from app.studies.cell import Cell
 from app.studies.results import FILE, Results
 from app.studies.run_study import Progress, run_study
 from app.studies.study import Study
@@ -30,7 +32,7 @@ class Interrupting:
     def __init__(self, after: int) -> None:
         self._left = after
 
-    def answers(self, cells: Any, *, keep_plans: bool = False) -> Iterator[Any]:
+    def answers(self, cells: Iterable[Cell], *, keep_plans: bool = False) -> Generator[Answer]:
         for answer in InProcess(fake_plan).answers(cells, keep_plans=keep_plans):
             if not self._left:
                 raise KeyboardInterrupt
@@ -52,7 +54,7 @@ def files(folder: Path) -> list[bytes]:
     return [(folder / name).read_bytes() for name in (PARQUET, CSV, "report.html")]
 
 
-def test_the_table_has_a_row_for_each_cell_in_order(tmp_path: Path):
+def test_the_table_has_a_row_for_each_cell_in_order(tmp_path: Path) -> None:
     run(study(), tmp_path)
     table = rows(tmp_path)
     assert [row["cell"] for row in table] == [0, 1, 2, 3]
@@ -64,7 +66,7 @@ def test_the_table_has_a_row_for_each_cell_in_order(tmp_path: Path):
         assert [line["status"] for line in csv.DictReader(text)] == [row["status"] for row in table]
 
 
-def test_a_row_tells_what_the_plan_has_to_spare(tmp_path: Path):
+def test_a_row_tells_what_the_plan_has_to_spare(tmp_path: Path) -> None:
     # The upper table is out of reach. Margins of a plan for a radius of 2 cm are at least that.
     changes = {"table": {"height_m": [0.7, 1.9]}, "limits": {"work_limit_s": 1.0, "comfort_radius_m": 0.02}}
     run(study(**changes), tmp_path / "read", InProcess())
@@ -77,7 +79,7 @@ def test_a_row_tells_what_the_plan_has_to_spare(tmp_path: Path):
     assert "comfort_margin_m" not in solved
 
 
-def test_the_margin_that_takes_further_plans_is_there_where_it_is_asked_for(tmp_path: Path):
+def test_the_margin_that_takes_further_plans_is_there_where_it_is_asked_for(tmp_path: Path) -> None:
     changes = {"table": {"height_m": [0.7, 1.9]}, "limits": {"work_limit_s": 1.0, "comfort_radius_m": 0.02}}
     asked = study(**changes, comfort_margin=True)
     assert Study.from_dict(asked.to_dict()) == asked and asked.digest != study(**changes).digest
@@ -91,7 +93,7 @@ def test_the_margin_that_takes_further_plans_is_there_where_it_is_asked_for(tmp_
         run(study(**changes), tmp_path)
 
 
-def test_times_are_in_a_file_of_their_own(tmp_path: Path):
+def test_times_are_in_a_file_of_their_own(tmp_path: Path) -> None:
     run(study(), tmp_path)
     with (tmp_path / TIMING).open() as text:
         lines = list(csv.DictReader(text))
@@ -99,7 +101,7 @@ def test_times_are_in_a_file_of_their_own(tmp_path: Path):
     assert not {"wall_s", "cpu_s"} & rows(tmp_path)[0].keys()
 
 
-def test_a_study_that_is_interrupted_five_times_gives_the_table_of_one_that_is_not(tmp_path: Path):
+def test_a_study_that_is_interrupted_five_times_gives_the_table_of_one_that_is_not(tmp_path: Path) -> None:
     asked = study(**MANY)
     run(asked, tmp_path / "whole")
     for _ in range(5):
@@ -110,7 +112,7 @@ def test_a_study_that_is_interrupted_five_times_gives_the_table_of_one_that_is_n
     assert files(tmp_path / "parts") == files(tmp_path / "whole")
 
 
-def test_a_study_that_is_done_plans_nothing_again(tmp_path: Path):
+def test_a_study_that_is_done_plans_nothing_again(tmp_path: Path) -> None:
     run(study(), tmp_path)
     before = files(tmp_path)
     end = run(study(), tmp_path, Interrupting(after=0))
@@ -118,7 +120,7 @@ def test_a_study_that_is_done_plans_nothing_again(tmp_path: Path):
     assert files(tmp_path) == before
 
 
-def test_a_cell_that_fails_is_a_row_with_its_error(tmp_path: Path):
+def test_a_cell_that_fails_is_a_row_with_its_error(tmp_path: Path) -> None:
     end = run(study(), tmp_path, InProcess(raising))
     assert (end.done, end.failed) == (4, 1)
     failed = rows(tmp_path)[1]
@@ -126,7 +128,7 @@ def test_a_cell_that_fails_is_a_row_with_its_error(tmp_path: Path):
     assert [row["status"] for row in rows(tmp_path)].count("failed") == 1
 
 
-def test_failed_cells_can_be_planned_again_alone(tmp_path: Path):
+def test_failed_cells_can_be_planned_again_alone(tmp_path: Path) -> None:
     run(study(), tmp_path, InProcess(raising))
     with Results(tmp_path) as results:
         results.forget_failed()
@@ -135,7 +137,7 @@ def test_failed_cells_can_be_planned_again_alone(tmp_path: Path):
     assert rows(tmp_path)[1]["status"] == "solved"
 
 
-def test_a_cell_that_the_clock_ended_says_so(tmp_path: Path):
+def test_a_cell_that_the_clock_ended_says_so(tmp_path: Path) -> None:
     run(study(table={}, limits={"time_limit_s": 0.01}), tmp_path, InProcess(late))
     row = rows(tmp_path)[0]
     assert (row["status"], row["error"]) == ("budget_exceeded", "the time limit of 0.01 s ended the search")
@@ -149,7 +151,7 @@ def test_a_cell_that_the_clock_ended_says_so(tmp_path: Path):
         ({"sample": {"cells": 2}}, "sample"),
     ],
 )
-def test_a_study_that_changed_is_told_what_changed(tmp_path: Path, changes: dict[str, Any], told: str):
+def test_a_study_that_changed_is_told_what_changed(tmp_path: Path, changes: dict[str, Any], told: str) -> None:
     run(study(), tmp_path)
     with pytest.raises(StudyFolderError, match=told):
         run(study(**changes), tmp_path)
@@ -157,23 +159,23 @@ def test_a_study_that_changed_is_told_what_changed(tmp_path: Path, changes: dict
     assert [row["cell"] for row in rows(tmp_path)] == list(study(**changes).indices())
 
 
-def test_a_new_title_is_no_change(tmp_path: Path):
+def test_a_new_title_is_no_change(tmp_path: Path) -> None:
     run(study(), tmp_path)
     assert run(study(title="Another"), tmp_path).begun_with == 4
 
 
-def test_two_studies_at_once_in_one_folder_are_refused(tmp_path: Path):
+def test_two_studies_at_once_in_one_folder_are_refused(tmp_path: Path) -> None:
     with Results(tmp_path), pytest.raises(StudyFolderError, match="under way"):
         Results(tmp_path)
 
 
-def test_a_file_that_is_no_database_is_told(tmp_path: Path):
+def test_a_file_that_is_no_database_is_told(tmp_path: Path) -> None:
     (tmp_path / FILE).write_bytes(b"something else " * 100)
     with pytest.raises(StudyFolderError, match="no results"):
         Results(tmp_path)
 
 
-def test_only_the_cells_that_are_missing_are_planned(tmp_path: Path):
+def test_only_the_cells_that_are_missing_are_planned(tmp_path: Path) -> None:
     run(study(), tmp_path)
     before = files(tmp_path)
     with closing(sqlite3.connect(tmp_path / FILE)) as file:
@@ -184,15 +186,15 @@ def test_only_the_cells_that_are_missing_are_planned(tmp_path: Path):
     assert files(tmp_path) == before
 
 
-def test_work_that_is_told_to_stop_keeps_what_it_has(tmp_path: Path):
+def test_work_that_is_told_to_stop_keeps_what_it_has(tmp_path: Path) -> None:
     end = run(study(), tmp_path, should_stop=lambda: True)
     assert end.done == 1
     assert len(rows(tmp_path)) == 1
 
 
-def test_the_real_planner_gives_the_same_table_in_any_order(tmp_path: Path):
+def test_the_real_planner_gives_the_same_table_in_any_order(tmp_path: Path) -> None:
     class Backwards:
-        def answers(self, cells: Any, *, keep_plans: bool = False) -> Iterator[Any]:
+        def answers(self, cells: Iterable[Cell], *, keep_plans: bool = False) -> Generator[Answer]:
             yield from InProcess().answers(reversed(list(cells)), keep_plans=keep_plans)
 
     asked = study(table={"height_m": [0.7, 5.0]}, limits={"work_limit_s": 1.0, "comfort_radius_m": [0.0, 0.03]})
@@ -203,7 +205,7 @@ def test_the_real_planner_gives_the_same_table_in_any_order(tmp_path: Path):
     assert rows(tmp_path / "one")[2]["reason_codes"]
 
 
-def test_plans_are_kept_where_they_are_wanted(tmp_path: Path):
+def test_plans_are_kept_where_they_are_wanted(tmp_path: Path) -> None:
     run(study(table={}), tmp_path, InProcess(), keep_plans=True)
     name = rows(tmp_path)[0]["plan_id"]
     kept = json.loads(gzip.decompress((tmp_path / "plans" / f"{name}.plan.json.gz").read_bytes()))

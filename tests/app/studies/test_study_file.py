@@ -21,7 +21,7 @@ from tests.app.samples import towel
 from tests.app.studies.study_samples import content, study
 
 
-def test_the_product_is_counted_without_making_a_cell():
+def test_the_product_is_counted_without_making_a_cell() -> None:
     found = study(
         garments=[{"name": "vest"}, {"name": "tie"}],
         table={"height_m": {"from": 0.6, "to": 0.9, "step": 0.1}},
@@ -31,7 +31,7 @@ def test_the_product_is_counted_without_making_a_cell():
     assert found.axes[1].values == (0.6, 0.7, 0.8, 0.9)
 
 
-def test_every_cell_is_the_task_of_its_values():
+def test_every_cell_is_the_task_of_its_values() -> None:
     found = study(
         garments=[{"name": "vest"}, {"name": "tie"}],
         table={"height_m": [0.7, 0.8]},
@@ -48,7 +48,7 @@ def test_every_cell_is_the_task_of_its_values():
     assert (last.limits.comfort_radius_m, last.limits.heuristic) == (0.03, "arm_time")
 
 
-def test_each_robot_has_the_scene_and_the_place_that_suit_it():
+def test_each_robot_has_the_scene_and_the_place_that_suit_it() -> None:
     found = study(garments=[{"name": "tie"}], robots=["pr2", "so101-pair"], table={})
     first, second = (cell.task for cell in found.cells(found.indices()))
     assert first is not None and second is not None
@@ -57,7 +57,7 @@ def test_each_robot_has_the_scene_and_the_place_that_suit_it():
         assert task.start == task_for(load_garment("tie"), robot=task.robot).start
 
 
-def test_fields_of_the_robots_cards_are_axes():
+def test_fields_of_the_robots_cards_are_axes() -> None:
     found = study(robots=["so101-pair"], table={}, card={"mounts": {"0": {"y_m": [0.15, 0.2]}}, "scene.torso_m": 0.0})
     cells = list(found.cells(found.indices()))
     assert [cell.values["card.mounts.0.y_m"] for cell in cells] == [0.15, 0.2]
@@ -70,14 +70,14 @@ def test_fields_of_the_robots_cards_are_axes():
     assert cell.task is not None and cell.task.scene.table.height_m == 0.7
 
 
-def test_work_ends_a_cell_by_default_so_that_every_machine_gives_the_same_table():
+def test_work_ends_a_cell_by_default_so_that_every_machine_gives_the_same_table() -> None:
     cell = study(limits={}).cell(0)
     assert cell.task is not None
     assert cell.task.limits.work_limit_s == 10.0
     assert cell.task.limits.time_limit_s == 60.0
 
 
-def test_a_sample_is_drawn_with_its_seed_and_without_repetition():
+def test_a_sample_is_drawn_with_its_seed_and_without_repetition() -> None:
     many = {"table": {"height_m": {"from": 0.5, "to": 1.0, "count": 51}}}
     drawn = [study(**many, sample={"cells": 10, "seed": seed}).indices() for seed in (1, 1, 2)]
     assert drawn[0] == drawn[1] != drawn[2]
@@ -85,20 +85,20 @@ def test_a_sample_is_drawn_with_its_seed_and_without_repetition():
     assert list(drawn[0]) == sorted(drawn[0])
 
 
-def test_a_sample_of_a_product_that_could_never_be_listed_is_drawn():
+def test_a_sample_of_a_product_that_could_never_be_listed_is_drawn() -> None:
     axis = {"from": 0.0, "to": 1.0, "count": 1000}
     found = study(scene={"friction": axis, "torso_m": {"from": 0.0, "to": 0.3, "count": 1000}}, sample={"cells": 3})
     assert (found.product, found.count, len(list(found.cells(found.indices())))) == (4_000_000, 3, 3)
 
 
-def test_a_template_gives_a_garment_for_each_combination_of_its_measures():
+def test_a_template_gives_a_garment_for_each_combination_of_its_measures() -> None:
     measures = {"width_m": [0.4, 0.5], "length_m": {"from": 0.2, "to": 0.4, "count": 3}}
     cases = study(garments=[{"template": "towel", "measures": measures}]).garments
     assert len({case.label for case in cases}) == 6
     assert [case.measures["width_m"] for case in cases] == [0.4] * 3 + [0.5] * 3
 
 
-def test_measures_that_do_not_fit_each_other_are_cells_without_a_task():
+def test_measures_that_do_not_fit_each_other_are_cells_without_a_task() -> None:
     measures = {"width_m": 0.4, "folded_width_m": [0.1, 0.3]}
     cells = [*study(garments=[{"template": "towel", "measures": measures}], table={}).cells(range(2))]
     assert cells[0].task is None
@@ -106,7 +106,7 @@ def test_measures_that_do_not_fit_each_other_are_cells_without_a_task():
     assert cells[1].task is not None
 
 
-def test_random_garments_come_from_their_seed_alone():
+def test_random_garments_come_from_their_seed_alone() -> None:
     entry = {"random": 5, "seed": 3, "folds": [2, 3]}
     first, second = (study(garments=[entry]).garments for _ in range(2))
     assert first == second
@@ -115,7 +115,7 @@ def test_random_garments_come_from_their_seed_alone():
     assert study(garments=[{**entry, "random": 1, "seed": 4}]).garments[0].garment == first[1].garment
 
 
-def test_files_are_found_beside_the_study(tmp_path: Path):
+def test_files_are_found_beside_the_study(tmp_path: Path) -> None:
     for name in ("one", "two"):
         (tmp_path / f"{name}.json").write_text(json.dumps(towel(name)))
     labels = [
@@ -124,19 +124,19 @@ def test_files_are_found_beside_the_study(tmp_path: Path):
     assert labels == ["one", "two"]
 
 
-def test_files_that_are_not_there_are_told_with_their_field(tmp_path: Path):
+def test_files_that_are_not_there_are_told_with_their_field(tmp_path: Path) -> None:
     for pattern in ("no.json", "no-*.json"):
         with pytest.raises(StudyError, match=r"garments\[0\]\.file"):
             study_of(content(garments=[{"file": pattern}]), Sources(folder=tmp_path))
 
 
-def test_a_garment_can_be_drawn_in_the_study_itself():
+def test_a_garment_can_be_drawn_in_the_study_itself() -> None:
     cell = study(garments=[{"garment": towel()}]).cell(0)
     assert cell.task is not None
     assert cell.task.garment.name == "my-towel"
 
 
-def test_stations_and_the_own_placement_keep_their_distance_to_the_edges():
+def test_stations_and_the_own_placement_keep_their_distance_to_the_edges() -> None:
     here, there = (study(table={"width_m": w, "depth_m": d}).cell(0).task for w, d in ((0.98, 1.6), (1.18, 1.4)))
     assert here is not None
     assert there is not None
@@ -145,7 +145,7 @@ def test_stations_and_the_own_placement_keep_their_distance_to_the_edges():
     assert there.start.placement.x_m == pytest.approx(here.start.placement.x_m + 0.1)
 
 
-def test_given_stations_stay_where_they_are_given():
+def test_given_stations_stay_where_they_are_given() -> None:
     stations = {"front": {"x_m": -1.0, "y_m": 0.0, "yaw_rad": 0.0}}
     task = study(scene={"stations": stations}, table={"depth_m": 1.0}).cell(0).task
     assert task is not None
@@ -161,14 +161,14 @@ def test_given_stations_stay_where_they_are_given():
         ({"middle": {"x_m": 0.0, "y_m": 0.0, "yaw_rad": 0.0}}, Pose2(-0.15, -0.1, 0.0)),
     ],
 )
-def test_an_article_lies_where_the_placements_say(placements: Any, expected: Pose2):
+def test_an_article_lies_where_the_placements_say(placements: Any, expected: Pose2) -> None:
     task = study(placements=placements).cell(0).task
     assert task is not None
     found = task.start.placement
     assert (found.x_m, found.y_m, found.yaw_rad) == pytest.approx((expected.x_m, expected.y_m, expected.yaw_rad))
 
 
-def test_a_study_reads_back_from_its_json():
+def test_a_study_reads_back_from_its_json() -> None:
     found = study(
         garments=[{"random": 2, "seed": 1}, {"template": "towel", "measures": {"width_m": 0.4}}],
         placements=[{"x_m": 0.1, "y_m": 0.2, "yaw_rad": 0.3}],
@@ -231,7 +231,7 @@ def test_a_study_reads_back_from_its_json():
         ({"rehearsal": {"sound": 1}}, "rehearsal.sound", "known"),
     ],
 )
-def test_what_is_wrong_is_told_with_field_and_value(changes: dict[str, Any], field: str, told: str):
+def test_what_is_wrong_is_told_with_field_and_value(changes: dict[str, Any], field: str, told: str) -> None:
     with pytest.raises(StudyError) as caught:
         study(**changes)
     assert caught.value.field == field
@@ -239,7 +239,7 @@ def test_what_is_wrong_is_told_with_field_and_value(changes: dict[str, Any], fie
 
 
 @pytest.mark.parametrize(("text", "told"), [("garments = [", "TOML"), (None, "cannot be read")])
-def test_a_file_that_is_no_toml_is_told(tmp_path: Path, text: str | None, told: str):
+def test_a_file_that_is_no_toml_is_told(tmp_path: Path, text: str | None, told: str) -> None:
     path = tmp_path / "study.toml"
     if text is not None:
         path.write_text(text)
@@ -275,7 +275,7 @@ runs = 2
 """
 
 
-def test_a_request_in_json_has_every_field_of_a_file_and_says_the_same_study():
+def test_a_request_in_json_has_every_field_of_a_file_and_says_the_same_study() -> None:
     written = tomllib.loads(ALL_FIELDS)
     assert set(written) == set(FIELDS), "a field is missing above"
     wanted = STUDIES.form.read(json.loads(json.dumps(written)))
@@ -285,7 +285,7 @@ def test_a_request_in_json_has_every_field_of_a_file_and_says_the_same_study():
     assert asked.count == 5
 
 
-def test_the_documentation_names_every_field():
+def test_the_documentation_names_every_field() -> None:
     text = (Path(__file__).parents[3] / "docs" / "studies.md").read_text(encoding="utf-8")
     rows = text.partition("## The file")[2].partition("##")[0].splitlines()
     named = [name for row in rows if row.startswith("| `") for name in re.findall(r"`(\w+)`", row.split("|")[1])]

@@ -23,13 +23,13 @@ def answers(workers: Workers, asked: Any = None) -> dict[int, Any]:
     return {answer.index: answer.row for answer in found}
 
 
-def test_a_worker_that_dies_is_replaced_and_its_cell_begun_once_more(tmp_path: Path):
+def test_a_worker_that_dies_is_replaced_and_its_cell_begun_once_more(tmp_path: Path) -> None:
     marker = tmp_path / "died"
     assert answers(LocalWorkers(1, partial(deadly_once, marker))) == answers(InProcess(fake_plan))
     assert marker.exists()
 
 
-def test_a_cell_that_kills_its_worker_twice_is_a_row_and_the_others_are_answered():
+def test_a_cell_that_kills_its_worker_twice_is_a_row_and_the_others_are_answered() -> None:
     found = answers(LocalWorkers(2, deadly), MANY)
     assert found[25]["status"] == "failed"
     assert "-9" in found[25]["error"]
@@ -37,14 +37,14 @@ def test_a_cell_that_kills_its_worker_twice_is_a_row_and_the_others_are_answered
     assert found | {25: expected[25]} == expected
 
 
-def test_a_cell_that_hangs_is_ended(monkeypatch: pytest.MonkeyPatch):
+def test_a_cell_that_hangs_is_ended(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(local_workers, "_GRACE_S", 0.0)
     found = answers(LocalWorkers(2, hanging), study(limits={"time_limit_s": 0.5}))
     assert [found[index]["status"] for index in range(4)] == ["solved", "failed", "infeasible", "infeasible"]
     assert "time limit" in found[1]["error"]
 
 
-def test_cells_are_made_only_as_they_are_needed():
+def test_cells_are_made_only_as_they_are_needed() -> None:
     taken = []
 
     def cells() -> Any:
@@ -58,18 +58,18 @@ def test_cells_are_made_only_as_they_are_needed():
     running.close()
 
 
-def test_workers_that_all_die_end_the_study(monkeypatch: pytest.MonkeyPatch):
+def test_workers_that_all_die_end_the_study(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(handing_out, "LOST_MAX", 2)
     with pytest.raises(handing_out.WorkersLostError, match="-9"):
         answers(LocalWorkers(1, deadly), study(table={"height_m": 0.75}, scene={"friction": [0.1, 0.2, 0.3]}))
 
 
-def test_an_executor_answers_as_one_process_does():
+def test_an_executor_answers_as_one_process_does() -> None:
     with ThreadPoolExecutor(2) as executor:
         assert answers(ExecutorWorkers(executor, 2, raising), MANY) == answers(InProcess(raising), MANY)
 
 
-def test_a_batch_whose_worker_is_lost_comes_back_cell_by_cell():
+def test_a_batch_whose_worker_is_lost_comes_back_cell_by_cell() -> None:
     class Losing(ThreadPoolExecutor):
         """Loses every batch with the second cell in it."""
 
@@ -84,7 +84,7 @@ def test_a_batch_whose_worker_is_lost_comes_back_cell_by_cell():
     assert [found[index]["status"] for index in (0, 2, 3)] == ["solved", "infeasible", "infeasible"]
 
 
-def test_a_scheduler_that_does_not_answer_is_told(monkeypatch: pytest.MonkeyPatch):
+def test_a_scheduler_that_does_not_answer_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(executor_workers, "_CONNECT_S", 0.1)
     with pytest.raises(StudyError, match=r"127\.0\.0\.1:1"), cluster("tcp://127.0.0.1:1"):
         pass
@@ -92,7 +92,7 @@ def test_a_scheduler_that_does_not_answer_is_told(monkeypatch: pytest.MonkeyPatc
 
 @pytest.mark.slow
 @pytest.mark.filterwarnings("ignore")
-def test_a_dask_cluster_answers_as_one_process_does():
+def test_a_dask_cluster_answers_as_one_process_does() -> None:
     from distributed import LocalCluster
 
     asked = study(table={"height_m": [0.7, 5.0]})

@@ -9,7 +9,7 @@ from app.ui.viewpoints.following import Following, work_of
 from app.ui.viewpoints.presets import Lens
 from app.version_plan import ShownPlan
 from planner import Plan, Timeline, load_garment, make_plan
-from planner.geometry.pose import Pose2, wrapped_angle
+from planner.geometry.pose import Point2, Point3, Pose2, wrapped_angle
 
 LENS = Lens(1.5)
 WORK = [(0.0, 0.0), (-0.6, 0.2), (0.3, -0.4)]
@@ -18,7 +18,7 @@ BASES = [Pose2(-0.95, 0.0, 0.0), Pose2(-0.4, 0.75, -math.pi / 2), Pose2(0.4, -0.
 
 @pytest.mark.parametrize("work", WORK)
 @pytest.mark.parametrize("base", BASES)
-def test_the_robot_is_never_between_camera_and_work(base: Pose2, work: tuple[float, float]):
+def test_the_robot_is_never_between_camera_and_work(base: Pose2, work: tuple[float, float]) -> None:
     (x, y, z), look_at, _ = _parts(Following(), base, work)
     assert look_at[:2] == pytest.approx(work)
     to_camera = math.atan2(y - work[1], x - work[0])
@@ -27,7 +27,7 @@ def test_the_robot_is_never_between_camera_and_work(base: Pose2, work: tuple[flo
     assert z > 0.5
 
 
-def test_the_camera_goes_after_the_work_without_a_jump():
+def test_the_camera_goes_after_the_work_without_a_jump() -> None:
     following = Following()
     before = np.array(following.view(BASES[0], WORK[0], LENS).position)
     for _ in range(120):
@@ -37,7 +37,7 @@ def test_the_camera_goes_after_the_work_without_a_jump():
     assert now == pytest.approx(Following().view(BASES[1], WORK[2], LENS).position, abs=0.01)
 
 
-def test_the_work_is_where_the_hands_are_and_at_the_end_still_there():
+def test_the_work_is_where_the_hands_are_and_at_the_end_still_there() -> None:
     plan: Plan = make_plan(load_garment("hand-towel"))
     shown = ShownPlan(1, plan, Timeline.of(plan))
     for step in plan.steps:
@@ -48,6 +48,6 @@ def test_the_work_is_where_the_hands_are_and_at_the_end_still_there():
     assert work_of(shown, plan.cost_s + 1.0) == work_of(shown, plan.steps[-1].start_s)
 
 
-def _parts(following: Following, base: Pose2, work: tuple[float, float]):
+def _parts(following: Following, base: Pose2, work: Point2) -> tuple[Point3, Point3, float]:
     seen = following.view(base, work, LENS)
     return seen.position, seen.look_at, seen.fov_rad

@@ -3,6 +3,7 @@
 import math
 import time
 from collections.abc import Iterator
+from functools import partial
 
 import pytest
 
@@ -34,11 +35,15 @@ def opened() -> Iterator[tuple[Document, View3D]]:
     view.close()
 
 
+def has_channel(viewer: Viewer) -> bool:
+    return viewer.channel is not None
+
+
 def test_a_viewpoint_moves_the_camera_of_the_browser_that_chose_it_alone(opened: tuple[Document, View3D]) -> None:
     _, view = opened
     with Viewer(view) as viewer, Viewer(view) as other:
         for each in (viewer, other):
-            each.until(lambda each=each: each.channel is not None)
+            each.until(partial(has_channel, each))
         assert viewer.channel != other.channel
         opening = [view.opening.position]  # what a new browser is told
         assert viewer.camera == other.camera == opening

@@ -7,6 +7,7 @@ from typing import Any
 import msgspec.msgpack
 import zstandard
 from websockets.sync.client import connect
+from websockets.typing import Subprotocol
 
 from app.ui.view_3d import View3D
 from app.ui.viewpoints.presets import Preset
@@ -15,7 +16,7 @@ from app.ui.viser_patches import LOOPBACK, SECRET_HEADER
 from planner.geometry.pose import Point3
 from tests.patience import PATIENCE_S
 
-SUBPROTOCOL = "viser-v1.1.1"
+SUBPROTOCOL = Subprotocol("viser-v1.1.1")
 EYE = (0.0, 0.0, 2.0)
 
 
@@ -30,13 +31,13 @@ class Viewer:
     def __init__(self, view: View3D, eye: Point3 = EYE, size: tuple[int, int] = (800, 500)) -> None:
         self._socket = connect(
             f"ws://{LOOPBACK}:{view.port}",
-            subprotocols=[SUBPROTOCOL],  # type: ignore[list-item]
+            subprotocols=[SUBPROTOCOL],
             additional_headers={SECRET_HEADER: view.secret},
             proxy=None,
             max_size=None,
         )
         self.nodes: set[str] = set()
-        self.camera: list[tuple[float, ...]] = []
+        self.camera: list[Point3] = []
         self.look(eye, size)
 
     def look(self, eye: Point3, size: tuple[int, int]) -> None:
@@ -95,6 +96,7 @@ class Viewer:
         if kind == "RemoveSceneNodeMessage":
             self.nodes.discard(str(name))
         elif kind == "SetCameraPositionMessage":
-            self.camera.append(tuple(message["position"]))
+            x, y, z = message["position"]
+            self.camera.append((x, y, z))
         elif name and "props" in message:
             self.nodes.add(name)

@@ -54,20 +54,20 @@ def loop_seen(camera: Camera, y_m: float) -> FloatArray:
 
 
 @pytest.mark.parametrize("camera", [hung(overhead(TABLE)), beside_the_table()])
-def test_a_crease_lies_where_its_loop_ends_whichever_way_the_camera_leans(camera: Camera):
+def test_a_crease_lies_where_its_loop_ends_whichever_way_the_camera_leans(camera: Camera) -> None:
     seen = heights().seen_at(camera, loop_seen(camera, 0.2095), LIES)
     assert LIES.to_inner(seen)[0] == pytest.approx([0.343, 0.2095], abs=2e-4)
     flat = camera.on_plane(loop_seen(camera, 0.2095), 0.002)  # half of its two layers, as it was taken before
     assert abs(LIES.to_inner(flat)[0, 1] - 0.2095) > 1.5e-3
 
 
-def test_an_edge_is_as_high_as_the_layers_that_end_there_and_a_crease_as_its_loop():
+def test_an_edge_is_as_high_as_the_layers_that_end_there_and_a_crease_as_its_loop() -> None:
     points = np.array([(0.343, 0.419), (0.343, 0.2095)])
     found = heights().halves(points, np.array([(0.0, 1.0), (0.0, -1.0)]))
     assert found == pytest.approx([0.002, 0.008])  # two layers of 2 mm, and a loop of 16 mm
 
 
-def test_the_crease_of_a_towel_in_a_picture_is_seen_where_its_loop_ends():
+def test_the_crease_of_a_towel_in_a_picture_is_seen_where_its_loop_ends() -> None:
     sequence, camera = towel(), hung(overhead(TABLE))
     pattern, triangles = woven_mesh(sequence.garment.pattern, 0.006, 1)
     over_m = 0.2095 + math.pi / 2.0 * HALF_M - pattern[:, 1]  # along the cloth, from where its loop begins

@@ -30,7 +30,7 @@ def fitted(contour: FloatArray, sequence: FoldSequence, folds: tuple[int, ...]) 
     return Creased.of(contour, sequence, folds, Expected(NEAR)).fitted(whole)
 
 
-def test_creases_and_edges_of_a_towel_folded_in_half_are_told_apart():
+def test_creases_and_edges_of_a_towel_folded_in_half_are_told_apart() -> None:
     sequence = replayed(load_garment("hand-towel"))  # .686 x .419 m, its near half folded up at y = .2095 m
     edges = CreaseEdges.of(sequence.cloth(1), sequence.garment.pattern)
     points = np.array([(0.3, 0.2095), (0.3, 0.2095 - 0.004), (0.3, 0.419), (0.0, 0.3)])
@@ -40,7 +40,7 @@ def test_creases_and_edges_of_a_towel_folded_in_half_are_told_apart():
     assert not flat.are_creases(points).any()
 
 
-def test_a_flap_that_landed_short_is_found_and_the_stack_under_it_stays_where_it_is():
+def test_a_flap_that_landed_short_is_found_and_the_stack_under_it_stays_where_it_is() -> None:
     sequence = replayed(load_garment("t-shirt"))
     folded = FoldedOutline(sequence, 0b11, 2)
     stack = fitted(seen(folded.region(0.007, 0.0), LIES), sequence, (0, 1, 2))
@@ -55,7 +55,7 @@ def test_a_flap_that_landed_short_is_found_and_the_stack_under_it_stays_where_it
     assert not stack.beside(np.array([[0.4, 0.02]])).any()  # on the right side, which nothing has moved
 
 
-def test_creases_that_turn_over_in_a_loop_do_not_pull_the_stack_along():
+def test_creases_that_turn_over_in_a_loop_do_not_pull_the_stack_along() -> None:
     # The towel's crease is at y = .2095 m; seen 6 mm inside of it, the far edge and the sides where they were put.
     sequence = replayed(load_garment("hand-towel"))
     points = seen(sequence.cloth(1).silhouette, LIES)
@@ -67,14 +67,14 @@ def test_creases_that_turn_over_in_a_loop_do_not_pull_the_stack_along():
     assert stack.row[5] - stack.row[3] == pytest.approx(0.006, abs=0.0025)
 
 
-def test_the_edge_of_a_flap_that_lies_upon_an_equal_one_is_told_to_be_unsure():
+def test_the_edge_of_a_flap_that_lies_upon_an_equal_one_is_told_to_be_unsure() -> None:
     sequence, corner = replayed(load_garment("hand-towel")), np.array([[0.0, 0.419]])
     halved = fitted(seen(sequence.cloth(1).silhouette, LIES), sequence, (0,))
     flat = fitted(seen(sequence.cloth(0).silhouette, LIES), sequence, ())
     assert halved.errors(corner)[0] > 2.0 * flat.errors(corner)[0]
 
 
-def test_a_flap_that_landed_turned_does_not_turn_a_stack_that_was_seen_before():
+def test_a_flap_that_landed_turned_does_not_turn_a_stack_that_was_seen_before() -> None:
     # The flap of a halved towel sticks out at both ends of one side, and its edge is the only one seen there.
     sequence = replayed(load_garment("hand-towel"))
     folded = FoldedOutline(sequence, 0, 0)
@@ -87,7 +87,7 @@ def test_a_flap_that_landed_turned_does_not_turn_a_stack_that_was_seen_before():
     assert most_off(silhouette, guessed.placement, LIES) > most_off(silhouette, known.placement, LIES) + 0.002
 
 
-def test_a_placement_that_fits_as_well_until_creases_are_asked_leaves_no_doubt():
+def test_a_placement_that_fits_as_well_until_creases_are_asked_leaves_no_doubt() -> None:
     sequence = replayed(load_garment("hand-towel"))
     points = seen(sequence.cloth(1).silhouette, LIES)
     whole = fit_near(points, sequence.cloth(1), NEAR)
@@ -99,7 +99,7 @@ def test_a_placement_that_fits_as_well_until_creases_are_asked_leaves_no_doubt()
     assert most_off(sequence.cloth(1).silhouette, stack.placement, LIES) < 0.003
 
 
-def test_of_two_placements_that_fit_equally_well_the_error_told_covers_both():
+def test_of_two_placements_that_fit_equally_well_the_error_told_covers_both() -> None:
     # The ends of a strip are hidden, so it may as well lie 3 cm further along.
     sequence = replayed(load_garment("scarf"))
     silhouette, along = sequence.cloth(0).silhouette, np.array([[0.0, 0.0], [1.0, 0.0]])
@@ -113,7 +113,7 @@ def test_of_two_placements_that_fit_equally_well_the_error_told_covers_both():
     assert creased.told(creased.fitted(whole)).error_m > 0.02
 
 
-def test_what_was_seen_is_expected_and_gets_less_sure_as_things_move():
+def test_what_was_seen_is_expected_and_gets_less_sure_as_things_move() -> None:
     sequence = replayed(load_garment("jeans"))
     stack = fitted(seen(sequence.cloth(0).silhouette, LIES), sequence, ())
     expected = stack.expected
@@ -124,7 +124,7 @@ def test_what_was_seen_is_expected_and_gets_less_sure_as_things_move():
     assert loosened.within_rad == pytest.approx(np.hypot(expected.within_rad, 0.02))
 
 
-def test_errors_told_cover_outlines_of_much_noise():
+def test_errors_told_cover_outlines_of_much_noise() -> None:
     sequence = replayed(load_garment("jeans"))
     corners = sequence.cloth(0).silhouette.hull
     covered = 0
@@ -141,7 +141,7 @@ def told_of(seen_points: FloatArray, stack: Region) -> StackFit:
     return figure.told(figure.fit_at(LIES).row, seen_points, [], is_ambiguous=False)
 
 
-def test_the_overlap_of_an_outline_that_ends_short_is_that_of_the_areas():
+def test_the_overlap_of_an_outline_that_ends_short_is_that_of_the_areas() -> None:
     # A rectangle of .4 x .2 m of which .05 m are missing at one end, and one of which as much sticks out.
     whole, short = (Region.polygon([(0.0, 0.0), (x, 0.0), (x, 0.2), (0.0, 0.2)]) for x in (0.4, 0.35))
     assert told_of(seen(whole, LIES), whole).overlap > 0.98
@@ -149,7 +149,7 @@ def test_the_overlap_of_an_outline_that_ends_short_is_that_of_the_areas():
     assert told_of(seen(whole, LIES), short).overlap == pytest.approx(0.35 / 0.4, abs=0.03)
 
 
-def test_a_flap_that_sticks_out_costs_more_than_its_area_of_the_overlap_and_a_corner_cut_off_most_of_it():
+def test_a_flap_that_sticks_out_costs_more_than_its_area_of_the_overlap_and_a_corner_cut_off_most_of_it() -> None:
     whole = Region.polygon([(0.0, 0.0), (0.4, 0.0), (0.4, 0.2), (0.0, 0.2)])
     flap = Region.polygon([(0.2, 0.2), (0.3, 0.2), (0.3, 0.3), (0.2, 0.3)])  # 100 cm2 beside 800 cm2
     assert told_of(seen(Region.union([whole, flap]), LIES), whole).overlap <= 0.08 / 0.09
@@ -158,7 +158,7 @@ def test_a_flap_that_sticks_out_costs_more_than_its_area_of_the_overlap_and_a_co
     assert overlap <= 0.825
 
 
-def test_creases_inside_of_their_lines_take_nothing_off_the_overlap():
+def test_creases_inside_of_their_lines_take_nothing_off_the_overlap() -> None:
     # Two creases of .4 m, each seen 12 mm inside: of the .4 x .14 m stack they take .0096 m2, a sixth.
     sequence = replayed(load_garment("letter-towel"))
     folds = (0, 1)

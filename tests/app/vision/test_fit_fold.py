@@ -11,7 +11,7 @@ NEAR = Pose2(0.065, -0.09, -1.15)
 
 
 @pytest.mark.parametrize("name", ["t-shirt", "jeans", "letter-towel"])
-def test_with_the_crease_on_its_line_the_outline_is_that_of_the_planned_stack(name: str):
+def test_with_the_crease_on_its_line_the_outline_is_that_of_the_planned_stack(name: str) -> None:
     sequence = replayed(load_garment(name))
     for index in range(len(sequence.folds)):
         done = (1 << index) - 1
@@ -21,7 +21,7 @@ def test_with_the_crease_on_its_line_the_outline_is_that_of_the_planned_stack(na
 
 
 @pytest.mark.parametrize(("name", "index"), [("t-shirt", 2), ("jeans", 1), ("shirt", 4)])
-def test_a_crease_beside_its_line_is_measured(name: str, index: int):
+def test_a_crease_beside_its_line_is_measured(name: str, index: int) -> None:
     sequence = replayed(load_garment(name))
     done = (1 << index) - 1
     actual = FoldedOutline(sequence, done, index).region(0.016, 0.0)
@@ -32,7 +32,7 @@ def test_a_crease_beside_its_line_is_measured(name: str, index: int):
     assert most_off(actual, fit.stack.placement, PLACEMENT) < 0.006
 
 
-def test_where_halved_cloth_may_stick_out_on_either_side_the_error_covers_both():
+def test_where_halved_cloth_may_stick_out_on_either_side_the_error_covers_both() -> None:
     sequence = replayed(load_garment("hand-towel"))
     actual = FoldedOutline(sequence, 0, 0).region(0.02, 0.0)
     fit = fit_fold(seen(actual, PLACEMENT), sequence, 0, 0)

@@ -15,7 +15,7 @@ TOWEL, SHEET = garment("hand-towel", -0.1, 0.1), rectangle(0.65, -0.4, A4_M)
 FIGURES = [(TOWEL, BLUE), (SHEET, PAPER)]
 
 
-def test_the_focal_length_is_that_of_the_exif_as_a_share_of_the_diagonal():
+def test_the_focal_length_is_that_of_the_exif_as_a_share_of_the_diagonal() -> None:
     # 26 mm on film of 36 x 24 mm, 43.27 mm across; a picture of 4:3 is 1.25 longer sides across.
     focal = read_picture(jpeg(taken([]), 26)).focal
     assert focal.sides == pytest.approx(26 / 43.267 * 1.25, rel=1e-3)
@@ -23,11 +23,11 @@ def test_the_focal_length_is_that_of_the_exif_as_a_share_of_the_diagonal():
 
 
 @pytest.mark.parametrize("millimetres", [None, 1, 5000])
-def test_a_focal_length_that_is_missing_or_impossible_is_the_usual_one(millimetres: int | None):
+def test_a_focal_length_that_is_missing_or_impossible_is_the_usual_one(millimetres: int | None) -> None:
     assert read_picture(jpeg(taken([]), millimetres)).focal == USUAL_FOCAL
 
 
-def test_damaged_exif_is_no_error():
+def test_damaged_exif_is_no_error() -> None:
     whole = jpeg(taken([]))
     exif = b"Exif\0\0MM\0*\0\0\0\x08\0\xff" + b"\x87\x69\0\4\0\0\0\1\xff\xff\xff\xff" * 3
     damaged = whole[:2] + b"\xff\xe1" + struct.pack(">H", len(exif) + 2) + exif + whole[2:]
@@ -36,7 +36,7 @@ def test_damaged_exif_is_no_error():
 
 @pytest.mark.parametrize("tilt_rad", [0.0, 0.03, 0.2])
 @pytest.mark.parametrize("focal", [0.7, 0.95, 1.4])
-def test_sizes_are_known_from_straight_above_and_from_the_side(tilt_rad: float, focal: float):
+def test_sizes_are_known_from_straight_above_and_from_the_side(tilt_rad: float, focal: float) -> None:
     seen = outline_on_table(read_picture(jpeg(taken(FIGURES, tilt_rad=tilt_rad, focal=focal))), SheetSaid("a4"))
     off = Region.polygon(seen.contour).length / Region.polygon(TOWEL).length - 1.0
     assert seen.size_error is not None and seen.size_error < 0.04
@@ -44,7 +44,7 @@ def test_sizes_are_known_from_straight_above_and_from_the_side(tilt_rad: float, 
     assert seen.doubt is None
 
 
-def test_a_long_lens_is_seen_to_be_one_by_its_exif():
+def test_a_long_lens_is_seen_to_be_one_by_its_exif() -> None:
     image = taken(FIGURES, tilt_rad=0.45, focal=4.0)
     millimetres = round(4.0 * 43.267 / 1.25)
     unknown, known = (outline_on_table(read_picture(jpeg(image, mm)), SheetSaid("a4")) for mm in (None, millimetres))

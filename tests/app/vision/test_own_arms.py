@@ -72,7 +72,7 @@ def believed(shift_m: tuple[float, float]) -> Camera:
 
 @pytest.mark.parametrize("t_s", [0.0, 3.0, END_S])
 @pytest.mark.parametrize("shift_m", SHIFTS_M)
-def test_the_shift_of_a_camera_is_seen_to_a_millimetre_and_a_half(shift_m: tuple[float, float], t_s: float):
+def test_the_shift_of_a_camera_is_seen_to_a_millimetre_and_a_half(shift_m: tuple[float, float], t_s: float) -> None:
     told = seen_beside(taken(t_s), believed(shift_m), parts(t_s), [], LIKELY_M2)
     assert told is not None
     assert told.shift_m == pytest.approx(shift_m, abs=1.5e-3)
@@ -80,7 +80,7 @@ def test_the_shift_of_a_camera_is_seen_to_a_millimetre_and_a_half(shift_m: tuple
     assert off @ np.linalg.solve(told.covariance_m2, off) < 9.0
 
 
-def test_of_a_robot_that_is_not_in_the_picture_nothing_is_told():
+def test_of_a_robot_that_is_not_in_the_picture_nothing_is_told() -> None:
     grey = np.full_like(taken(0.0), 128)
     assert seen_beside(grey, CAMERA, parts(END_S), [], LIKELY_M2) is None
     noise = np.asarray(np.random.default_rng(0).normal(128.0, 3.0, grey.shape), np.uint8)
@@ -89,7 +89,7 @@ def test_of_a_robot_that_is_not_in_the_picture_nothing_is_told():
     assert seen_beside(taken(END_S), CAMERA, away, [], LIKELY_M2) is None
 
 
-def test_along_a_straight_edge_little_is_told():
+def test_along_a_straight_edge_little_is_told() -> None:
     told = seen_beside(bars(box(-2.0, 2.0)), believed((0.0, 0.008)), [box(-2.0, 2.0)], [], LIKELY_M2)
     assert told is not None
     along_m, across_m = np.sqrt(np.diag(told.covariance_m2))
@@ -97,7 +97,7 @@ def test_along_a_straight_edge_little_is_told():
     assert across_m < 2e-3 < 0.02 < along_m
 
 
-def test_of_something_seen_wider_than_it_is_no_end_is_told_to_be_further_ahead():
+def test_of_something_seen_wider_than_it_is_no_end_is_told_to_be_further_ahead() -> None:
     ahead = box(0.2, 2.0)  # its other end is not in the picture
     told = seen_beside(bars(box(0.196, 2.0, 0.034)), CAMERA, [ahead], [], LIKELY_M2)
     assert told is not None
@@ -105,7 +105,7 @@ def test_of_something_seen_wider_than_it_is_no_end_is_told_to_be_further_ahead()
 
 
 @pytest.mark.parametrize("near_m", [0.01, -0.01])
-def test_of_two_things_that_fit_as_well_the_likelier_is_seen(near_m: float):
+def test_of_two_things_that_fit_as_well_the_likelier_is_seen(near_m: float) -> None:
     two = bars(*(box(-2.0, 2.0, 0.008, y_m) for y_m in (near_m, -2.9 * near_m)))
     told = seen_beside(two, CAMERA, [box(-2.0, 2.0, 0.008)], [], LIKELY_M2)
     assert told is not None
@@ -123,7 +123,7 @@ def bars(*those: FloatArray) -> Image:
     return picture(CAMERA, towel_plan().scene.table, away, [*those], EVEN, 3)
 
 
-def test_what_is_learned_of_a_camera_gets_surer_and_stays_where_no_arm_is_seen():
+def test_what_is_learned_of_a_camera_gets_surer_and_stays_where_no_arm_is_seen() -> None:
     shift_m, hand_eye = (0.012, -0.009), HandEye()
     first = hand_eye.corrected(taken(END_S), believed(shift_m), hands(END_S))
     assert np.subtract(first.position, CAMERA.position)[:2] == pytest.approx([0.0, 0.0], abs=4e-3)
@@ -136,7 +136,7 @@ def test_what_is_learned_of_a_camera_gets_surer_and_stays_where_no_arm_is_seen()
     assert hand_eye.shift_m == pytest.approx(learned) and not hand_eye.hands_m
 
 
-def test_hands_beside_their_places_are_told_from_a_camera_beside_its_own():
+def test_hands_beside_their_places_are_told_from_a_camera_beside_its_own() -> None:
     shift_m, hand_eye = (0.004, -0.003), HandEye()
     for moment in range(6):
         hand_eye.corrected(taken(END_S, moment), believed(shift_m), hands(END_S))
@@ -149,7 +149,7 @@ def test_hands_beside_their_places_are_told_from_a_camera_beside_its_own():
     assert hand_eye.shift_m == pytest.approx(shift_m, abs=2e-3)
 
 
-def test_what_cannot_be_a_hand_is_not_taken_for_one():
+def test_what_cannot_be_a_hand_is_not_taken_for_one() -> None:
     hand_eye, robot = HandEye(), hands(END_S)
     for moment in range(4):
         hand_eye.corrected(taken(END_S, moment), CAMERA, robot)
@@ -161,7 +161,7 @@ def test_what_cannot_be_a_hand_is_not_taken_for_one():
     assert hand_eye.shift_m == pytest.approx(before, abs=1e-3)
 
 
-def test_the_parts_of_hands_and_of_the_rest_are_all_parts():
+def test_the_parts_of_hands_and_of_the_rest_are_all_parts() -> None:
     found = hands(END_S)
     assert set(found) == {"", "left", "right"}
     assert sum(len(those) for those in found.values()) == len(parts(END_S))

@@ -31,7 +31,7 @@ def bare(tmp_path: Path) -> str:
     return str(path)
 
 
-def test_what_is_seen_is_printed_and_written_as_json(shirt: str, tmp_path: Path):
+def test_what_is_seen_is_printed_and_written_as_json(shirt: str, tmp_path: Path) -> None:
     target = tmp_path / "seen.json"
     result = see(shirt, "--scale", "a4", "--json", str(target))
     assert result.exit_code == 0, result.output
@@ -43,7 +43,7 @@ def test_what_is_seen_is_printed_and_written_as_json(shirt: str, tmp_path: Path)
     assert Region.polygon(seen["garment"]["outline"]).length == pytest.approx(length_m, rel=0.03)
 
 
-def test_what_is_like_a_template_brings_its_folds(shirt: str):
+def test_what_is_like_a_template_brings_its_folds(shirt: str) -> None:
     result = see(shirt, "--like", "t-shirt", "--json", "-")
     assert result.exit_code == 0, result.output
     seen = json.loads(result.stdout)
@@ -52,14 +52,14 @@ def test_what_is_like_a_template_brings_its_folds(shirt: str):
 
 
 @pytest.mark.long
-def test_a_garment_that_is_not_folded_is_seen_to_be_so(shirt: str):
+def test_a_garment_that_is_not_folded_is_seen_to_be_so(shirt: str) -> None:
     result = see(shirt, "--scale", "a4", "--state-of", "t-shirt", "--json", "-")
     assert result.exit_code == 0, result.output
     state = json.loads(result.stdout)
     assert state["known"] and state["folds_done"] == [] and state["last_fold"] is None
 
 
-def test_nothing_to_be_told_is_status_3(bare: str):
+def test_nothing_to_be_told_is_status_3(bare: str) -> None:
     result = see(bare, "--scale", "0.5m")
     assert result.exit_code == 3
     assert "stands out from the table" in result.stderr
@@ -75,13 +75,13 @@ def test_nothing_to_be_told_is_status_3(bare: str):
         (("--like", "tie", "--state-of", "tie"), "cannot be given together"),
     ],
 )
-def test_bad_input_and_no_scale_are_status_2(bare: str, options: tuple[str, ...], says: str):
+def test_bad_input_and_no_scale_are_status_2(bare: str, options: tuple[str, ...], says: str) -> None:
     result = see(bare, *options)
     assert result.exit_code == 2
     assert says in result.stderr
 
 
-def test_a_picture_that_is_missing_or_none_is_status_2_and_named(tmp_path: Path):
+def test_a_picture_that_is_missing_or_none_is_status_2_and_named(tmp_path: Path) -> None:
     missing, text = tmp_path / "missing.jpg", tmp_path / "text.jpg"
     text.write_text("no picture")
     for path in (missing, text):

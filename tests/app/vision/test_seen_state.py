@@ -11,7 +11,7 @@ from tests.app.vision.outlines_seen import seen
 PLACEMENT = Pose2(0.05, -0.1, -1.2)
 
 
-def test_which_fold_was_done_last_is_told_and_how_far_off_it_is():
+def test_which_fold_was_done_last_is_told_and_how_far_off_it_is() -> None:
     sequence = replayed(load_garment("jeans"))
     actual = FoldedOutline(sequence, 0b1, 1).region(0.016, 0.0)
     found, unknown = state_of(seen(actual, PLACEMENT), sequence)
@@ -22,7 +22,7 @@ def test_which_fold_was_done_last_is_told_and_how_far_off_it_is():
 
 
 @pytest.mark.long
-def test_what_is_none_of_the_states_is_not_known():
+def test_what_is_none_of_the_states_is_not_known() -> None:
     sequence = replayed(load_garment("tie"))
     _, unknown = state_of(seen(load_garment("vest").pattern, PLACEMENT), sequence)
     assert unknown is not None and unknown.code == "seen_does_not_fit"

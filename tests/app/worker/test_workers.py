@@ -141,7 +141,8 @@ def test_who_waits_for_the_worker_of_a_key_can_be_stopped(workers: Workers, tmp_
 
 
 def test_no_more_idle_workers_are_kept_than_asked_for(workers: Workers, tmp_path: Path) -> None:
-    before, running = descendants(os.getpid()), []
+    before = descendants(os.getpid())
+    running: list[int] = []
     with ThreadPoolExecutor(3) as threads:
         futures = [threads.submit(workers.run, wait_for, Stop(), running.append, tmp_path / "go") for _ in range(3)]
         wait_until(lambda: len(running) == 3)
@@ -324,5 +325,9 @@ def test_a_template_that_was_ended_from_outside_is_replaced(workers: Workers) ->
     for pid in descendants(os.getpid()):
         if "forkserver" in Path(f"/proc/{pid}/cmdline").read_text():
             os.kill(pid, signal.SIGKILL)
-            wait_until(lambda pid=pid: not is_alive(pid))
+
+            def is_gone(pid: int = pid) -> bool:
+                return not is_alive(pid)
+
+            wait_until(is_gone)
     assert done(workers, count, 1)

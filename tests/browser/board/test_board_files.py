@@ -5,9 +5,9 @@ import json
 from collections.abc import Callable
 from pathlib import Path
 
-import ezdxf
 import pytest
-from playwright.sync_api import Page, expect
+from ezdxf import filemanagement
+from playwright.sync_api import FilePayload, Page, expect
 
 from app.files.exports import EXPORTS
 from planner import make_plan
@@ -35,8 +35,8 @@ def shirt(page: Page, desk: Desk) -> Desk:
 
 def choose_file(page: Page, name: str, content: str) -> None:
     page.get_by_role("button", name="Import", exact=True).click()
-    file = {"name": name, "mimeType": "application/octet-stream", "buffer": content.encode()}
-    page.get_by_label("File", exact=True).set_input_files([file])  # type: ignore[list-item]
+    file = FilePayload(name=name, mimeType="application/octet-stream", buffer=content.encode())
+    page.get_by_label("File", exact=True).set_input_files([file])
 
 
 def test_a_template_with_other_measures_becomes_a_new_document(page: Page, shirt: Desk) -> None:
@@ -140,7 +140,7 @@ def test_an_svg_is_imported_as_one_step_and_undone(page: Page, shirt: Desk) -> N
 
 
 def test_a_drawing_without_units_asks_for_them(page: Page, shirt: Desk) -> None:
-    pattern = ezdxf.new("R2000", units=0)
+    pattern = filemanagement.new("R2000", units=0)
     pattern.modelspace().add_lwpolyline([(0, 0), (50, 0), (50, 40), (0, 40)], close=True, dxfattribs={"layer": "1"})
     written = io.StringIO()
     pattern.write(written)
@@ -152,7 +152,7 @@ def test_a_drawing_without_units_asks_for_them(page: Page, shirt: Desk) -> None:
 
 
 def dxf(units: int, *corners: tuple[float, float]) -> str:
-    pattern = ezdxf.new("R2000", units=units)
+    pattern = filemanagement.new("R2000", units=units)
     pattern.modelspace().add_lwpolyline(corners, close=True, dxfattribs={"layer": "1"})
     written = io.StringIO()
     pattern.write(written)

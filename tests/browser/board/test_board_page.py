@@ -4,9 +4,10 @@ import struct
 import zlib
 from collections.abc import Callable, Iterator
 from itertools import pairwise
+from typing import Any
 
 import pytest
-from playwright.sync_api import Browser, Page, expect
+from playwright.sync_api import Browser, FilePayload, Page, expect
 
 from tests.browser.board_desk import Desk, expect_step
 from tests.browser.board_hand import Hand
@@ -66,7 +67,7 @@ def test_a_photo_lies_under_the_board_and_is_scaled_by_two_points(page: Page, to
     hand = Hand(page)
     with page.expect_file_chooser() as chooser:
         hand.tool("Photo")
-    chooser.value.set_files([{"name": "photo.png", "mimeType": "image/png", "buffer": PNG}])
+    chooser.value.set_files([FilePayload(name="photo.png", mimeType="image/png", buffer=PNG)])
     photo = page.locator("image.photo")
     expect(photo).to_have_count(1)
     scale = float(str(hand.board.get_attribute("data-px-per-m")))
@@ -158,7 +159,7 @@ def scale(page: Page) -> str | None:
     return page.get_by_role("application", name="Drafting board").get_attribute("data-px-per-m")
 
 
-def is_all_seen(page: Page, garment: Garment) -> bool:
+def is_all_seen(page: Page, garment: dict[str, Any]) -> bool:
     """Return whether a garment lies within the board."""
     board, hand = page.get_by_role("application", name="Drafting board").bounding_box(), Hand(page)
     assert board is not None

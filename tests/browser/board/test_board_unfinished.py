@@ -1,12 +1,14 @@
 """An outline that is not closed yet survives mistakes of the hand."""
 
+from collections.abc import Callable
+
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
 from tests.browser.board_desk import Desk, expect_step
 from tests.browser.board_finger import Finger
 from tests.browser.board_hand import Hand
-from tests.browser.conftest import Sheet, windows
+from tests.browser.conftest import Garment, Sheet, windows
 
 CORNERS = [(0.1, 0.1), (0.4, 0.1), (0.4, 0.3), (0.1, 0.3)]
 
@@ -72,8 +74,10 @@ def test_a_fold_whose_first_end_is_set_goes_on_after_another_tool(page: Page, cl
     expect_step(page, "Draw fold")
 
 
-def test_two_fingers_pan_and_leave_the_corners_set_so_far(chromium: Browser, new_sheet) -> None:
-    sheet: Sheet = new_sheet(None)
+def test_two_fingers_pan_and_leave_the_corners_set_so_far(
+    chromium: Browser, new_sheet: Callable[[Garment], Sheet]
+) -> None:
+    sheet = new_sheet(None)
     with windows(chromium, viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True) as phone:
         page = phone.new_page()
         page.goto(sheet.page_url)
