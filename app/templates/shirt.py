@@ -32,8 +32,10 @@ def cut(given: Measures) -> Cut:
     """Return the pattern and its folds: on either side half the sleeve back, sleeve in, side in; then bottom up."""
     width, length, folded = given["width_m"], given["length_m"], given["folded_width_m"]
     given.require_less("armhole_m", length / 2, "half of the length")
-    given.require_less("cuff_m", given["armhole_m"], "the armhole")
     given.require_less("slope_m", _STEEPEST * given["sleeve_m"], f"{_STEEPEST} of the sleeve")
+    # A sleeve that widens towards its cuff would have it stick out below the armpit once half of it is folded back.
+    across = math.sqrt(1.0 - (given["slope_m"] / given["sleeve_m"]) ** 2) * given["armhole_m"]
+    given.require_less("cuff_m", across, "the armhole, square to the sleeve")
     given.require_less(
         "slope_m", length - given["cuff_m"], "the length less the cuff, or the sleeve would pass the hem"
     )
