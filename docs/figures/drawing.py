@@ -19,7 +19,7 @@ NONE = "none"
 
 
 def colour(rgb: Rgb) -> str:
-    """A colour of the stage as SVG writes it."""
+    """A colour of the 3D view as SVG writes it."""
     return "#{:02x}{:02x}{:02x}".format(*rgb)
 
 

@@ -22,7 +22,7 @@ NAPKIN = {
 pytestmark = pytest.mark.anyio
 
 
-async def test_the_trace_of_a_run_can_be_read_by_its_id_and_shown_on_the_stage(client: httpx.AsyncClient) -> None:
+async def test_the_trace_of_a_run_can_be_read_by_its_id_and_shown_in_the_3d_view(client: httpx.AsyncClient) -> None:
     document = (await client.post("/api/documents", json={"garment": NAPKIN})).json()
     page = listening(client, document["id"])
     plan = (await page.until_planned(document["version"]))["plan"]
