@@ -79,7 +79,7 @@ export class Surface3D {
     this.board = board;
     this.frame = frame;
     this.view = new View3DProjection(board);
-    /** @type {{id: number, px: Point, hasMoved: boolean}|null} */
+    /** @type {{id: number, px: Point, hasMoved: boolean, last: Pointer}|null} */
     this.pressed = null;
     this.isOver = false;
     this.copies = svg("g", { class: "view3d-copies" });
@@ -93,6 +93,7 @@ export class Surface3D {
   }
 
   listen() {
+    this.finish(); // the frame in which it was begun has gone
     const { contentWindow: inside, contentDocument } = this.frame;
     if (!inside || !contentDocument) return;
     // At the window, before anything of viser's own, so that the camera stays where a tool is at work.
@@ -169,7 +170,7 @@ export class Surface3D {
       board.store.refuse(say("rule.spread_again"));
       return;
     }
-    this.pressed = { id: event.pointerId, px: pointer.px, hasMoved: false };
+    this.pressed = { id: event.pointerId, px: pointer.px, hasMoved: false, last: pointer };
     /** @type {Element} */ (event.target).setPointerCapture(event.pointerId);
     board.svg.focus({ preventScroll: true }); // its keys go on with what is begun here
     board.useKeyboard(false);
@@ -188,7 +189,7 @@ export class Surface3D {
     }
     this.keep(event);
     if (!this.view.look(this.scene)) return;
-    const pointer = this.pointer(event);
+    const pointer = (pressed.last = this.pointer(event));
     pressed.hasMoved ||= distance(pointer.px, pressed.px) >= DRAG_PX;
     if (pressed.hasMoved) this.through(() => board.tool.drag(pointer));
     board.render();
@@ -212,12 +213,19 @@ export class Surface3D {
 
   /** @param {PointerEvent} event */
   up(event) {
-    const { board, pressed } = this;
+    const { pressed } = this;
     if (pressed?.id !== event.pointerId) return;
     this.keep(event);
+    pressed.last = this.pointer(event);
+    this.finish();
+  }
+
+  /** Let go of what is pressed where the pointer was last. */
+  finish() {
+    const { board, pressed } = this;
+    if (!pressed) return;
     this.pressed = null;
-    const pointer = this.pointer(event);
-    this.through(() => board.tool.release(pointer, pressed.hasMoved));
+    this.through(() => board.tool.release(pressed.last, pressed.hasMoved));
     board.render();
   }
 
