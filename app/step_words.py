@@ -1,7 +1,12 @@
 """Describes a step of a plan in words."""
 
-from planner.cloth.garment import Garment
-from planner.task.plan_step import PlanStep
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from planner.cloth.garment import Garment
+    from planner.task.plan_step import PlanStep
 
 
 def step_words(step: PlanStep, garment: Garment) -> str:
