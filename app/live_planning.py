@@ -67,6 +67,11 @@ def prepare_live(caller: Caller, robot: str) -> None:
     prepare_robot(robot, lambda share: caller.tell(Mapped(share)))
 
 
+def compile_for(_: Caller, robot: str) -> None:
+    """Compile the kernels for a robot into the cache."""
+    compile_kernels(robot)
+
+
 def plan_live(caller: Caller, document: str, task: Task, shown: str | None, work_limit_s: float) -> None:
     """Tell plans for a task, each better than the one before, the quickest at last.
 
