@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from app.rehearsal.vision.look_at_stack import Sight
 from app.rehearsal.world import GripMotion, StepMotion, way_done
-from app.vision.look_at_stack import Sight
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray, Point2, Point3, Pose2

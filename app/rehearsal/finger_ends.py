@@ -14,7 +14,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from app.physics.pinch import PAD_M
+from app.rehearsal.physics.pinch import PAD_M
 from app.rehearsal.world import GripMotion, StepMotion
 
 _LEAST_WAY_M = 4.0 * PAD_M

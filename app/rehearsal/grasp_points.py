@@ -5,7 +5,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from app.vision.seen_stack import SeenStack
+from app.rehearsal.vision.seen_stack import SeenStack
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Point2

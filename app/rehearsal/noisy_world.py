@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from app.camera.posture import Posture
+from app.rehearsal.camera.posture import Posture
 from app.rehearsal.corrections import carry
 from app.rehearsal.deflection import deflected
 from app.rehearsal.judge import slide_of

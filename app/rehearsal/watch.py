@@ -10,13 +10,13 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
 
-from app.camera.posture import Posture
+from app.rehearsal.camera.posture import Posture
 from app.rehearsal.eyes import Eyes, Picture, kept
 from app.rehearsal.grasp_points import are_edges_hidden
 from app.rehearsal.step_motions import posture_at
+from app.rehearsal.vision.look_at_stack import Sight
+from app.rehearsal.vision.seen_stack import SeenStack
 from app.rehearsal.world import REACH, WITHDRAW, StepMotion, World
-from app.vision.look_at_stack import Sight
-from app.vision.seen_stack import SeenStack
 from planner.geometry.pose import Point2, Pose2
 from planner.task.plan import Plan
 from planner.task.plan_step import PlanStep

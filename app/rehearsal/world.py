@@ -8,8 +8,8 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from app.camera.camera import Camera
-from app.camera.posture import Posture
+from app.rehearsal.camera.camera import Camera
+from app.rehearsal.camera.posture import Posture
 from planner.geometry.pose import FloatArray, Point3, Pose2
 
 

@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from app.camera.posture import Posture
+from app.rehearsal.camera.posture import Posture
 from app.rehearsal.camera_world import CameraWorld
 from app.rehearsal.eyes import Eyes
 from app.rehearsal.grasp_points import INSIDE_M
@@ -15,11 +15,11 @@ from app.rehearsal.judge import Gate
 from app.rehearsal.perform import Performer
 from app.rehearsal.replay_world import Recorded, ReplayWorld
 from app.rehearsal.step_motions import posture_at, step_motions
+from app.rehearsal.vision.expected import Expected
+from app.rehearsal.vision.fit_fold import FoldedOutline
+from app.rehearsal.vision.look_at_stack import Looker
 from app.rehearsal.watch import Watch
 from app.rehearsal.world import REACH, WITHDRAW, Observation, Performed, Truth
-from app.vision.expected import Expected
-from app.vision.fit_fold import FoldedOutline
-from app.vision.look_at_stack import Looker
 from planner import Plan, Task, make_plan
 from planner.cloth.garment import Garment
 from planner.geometry.isometry import Isometry

@@ -17,9 +17,9 @@ from app.rehearsal.grasp_points import (
     where_seen,
 )
 from app.rehearsal.step_motions import step_motions
-from app.vision.fit_fold import FoldedOutline
-from app.vision.seen_stack import SeenStack
-from app.vision.stack_figure import Figure
+from app.rehearsal.vision.fit_fold import FoldedOutline
+from app.rehearsal.vision.seen_stack import SeenStack
+from app.rehearsal.vision.stack_figure import Figure
 from planner import Task, load_garment, make_plan
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Point2

@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.physics.fabric import Fabric, Resolution
-from app.physics.physics_world import PhysicsWorld
 from app.rehearsal.judge import Gate, judged
+from app.rehearsal.physics.fabric import Fabric, Resolution
+from app.rehearsal.physics.physics_world import PhysicsWorld
 from app.rehearsal.trailing_flaps import INWARDS_M, flaps_beside, trailing
 from app.rehearsal.world import GripMotion, StepMotion
 from planner import Task
