@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from rich.table import Table
 
-from app.step_words import step_words
+from app.step_kinds import step_words
 from planner.explain.vertex_check import Support
 from planner.task.reason import Code
 from planner.words.catalogue import sentence
@@ -140,9 +140,8 @@ def check_table(garment: Garment, report: GarmentCheck) -> Table:
     table.add_column("corners of the part that moves [m]")
     for index, fold in enumerate(report.folds):
         needed = "too many" if fold.grips_needed is None else str(fold.grips_needed)
-        kind = "red" if fold.is_red else "blue"
         lines = [*_corners(fold), _held_at(fold, garment, index)]
-        table.add_row(str(index), fold.name, kind, needed, "\n".join(lines), end_section=True)
+        table.add_row(str(index), fold.name, fold.kind, needed, "\n".join(lines), end_section=True)
     return table
 
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from typing import TypeAlias, TypeVar
 
 from app.drawing.curve import Curve
+from planner.cloth.fold_kinds import FOLD_KINDS
 from planner.geometry.pose import Point2, Pose2
 from planner.task.scene import Scene
 from planner.task.task import DEFAULT_ROBOT
@@ -94,7 +95,7 @@ class Crease:
     Attributes:
         id: the fold's id in this drawing.
         name: the user's name for the fold.
-        kind: "blue" or "red".
+        kind: its kind, as `FOLD_KINDS` names it.
         start: the first end.
         end: the second end.
         grip_radius_m: the radius of cloth that one grip holds (m); None for the garment's.
@@ -112,7 +113,7 @@ class Crease:
     @property
     def is_red(self) -> bool:
         """Whether the fold takes only the layers that the previous fold moved."""
-        return self.kind == "red"
+        return FOLD_KINDS[self.kind].is_red
 
     @property
     def ends(self) -> tuple[End, End]:

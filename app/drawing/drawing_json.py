@@ -22,6 +22,7 @@ from app.drawing.drawing import (
     Tie,
     fresh_ids,
 )
+from planner.cloth.fold_kinds import FoldName
 from planner.cloth.garment import FOLDS_MAX, NAME_PATTERN, TITLE_MAX
 from planner.cloth.outline import POINTS_MAX
 from planner.errors import FieldError, RequestError
@@ -125,7 +126,7 @@ class CreaseModel(StrictModel):
 
     id: Id | None = None
     name: Title = ""
-    kind: Literal["blue", "red"]
+    kind: FoldName
     start: EndModel
     end: EndModel
     grip_radius_m: Positive | None = None

@@ -25,6 +25,7 @@ from app.files.sketch_size import (
     require_size,
     sizes_by_unit,
 )
+from planner.cloth.fold_kinds import FOLD_KINDS
 from planner.cloth.garment import FOLDS_MAX, TITLE_MAX, Garment
 from planner.cloth.outline import EDGE_MIN_M
 from planner.errors import GarmentError
@@ -200,7 +201,7 @@ def _folds(
             text = f"The line {name!r} is not straight; the fold goes straight from its start to its end."
             notes.append(Message.plain(text))
         kind = line.kind
-        if kind == "red" and number == 0:
+        if number == 0 and FOLD_KINDS[kind].is_red:
             kind = "blue"
             notes.append(Message.plain(f"The line {name!r} is red, but no fold comes before it, so it was made blue."))
         for half, (start, end) in enumerate(_on_both_halves(ends, found.fold)):

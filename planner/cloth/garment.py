@@ -9,6 +9,7 @@ from typing import Annotated, Any
 from annotated_types import Interval
 from pydantic import Field
 
+from planner.cloth.fold_kinds import FOLD_KINDS
 from planner.cloth.outline import EDGE_MIN_M, POINTS_MAX, require_simple_outline
 from planner.errors import GarmentError
 from planner.geometry.given import GivenPose, PlanePoint
@@ -36,7 +37,7 @@ class DrawnFold:
 
     Attributes:
         name: the name that the user gave it.
-        kind: "blue" folds every layer, "red" only those that the fold before it moved.
+        kind: its kind (`FOLD_KINDS`): "blue" folds every layer, "red" only those that the fold before it moved.
         start: first end in the article frame (m), on the boundary of the silhouette at the time of the fold.
         end: second end (m).
         grip_radius_m: the radius within which one grip holds the cloth (m).
@@ -45,15 +46,15 @@ class DrawnFold:
     __pydantic_config__ = STRICT
 
     name: Title
-    kind: Annotated[str, Field(json_schema_extra={"enum": ["blue", "red"]})]
+    kind: Annotated[str, Field(json_schema_extra={"enum": list(FOLD_KINDS)})]
     start: PlanePoint
     end: PlanePoint
     grip_radius_m: Annotated[Positive, NULL_IS_DEFAULT] = DEFAULT_GRIP_RADIUS_M
 
     def __post_init__(self) -> None:
         """Check the fields; raises `GarmentError`."""
-        if self.kind not in ("blue", "red"):
-            raise GarmentError("kind", f"{self.kind!r} is neither 'blue' nor 'red'")
+        if self.kind not in FOLD_KINDS:
+            raise GarmentError("kind", f"expected one of {', '.join(FOLD_KINDS)}; got {self.kind!r}")
         if len(self.name) > TITLE_MAX:
             raise GarmentError("name", f"has {len(self.name)} characters, more than {TITLE_MAX}")
         length = math.dist(self.start, self.end)
@@ -66,7 +67,7 @@ class DrawnFold:
     @property
     def is_red(self) -> bool:
         """Whether it folds only the layers that the fold before it moved."""
-        return self.kind == "red"
+        return FOLD_KINDS[self.kind].is_red
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,12 +13,13 @@ import numpy as np
 from networkx import has_path
 
 from planner.cloth.cloth_state import ClothState
+from planner.cloth.fold_kinds import FOLD_KINDS
 from planner.cloth.garment import Garment
 from planner.cloth.grips import GripCovers, grip_covers
 from planner.cloth.must_hold import must_hold
 from planner.errors import FoldError
 from planner.folds.fold import Fold, snapped_line
-from planner.folds.fold_cloth import Folded, flap_silhouette, fold_cloth
+from planner.folds.fold_cloth import Folded, fold_cloth
 from planner.folds.fold_dag import FoldDag, overlap_graph, reduced
 from planner.folds.missed_flap import flap_missed, is_flap_missed
 from planner.folds.touching import is_order_free, is_touching
@@ -97,7 +98,7 @@ class FoldSequence:
         if key not in self._folded:
             fold = self.folds[index]
             crease = self.folds[index - 1].line if fold.is_red else None
-            self._folded[key] = fold_cloth(self.cloth(done), fold.line, is_red=fold.is_red, crease=crease)
+            self._folded[key] = fold_cloth(self.cloth(done), fold.line, fold.kind, crease)
         return self._folded[key]
 
     def moving(self, index: int) -> Region:
@@ -166,7 +167,7 @@ def _replay(garment: Garment, index: int, cloth: ClothState, before: list[Fold])
     drawn = garment.folds[index]
     if drawn.is_red and is_flap_missed(cloth, Segment(drawn.start, drawn.end)):
         raise FoldError("start", flap_missed(before[-1].name))
-    line = snapped_line(drawn, flap_silhouette(cloth, is_red=drawn.is_red))
-    fold = Fold(index, drawn.name, drawn.is_red, line, drawn.grip_radius_m)
+    line = snapped_line(drawn, FOLD_KINDS[drawn.kind].silhouette(cloth))
+    fold = Fold(index, drawn.name, drawn.kind, line, drawn.grip_radius_m)
     crease = before[-1].line if drawn.is_red else None
-    return fold, fold_cloth(cloth, line, is_red=drawn.is_red, crease=crease)
+    return fold, fold_cloth(cloth, line, drawn.kind, crease)

@@ -62,7 +62,7 @@ def test_a_blue_line_is_drawn_through_and_a_red_one_as_dashes_and_dots(view: Vie
 def test_the_two_kinds_have_the_two_colours_of_the_theme(view: View3D) -> None:
     for is_dark, palette in ((False, LIGHT), (True, DARK)):
         view.set_theme(is_dark=is_dark)
-        for index, wanted in ((BLUE, palette.fold_blue), (RED, palette.fold_red)):
+        for index, wanted in ((BLUE, palette.folds["blue"]), (RED, palette.folds["red"])):
             handle = view._server.scene.get_handle_by_name(f"/folds/{index}")
             assert isinstance(handle, viser.LineSegmentsHandle)
             assert tuple(handle.colors) == tuple(ink(wanted))

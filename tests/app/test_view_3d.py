@@ -178,7 +178,7 @@ def test_a_theme_colours_the_whole_3d_view(view: View3D, plan: Plan) -> None:
         front, line = scene.get_handle_by_name("/cloth/front"), scene.get_handle_by_name("/folds/0")
         assert isinstance(front, viser.MeshHandle) and isinstance(line, viser.LineSegmentsHandle)
         assert tuple(front.color) == paint(palette.cloth_front)
-        assert tuple(line.colors) == tuple(ink(palette.fold_blue))
+        assert tuple(line.colors) == tuple(ink(palette.folds["blue"]))
 
 
 def test_stations_are_named_in_the_readers_language_whatever_robot_comes(view: View3D) -> None:

@@ -36,7 +36,7 @@ def folded_garments(draw: st.DrawFn) -> Garment:
         turn, x, y = math.pi * draw(unit), 0.2 * draw(unit), 0.2 * draw(unit)
         guide = Segment((x, y), (x + math.cos(turn), y + math.sin(turn)))
         try:
-            line = along_line(solve(drawing), None, guide, is_red=False).line
+            line = along_line(solve(drawing), None, guide, "blue").line
             drawn = {"name": "", "kind": "blue", "start": list(line.start), "end": list(line.end)}
             file = {**garment.to_dict(), "folds": [*garment.to_dict()["folds"], drawn]}
             garment = Garment.from_dict(file)
