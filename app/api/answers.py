@@ -52,6 +52,7 @@ class GarmentAnswer(BaseModel):
     title: str
     outline: list[Point]
     areal_density_kg_m2: float
+    thickness_m: float
     folds: list[GarmentFold]
     grip_radius_m: float
     placement: Pose2

@@ -63,6 +63,7 @@ class DrawingAnswer(BaseModel):
     title: str
     outline: list[CornerAnswer]
     areal_density_kg_m2: float
+    thickness_m: float
     grip_radius_m: float
     folds: list[FoldAnswer]
     placement: Pose2

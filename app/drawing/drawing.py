@@ -11,6 +11,7 @@ from typing import TypeAlias, TypeVar
 
 from app.drawing.curve import Curve
 from planner.cloth.fold_kinds import FOLD_KINDS
+from planner.cloth.garment import DEFAULT_THICKNESS_M
 from planner.geometry.pose import Point2, Pose2
 from planner.task.scene import Scene
 from planner.task.task import DEFAULT_ROBOT
@@ -137,6 +138,7 @@ class Drawing:
         start_station: the station at which the robot starts; may be missing from the scene.
         comfort_radius_m: the comfort radius (m).
         robot: the name of the robot that folds.
+        thickness_m: the cloth's thickness where fingers press it (m).
     """
 
     name: str
@@ -150,6 +152,7 @@ class Drawing:
     start_station: str
     comfort_radius_m: float
     robot: str = DEFAULT_ROBOT
+    thickness_m: float = DEFAULT_THICKNESS_M
 
     @property
     def points(self) -> tuple[Point2, ...]:

@@ -38,7 +38,7 @@ from planner.strict_model import LARGEST_M
 ODD_SIZES_M = (0.05, 4.0)
 """Range of usual garment sizes (m); others give a warning."""
 
-KEPT_FIELDS = ("name", "areal_density_kg_m2", "grip_radius_m", "placement")
+KEPT_FIELDS = ("name", "areal_density_kg_m2", "thickness_m", "grip_radius_m", "placement")
 """Fields of a garment file that an exported drawing keeps besides its lines."""
 
 _MIRRORED = ", mirrored"

@@ -25,9 +25,15 @@ FOLDS_MAX = 64
 FIRST_IS_RED = "the first fold cannot be red: red takes the flap of the fold before it"
 DEFAULT_DENSITY_KG_M2 = 0.2
 DEFAULT_GRIP_RADIUS_M = 0.127
+DEFAULT_THICKNESS_M = 0.001
+THICKNESS_MIN_M, THICKNESS_MAX_M = 0.0001, 0.02
+LAYER_AIR_M = 0.001
+"""How much further apart than they are thick layers come to lie that nothing presses together (m)."""
+
 DEFAULT_YAW_RAD = -math.pi / 2
 
 Positive = Annotated[float, Interval(gt=0.0, le=LARGEST_M)]
+Thickness = Annotated[float, Interval(ge=THICKNESS_MIN_M, le=THICKNESS_MAX_M)]
 Title = Annotated[str, Field(json_schema_extra={"maxLength": TITLE_MAX})]
 
 
@@ -82,6 +88,7 @@ class Garment:
         folds: the folds in the user's order.
         grip_radius_m: the radius within which one grip holds the cloth, unless a fold has its own (m).
         placement: the article frame in the table frame.
+        thickness_m: the cloth's thickness where fingers press it (m).
     """
 
     __pydantic_config__ = STRICT
@@ -97,6 +104,7 @@ class Garment:
     placement: Annotated[
         GivenPose, NULL_IS_DEFAULT, Field(default_factory=lambda given: centred_placement(given["outline"]))
     ]
+    thickness_m: Thickness = DEFAULT_THICKNESS_M
 
     def __post_init__(self) -> None:
         """Check the fields; raises `GarmentError` with the field and the number."""
@@ -130,6 +138,11 @@ class Garment:
         """Return the contents of a garment file, every field filled in."""
         written: dict[str, Any] = _GARMENTS.write(self)
         return written
+
+    @property
+    def layer_m(self) -> float:
+        """The height that a layer takes in a stack that nothing presses (m)."""
+        return self.thickness_m + LAYER_AIR_M
 
     @property
     def pattern(self) -> Region:

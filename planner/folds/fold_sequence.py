@@ -21,6 +21,7 @@ from planner.errors import FoldError
 from planner.folds.fold import Fold, snapped_line
 from planner.folds.fold_cloth import Folded, fold_cloth
 from planner.folds.fold_dag import FoldDag, overlap_graph, reduced
+from planner.folds.fold_path import RestHeights
 from planner.folds.missed_flap import flap_missed, is_flap_missed
 from planner.folds.touching import is_order_free, is_touching
 from planner.geometry.isometry import Isometry
@@ -109,6 +110,18 @@ class FoldSequence:
         time.
         """
         return self.folded((1 << index) - 1, index).moving
+
+    def rests(self, done: int) -> RestHeights:
+        """Return the heights at which tools rest at the stack after a set of folds."""
+        return RestHeights(self.cloth(done), self.garment.thickness_m)
+
+    def rests_of(self, index: int) -> tuple[RestHeights, RestHeights] | None:
+        """Return the heights at which tools rest before and after a fold; None if they are the same everywhere.
+
+        Whatever overlaps the fold's part is done before it or after it in any order, so the user's order serves.
+        """
+        found = self.rests((1 << index) - 1), self.rests((2 << index) - 1)
+        return None if found[0].are_even and found[1].are_even else found
 
     @cached_property
     def covered(self) -> FloatArray:

@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.errors import RequestError
-from planner.folds.fold_path import REST_HEIGHT_M
 from planner.geometry.pose import BoolArray, FloatArray, Point2
 from planner.geometry.tolerance import LENGTH_M, grid_key, grid_keys
 from planner.primitives.context import STANDOFF_STEP_M, Context
@@ -102,7 +101,7 @@ class DragWays:
         for cover in context.allowed(drag_covers(context, state.done, state.offset, towards)):
             points = placement.to_outer(np.array(cover).reshape(-1, 2))
             if cover and nearest_pair_m(cover) >= context.grips_apart_m - LENGTH_M:
-                picks = np.column_stack([points, np.full(len(points), REST_HEIGHT_M)])
+                picks = np.column_stack([points, context.sequence.rests(state.done).at(np.array(cover))])
                 for arms in assignments(context, state.station, points):
                     order = [hand for *_, hand in self._order(state, arms, picks)]
                     grips, hands = tuple(cover[hand] for hand in order), tuple(arms[hand] for hand in order)

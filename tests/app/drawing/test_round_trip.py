@@ -114,6 +114,7 @@ def test_corners_and_folds_without_names_are_given_some() -> None:
         ({"outline": [{"point": [0, 11]}]}, "outline[0].point[1]"),
         ({"outline": [{"point": [0, 0]}] * 401}, "outline"),
         ({"areal_density_kg_m2": "1"}, "areal_density_kg_m2"),
+        ({"thickness_m": 0.03}, "thickness_m"),
         ({"scene": {"friction": -1}}, "scene.friction"),
         ({"name": "My towel"}, "name"),
         ({"comfort_radius_m": 0.2}, "comfort_radius_m"),

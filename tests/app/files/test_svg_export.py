@@ -26,7 +26,8 @@ def require_same(one: Garment, other: Garment) -> None:
         assert np.allclose([a.start, a.end], [b.start, b.end], rtol=0.0, atol=1e-6)
         assert (a.name, a.kind, a.grip_radius_m) == (b.name, b.kind, b.grip_radius_m)
     assert (one.name, one.title, one.placement) == (other.name, other.title, other.placement)
-    assert (one.areal_density_kg_m2, one.grip_radius_m) == (other.areal_density_kg_m2, other.grip_radius_m)
+    assert (one.areal_density_kg_m2, one.thickness_m) == (other.areal_density_kg_m2, other.thickness_m)
+    assert one.grip_radius_m == other.grip_radius_m
 
 
 @pytest.mark.parametrize("name", shipped_garment_names())
