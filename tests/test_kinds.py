@@ -37,7 +37,7 @@ def sources() -> dict[str, str]:
 
 def naming(kind: str) -> list[str]:
     """Return the files that name a kind: as a string, a key of a table, a style, or at the start or end of a key."""
-    named = re.compile(rf"""["'`.-]{kind}["'`.\s]|^\s*{kind}: \{{|_{kind}"|"{kind}\.""", re.MULTILINE)
+    named = re.compile(rf"""["'`]{kind}["'`]|\.is-{kind}\b|^\s*{kind}: \{{|[_."]{kind}[".][\w.]*"?:""", re.MULTILINE)
     code = {path: re.sub(r"(?m)^\s*(#|\*|//).*$", "", text) for path, text in sources().items()}
     return sorted(path for path, text in code.items() if named.search(text))
 

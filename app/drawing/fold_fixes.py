@@ -11,7 +11,6 @@ from app.drawing.problem import Problem
 from app.drawing.quick_fix import QuickFix
 from app.drawing.solution import Solution
 from planner.cloth.fold_kinds import FOLD_KINDS
-from planner.geometry.chord import nearest_chord
 from planner.geometry.segment import Segment
 from planner.geometry.tolerance import LENGTH_M
 from planner.message import Message
@@ -39,9 +38,9 @@ def _lines(solution: Solution, problem: Problem, fold: Crease) -> Iterator[Segme
         return
     line = problem.lines[0]
     silhouette = FOLD_KINDS[fold.kind].silhouette(solution.cloths[-1])
-    chord = nearest_chord(silhouette, line)
-    if chord is not None:
-        yield chord
+    nearest = FOLD_KINDS[fold.kind].nearest(silhouette, line)
+    if nearest is not None:
+        yield nearest
     (sx, sy), (ex, ey) = silhouette.nearest_boundary_points(np.array([line.start, line.end])).tolist()
     if math.dist((sx, sy), (ex, ey)) > LENGTH_M:
         yield Segment((sx, sy), (ex, ey))

@@ -83,7 +83,9 @@ def grab_and_drop(solution: Solution, after: int | None, grabbed: Point2, droppe
             raise RequestError("grab.from", Message("not_on_flap", text, {"at": list(grabbed)}))
         text = f"there is no cloth at {place}"
         raise RequestError("grab.from", Message("no_cloth_there", text, {"at": list(grabbed)}))
-    line = _parting_chord(silhouette, grabbed, dropped)
+    bisector = _bisector(grabbed, dropped)
+    is_whole, nearest = FOLD_KINDS[kind].is_whole, FOLD_KINDS[kind].nearest
+    line = nearest(silhouette, bisector) if is_whole else _parting_chord(silhouette, bisector, grabbed)
     if line is None:
         raise RequestError("grab.to", "no straight fold through the cloth takes the point there")
     return _placed(solution, replay, line, "grab.to", kind)
@@ -96,7 +98,7 @@ def along_line(solution: Solution, after: int | None, guide: Segment, kind: str)
         RequestError: there is no such fold; the field is ``after`` or ``line``.
     """
     replay = _replay(solution, after)
-    line = nearest_chord(_seen(replay, kind), guide)
+    line = FOLD_KINDS[kind].nearest(_seen(replay, kind), guide)
     if line is None:
         whole = nearest_chord(replay.cloths[-1].silhouette, guide)
         if whole is None or not is_flap_missed(replay.cloths[-1], whole):
@@ -139,11 +141,15 @@ def _is_on(region: Region, point: Point2) -> bool:
     return region.contains(point) or region.boundary_distance(point) <= LENGTH_M
 
 
-def _parting_chord(silhouette: Region, grabbed: Point2, dropped: Point2) -> Segment | None:
-    """Return the chord on the bisector, nearest to its middle, that has the grabbed point on its left, or None."""
+def _bisector(grabbed: Point2, dropped: Point2) -> Segment:
+    """Return the line, begun halfway, over which one point comes to lie on another; the former is on its left."""
     (px, py), (qx, qy) = grabbed, dropped
     middle = ((px + qx) / 2, (py + qy) / 2)
-    bisector = Segment(middle, (middle[0] + (py - qy), middle[1] - (px - qx)))
+    return Segment(middle, (middle[0] + (py - qy), middle[1] - (px - qx)))
+
+
+def _parting_chord(silhouette: Region, bisector: Segment, grabbed: Point2) -> Segment | None:
+    """Return the chord on a bisector, nearest to its start, that has the grabbed point on its left, or None."""
     for chord in sorted(chords(silhouette, bisector), key=lambda chord: _distance(chord, bisector)):
         parts = split_along(silhouette, chord)
         if parts is not None and _is_on(parts[0], grabbed) and not parts[1].is_sliver:

@@ -59,11 +59,11 @@ def fold_cloth(cloth: ClothState, line: Segment, kind: str, crease: Segment | No
     moves: list[Layer] = []
     slivers = list(cloth.slivers)
     for layer in active:
-        inside, outside, dropped = layer.cut(line, moving)
+        inside, outside, dropped = ((layer,), (), ()) if rule.is_whole else layer.cut(line, moving)
         moves.extend(inside)
         stays.extend(outside)
         slivers.extend(dropped)
-    require_both(bool(moves), bool(stays))
+    require_both(bool(moves), rule.is_whole or bool(stays))
     landed = [layer.reflected(line) for layer in reversed(moves)]
     return Folded(ClothState([*below, *stays, *landed], len(landed), slivers), moving, tuple(moves))
 

@@ -15,6 +15,7 @@
 export const FOLD_KINDS = {
   blue: { key: "b", takesFlap: false },
   red: { key: "r", takesFlap: true },
+  turn: { key: "o", takesFlap: false },
 };
 
 export const KIND_NAMES = /** @type {FoldKind[]} */ (Object.keys(FOLD_KINDS));

@@ -120,7 +120,7 @@ def put(path: str, value: object) -> Callable[[Json], None]:
         ("grip_radius_m", 0.0, "grip_radius_m", "greater than 0"),
         ("grip_radius_m", 11.0, "grip_radius_m", "11"),
         ("folds", {}, "folds", "list"),
-        ("folds.0.kind", "green", "folds[0].kind", "expected one of blue, red; got 'green'"),
+        ("folds.0.kind", "green", "folds[0].kind", "expected one of blue, red, turn; got 'green'"),
         ("folds.0.kind", "red", "folds[0].kind", "the first fold cannot be red"),
         ("folds.0.name", "x" * 201, "folds[0].name", "201 characters"),
         ("folds.0.start", [0.0, 0.1], "folds[0].end", "0.000 mm"),

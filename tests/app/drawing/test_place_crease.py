@@ -142,3 +142,16 @@ def test_a_red_fold_drawn_beside_the_flap_is_a_problem_that_says_so() -> None:
     solution = solve(towel_drawing(CUFF, crease("over", (0.1, 0.0), (0.1, 0.3), "red")))
     (problem,) = solution.problems
     assert (problem.fold, problem.message) == (1, MISSED)
+
+
+def test_a_line_drawn_beside_an_edge_turns_all_of_the_cloth_about_it() -> None:
+    placed = along_line(TOWEL, None, Segment((0.3, -0.02), (0.1, 0.01)), "turn")
+    # The near edge, its corners tied, and the cloth to its left, whichever way the line was drawn.
+    assert (placed.line.start, placed.line.end) == ((0.0, 0.0), (0.4, 0.0))
+    assert [end.tie for end in (placed.start, placed.end)] == [CornerTie("v0"), CornerTie("v1")]
+    assert landed(placed) == [near(0.0, -0.3), near(0.0, 0.0), near(0.4, -0.3), near(0.4, 0.0)]
+
+
+def test_cloth_dropped_beyond_its_edge_is_turned_about_that_edge() -> None:
+    placed = grab_and_drop(TOWEL, None, (0.2, 0.28), (0.2, -0.28), "turn")
+    assert (placed.line.start, placed.line.end) == ((0.0, 0.0), (0.4, 0.0))

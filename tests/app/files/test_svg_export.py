@@ -36,6 +36,12 @@ def test_a_garment_comes_back_from_its_drawing_to_a_micrometre(name: str) -> Non
     require_same(cloth, round_trip(cloth))
 
 
+def test_a_turn_comes_back_as_a_turn() -> None:
+    folds = fold((0.0, 0.15), (0.4, 0.15)), fold((0.1, 0.0), (0.3, 0.0), "turn"), fold((0.2, -0.15), (0.2, 0.0))
+    cloth = garment(rectangle_points(0.4, 0.3), *folds)
+    require_same(cloth, round_trip(cloth))
+
+
 @settings(max_examples=60, derandomize=True, deadline=None)
 @given(
     x=st.floats(-5.0, 5.0),
