@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 from rich.table import Table
 
-from app.step_words import step_words
 from planner.words.catalogue import sentence
 
 if TYPE_CHECKING:  # the tables of a command need not import what the others show
@@ -138,9 +137,8 @@ def check_table(garment: Garment, report: GarmentCheck) -> Table:
     table.add_column("corners of the part that moves [m]")
     for index, fold in enumerate(report.folds):
         needed = "too many" if fold.grips_needed is None else str(fold.grips_needed)
-        kind = "red" if fold.is_red else "blue"
         lines = [*_corners(fold), _held_at(fold, garment, index)]
-        table.add_row(str(index), fold.name, kind, needed, "\n".join(lines), end_section=True)
+        table.add_row(str(index), fold.name, fold.kind, needed, "\n".join(lines), end_section=True)
     return table
 
 
@@ -182,6 +180,8 @@ def _table(title: str) -> Table:
 
 
 def _what(step: PlanStep, garment: Garment) -> str:
+    from app.step_kinds import step_words
+
     words = step_words(step, garment)
     return words if step.fold is None else f"{step.fold}: {words}"
 

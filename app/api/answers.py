@@ -8,6 +8,7 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from planner.cloth.fold_kinds import FoldName
 from planner.geometry.pose import Pose2
 from planner.task.grip import BaseStop, Grip
 from planner.task.scene import Scene
@@ -38,7 +39,7 @@ class GarmentFold(BaseModel):
     """A fold of a garment; the cloth to the left of start -> end moves."""
 
     name: str
-    kind: Literal["blue", "red"]
+    kind: FoldName
     start: Point
     end: Point
     grip_radius_m: float
@@ -51,6 +52,7 @@ class GarmentAnswer(BaseModel):
     title: str
     outline: list[Point]
     areal_density_kg_m2: float
+    thickness_m: float
     folds: list[GarmentFold]
     grip_radius_m: float
     placement: Pose2

@@ -7,6 +7,7 @@ from pydantic import BaseModel, ConfigDict
 from app.api.answers import GarmentAnswer, LayerAnswer, Point, Says
 from app.drawing.drawing_json import ChordTieModel, CornerTieModel, CreaseTieModel, EdgeTieModel
 from app.store.picture import Picture
+from planner.cloth.fold_kinds import FoldName
 from planner.geometry.pose import Pose2
 from planner.task.scene import Scene
 
@@ -48,7 +49,7 @@ class FoldAnswer(BaseModel):
 
     id: str
     name: str
-    kind: Literal["blue", "red"]
+    kind: FoldName
     start: EndAnswer
     end: EndAnswer
     grip_radius_m: float | None
@@ -62,6 +63,7 @@ class DrawingAnswer(BaseModel):
     title: str
     outline: list[CornerAnswer]
     areal_density_kg_m2: float
+    thickness_m: float
     grip_radius_m: float
     folds: list[FoldAnswer]
     placement: Pose2

@@ -8,6 +8,7 @@ from pydantic_core import PydanticCustomError
 from app.api.conditions import either, gives, leaves_out
 from app.api.messages import GarmentField
 from app.drawing.drawing_json import DrawingModel
+from planner.cloth.fold_kinds import FoldName
 from planner.geometry.given import PlanePoint
 from planner.strict_model import StrictModel
 
@@ -103,6 +104,6 @@ class CreaseRequest(StrictModel):
     )
 
     after: Annotated[int, Field(ge=0)] | None = None
-    kind: Literal["blue", "red"] = "blue"
+    kind: FoldName = "blue"
     grab: Grab | None = None
     line: Line | None = None

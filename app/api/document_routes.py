@@ -171,14 +171,14 @@ def _first_drawing(workspace: Workspace, wanted: NewDocument) -> Drawing:
 
 
 def _placed(opened: OpenDocument, wanted: CreaseRequest) -> PlacedCrease:
-    solution, is_red = opened.document.state.solution, wanted.kind == "red"
+    solution = opened.document.state.solution
     if (wanted.grab is None) == (wanted.line is None):
         raise RequestError("grab", "a fold is asked for by either grab or line")
     if wanted.grab is not None:
         (px, py), (qx, qy) = wanted.grab.start, wanted.grab.to
-        return grab_and_drop(solution, wanted.after, (px, py), (qx, qy), is_red=is_red)
+        return grab_and_drop(solution, wanted.after, (px, py), (qx, qy), wanted.kind)
     assert wanted.line is not None
     (ax, ay), (bx, by) = wanted.line.start, wanted.line.end
     if (ax, ay) == (bx, by):
         raise RequestError("line.end", "is the line's start")
-    return along_line(solution, wanted.after, Segment((ax, ay), (bx, by)), is_red=is_red)
+    return along_line(solution, wanted.after, Segment((ax, ay), (bx, by)), wanted.kind)

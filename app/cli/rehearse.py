@@ -23,7 +23,7 @@ from app.cli.program import (
 )
 from app.rehearsal.rehearse import RehearsalOptions, rehearse
 from app.rehearsal.result import RehearsalResult
-from app.step_words import step_words
+from app.step_kinds import step_words
 from planner import Plan, make_plan
 from planner.errors import RequestError
 from planner.planning.robot_task import task_for

@@ -10,6 +10,8 @@ from dataclasses import dataclass, replace
 from typing import TypeAlias, TypeVar
 
 from app.drawing.curve import Curve
+from planner.cloth.fold_kinds import FOLD_KINDS
+from planner.cloth.garment import DEFAULT_THICKNESS_M
 from planner.geometry.pose import Point2, Pose2
 from planner.task.scene import Scene
 from planner.task.task import DEFAULT_ROBOT
@@ -94,7 +96,7 @@ class Crease:
     Attributes:
         id: the fold's id in this drawing.
         name: the user's name for the fold.
-        kind: "blue" or "red".
+        kind: its kind, as `FOLD_KINDS` names it.
         start: the first end.
         end: the second end.
         grip_radius_m: the radius of cloth that one grip holds (m); None for the garment's.
@@ -112,7 +114,7 @@ class Crease:
     @property
     def is_red(self) -> bool:
         """Whether the fold takes only the layers that the previous fold moved."""
-        return self.kind == "red"
+        return FOLD_KINDS[self.kind].is_red
 
     @property
     def ends(self) -> tuple[End, End]:
@@ -136,6 +138,7 @@ class Drawing:
         start_station: the station at which the robot starts; may be missing from the scene.
         comfort_radius_m: the comfort radius (m).
         robot: the name of the robot that folds.
+        thickness_m: the cloth's thickness where fingers press it (m).
     """
 
     name: str
@@ -149,6 +152,7 @@ class Drawing:
     start_station: str
     comfort_radius_m: float
     robot: str = DEFAULT_ROBOT
+    thickness_m: float = DEFAULT_THICKNESS_M
 
     @property
     def points(self) -> tuple[Point2, ...]:

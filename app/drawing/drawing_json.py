@@ -22,7 +22,8 @@ from app.drawing.drawing import (
     Tie,
     fresh_ids,
 )
-from planner.cloth.garment import FOLDS_MAX, NAME_PATTERN, TITLE_MAX
+from planner.cloth.fold_kinds import FoldName
+from planner.cloth.garment import DEFAULT_THICKNESS_M, FOLDS_MAX, NAME_PATTERN, TITLE_MAX, Thickness
 from planner.cloth.outline import POINTS_MAX
 from planner.errors import FieldError, RequestError
 from planner.geometry.given import GivenPose, PlanePoint
@@ -125,7 +126,7 @@ class CreaseModel(StrictModel):
 
     id: Id | None = None
     name: Title = ""
-    kind: Literal["blue", "red"]
+    kind: FoldName
     start: EndModel
     end: EndModel
     grip_radius_m: Positive | None = None
@@ -146,6 +147,7 @@ class DrawingModel(StrictModel):
     start_station: Annotated[str, Field(max_length=TITLE_MAX)]
     comfort_radius_m: Annotated[float, Field(ge=0.0, le=COMFORT_MAX_M)]
     robot: Name = DEFAULT_ROBOT
+    thickness_m: Thickness = DEFAULT_THICKNESS_M
 
     def value(self) -> Drawing:
         """Return the drawing; raise `FieldError` for duplicate ids or an invalid scene."""
@@ -163,6 +165,7 @@ class DrawingModel(StrictModel):
             self.start_station,
             self.comfort_radius_m,
             self.robot,
+            self.thickness_m,
         )
 
 
@@ -181,6 +184,7 @@ def drawing_to_dict(drawing: Drawing) -> dict[str, Any]:
         "title": drawing.title,
         "outline": [_corner_to_dict(corner) for corner in drawing.outline],
         "areal_density_kg_m2": drawing.areal_density_kg_m2,
+        "thickness_m": drawing.thickness_m,
         "grip_radius_m": drawing.grip_radius_m,
         "folds": [_crease_to_dict(fold) for fold in drawing.folds],
         "placement": drawing.placement.to_dict(),

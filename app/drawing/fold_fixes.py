@@ -10,8 +10,7 @@ from app.drawing.drawing import Crease, Drawing, End
 from app.drawing.problem import Problem
 from app.drawing.quick_fix import QuickFix
 from app.drawing.solution import Solution
-from planner.folds.fold_cloth import flap_silhouette
-from planner.geometry.chord import nearest_chord
+from planner.cloth.fold_kinds import FOLD_KINDS
 from planner.geometry.segment import Segment
 from planner.geometry.tolerance import LENGTH_M
 from planner.message import Message
@@ -27,24 +26,21 @@ def fold_fixes(solution: Solution, problem: Problem) -> Iterator[QuickFix]:
     colours = [QuickFix(blue, _with(drawing, index, replace(fold, kind="blue")))] if fold.is_red else []
     what = "flap" if fold.is_red else "cloth"
     onto = Message(f"put_onto_{what}", f"Put {called} onto the {what}", {"fold": index})
-    moved = [
-        QuickFix(onto, _with(drawing, index, _along(fold, line)))
-        for line in _lines(solution, problem, is_red=fold.is_red)
-    ]
+    moved = [QuickFix(onto, _with(drawing, index, _along(fold, line))) for line in _lines(solution, problem, fold)]
     is_off = problem.code == "fold_off_boundary"
     yield from (*moved, *colours) if is_off else (*colours, *moved)
     yield QuickFix(Message("delete_fold", f"Delete {called}", {"fold": index}), _without(drawing, index))
 
 
-def _lines(solution: Solution, problem: Problem, *, is_red: bool) -> Iterator[Segment]:
+def _lines(solution: Solution, problem: Problem, fold: Crease) -> Iterator[Segment]:
     """Yield lines near the fold's own that end on the boundary: along it, and between the nearest boundary points."""
-    if not problem.lines or (is_red and not solution.folded):
+    if not problem.lines or (fold.is_red and not solution.folded):
         return
     line = problem.lines[0]
-    silhouette = flap_silhouette(solution.cloths[-1], is_red=is_red)
-    chord = nearest_chord(silhouette, line)
-    if chord is not None:
-        yield chord
+    silhouette = FOLD_KINDS[fold.kind].silhouette(solution.cloths[-1])
+    nearest = FOLD_KINDS[fold.kind].nearest(silhouette, line)
+    if nearest is not None:
+        yield nearest
     (sx, sy), (ex, ey) = silhouette.nearest_boundary_points(np.array([line.start, line.end])).tolist()
     if math.dist((sx, sy), (ex, ey)) > LENGTH_M:
         yield Segment((sx, sy), (ex, ey))

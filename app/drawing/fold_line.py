@@ -13,11 +13,12 @@ from dataclasses import dataclass, replace
 from app.drawing.drawing import ChordTie, Crease, End, Tie
 from app.drawing.problem import Problem
 from app.drawing.ties import Names
+from planner.cloth.fold_kinds import FOLD_KINDS
 from planner.cloth.garment import DrawnFold
 from planner.errors import FoldError, GarmentError
 from planner.folds.attachment import Replay, attached, place_of
 from planner.folds.fold import snapped_line
-from planner.folds.fold_cloth import Folded, flap_silhouette, fold_cloth
+from planner.folds.fold_cloth import Folded, fold_cloth
 from planner.folds.missed_flap import flap_missed, is_flap_missed
 from planner.geometry.chord import nearest_chord
 from planner.geometry.pose import Point2
@@ -72,11 +73,11 @@ def find_line(crease: Crease, index: int, replay: Replay, names: Names, radius_m
         names: the ids of corners and folds.
         radius_m: the fold's grip radius (m).
     """
-    places = tuple(_place(end, replay, names, is_red=crease.is_red) for end in crease.ends)
+    places = tuple(_place(end, replay, names, crease.kind) for end in crease.ends)
     if math.dist(places[0].point, places[1].point) <= LENGTH_M:
         places = tuple(_Place(end, end.point, is_held=False, is_free=end.tie is not None) for end in crease.ends)
     first: Problem | None = None
-    for start, end in _candidates(places[0], places[1], replay, is_red=crease.is_red):
+    for start, end in _candidates(places[0], places[1], replay, crease.kind):
         found = _tried(crease, (start, end), index, replay, names, radius_m)
         if not isinstance(found, Problem):
             line, folded = found
@@ -86,15 +87,15 @@ def find_line(crease: Crease, index: int, replay: Replay, names: Names, radius_m
     return first
 
 
-def _place(end: End, replay: Replay, names: Names, *, is_red: bool) -> _Place:
+def _place(end: End, replay: Replay, names: Names, kind: str) -> _Place:
     attachment = names.attachment(end.tie)
-    place = None if attachment is None else place_of(attachment, replay, is_red=is_red)
+    place = None if attachment is None else place_of(attachment, replay, kind)
     return _Place(end, place or end.point, place is not None, end.tie is not None)
 
 
-def _candidates(start: _Place, end: _Place, replay: Replay, *, is_red: bool) -> Iterator[tuple[Point2, Point2]]:
+def _candidates(start: _Place, end: _Place, replay: Replay, kind: str) -> Iterator[tuple[Point2, Point2]]:
     """Yield the lines to try, the intended one first."""
-    silhouette = flap_silhouette(replay.cloths[-1], is_red=is_red)
+    silhouette = FOLD_KINDS[kind].silhouette(replay.cloths[-1])
     slides = [place.is_free and not place.is_on(silhouette) for place in (start, end)]
     if any(slides):
         yield from _slid((start, end), slides, silhouette)
@@ -113,7 +114,7 @@ def _slid(places: Sequence[_Place], slides: Sequence[bool], silhouette: Region) 
 def _tried(
     crease: Crease, ends: tuple[Point2, Point2], index: int, replay: Replay, names: Names, radius_m: float
 ) -> tuple[Segment, Folded] | Problem:
-    silhouette = flap_silhouette(replay.cloths[-1], is_red=crease.is_red)
+    silhouette = FOLD_KINDS[crease.kind].silhouette(replay.cloths[-1])
     lines = (Segment(*ends),) if ends[0] != ends[1] else ()
     off = tuple(point for point in ends if silhouette.boundary_distance(point) > SNAP_M)
     try:
@@ -123,7 +124,7 @@ def _tried(
         snapped = snapped_line(drawn, silhouette)
         line = Segment(_kept(crease.start.point, snapped.start), _kept(crease.end.point, snapped.end))
         before = replay.lines[-1] if crease.is_red else None
-        return line, fold_cloth(replay.cloths[-1], line, is_red=crease.is_red, crease=before)
+        return line, fold_cloth(replay.cloths[-1], line, crease.kind, before)
     except (FoldError, GarmentError) as error:
         code = "fold_off_boundary" if off else "fold_illegal"
         field = error.within(f"folds[{index}]").field
@@ -141,8 +142,7 @@ def _settled(crease: Crease, places: tuple[_Place, ...], line: Segment, replay: 
     if not all(place.is_held for place in slid):
         places = tuple(replace(place, is_held=place.is_held and place not in slid) for place in places)
     start, end = (
-        End(end, _settled_tie(place, end, replay, names, is_red=crease.is_red))
-        for place, end in zip(places, ends, strict=True)
+        End(end, _settled_tie(place, end, replay, names, crease.kind)) for place, end in zip(places, ends, strict=True)
     )
     return replace(crease, start=start, end=end)
 
@@ -152,7 +152,7 @@ def _kept(before: Point2, now: Point2) -> Point2:
     return before if math.dist(before, now) <= LENGTH_M else now
 
 
-def _settled_tie(place: _Place, point: Point2, replay: Replay, names: Names, *, is_red: bool) -> Tie:
+def _settled_tie(place: _Place, point: Point2, replay: Replay, names: Names, kind: str) -> Tie:
     """Return the new tie of an end: its previous tie if that still exists, otherwise one found at its position."""
     if isinstance(place.end.tie, ChordTie):
         return place.end.tie
@@ -161,5 +161,5 @@ def _settled_tie(place: _Place, point: Point2, replay: Replay, names: Names, *, 
             return place.end.tie  # along a curve, a tie made anew would differ in its last digit
         attachment = names.attachment(place.end.tie)
     else:
-        attachment = attached(point, replay, is_red=is_red)
+        attachment = attached(point, replay, kind)
     return ChordTie() if attachment is None else names.tie(attachment)

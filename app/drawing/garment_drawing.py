@@ -38,4 +38,5 @@ def drawing_of(garment: Garment, scene: Scene | None = None, robot: str = DEFAUL
         START_STATION if START_STATION in stations else stations[0],
         COMFORT_RADIUS_M,
         robot,
+        garment.thickness_m,
     )

@@ -14,6 +14,7 @@ def garment_to_dict(drawing: Drawing) -> dict[str, Any]:
         "title": drawing.title,
         "outline": [list(point) for point in ring_of(drawing.outline).points],
         "areal_density_kg_m2": drawing.areal_density_kg_m2,
+        "thickness_m": drawing.thickness_m,
         "folds": [
             {
                 "name": fold.name,

@@ -12,11 +12,12 @@ from app.drawing.drawing import ChordTie, End, Tie
 from app.drawing.drawing_json import end_to_dict
 from app.drawing.solution import Solution, landed_rings, rings
 from app.drawing.ties import Names
+from planner.cloth.fold_kinds import FOLD_KINDS
 from planner.cloth.garment import FIRST_IS_RED, FOLDS_MAX
 from planner.cloth.outline import EDGE_MIN_M
 from planner.errors import FoldError, RequestError
 from planner.folds.attachment import Replay, attached
-from planner.folds.fold_cloth import Folded, flap_silhouette, fold_cloth
+from planner.folds.fold_cloth import Folded, fold_cloth
 from planner.folds.missed_flap import flap_missed, is_flap_missed
 from planner.geometry.chord import chords, nearest_chord
 from planner.geometry.pose import Point2
@@ -56,9 +57,7 @@ class PlacedCrease:
         }
 
 
-def grab_and_drop(
-    solution: Solution, after: int | None, grabbed: Point2, dropped: Point2, *, is_red: bool
-) -> PlacedCrease:
+def grab_and_drop(solution: Solution, after: int | None, grabbed: Point2, dropped: Point2, kind: str) -> PlacedCrease:
     """Return the fold that takes a point of the cloth to another place.
 
     Args:
@@ -66,13 +65,13 @@ def grab_and_drop(
         after: the number of its folds done before; None for all.
         grabbed: the point, article frame, on the cloth after those folds (m).
         dropped: its target (m).
-        is_red: whether to take only the layers that the last fold moved.
+        kind: the fold's kind.
 
     Raises:
         RequestError: there is no such fold; the field is one of ``after``, ``grab.from``, ``grab.to``.
     """
     replay = _replay(solution, after)
-    silhouette = _seen(replay, is_red=is_red)
+    silhouette = _seen(replay, kind)
     apart = math.dist(grabbed, dropped)
     if apart < EDGE_MIN_M:
         text = f"is {apart * 1000:.3f} mm from where the cloth is grabbed, less than {EDGE_MIN_M * 1000:g} mm"
@@ -84,26 +83,28 @@ def grab_and_drop(
             raise RequestError("grab.from", Message("not_on_flap", text, {"at": list(grabbed)}))
         text = f"there is no cloth at {place}"
         raise RequestError("grab.from", Message("no_cloth_there", text, {"at": list(grabbed)}))
-    line = _parting_chord(silhouette, grabbed, dropped)
+    bisector = _bisector(grabbed, dropped)
+    is_whole, nearest = FOLD_KINDS[kind].is_whole, FOLD_KINDS[kind].nearest
+    line = nearest(silhouette, bisector) if is_whole else _parting_chord(silhouette, bisector, grabbed)
     if line is None:
         raise RequestError("grab.to", "no straight fold through the cloth takes the point there")
-    return _placed(solution, replay, line, "grab.to", is_red=is_red)
+    return _placed(solution, replay, line, "grab.to", kind)
 
 
-def along_line(solution: Solution, after: int | None, guide: Segment, *, is_red: bool) -> PlacedCrease:
+def along_line(solution: Solution, after: int | None, guide: Segment, kind: str) -> PlacedCrease:
     """Return the fold along a line, its ends at the points of the cloth's boundary nearest to the line's ends.
 
     Raises:
         RequestError: there is no such fold; the field is ``after`` or ``line``.
     """
     replay = _replay(solution, after)
-    line = nearest_chord(_seen(replay, is_red=is_red), guide)
+    line = FOLD_KINDS[kind].nearest(_seen(replay, kind), guide)
     if line is None:
         whole = nearest_chord(replay.cloths[-1].silhouette, guide)
         if whole is None or not is_flap_missed(replay.cloths[-1], whole):
             raise RequestError("line", Message("line_misses_cloth", "does not cross the cloth"))
         raise RequestError("line", flap_missed(_last_name(solution, replay)))
-    return _placed(solution, replay, line, "line", is_red=is_red)
+    return _placed(solution, replay, line, "line", kind)
 
 
 def _replay(solution: Solution, after: int | None) -> Replay:
@@ -125,10 +126,10 @@ def refuse_too_many(solution: Solution) -> None:
         raise RequestError("after", Message("folds_full", text, {"most": FOLDS_MAX}))
 
 
-def _seen(replay: Replay, *, is_red: bool) -> Region:
-    if is_red and not replay.lines:
+def _seen(replay: Replay, kind: str) -> Region:
+    if FOLD_KINDS[kind].is_red and not replay.lines:
         raise RequestError("kind", FIRST_IS_RED)
-    return flap_silhouette(replay.cloths[-1], is_red=is_red)
+    return FOLD_KINDS[kind].silhouette(replay.cloths[-1])
 
 
 def _last_name(solution: Solution, replay: Replay) -> str:
@@ -140,11 +141,15 @@ def _is_on(region: Region, point: Point2) -> bool:
     return region.contains(point) or region.boundary_distance(point) <= LENGTH_M
 
 
-def _parting_chord(silhouette: Region, grabbed: Point2, dropped: Point2) -> Segment | None:
-    """Return the chord on the bisector, nearest to its middle, that has the grabbed point on its left, or None."""
+def _bisector(grabbed: Point2, dropped: Point2) -> Segment:
+    """Return the line, begun halfway, over which one point comes to lie on another; the former is on its left."""
     (px, py), (qx, qy) = grabbed, dropped
     middle = ((px + qx) / 2, (py + qy) / 2)
-    bisector = Segment(middle, (middle[0] + (py - qy), middle[1] - (px - qx)))
+    return Segment(middle, (middle[0] + (py - qy), middle[1] - (px - qx)))
+
+
+def _parting_chord(silhouette: Region, bisector: Segment, grabbed: Point2) -> Segment | None:
+    """Return the chord on a bisector, nearest to its start, that has the grabbed point on its left, or None."""
     for chord in sorted(chords(silhouette, bisector), key=lambda chord: _distance(chord, bisector)):
         parts = split_along(silhouette, chord)
         if parts is not None and _is_on(parts[0], grabbed) and not parts[1].is_sliver:
@@ -158,17 +163,17 @@ def _distance(chord: Segment, bisector: Segment) -> float:
     return 0.0 if abs(low + high - chord.length) <= LENGTH_M else min(low, high)
 
 
-def _placed(solution: Solution, replay: Replay, line: Segment, field: str, *, is_red: bool) -> PlacedCrease:
-    crease = replay.lines[-1] if is_red else None
+def _placed(solution: Solution, replay: Replay, line: Segment, field: str, kind: str) -> PlacedCrease:
+    crease = replay.lines[-1] if FOLD_KINDS[kind].is_red else None
     try:
-        folded = fold_cloth(replay.cloths[-1], line, is_red=is_red, crease=crease)
+        folded = fold_cloth(replay.cloths[-1], line, kind, crease)
     except FoldError as error:
         raise RequestError(field, error.says or error.message) from None
     names = Names.of(solution.drawing)
-    start, end = (End(point, _tie(point, replay, names, is_red=is_red)) for point in (line.start, line.end))
+    start, end = (End(point, _tie(point, replay, names, kind)) for point in (line.start, line.end))
     return PlacedCrease(start, end, line, folded)
 
 
-def _tie(point: Point2, replay: Replay, names: Names, *, is_red: bool) -> Tie:
-    attachment = attached(point, replay, is_red=is_red)
+def _tie(point: Point2, replay: Replay, names: Names, kind: str) -> Tie:
+    attachment = attached(point, replay, kind)
     return ChordTie() if attachment is None else names.tie(attachment)

@@ -59,6 +59,7 @@ def garment_of(drawing: Drawing) -> Garment:
         ),
         drawing.grip_radius_m,
         drawing.placement,
+        drawing.thickness_m,
     )
 
 

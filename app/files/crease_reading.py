@@ -16,10 +16,11 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from planner.cloth.cloth_state import ClothState
+from planner.cloth.fold_kinds import FOLD_KINDS
 from planner.cloth.garment import DrawnFold
 from planner.errors import FoldError, GarmentError
 from planner.folds.fold import snapped_line
-from planner.folds.fold_cloth import Folded, flap_silhouette, fold_cloth
+from planner.folds.fold_cloth import Folded, fold_cloth
 from planner.geometry.chord import nearest_chord
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Point2
@@ -100,16 +101,14 @@ def _placed(fold: DrawnFold, pattern: Region, cloth: ClothState, before: Segment
     Raises:
         FoldError: no reading gives a legal fold; the error is that of the first reading.
     """
-    silhouette = flap_silhouette(cloth, is_red=fold.is_red)
+    silhouette = FOLD_KINDS[fold.kind].silhouette(cloth)
     drawn = Segment(fold.start, fold.end)
     first: FoldError | GarmentError | None = None
-    ways = (
-        _carried(drawn, pattern, cloth, is_red=fold.is_red) if creases == "flat" else _cut(drawn, pattern, silhouette)
-    )
+    ways = _carried(drawn, pattern, cloth, fold.kind) if creases == "flat" else _cut(drawn, pattern, silhouette)
     for line, cut_m in ways:
         try:
             snapped = snapped_line(replace(fold, start=line.start, end=line.end), silhouette)
-            folded = fold_cloth(cloth, snapped, is_red=fold.is_red, crease=before if fold.is_red else None)
+            folded = fold_cloth(cloth, snapped, fold.kind, before if fold.is_red else None)
             return _Placed(line, snapped, folded, cut_m)
         except (FoldError, GarmentError) as error:
             first = first or error
@@ -132,13 +131,13 @@ def _may_slide(end: Point2, to: Point2, pattern: Region) -> bool:
     return is_overhang or math.dist(end, to) <= NEAR_M
 
 
-def _carried(line: Segment, pattern: Region, cloth: ClothState, *, is_red: bool) -> Iterator[tuple[Segment, float]]:
+def _carried(line: Segment, pattern: Region, cloth: ClothState, kind: str) -> Iterator[tuple[Segment, float]]:
     """Yield the line on the flat cloth as its layers have moved it, for the longest piece first."""
-    silhouette = flap_silhouette(cloth, is_red=is_red)
+    silhouette = FOLD_KINDS[kind].silhouette(cloth)
     pieces = sorted(
         (
             _moved(Segment(*ends), layer.isometry)
-            for layer in (cloth.flap if is_red else cloth.layers)
+            for layer in FOLD_KINDS[kind].layers(cloth)
             for ends in layer.pattern_piece.overlaps_with(line)
             if math.dist(*ends) > LENGTH_M
         ),

@@ -21,6 +21,8 @@ None of these layers is for folds. A pattern can carry them on layer 8, for line
 import re
 from collections.abc import Iterable
 
+from app.fold_looks import FOLD_LOOKS
+
 BOUNDARY = "1"
 MIRROR_LINE = "6"
 INTERNAL_LINES = "8"
@@ -43,7 +45,7 @@ def may_carry_folds(layer: str) -> bool:
 def kind_by_name(layer: str) -> str | None:
     """Return the kind of fold that a layer's name mentions, as in ``Fold blue``, or None."""
     words = set(re.split(r"[^a-z]+", layer.lower()))
-    return next((kind for kind in ("blue", "red") if kind in words), None)
+    return next((kind for kind, look in FOLD_LOOKS.items() if look.layer in words), None)
 
 
 def unit_by_text(texts: Iterable[str]) -> float | None:

@@ -1,4 +1,4 @@
-"""Decides which colours mean a fold: blue for all layers, red for the last flap.
+"""Decides which colours mean which kind of fold (`FOLD_LOOKS`).
 
 Drawing programs offer many blues, so the hue decides, unless the colour is nearly grey.
 """
@@ -9,12 +9,10 @@ from typing import TypeAlias
 
 from PIL import ImageColor
 
+from app.fold_looks import FOLD_LOOKS
+
 Rgb: TypeAlias = tuple[float, float, float]
 """Red, green and blue, 0..1."""
-
-BLUE_DEG = (195.0, 265.0)
-RED_DEG = (-25.0, 25.0)
-"""The hues that count as blue and as red (degrees)."""
 
 _CHROMA_MIN = 0.25
 """Least difference between the largest and the smallest of red, green and blue; colours below count as grey."""
@@ -35,14 +33,12 @@ _TURN_DEG = 360.0
 
 
 def kind_of(rgb: Rgb | None) -> str | None:
-    """Return the kind of fold that a colour means, "blue" or "red", or None."""
+    """Return the kind of fold that a colour means, or None."""
     if rgb is None or max(rgb) - min(rgb) < _CHROMA_MIN:
         return None
-    hue_deg = 360.0 * colorsys.rgb_to_hsv(*rgb)[0]
-    if BLUE_DEG[0] <= hue_deg <= BLUE_DEG[1]:
-        return "blue"
-    is_red = hue_deg <= RED_DEG[1] or hue_deg - 360.0 >= RED_DEG[0]
-    return "red" if is_red else None
+    turn_deg = 360.0 * colorsys.rgb_to_hsv(*rgb)[0]
+    hue_deg = turn_deg if turn_deg < 180.0 else turn_deg - 360.0
+    return next((kind for kind, look in FOLD_LOOKS.items() if look.hues_deg[0] <= hue_deg <= look.hues_deg[1]), None)
 
 
 def css_rgb(text: str) -> Rgb | None:

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from ruamel.yaml import YAML
 
-from app.step_words import step_words
+from app.step_kinds import step_words
 from app.ui.rotation import from_matrix
 from planner.errors import UnsolvedPlanError
 from planner.geometry.pose import FloatArray

@@ -12,6 +12,7 @@ import numpy as np
 
 from app.files.sheet_page import Disc, Outline, Page, Shape, Spot, Words
 from app.language import ENGLISH, Language, named, numeral, say, translated
+from app.step_kinds import step_kind
 from planner.errors import UnsolvedPlanError
 from planner.geometry.pose import FloatArray, Pose2
 from planner.task.plan import Plan
@@ -86,18 +87,19 @@ def _seconds(language: Language, time_s: float) -> str:
 
 def _step(plan: Plan, number: int, step: PlanStep, frame: Frame, language: Language) -> Iterator[Shape]:
     grips = np.array([point[:2] for grip in step.grips for point in (grip.pick, grip.place)]).reshape(-1, 2)
-    stands = _waypoints(step) if step.kind == "move" else [step.base.pose]
+    kind = step_kind(step.kind)
+    stands = _waypoints(step) if kind.moves == "base" else [step.base.pose]
     bases = np.array([[pose.x_m, pose.y_m] for pose in stands])
-    seen = [_spread(plan, step.before), grips, *([bases] if step.kind == "move" else [])]
+    seen = [_spread(plan, step.before), grips, *([bases] if kind.moves == "base" else [])]
     view = _View(frame, np.concatenate(seen))
     yield from _ground(plan, view, frame)
     yield from _cloth(plan, step.before, view)
     yield from _robot(step.base.pose, view, frame)
-    if step.kind == "move":
+    if kind.moves == "base":
         yield from _arrow([view.spot(row) for row in bases])
     for grip in step.grips:
         pick, place = view.spot(np.array(grip.pick[:2])), view.spot(np.array(grip.place[:2]))
-        yield from _arrow(_bent(pick, place) if step.kind == "fold" else [pick, place])
+        yield from _arrow(_bent(pick, place) if kind.moves == "part" else [pick, place])
         yield Disc(pick, 6.5)
         yield Words((pick[0], pick[1] + 3), grip.arm[:1].upper(), 8, is_bold=True, anchor="middle")
     yield from _caption(number, frame, named(language, "kind", step.kind), _about(plan, step, language))
@@ -207,29 +209,11 @@ def _arrow(way: Sequence[Spot]) -> Iterator[Shape]:
 def _about(plan: Plan, step: PlanStep, language: Language) -> tuple[str, ...]:
     """Return the lines below a picture: what is done; by which hands, from where, how long."""
     hands = " + ".join(sorted(grip.arm[:1].upper() for grip in step.grips))
-    station = None if step.kind == "move" else step.base.station
+    kind = step_kind(step.kind)
+    station = None if kind.moves == "base" else step.base.station
     where = "" if station is None else say(language, "sheet.at", place=named(language, "station", station))
     details = ", ".join(part for part in (hands, where, _seconds(language, step.duration_s)) if part)
-    return (_what(plan, step, language), details)
-
-
-def _what(plan: Plan, step: PlanStep, language: Language) -> str:
-    """Return what a step does."""
-    details = step.details
-    match step.kind:
-        case "fold":
-            return translated(language, plan.garment.folds[int(details["fold"])].name)
-        case "drag" | "arm_drag":
-            length = f"{numeral(language, details['distance_m'], 2)} m"
-            if step.kind == "arm_drag":
-                return say(language, "sheet.by_arms", length=length)
-            on = say(language, "sheet.holds_on") if details["holds"] else ""
-            return say(language, "sheet.towards_robot", length=length) + on
-        case "move":
-            ends = (details["from"], details["to"])
-            start, end = (named(language, "station", name or "elsewhere") for name in ends)
-            return say(language, "step_words.from_to", **{"from": start, "to": end})
-    return ""
+    return (kind.on_sheet(step.details, plan.garment, language), details)
 
 
 def _caption(number: int, frame: Frame, kind: str, lines: Sequence[str]) -> Iterator[Shape]:

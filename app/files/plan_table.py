@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from app.step_words import step_words
+from app.step_kinds import step_words
 from planner.errors import UnsolvedPlanError
 from planner.geometry.pose import Point3, Pose2
 from planner.geometry.tolerance import ANGLE_RAD, DECIMALS

@@ -8,7 +8,7 @@ import html
 import re
 
 from app.jobs.job_pool import ShouldStop
-from app.step_words import step_words
+from app.step_kinds import step_words
 from app.ui.view_3d import View3D
 from planner.motion.timeline import Timeline
 from planner.robots.load_robot import load_robot

@@ -15,7 +15,7 @@ import numpy as np
 from rosbags.typesys import Stores, get_typestore
 from rosbags.typesys.store import Typestore
 
-from app.step_words import step_words
+from app.step_kinds import step_words
 from planner.errors import UnsolvedPlanError
 from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import TIME_S

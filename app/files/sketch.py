@@ -16,7 +16,7 @@ class FoldLine:
     """A line that means a fold.
 
     Attributes:
-        kind: "blue" or "red".
+        kind: the fold's kind, as `FOLD_KINDS` names it.
         curve: the line, in the direction drawn.
         name: its name, or None.
         grip_radius_m: the radius of cloth that one grip holds (m); None for the garment's.

@@ -25,6 +25,7 @@ from app.files.sketch_size import (
     require_size,
     sizes_by_unit,
 )
+from planner.cloth.fold_kinds import FOLD_KINDS
 from planner.cloth.garment import FOLDS_MAX, TITLE_MAX, Garment
 from planner.cloth.outline import EDGE_MIN_M
 from planner.errors import GarmentError
@@ -37,7 +38,7 @@ from planner.strict_model import LARGEST_M
 ODD_SIZES_M = (0.05, 4.0)
 """Range of usual garment sizes (m); others give a warning."""
 
-KEPT_FIELDS = ("name", "areal_density_kg_m2", "grip_radius_m", "placement")
+KEPT_FIELDS = ("name", "areal_density_kg_m2", "thickness_m", "grip_radius_m", "placement")
 """Fields of a garment file that an exported drawing keeps besides its lines."""
 
 _MIRRORED = ", mirrored"
@@ -200,7 +201,7 @@ def _folds(
             text = f"The line {name!r} is not straight; the fold goes straight from its start to its end."
             notes.append(Message.plain(text))
         kind = line.kind
-        if kind == "red" and number == 0:
+        if number == 0 and FOLD_KINDS[kind].is_red:
             kind = "blue"
             notes.append(Message.plain(f"The line {name!r} is red, but no fold comes before it, so it was made blue."))
         for half, (start, end) in enumerate(_on_both_halves(ends, found.fold)):

@@ -13,12 +13,11 @@ from app.drawing.curve import Ellipse
 from app.drawing.drawing import Corner
 from app.files.sketch_garment import KEPT_FIELDS
 from app.files.svg_sketch import GRIP_RADIUS, KEPT
+from app.fold_looks import FOLD_LOOKS
 from planner.cloth.garment import DrawnFold, Garment
 from planner.geometry.pose import Point2
 
 CLOTH, EDGE = "#f0e6d2", "#5a5142"
-COLOURS = {"blue": "#0047a3", "red": "#b33600"}
-_DASHES = {"blue": "", "red": ' stroke-dasharray="1.4 0.5 0.3 0.5"'}
 _CM_PER_M = 100.0
 _MARGIN_CM = 2.0
 _STROKE_CM = 0.25
@@ -45,7 +44,7 @@ def svg_drawing(garment: Garment, corners: Sequence[Corner] = ()) -> str:
         f'viewBox="{x:.6f} {y:.6f} {width:.6f} {height:.6f}" {KEPT}={quoteattr(kept)}>',
         f"<title>{_text(garment.title)}</title>",
         "<defs>",
-        *(_arrow(kind) for kind in COLOURS),
+        *(_arrow(kind) for kind in FOLD_LOOKS),
         "</defs>",
         f'<g fill="none" stroke-width="{_STROKE_CM}" stroke-linejoin="round">',
         f'<path id="outline" fill="{CLOTH}" stroke="{EDGE}" d="{outline}"/>',
@@ -59,15 +58,16 @@ def svg_drawing(garment: Garment, corners: Sequence[Corner] = ()) -> str:
 def _arrow(kind: str) -> str:
     return (
         f'<marker id="{kind}-arrow" viewBox="0 0 6 6" refX="5.5" refY="3" markerWidth="6" markerHeight="6" '
-        f'orient="auto"><path d="M 0 0 L 6 3 L 0 6 Z" fill="{COLOURS[kind]}"/></marker>'
+        f'orient="auto"><path d="M 0 0 L 6 3 L 0 6 Z" fill="#{FOLD_LOOKS[kind].light}"/></marker>'
     )
 
 
 def _folds(folds: tuple[DrawnFold, ...]) -> Iterator[str]:
     for number, fold in enumerate(folds):
-        line = _joined([_cm(fold.start), _cm(fold.end)])
+        line, look = _joined([_cm(fold.start), _cm(fold.end)]), FOLD_LOOKS[fold.kind]
+        dashes = f' stroke-dasharray="{" ".join(map(str, look.dashes_cm))}"' if look.dashes_cm else ""
         yield (
-            f'<path id="fold-{number}" stroke="{COLOURS[fold.kind]}"{_DASHES[fold.kind]} '
+            f'<path id="fold-{number}" stroke="#{look.light}"{dashes} '
             f'marker-end="url(#{fold.kind}-arrow)" {GRIP_RADIUS}="{fold.grip_radius_m!r}" d="M {line}">'
             f"<title>{_text(fold.name)}</title></path>"
         )

@@ -52,7 +52,7 @@ class NoisyWorld:
         made = tuple(grip for grip in motion.grips if grip.arm not in missed)
         if all(grip.closes for grip in made):
             self._short = Isometry()
-        short = self._rng.uniform(0.0, self._noise.undershoot) if motion.kind == "drag" else 0.0
+        short = self._rng.uniform(0.0, self._noise.undershoot) if motion.is_pulled else 0.0
         found = tuple(self._off(grip, short) for grip in made)
         if made and motion.is_drag:
             planned = np.array([grip.points[-1][:2] for grip in made])

@@ -178,7 +178,8 @@ def _laid_out(plan: Plan, noise: Noise, seed: int) -> tuple[Pose2, Fabric]:
     placement = lies.moved(noise.placement_m * x, noise.placement_m * y)
     placement = replace(placement, yaw_rad=lies.yaw_rad + noise.placement_rad * turn)
     friction = plan.scene.friction * max(0.0, 1.0 + noise.friction * slip)
-    return placement, Fabric(density_kg_m2=plan.garment.areal_density_kg_m2, friction=friction)
+    garment = plan.garment
+    return placement, Fabric(garment.areal_density_kg_m2, friction=friction, thickness_m=garment.thickness_m)
 
 
 def _rising(progress: Callable[[float], None]) -> Callable[[float], None]:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from app.rehearsal.camera.camera import Camera
 from app.rehearsal.camera.posture import Posture
+from app.step_kinds import step_kind
 from planner.geometry.pose import FloatArray, Point3, Pose2
 
 
@@ -72,7 +73,7 @@ class StepMotion:
 
     Attributes:
         step: the index of the plan's step.
-        kind: the primitive's name: "fold", "drag", "arm_drag" or "move"; `WITHDRAW` and `REACH` for a look.
+        kind: the step's kind (`STEP_KINDS`); `WITHDRAW` and `REACH` for a look.
         duration_s: the step's duration (s).
         grips: the hands that hold cloth in it.
         needs_all: whether it ends at once, hands open and nothing moved, where one of them finds no cloth; if not, the
@@ -92,12 +93,17 @@ class StepMotion:
     @property
     def is_drag(self) -> bool:
         """Whether the article as a whole is moved over the table."""
-        return self.kind in ("drag", "arm_drag")
+        return step_kind(self.kind).moves == "cloth"
 
     @property
     def is_fold(self) -> bool:
         """Whether a part of the article is turned over."""
-        return self.kind == "fold"
+        return step_kind(self.kind).moves == "part"
+
+    @property
+    def is_pulled(self) -> bool:
+        """Whether the article follows the base as it drives."""
+        return step_kind(self.kind).is_pulled
 
 
 @dataclass(frozen=True, slots=True)

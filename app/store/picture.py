@@ -3,11 +3,12 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any
 
 from app.drawing.curve import Curve
 from app.drawing.drawing import Corner
 from app.drawing.ring import ring_of
+from planner.cloth.fold_kinds import FOLD_KINDS
 from planner.geometry.pose import Point2
 
 
@@ -15,7 +16,7 @@ from planner.geometry.pose import Point2
 class PictureFold:
     """A fold line, article frame (m)."""
 
-    kind: Literal["blue", "red"]
+    kind: str
     start: Point2
     end: Point2
 
@@ -51,10 +52,8 @@ def _corner(corner: Mapping[str, Any]) -> Corner:
     return Corner("", _point(corner["point"]), Curve(curve["along"], curve["across"]) if curve else None)
 
 
-def _kind(kind: Any) -> Literal["blue", "red"]:  # noqa: ANN401
-    if kind not in ("blue", "red"):
-        raise ValueError(kind)
-    return "red" if kind == "red" else "blue"
+def _kind(kind: Any) -> str:  # noqa: ANN401
+    return FOLD_KINDS[kind].name
 
 
 def _point(pair: Any) -> Point2:  # noqa: ANN401

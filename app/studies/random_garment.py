@@ -103,7 +103,7 @@ def _fold(draw: random.Random, silhouette: Region, name: str) -> DrawnFold | Non
 def _folded(cloth: ClothState, fold: DrawnFold) -> ClothState | None:
     """Return the cloth after a fold; None if it is not legal."""
     try:
-        return fold_cloth(cloth, snapped_line(fold, cloth.silhouette), is_red=False).cloth
+        return fold_cloth(cloth, snapped_line(fold, cloth.silhouette), fold.kind).cloth
     except FieldError:
         return None
 

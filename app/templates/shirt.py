@@ -72,5 +72,5 @@ def _half_back(armpit: Point2, lower: Point2, top: Segment) -> DrawnFold:
 
 
 TEMPLATE = Template(
-    "shirt", "Long-sleeved shirt", "Long sleeves; cuffs, sleeves and sides in, bottom up.", 0.14, MEASURES, cut
+    "shirt", "Long-sleeved shirt", "Long sleeves; cuffs, sleeves and sides in, bottom up.", 0.14, MEASURES, cut, 0.0004
 )

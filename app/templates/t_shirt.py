@@ -40,4 +40,6 @@ def cut(given: Measures) -> Cut:
     return Cut(outline, (*sleeves, *sides, up), lying_across(outline))
 
 
-TEMPLATE = Template("t-shirt", "T-shirt", "Short sleeves; sleeves and sides in, bottom up.", 0.16, MEASURES, cut)
+TEMPLATE = Template(
+    "t-shirt", "T-shirt", "Short sleeves; sleeves and sides in, bottom up.", 0.16, MEASURES, cut, 0.0006
+)

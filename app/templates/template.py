@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from app.templates.measure import Measure, Measures
-from planner.cloth.garment import DEFAULT_GRIP_RADIUS_M, DrawnFold, Garment
+from planner.cloth.garment import DEFAULT_GRIP_RADIUS_M, DEFAULT_THICKNESS_M, DrawnFold, Garment
 from planner.errors import GarmentError
 from planner.geometry.pose import Point2, Pose2
 from planner.geometry.table import Table
@@ -46,6 +46,7 @@ class Template:
         areal_density_kg_m2: the cloth's mass per area (kg/m2).
         measures: the measures, in the order in which to ask for them.
         cut: makes the pattern from the measures; raises `MeasureError` if they do not fit each other.
+        thickness_m: the cloth's thickness where fingers press it (m).
     """
 
     name: str
@@ -54,6 +55,7 @@ class Template:
     areal_density_kg_m2: float
     measures: tuple[Measure, ...]
     cut: Callable[[Measures], Cut]
+    thickness_m: float = DEFAULT_THICKNESS_M
 
     def garment(self, given: Mapping[str, float], title: str | None = None) -> Garment:
         """Return the garment with these measures, and defaults for the others.
@@ -76,6 +78,7 @@ class Template:
             cut.folds,
             DEFAULT_GRIP_RADIUS_M,
             cut.placement,
+            self.thickness_m,
         )
 
     def to_dict(self) -> dict[str, Any]:

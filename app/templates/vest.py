@@ -36,4 +36,6 @@ def cut(given: Measures) -> Cut:
     return Cut(outline, folds, lying_across(outline))
 
 
-TEMPLATE = Template("vest", "Vest", "No sleeves; in half along its middle, then bottom up.", 0.16, MEASURES, cut)
+TEMPLATE = Template(
+    "vest", "Vest", "No sleeves; in half along its middle, then bottom up.", 0.16, MEASURES, cut, 0.0006
+)

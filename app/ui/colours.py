@@ -1,10 +1,13 @@
 """The colours that the 3D view should show, on a light or a dark background.
 
-Blue, red and the cloth's two faces stay distinguishable for every kind of colour vision.
+The kinds of folds and the cloth's two faces stay distinguishable for every kind of colour vision.
 """
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import TypeAlias
+
+from app.fold_looks import FOLD_LOOKS
 
 Rgb: TypeAlias = tuple[int, int, int]
 
@@ -24,8 +27,9 @@ class Palette:
     cloth_edge: Rgb = rgb("6E6453")
     cloth_simulated: Rgb = rgb("8C929B")
     cloth_off: Rgb = rgb("2E3238")
-    fold_blue: Rgb = rgb("0047A3")
-    fold_red: Rgb = rgb("B33600")
+    folds: Mapping[str, Rgb] = field(
+        default_factory=lambda: {kind: rgb(look.light) for kind, look in FOLD_LOOKS.items()}
+    )
     table: Rgb = rgb("A3917F")
     table_foot: Rgb = rgb("7A6D60")
     floor_cell: Rgb = rgb("D5D6D8")
@@ -46,8 +50,7 @@ DARK = Palette(
     cloth_edge=rgb("B5A98F"),
     cloth_simulated=rgb("8E959E"),
     cloth_off=rgb("E4E4DF"),
-    fold_blue=rgb("7CC0FF"),
-    fold_red=rgb("FFA070"),
+    folds={kind: rgb(look.dark) for kind, look in FOLD_LOOKS.items()},
     table=rgb("36312C"),
     table_foot=rgb("2A2622"),
     floor_cell=rgb("3A3E45"),

@@ -1,11 +1,13 @@
-"""Lines cut into dashes and steps, so that red folds differ from blue ones without colour, too."""
+"""Lines cut into dashes and steps, so that kinds of folds differ without colour, too."""
+
+from collections.abc import Sequence
+from itertools import cycle
 
 import numpy as np
 
 from planner.geometry.pose import FloatArray
 
 _STEP_M = 0.01
-_DASH_M, _GAP_M, _DOT_M = 0.045, 0.012, 0.006
 
 
 def solid(start: FloatArray, end: FloatArray) -> FloatArray:
@@ -15,15 +17,24 @@ def solid(start: FloatArray, end: FloatArray) -> FloatArray:
     return np.stack([points[:-1], points[1:]], axis=1)
 
 
-def dash_dot(start: FloatArray, end: FloatArray) -> FloatArray:
-    """Return a plane line as alternating dashes and dots, in the same short steps as `solid`, shape (n, 2, 2)."""
+def dashed(start: FloatArray, end: FloatArray, lengths_m: Sequence[float]) -> FloatArray:
+    """Return a plane line in dashes, in the same short steps as `solid`, shape (n, 2, 2).
+
+    Args:
+        start: its start, shape (2,), m.
+        end: its end.
+        lengths_m: the lengths of dashes and gaps by turns, an even number; a line without any is solid.
+    """
+    if not lengths_m:
+        return solid(start, end)
     length = float(np.hypot(*(end - start)))
     along = (end - start) / length
-    marks, at, is_dash = [], 0.0, True
+    marks, at, pairs = [], 0.0, cycle(zip(lengths_m[::2], lengths_m[1::2], strict=True))
     while at < length:
-        stop = min(length, at + (_DASH_M if is_dash else _DOT_M))
+        dash_m, gap_m = next(pairs)
+        stop = min(length, at + dash_m)
         marks.append(solid(start + at * along, start + stop * along))
-        at, is_dash = stop + _GAP_M, not is_dash
+        at = stop + gap_m
     return np.concatenate(marks)
 
 

@@ -6,8 +6,9 @@ import numpy as np
 import viser
 from numpy.typing import NDArray
 
+from app.fold_looks import FOLD_LOOKS
 from app.ui.colours import LIGHT, Palette
-from app.ui.dashes import dash_dot, solid, split_at
+from app.ui.dashes import dashed, split_at
 from app.ui.lighting import ink
 from app.ui.relief import Relief
 from planner.cloth.garment import DrawnFold, Garment
@@ -28,7 +29,7 @@ _Seen = tuple[Pose2, ClothSurface, TableTop, frozenset[int], int | None]
 
 
 class FoldView:
-    """Blue lines solid, red ones dash-dot; nodes ``/folds/0``, ``/folds/1``, ... as in the garment."""
+    """Each kind in its colour and dashes; nodes ``/folds/0``, ``/folds/1``, ... as in the garment."""
 
     def __init__(self, server: viser.ViserServer) -> None:
         """Take the server; nothing is drawn before `show_garment`."""
@@ -48,7 +49,7 @@ class FoldView:
     def show_garment(self, garment: Garment) -> None:
         """Take the folds of another garment; `place` then draws them."""
         before, self._folds, self._seen = self._folds, garment.folds, None
-        if [fold.is_red for fold in before] == [fold.is_red for fold in garment.folds]:
+        if [fold.kind for fold in before] == [fold.kind for fold in garment.folds]:
             return  # a fold that is being moved does not flicker
         for line in self._lines:
             line.remove()
@@ -90,13 +91,13 @@ class FoldView:
         )
 
     def _colour(self, fold: DrawnFold) -> NDArray[np.uint8]:
-        return ink(self._palette.fold_red if fold.is_red else self._palette.fold_blue)
+        return ink(self._palette.folds[fold.kind])
 
 
 def _steps(fold: DrawnFold, placement: Pose2, top: TableTop) -> FloatArray:
     """Return the line in steps in the unrolled plane, table frame, shape (n, 2, 2), m; no step crosses an edge."""
-    cut = dash_dot if fold.is_red else solid
-    drawn = cut(np.array(fold.start), np.array(fold.end)).reshape(-1, 2)
+    lengths_m = FOLD_LOOKS[fold.kind].dashes_m
+    drawn = dashed(np.array(fold.start), np.array(fold.end), lengths_m).reshape(-1, 2)
     steps = placement.to_outer(drawn).reshape(-1, 2, 2)
     for side, corner in ((-1.0, top.low), (1.0, top.high)):
         for axis, place in enumerate(corner):

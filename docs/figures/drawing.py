@@ -25,7 +25,7 @@ def colour(rgb: Rgb) -> str:
 
 FRONT, BACK = colour(LIGHT.cloth_front), colour(LIGHT.cloth_back)
 EDGE = colour(LIGHT.cloth_edge)
-BLUE, RED = colour(LIGHT.fold_blue), colour(LIGHT.fold_red)
+BLUE, RED = colour(LIGHT.folds["blue"]), colour(LIGHT.folds["red"])
 
 _FONT = "system-ui, -apple-system, 'Segoe UI', 'DejaVu Sans', sans-serif"
 

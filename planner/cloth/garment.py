@@ -9,6 +9,7 @@ from typing import Annotated, Any
 from annotated_types import Interval
 from pydantic import Field
 
+from planner.cloth.fold_kinds import FOLD_KINDS
 from planner.cloth.outline import EDGE_MIN_M, POINTS_MAX, require_simple_outline
 from planner.errors import GarmentError
 from planner.geometry.given import GivenPose, PlanePoint
@@ -24,9 +25,15 @@ FOLDS_MAX = 64
 FIRST_IS_RED = "the first fold cannot be red: red takes the flap of the fold before it"
 DEFAULT_DENSITY_KG_M2 = 0.2
 DEFAULT_GRIP_RADIUS_M = 0.127
+DEFAULT_THICKNESS_M = 0.001
+THICKNESS_MIN_M, THICKNESS_MAX_M = 0.0001, 0.02
+LAYER_AIR_M = 0.001
+"""How much further apart than they are thick layers come to lie that nothing presses together (m)."""
+
 DEFAULT_YAW_RAD = -math.pi / 2
 
 Positive = Annotated[float, Interval(gt=0.0, le=LARGEST_M)]
+Thickness = Annotated[float, Interval(ge=THICKNESS_MIN_M, le=THICKNESS_MAX_M)]
 Title = Annotated[str, Field(json_schema_extra={"maxLength": TITLE_MAX})]
 
 
@@ -36,7 +43,7 @@ class DrawnFold:
 
     Attributes:
         name: the name that the user gave it.
-        kind: "blue" folds every layer, "red" only those that the fold before it moved.
+        kind: its kind (`FOLD_KINDS`): "blue" folds every layer, "red" only those that the fold before it moved.
         start: first end in the article frame (m), on the boundary of the silhouette at the time of the fold.
         end: second end (m).
         grip_radius_m: the radius within which one grip holds the cloth (m).
@@ -45,15 +52,15 @@ class DrawnFold:
     __pydantic_config__ = STRICT
 
     name: Title
-    kind: Annotated[str, Field(json_schema_extra={"enum": ["blue", "red"]})]
+    kind: Annotated[str, Field(json_schema_extra={"enum": list(FOLD_KINDS)})]
     start: PlanePoint
     end: PlanePoint
     grip_radius_m: Annotated[Positive, NULL_IS_DEFAULT] = DEFAULT_GRIP_RADIUS_M
 
     def __post_init__(self) -> None:
         """Check the fields; raises `GarmentError`."""
-        if self.kind not in ("blue", "red"):
-            raise GarmentError("kind", f"{self.kind!r} is neither 'blue' nor 'red'")
+        if self.kind not in FOLD_KINDS:
+            raise GarmentError("kind", f"expected one of {', '.join(FOLD_KINDS)}; got {self.kind!r}")
         if len(self.name) > TITLE_MAX:
             raise GarmentError("name", f"has {len(self.name)} characters, more than {TITLE_MAX}")
         length = math.dist(self.start, self.end)
@@ -66,7 +73,7 @@ class DrawnFold:
     @property
     def is_red(self) -> bool:
         """Whether it folds only the layers that the fold before it moved."""
-        return self.kind == "red"
+        return FOLD_KINDS[self.kind].is_red
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,6 +88,7 @@ class Garment:
         folds: the folds in the user's order.
         grip_radius_m: the radius within which one grip holds the cloth, unless a fold has its own (m).
         placement: the article frame in the table frame.
+        thickness_m: the cloth's thickness where fingers press it (m).
     """
 
     __pydantic_config__ = STRICT
@@ -96,6 +104,7 @@ class Garment:
     placement: Annotated[
         GivenPose, NULL_IS_DEFAULT, Field(default_factory=lambda given: centred_placement(given["outline"]))
     ]
+    thickness_m: Thickness = DEFAULT_THICKNESS_M
 
     def __post_init__(self) -> None:
         """Check the fields; raises `GarmentError` with the field and the number."""
@@ -129,6 +138,11 @@ class Garment:
         """Return the contents of a garment file, every field filled in."""
         written: dict[str, Any] = _GARMENTS.write(self)
         return written
+
+    @property
+    def layer_m(self) -> float:
+        """The height that a layer takes in a stack that nothing presses (m)."""
+        return self.thickness_m + LAYER_AIR_M
 
     @property
     def pattern(self) -> Region:

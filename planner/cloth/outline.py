@@ -80,7 +80,7 @@ def crossings(outline: Sequence[Point2]) -> Iterator[tuple[int, int, Point2]]:
 
 
 def _pairs_near_crossing(starts: FloatArray) -> list[tuple[int, int]]:
-    """Return the pairs of edges, ascending, that may meet: neither is clearly to one side of the other, or far along."""
+    """Return the pairs of edges, ascending, that may meet: neither lies clearly beside the other or beyond its ends."""
     ends = np.roll(starts, -1, axis=0)
     along = ends - starts
     left = np.column_stack([-along[:, 1], along[:, 0]]) / np.hypot(*along.T)[:, None]

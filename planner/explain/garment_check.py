@@ -27,7 +27,7 @@ class FoldCheck:
 
     Attributes:
         name: the fold's name.
-        is_red: whether the fold uses the grips that the fold before it left.
+        kind: the fold's kind, by name.
         vertices: every corner of the part that moves, and why it must be held or need not be.
         grips: the grips that hold what must be held, article frame (m); empty when the hands do not suffice.
         grips_needed: the number of grips; None when it exceeds the number of hands.
@@ -35,7 +35,7 @@ class FoldCheck:
     """
 
     name: str
-    is_red: bool
+    kind: str
     vertices: tuple[VertexCheck, ...]
     grips: tuple[Point2, ...]
     grips_needed: int | None
@@ -55,7 +55,7 @@ class FoldCheck:
         """Return the check as JSON."""
         return {
             "name": self.name,
-            "kind": "red" if self.is_red else "blue",
+            "kind": self.kind,
             "grips_needed": self.grips_needed,
             "grips": [list(grip) for grip in self.grips],
             "problem": self.problem,
@@ -132,7 +132,7 @@ def _checks(context: Context) -> Iterator[FoldCheck]:
         left_held = [tuple(over.apply_point(grip) for grip in cover) for cover in covers]
         yield FoldCheck(
             fold.name,
-            fold.is_red,
+            fold.kind,
             vertex_checks(context.sequence.moving(fold.index), fold.line, angle),
             covers[0] if covers else (),
             len(covers[0]) if covers else found.count,

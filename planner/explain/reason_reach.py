@@ -14,7 +14,6 @@ import numpy as np
 from planner.explain.reason_attempt import miss_of
 from planner.explain.reason_miss import Miss
 from planner.explain.reason_places import Places
-from planner.folds.fold_path import REST_HEIGHT_M
 from planner.geometry.pose import FloatArray
 from planner.primitives.context import STANDOFF_STEP_M, Context
 from planner.primitives.fold_obstacles import geometric_obstacle
@@ -128,8 +127,8 @@ def _candidates(context: Context, attempt: Attempt, places: Places, at_most: int
 def _tools(attempt: Attempt, places: FloatArray) -> FloatArray:
     """Return the tools at start, apex and end at some places, shape (grips, 3, places, 3), table frame (m)."""
     shift = places - np.array(attempt.state.offset)
-    raised = np.column_stack([shift, np.full(len(shift), REST_HEIGHT_M)])
-    swept = attempt.path.swept(attempt.points, _EXTREMES[:, None])
+    raised = np.column_stack([shift, np.zeros(len(shift))])
+    swept = attempt.path.tools_unrolled(attempt.points, _EXTREMES)
     unrolled = swept.transpose(1, 0, 2)[:, :, None, :] + raised
     is_hanging = np.array([not attempt.state.is_dragged, True, True])
     over_edge = attempt.path.over_edge(unrolled, attempt.path.top)

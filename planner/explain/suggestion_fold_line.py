@@ -5,11 +5,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from planner.cloth.fold_kinds import FOLD_KINDS
 from planner.cloth.garment import DrawnFold, Garment
 from planner.errors import FieldError
 from planner.explain.suggestion_trial import Proof, Search, SuggestionTrial, narrowed
 from planner.folds.fold import snapped_line
-from planner.folds.fold_cloth import flap_silhouette
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
@@ -98,7 +98,7 @@ def redrawn(garment: Garment, fold: int, line: Segment) -> Garment | None:
         for index in range(fold, len(garment.folds)):
             drawn = garment.folds[index]
             cloth = FoldSequence.of(replace(garment, folds=folds)).final
-            silhouette = flap_silhouette(cloth, is_red=drawn.is_red)
+            silhouette = FOLD_KINDS[drawn.kind].silhouette(cloth)
             if index > fold and _is_snapped(drawn, silhouette):
                 folds = (*folds, drawn)
                 continue

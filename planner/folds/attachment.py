@@ -14,6 +14,7 @@ from typing import TypeAlias
 import numpy as np
 
 from planner.cloth.cloth_state import ClothState
+from planner.cloth.fold_kinds import FOLD_KINDS
 from planner.cloth.layer import Layer
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Point2
@@ -75,18 +76,18 @@ class Replay:
         """Return the replay with one more fold."""
         return Replay(self.outline, (*self.cloths, cloth), (*self.lines, line))
 
-    def seen(self, *, is_red: bool) -> tuple[Layer, ...]:
-        """Return the layers that the next fold sees: all of them, or for a red fold those that the last fold moved."""
-        return self.cloths[-1].flap if is_red else self.cloths[-1].layers
+    def seen(self, kind: str) -> tuple[Layer, ...]:
+        """Return the layers that the next fold sees if it is of a kind."""
+        return FOLD_KINDS[kind].layers(self.cloths[-1])
 
 
-def place_of(attachment: Attachment, replay: Replay, *, is_red: bool) -> Point2 | None:
+def place_of(attachment: Attachment, replay: Replay, kind: str) -> Point2 | None:
     """Return the place of an attachment after the folds so far, article frame (m).
 
     Args:
         attachment: the attachment.
         replay: the folds so far.
-        is_red: whether the place is for a red fold, which sees only the layers moved last.
+        kind: the kind of the fold whose line it is for: a red one sees only the layers moved last.
 
     Returns:
         The place; None if there is no such corner, edge or crease, or not in the layers seen.
@@ -94,13 +95,13 @@ def place_of(attachment: Attachment, replay: Replay, *, is_red: bool) -> Point2 
     material = _material(attachment, replay)
     if material is None:
         return None
-    layers = replay.seen(is_red=is_red)
+    layers = replay.seen(kind)
     gaps_m = Region.gaps([layer.pattern_piece for layer in layers], material)
     nearest = int(np.argmin(gaps_m)) if len(layers) else 0
     return layers[nearest].isometry.apply_point(material) if (gaps_m < SNAP_M).any() else None
 
 
-def attached(place: Point2, replay: Replay, *, is_red: bool) -> Attachment | None:
+def attached(place: Point2, replay: Replay, kind: str) -> Attachment | None:
     """Return the attachment for a place on the boundary of the silhouette.
 
     A corner is preferred to the end of a crease, that to an edge, and an edge to the inside of a crease; of layers that
@@ -109,13 +110,13 @@ def attached(place: Point2, replay: Replay, *, is_red: bool) -> Attachment | Non
     Args:
         place: article frame, after the folds so far (m).
         replay: the folds so far.
-        is_red: whether the attachment is for a red fold.
+        kind: the kind of the fold whose line it is for.
 
     Returns:
         The attachment; None if no layer seen has its boundary there.
     """
     found: list[tuple[int, int, Attachment]] = []
-    for layer in replay.seen(is_red=is_red):
+    for layer in replay.seen(kind):
         if layer.region.boundary_distance(place) <= LENGTH_M:
             trace = _Trace(layer, replay)
             material = layer.to_pattern(place)

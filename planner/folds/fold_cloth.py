@@ -6,11 +6,12 @@ from functools import lru_cache
 import numpy as np
 
 from planner.cloth.cloth_state import ClothState
+from planner.cloth.cut_line import require_both
+from planner.cloth.fold_kinds import FOLD_KINDS
 from planner.cloth.layer import Layer
 from planner.errors import FoldError
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
-from planner.geometry.split import split_along
 from planner.geometry.tolerance import LENGTH_M
 from planner.message import Message
 
@@ -34,57 +35,37 @@ class Folded:
 
 
 @lru_cache(_FOLDED_KEPT)
-def fold_cloth(cloth: ClothState, line: Segment, *, is_red: bool, crease: Segment | None = None) -> Folded:
+def fold_cloth(cloth: ClothState, line: Segment, kind: str, crease: Segment | None = None) -> Folded:
     """Fold the cloth to the left of a line over it. Cached, because drawing, checking and planning all repeat it.
 
     Args:
         cloth: the stack before.
         line: the fold line, article frame.
-        is_red: whether only the layers that the last fold moved take part.
-        crease: for a red fold, the line of the fold before, which joins those layers to the rest.
+        kind: the fold's kind, by name.
+        crease: the line of the fold before, which joins the layers that a red fold moves to the rest; others take no
+            notice of it.
 
     Raises:
         FoldError: no cloth lies to the left or to the right of the line, the line does not part the cloth, or a red
             fold would tear it.
     """
-    active = cloth.flap if is_red else cloth.layers
+    rule = FOLD_KINDS[kind]
+    active = rule.layers(cloth)
     below = cloth.layers[: len(cloth.layers) - len(active)]
-    moving = _moving_part(active, cloth.silhouette, line, is_red=is_red)
-    if is_red and crease is not None:
+    moving = rule.moving(rule.silhouette(cloth), line)
+    if below and crease is not None:
         _require_no_tear(moving, line, crease)
     stays: list[Layer] = []
     moves: list[Layer] = []
     slivers = list(cloth.slivers)
     for layer in active:
-        inside, outside, dropped = layer.cut(line, moving)
+        inside, outside, dropped = ((layer,), (), ()) if rule.is_whole else layer.cut(line, moving)
         moves.extend(inside)
         stays.extend(outside)
         slivers.extend(dropped)
-    _require_both(bool(moves), bool(stays))
+    require_both(bool(moves), rule.is_whole or bool(stays))
     landed = [layer.reflected(line) for layer in reversed(moves)]
     return Folded(ClothState([*below, *stays, *landed], len(landed), slivers), moving, tuple(moves))
-
-
-def flap_silhouette(cloth: ClothState, *, is_red: bool) -> Region:
-    """Return the silhouette that a fold sees: that of the whole stack, or of the layers moved last if it is red."""
-    return Region.union(layer.region for layer in cloth.flap) if is_red else cloth.silhouette
-
-
-def _moving_part(active: tuple[Layer, ...], whole: Region, line: Segment, *, is_red: bool) -> Region:
-    silhouette = Region.union(layer.region for layer in active) if is_red else whole
-    parts = split_along(silhouette, line)
-    if parts is None:
-        raise FoldError("end", "the line must cut the cloth completely: the parts are joined around one of its ends")
-    moving, staying = parts
-    _require_both(not moving.is_sliver, not staying.is_sliver)
-    return moving
-
-
-def _require_both(is_any_moving: bool, is_any_staying: bool) -> None:
-    if not is_any_moving:
-        raise FoldError("start", "no cloth lies to the left of the line, so nothing would move")
-    if not is_any_staying:
-        raise FoldError("start", "all the cloth lies to the left of the line, so nothing would stay")
 
 
 def _require_no_tear(moving: Region, line: Segment, crease: Segment) -> None:

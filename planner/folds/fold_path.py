@@ -11,20 +11,61 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from planner.geometry.pose import FloatArray
+from planner.cloth.cloth_state import ClothState
+from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.segment import Segment
 from planner.geometry.table_top import TableTop
-from planner.geometry.tolerance import LENGTH_M
+from planner.geometry.tolerance import LENGTH_M, SNAP_M
 
 REST_HEIGHT_M = 0.02
-"""The tool frame's height above the table's plane at rest: closed fingertips just clear the table (m)."""
+"""The tool frame's height above the table's plane at rest, at least: closed fingertips just clear the table (m)."""
+
+OVER_STACK_M = 0.012
+"""How far the tool frame is above the stack that it takes or lays down, at least: a finger is as thick (m)."""
 
 SPACING_M = 0.05
 """The largest distance between waypoints of a path (m)."""
 
 
+_AT_ORIGIN = Pose2(0.0, 0.0, 0.0)
+
 _WAY_IN_MAX_M = 0.04
 """The way in from outside an edge up to which waypoints are close enough (m); longer ones would need too many."""
+
+
+@dataclass(frozen=True, slots=True)
+class RestHeights:
+    """The heights at which tools rest that take or lay down the edges of a stack.
+
+    Attributes:
+        cloth: the stack.
+        thickness_m: the thickness of a layer between fingers (m).
+    """
+
+    cloth: ClothState
+    thickness_m: float
+
+    @property
+    def raised_m(self) -> float:
+        """How much higher than `REST_HEIGHT_M` tools rest at most (m)."""
+        return rest_height_m(len(self.cloth.layers) * self.thickness_m) - REST_HEIGHT_M
+
+    @property
+    def are_even(self) -> bool:
+        """Whether the whole stack is so low that tools rest at one height."""
+        return self.raised_m == 0.0
+
+    def at(self, points: FloatArray) -> FloatArray:
+        """Return the heights over points of the article frame, shape (n, 2) -> (n,), m."""
+        if self.are_even:
+            return np.full(len(points), REST_HEIGHT_M)
+        is_there = [layer.region.distances_to(points) <= SNAP_M for layer in self.cloth.layers]
+        return np.array([rest_height_m(self.thickness_m * count) for count in np.sum(is_there, axis=0).tolist()])
+
+
+def rest_height_m(stack_m: float) -> float:
+    """Return the tool frame's height above the table's plane at rest, at a stack of a height (m)."""
+    return max(REST_HEIGHT_M, stack_m + OVER_STACK_M)
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,6 +79,8 @@ class FoldPath:
         rising_top: the top until the apex: cloth beyond an edge that starts out held at the table's height, not
             hanging, moves as if the table continued there.
         edge_clear_m: how far outside an edge's plane a tool holds cloth that hangs there (m).
+        placement: the article frame in the table frame.
+        stacks: the heights at which tools rest before and after the fold; None where they are the same everywhere.
     """
 
     line: Segment
@@ -45,6 +88,8 @@ class FoldPath:
     top: TableTop
     rising_top: TableTop
     edge_clear_m: float = 0.0
+    placement: Pose2 = _AT_ORIGIN
+    stacks: tuple[RestHeights, RestHeights] | None = None
 
     def swept(self, points: FloatArray, sweep: float | FloatArray) -> FloatArray:
         """Return the positions of points of the moving part in the unrolled plane.
@@ -82,12 +127,30 @@ class FoldPath:
 
     def tool_paths(self, grips: FloatArray, sweeps: FloatArray) -> FloatArray:
         """Return the tools' positions at several sweeps, shape (n, 2) and (k,) -> (n, k, 3), table frame (m)."""
-        unrolled = self.swept(grips, sweeps[:, None]) + np.array([0.0, 0.0, REST_HEIGHT_M])
+        unrolled = self.tools_unrolled(grips, sweeps)
         if self.rising_top == self.top:
             return self.over_edge(unrolled, self.top).transpose(1, 0, 2)
         rising, falling = unrolled[sweeps < 1.0], unrolled[sweeps >= 1.0]
         paths = np.concatenate([self.over_edge(rising, self.rising_top), self.over_edge(falling, self.top)])
         return paths.transpose(1, 0, 2)
+
+    def tools_unrolled(self, grips: FloatArray, sweeps: FloatArray) -> FloatArray:
+        """Return where tools are in the unrolled plane at several sweeps, shape (n, 2) and (k,) -> (k, n, 3), m.
+
+        On its way a tool goes from the height at which it takes its stack to the height at which it lays it down.
+        """
+        found = self.swept(grips, sweeps[:, None])
+        if self.stacks is None:
+            found[..., 2] += REST_HEIGHT_M
+            return found
+        places = self.swept(grips, 2.0)[:, :2]
+        picked, laid = (
+            stack.at(self.placement.to_inner(points))
+            for stack, points in zip(self.stacks, (grips, places), strict=True)
+        )
+        shares = np.clip(sweeps / 2.0, 0.0, 1.0)[:, None]
+        found[..., 2] += picked + shares * (laid - picked)
+        return found
 
     def over_edge(self, unrolled: FloatArray, top: TableTop) -> FloatArray:
         """Return the positions in space of tools of the unrolled plane, shape (..., 3), table frame (m).

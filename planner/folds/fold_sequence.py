@@ -13,13 +13,15 @@ import numpy as np
 from networkx import has_path
 
 from planner.cloth.cloth_state import ClothState
+from planner.cloth.fold_kinds import FOLD_KINDS
 from planner.cloth.garment import Garment
 from planner.cloth.grips import GripCovers, grip_covers
 from planner.cloth.must_hold import must_hold
 from planner.errors import FoldError
 from planner.folds.fold import Fold, snapped_line
-from planner.folds.fold_cloth import Folded, flap_silhouette, fold_cloth
+from planner.folds.fold_cloth import Folded, fold_cloth
 from planner.folds.fold_dag import FoldDag, overlap_graph, reduced
+from planner.folds.fold_path import RestHeights
 from planner.folds.missed_flap import flap_missed, is_flap_missed
 from planner.folds.touching import is_order_free, is_touching
 from planner.geometry.isometry import Isometry
@@ -97,7 +99,7 @@ class FoldSequence:
         if key not in self._folded:
             fold = self.folds[index]
             crease = self.folds[index - 1].line if fold.is_red else None
-            self._folded[key] = fold_cloth(self.cloth(done), fold.line, is_red=fold.is_red, crease=crease)
+            self._folded[key] = fold_cloth(self.cloth(done), fold.line, fold.kind, crease)
         return self._folded[key]
 
     def moving(self, index: int) -> Region:
@@ -108,6 +110,18 @@ class FoldSequence:
         time.
         """
         return self.folded((1 << index) - 1, index).moving
+
+    def rests(self, done: int) -> RestHeights:
+        """Return the heights at which tools rest at the stack after a set of folds."""
+        return RestHeights(self.cloth(done), self.garment.thickness_m)
+
+    def rests_of(self, index: int) -> tuple[RestHeights, RestHeights] | None:
+        """Return the heights at which tools rest before and after a fold; None if they are the same everywhere.
+
+        Whatever overlaps the fold's part is done before it or after it in any order, so the user's order serves.
+        """
+        found = self.rests((1 << index) - 1), self.rests((2 << index) - 1)
+        return None if found[0].are_even and found[1].are_even else found
 
     @cached_property
     def covered(self) -> FloatArray:
@@ -166,7 +180,7 @@ def _replay(garment: Garment, index: int, cloth: ClothState, before: list[Fold])
     drawn = garment.folds[index]
     if drawn.is_red and is_flap_missed(cloth, Segment(drawn.start, drawn.end)):
         raise FoldError("start", flap_missed(before[-1].name))
-    line = snapped_line(drawn, flap_silhouette(cloth, is_red=drawn.is_red))
-    fold = Fold(index, drawn.name, drawn.is_red, line, drawn.grip_radius_m)
+    line = snapped_line(drawn, FOLD_KINDS[drawn.kind].silhouette(cloth))
+    fold = Fold(index, drawn.name, drawn.kind, line, drawn.grip_radius_m)
     crease = before[-1].line if drawn.is_red else None
-    return fold, fold_cloth(cloth, line, is_red=drawn.is_red, crease=crease)
+    return fold, fold_cloth(cloth, line, drawn.kind, crease)

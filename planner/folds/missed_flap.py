@@ -1,13 +1,13 @@
 """Detect a red fold's line that crosses the cloth, but not the layers that a red fold takes."""
 
 from planner.cloth.cloth_state import ClothState
-from planner.folds.fold_cloth import flap_silhouette
+from planner.cloth.fold_kinds import FOLD_KINDS
 from planner.geometry.segment import Segment
 
 
 def is_flap_missed(cloth: ClothState, line: Segment) -> bool:
     """Return whether a line runs through cloth, but through nothing that the last fold moved."""
-    flap, whole = (flap_silhouette(cloth, is_red=is_red) for is_red in (True, False))
+    flap, whole = FOLD_KINDS["red"].silhouette(cloth), cloth.silhouette
     return whole.runs_inside(line) and not flap.runs_inside(line)
 
 

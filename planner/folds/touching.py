@@ -11,9 +11,10 @@ from collections.abc import Sequence
 import networkx as nx
 
 from planner.cloth.cloth_state import ClothState
+from planner.cloth.fold_kinds import FOLD_KINDS
 from planner.errors import FoldError
-from planner.folds.fold import Fold, is_snapped
-from planner.folds.fold_cloth import flap_silhouette, fold_cloth
+from planner.folds.fold import Fold
+from planner.folds.fold_cloth import fold_cloth
 from planner.geometry.region import Region
 from planner.geometry.tolerance import AREA_M2, SNAP_M
 
@@ -37,11 +38,11 @@ def is_order_free(
     cloth = ClothState.spread_out(pattern)
     for index in order:
         fold = folds[index]
-        crease = folds[index - 1].line if fold.is_red else None
-        if not is_snapped(fold.line, flap_silhouette(cloth, is_red=fold.is_red)):
+        kind, crease = FOLD_KINDS[fold.kind], folds[index - 1].line if fold.is_red else None
+        if not kind.is_snapped(fold.line, kind.silhouette(cloth)):
             return False
         try:
-            folded = fold_cloth(cloth, fold.line, is_red=fold.is_red, crease=crease)
+            folded = fold_cloth(cloth, fold.line, fold.kind, crease)
         except FoldError:
             return False
         if not _is_same(folded.moving, moving[index]):

@@ -2,8 +2,8 @@
 
 Cloth bends along the baseline of a fold in progress and along the table's edges. So each layer is cut by the baseline:
 cloth not lifted yet or already laid down lies flat, cloth in between stands. Flat parts are cut by the table's edges,
-beyond which they hang. Layers are drawn a little apart, as if each were one thickness of cloth. Standing cloth keeps
-its lengths, so it ends between the fingertips, below the tool frame.
+beyond which they hang. Layers are drawn as high above each other as they lie in a stack (`Garment.layer_m`). Standing
+cloth keeps its lengths, so it ends between the fingertips, below the tool frame.
 """
 
 from collections.abc import Sequence
@@ -23,9 +23,6 @@ from planner.geometry.table_top import TableTop
 from planner.geometry.triangles import creased, parted
 from planner.motion.sample import ClothSurface
 from planner.task.phase import ClothMotion
-
-LAYER_GAP_M = 0.0015
-"""The distance at which neighbouring layers are drawn (m)."""
 
 _Seen = tuple[int, int | None, float, Pose2, TableTop, float]
 """The key of a shape of the cloth: folds done, current fold, its sweep, placement, table top, droop."""
@@ -67,11 +64,6 @@ class _Pieces:
         """Return the pieces turned over a line; each keeps its number."""
         return _Pieces(Isometry.reflection(line).apply(self.triangles)[:, ::-1], self.numbers, ~self.is_back)
 
-    @property
-    def gaps(self) -> FloatArray:
-        """The height above the table at which each is drawn (m), shape (n, 1)."""
-        return np.asarray((self.numbers[:, None] + 1) * LAYER_GAP_M)
-
 
 @dataclass(slots=True)
 class _Mesh:
@@ -81,33 +73,39 @@ class _Mesh:
         placement: the article frame in the table frame.
         top: the table top over which cloth does not hang.
         droop: how far cloth beyond its edges has turned down.
+        layer_m: the height of a layer (m).
     """
 
     placement: Pose2
     top: TableTop
     droop: float
+    layer_m: float
     corners: list[FloatArray] = field(default_factory=list)
     unrolled: list[FloatArray] = field(default_factory=list)
     layers: list[NDArray[np.int64]] = field(default_factory=list)
 
     def lay(self, pieces: _Pieces) -> None:
         """Add cloth that lies on the table or hangs over its edges."""
-        flat = self.placement.to_outer(pieces.triangles)
+        flat, gaps = self.placement.to_outer(pieces.triangles), self._gaps(pieces)
         if not self.top.covers(flat):
-            flat, sources = creased(flat, bends(self.top, flat, float(pieces.gaps.max(initial=0.0))))
-            pieces = pieces.parts(flat, sources)
+            flat, sources = creased(flat, bends(self.top, flat, float(gaps.max(initial=0.0))))
+            pieces, gaps = pieces.parts(flat, sources), gaps[sources]
         unrolled = np.concatenate([flat, np.zeros((*flat.shape[:2], 1))], axis=2)
-        rolled = np.concatenate([flat, np.broadcast_to(pieces.gaps[..., None], (*flat.shape[:2], 1))], axis=2)
+        rolled = np.concatenate([flat, np.broadcast_to(gaps[..., None], (*flat.shape[:2], 1))], axis=2)
         if self.droop < 1.0:
             rolled[self.top.beyond(flat) > 0.0] = np.nan
-        self._add(pieces, draped(self.top, unrolled, pieces.gaps, self.droop), rolled)
+        self._add(pieces, draped(self.top, unrolled, gaps, self.droop), rolled)
 
     def erect(self, pieces: _Pieces, path: FoldPath, sweep: float) -> None:
         """Add cloth that a fold has lifted."""
         swept = path.swept(self.placement.to_outer(pieces.triangles).reshape(-1, 2), sweep)
-        lean = pieces.gaps[..., None] * np.array([*path.line.left, 0.0])
+        lean = self._gaps(pieces)[..., None] * np.array([*path.line.left, 0.0])
         standing = draped(self.top, swept).reshape(-1, 3, 3) - lean
         self._add(pieces, standing, np.full(standing.shape, np.nan))
+
+    def _gaps(self, pieces: _Pieces) -> FloatArray:
+        """Return the height above the table at which each piece is drawn (m), shape (n, 1)."""
+        return np.asarray((pieces.numbers[:, None] + 1) * self.layer_m)
 
     def _add(self, pieces: _Pieces, corners: FloatArray, unrolled: FloatArray) -> None:
         """Add triangles, shape (n, 3, 3), and their unrolled positions; turn over those that show their backs."""
@@ -146,7 +144,7 @@ class ClothSurfaces:
     def _surface(
         self, done: int, fold: int | None, sweep: float, placement: Pose2, top: TableTop, droop: float
     ) -> ClothSurface:
-        mesh = _Mesh(placement, top, droop)
+        mesh = _Mesh(placement, top, droop, self._sequence.garment.layer_m)
         if fold is None:
             layers = self._sequence.cloth(done).layers
             mesh.lay(_Pieces.of(layers, range(len(layers))))

@@ -16,7 +16,7 @@ from planner.primitives.state import State
 from planner.robots.openings import OPENING_M
 
 OVER_CLOTH_M = 0.032
-"""The height that empty arms keep above cloth at the waypoints tested (m).
+"""The height above the table that empty arms keep over cloth at the waypoints tested, more over high stacks (m).
 
 It is 3 cm and a reserve for what may be lost between two tests.
 """
@@ -98,7 +98,8 @@ class LyingCloths:
             placement = self._context.placed(state.offset)
             pieces = tuple(placement.to_outer(piece) for piece in self._pieces(state))
             name = b"".join(np.round(piece, 6).tobytes() + b"|" for piece in pieces)
-            self._known[key] = LyingCloth(name, pieces, self._collisions)
+            over_m = OVER_CLOTH_M + self._context.sequence.rests(state.done).raised_m
+            self._known[key] = LyingCloth(name, pieces, self._collisions, over_m)
         return self._known[key]
 
     def _pieces(self, state: State) -> Sequence[FloatArray]:

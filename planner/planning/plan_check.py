@@ -17,9 +17,9 @@ from planner.motion.opened_collisions import OpenedCollisions
 from planner.planning.base_check import require_drive
 from planner.planning.limits_check import require_limits
 from planner.planning.problem import Problem
-from planner.primitives.drag_way import DragWays
 from planner.primitives.fold_obstacles import geometric_obstacle
-from planner.primitives.fold_trial import FoldTrial, fold_trials
+from planner.primitives.primitive import HeldTools
+from planner.primitives.primitive_set import PRIMITIVES
 from planner.primitives.state import State
 from planner.robots.joint_layout import JointLayout
 from planner.robots.openings import LOWERED_MAX_M, RAISED_MAX_M
@@ -79,7 +79,7 @@ def _require_step(
 ) -> None:
     before, after = problem.state_of(step.before), problem.state_of(step.after)
     _require_cloth(problem, step, before, after)
-    tools = _Tools(problem, step, before, after) if step.grips else None
+    tools = _tools(problem, step, before, after)
     for segment in segments:
         times_s = list(_moments(segment))
         require_drive(problem, segment, times_s)
@@ -114,49 +114,27 @@ def _require_cloth(problem: Problem, step: PlanStep, before: State, after: State
         raise RequestError("after.placement", f"the article has moved by {moved_m} m, not by {dragged_m} m")
 
 
-class _Tools:
-    """The required tool poses while a step holds cloth."""
+def _tools(problem: Problem, step: PlanStep, before: State, after: State) -> HeldTools | None:
+    """Return where the arms that hold cloth must have their tools; None if none does.
 
-    def __init__(self, problem: Problem, step: PlanStep, before: State, after: State) -> None:
-        names = problem.context.reach.arm_names
-        self._placement = step.before.placement
-        self._arms = {names.index(holding.arm): holding.point for holding in step.holdings}
-        self._trial: FoldTrial | None = None
-        self._picks: dict[int, FloatArray] = {}
-        context, state = problem.context, before
-        if step.fold is not None:
-            trials = fold_trials(context, state, step.fold)
-            found = next((trial for trial in trials if self._is_alike(trial.taken)), None)
-            if found is None:
-                raise RequestError("holdings", "these grips do not hold what the fold needs")
-            self._trial = found
-        else:
-            move = (after.offset[0] - state.offset[0], after.offset[1] - state.offset[1])
-            drags = context.kept(DragWays)
-            ways = drags.by_arms(state, move) if step.kind == "arm_drag" else drags.of(state)
-            way = next((way for way in ways if self._is_alike(way.taken)), None)
-            if way is None:
-                raise RequestError("holdings", "these grips do not hold what the drag needs")
-            self._picks = dict(zip(way.arms, way.picks, strict=True))
+    Raises:
+        RequestError: names what of the step cannot be, and why.
+    """
+    primitive = next((make(problem.context) for make in PRIMITIVES if make.kind == step.kind), None)
+    if primitive is None:
+        raise RequestError("kind", f"expected one of {', '.join(one.kind for one in PRIMITIVES)}; got {step.kind!r}")
+    if not step.grips:
+        return None
+    names = problem.context.reach.arm_names
+    taken = {names.index(holding.arm): holding.point for holding in step.holdings}
+    return primitive.tools(step, taken, before, after)
 
-    def _is_alike(self, taken: dict[int, tuple[float, float]]) -> bool:
-        if taken.keys() != self._arms.keys():
-            return False
-        return all(math.dist(point, self._arms[arm]) <= LENGTH_M for arm, point in taken.items())
 
-    def at(self, segment: Segment, t_s: float) -> dict[int, FloatArray]:
-        """Return where each arm that holds cloth must have its tool at a time, table frame, shape (3,), m."""
-        holding = [arm for arm, hand in enumerate(segment.phase.hands) if hand is not None and hand.is_closed]
-        if self._trial is not None:
-            first, last = segment.phase.cloth.sweep
-            sweep = first + segment.fraction_at(t_s) * (last - first)
-            points = self._trial.path.tool_points(self._trial.points, sweep)
-            places = dict(zip(self._trial.arms, points, strict=True))
-        else:
-            now = segment.placement_at(t_s)
-            shift = np.array([now.x_m - self._placement.x_m, now.y_m - self._placement.y_m, 0.0])
-            places = {arm: pick + shift for arm, pick in self._picks.items()}
-        return {arm: places[arm] for arm in holding if arm in places}
+def _held(tools: HeldTools, segment: Segment, t_s: float) -> dict[int, FloatArray]:
+    """Return where each arm that holds cloth must have its tool at a time, table frame, shape (3,), m."""
+    holding = [arm for arm, hand in enumerate(segment.phase.hands) if hand is not None and hand.is_closed]
+    places = tools(segment, t_s)
+    return {arm: places[arm] for arm in holding if arm in places}
 
 
 def _require_arms(
@@ -164,7 +142,7 @@ def _require_arms(
     segment: Segment,
     path: Trajectory,
     t_s: float,
-    tools: _Tools | None,
+    tools: HeldTools | None,
     collisions: OpenedCollisions,
 ) -> None:
     """Require that at a time the arms are where they must be, and nothing touches."""
@@ -176,7 +154,7 @@ def _require_arms(
     stands = np.array([[base.x_m, base.y_m, base.yaw_rad]])
     if not collisions.are_all_free(stands, joints[None], opened):
         raise RequestError("trajectory", f"at {t_s:.2f} s the robot touches itself or the table")
-    for arm_number, place in ({} if tools is None else tools.at(segment, t_s)).items():
+    for arm_number, place in ({} if tools is None else _held(tools, segment, t_s)).items():
         own = joints[None, layout.spans[arm_number]]
         (tool,) = problem.robot.tool_places(arm_number, own, path.torso_m)
         off = _in_table(base, tool, scene.table.height_m) - place

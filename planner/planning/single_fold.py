@@ -18,7 +18,6 @@ from itertools import islice
 import numpy as np
 from numpy.typing import NDArray
 
-from planner.folds.fold_path import REST_HEIGHT_M
 from planner.geometry.pose import BoolArray, FloatArray, Pose2
 from planner.geometry.tolerance import LENGTH_M, grid_key, grid_keys
 from planner.planning.single_fold_cases import Case, Cases
@@ -154,7 +153,7 @@ class SingleFold:
 
     def _stages(self, case: Case, trial: FoldTrial, station: int) -> NDArray[np.int64]:
         """Return how many of apex, end and start can be reached, one after the other, at each place."""
-        unrolled = trial.path.swept(trial.points, np.array(_EXTREMES)[:, None])
+        unrolled = trial.path.tools_unrolled(trial.points, np.array(_EXTREMES))
         stages = np.zeros(len(self._places), dtype=np.int64)
         alive = [np.ones((len(a), len(self._places)), dtype=bool) for a in trial.approaches]
         left = np.arange(len(self._places))
@@ -191,7 +190,7 @@ class SingleFold:
         missing = ~is_known[np.ix_(approaches, places)]
         if missing.any():
             block = np.ix_(approaches[missing.any(axis=1)], places[missing.any(axis=0)])
-            raised = point + np.column_stack([self._places[block[1][0]], np.full(block[1].size, REST_HEIGHT_M)])
+            raised = point + np.column_stack([self._places[block[1][0]], np.zeros(block[1].size)])
             tools = raised if asked.is_held_out else trial.path.over_edge(raised, trial.path.top)
             is_found[block] = self._from_anywhere(asked.station, asked.arm, tools, block[0][:, 0])
             is_known[block] = True

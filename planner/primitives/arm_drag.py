@@ -1,20 +1,22 @@
 """The drag by the arms: where the base stays, they reach for the cloth and pull it along the table."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from functools import partial
 
 from planner.geometry.pose import Point2
 from planner.primitives.arm_drag_step import ArmDragStep
 from planner.primitives.context import Context
 from planner.primitives.drag_grips import arm_drag_steps, arm_dragged, longest_drag
-from planner.primitives.drag_way import DragWays
-from planner.primitives.primitive import Deferred, DeferredSteps
+from planner.primitives.drag_way import DragWays, dragged_tools
+from planner.primitives.primitive import Deferred, DeferredSteps, HeldTools
 from planner.primitives.state import State
+from planner.task.plan_step import PlanStep
 
 
 class ArmDrag:
     """Drags the article in eight directions by two arm motions, to reach and to pull, and lets go."""
 
+    kind = ArmDragStep.kind
     begins_with_driving = True
 
     def __init__(self, context: Context) -> None:
@@ -29,6 +31,11 @@ class ArmDrag:
             return ()
         duration_s = 2 * self._context.scene.arm_motion_s
         return DeferredSteps((Deferred(duration_s, state, partial(self._every, state)),))
+
+    def tools(self, step: PlanStep, taken: Mapping[int, Point2], before: State, after: State) -> HeldTools:
+        """Return where the tools must be: they carry the cloth along."""
+        move = (after.offset[0] - before.offset[0], after.offset[1] - before.offset[1])
+        return dragged_tools(self._ways.by_arms(before, move), step, taken)
 
     def _every(self, state: State) -> Iterator[ArmDragStep]:
         for step in arm_drag_steps(self._context, state.station):

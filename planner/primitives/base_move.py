@@ -11,14 +11,16 @@ from dataclasses import dataclass
 from functools import cached_property, partial
 from typing import Any
 
-from planner.geometry.pose import Approach, wrapped_angle
+from planner.errors import RequestError
+from planner.geometry.pose import Approach, Point2, wrapped_angle
 from planner.geometry.table_top import TableTop
 from planner.primitives.context import Context
-from planner.primitives.primitive import Deferred, DeferredSteps
+from planner.primitives.primitive import Deferred, DeferredSteps, HeldTools
 from planner.primitives.route import Route, clear_of_table, place_of, route_along, shortest_way
 from planner.primitives.state import State
 from planner.task.grip import Grip, Holding
 from planner.task.phase import ClothMotion, Hand, Phase
+from planner.task.plan_step import PlanStep
 
 
 @dataclass(frozen=True)
@@ -126,6 +128,7 @@ class MoveStep:
 class BaseMove:
     """Drives from station to station with empty hands."""
 
+    kind = MoveStep.kind
     begins_with_driving = False
 
     def __init__(self, context: Context) -> None:
@@ -136,6 +139,10 @@ class BaseMove:
         """Return one step for each other station."""
         stations = () if state.held else range(len(self._context.scene.stations))
         return DeferredSteps(tuple(self._later(state, station) for station in stations if station != state.station))
+
+    def tools(self, _step: PlanStep, _taken: Mapping[int, Point2], _before: State, _after: State) -> HeldTools:
+        """Raise `RequestError`: a move holds no cloth."""
+        raise RequestError("grips", "a move holds no cloth")
 
     def _later(self, state: State, station: int) -> Deferred[MoveStep]:
         after = State(state.done, state.offset, station, 0)

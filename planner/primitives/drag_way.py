@@ -1,20 +1,23 @@
 """Find the hands, the grips and the standoffs with which an article can be dragged."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from planner.folds.fold_path import REST_HEIGHT_M
+from planner.errors import RequestError
 from planner.geometry.pose import BoolArray, FloatArray, Point2
 from planner.geometry.tolerance import LENGTH_M, grid_key, grid_keys
 from planner.primitives.context import STANDOFF_STEP_M, Context
 from planner.primitives.drag_grips import along, drag_covers, hangs_ahead, towards_robot
 from planner.primitives.grasping import approaches_from_outside, assignments, hand_keys, nearest_pair_m
+from planner.primitives.primitive import HeldTools, is_taken_alike
 from planner.primitives.state import State
+from planner.task.plan_step import PlanStep
+from planner.task.trajectory import Segment
 
 _STILL: Point2 = (0.0, 0.0)
 
@@ -98,7 +101,7 @@ class DragWays:
         for cover in context.allowed(drag_covers(context, state.done, state.offset, towards)):
             points = placement.to_outer(np.array(cover).reshape(-1, 2))
             if cover and nearest_pair_m(cover) >= context.grips_apart_m - LENGTH_M:
-                picks = np.column_stack([points, np.full(len(points), REST_HEIGHT_M)])
+                picks = np.column_stack([points, context.sequence.rests(state.done).at(np.array(cover))])
                 for arms in assignments(context, state.station, points):
                     order = [hand for *_, hand in self._order(state, arms, picks)]
                     grips, hands = tuple(cover[hand] for hand in order), tuple(arms[hand] for hand in order)
@@ -118,6 +121,30 @@ class DragWays:
             allowed, is_able = hands_at(context, state, grip, arm, picks[i], move)
             chosen[:, i] = np.where(is_able.any(axis=0), allowed[is_able.argmax(axis=0)], -1)
         return DragWay(arms, cover, picks, chosen, move)
+
+
+def dragged_tools(ways: Sequence[DragWay], step: PlanStep, taken: Mapping[int, Point2]) -> HeldTools:
+    """Return where a drag from elsewhere must have its tools: as far from their picks as the cloth has come.
+
+    Args:
+        ways: the ways in which it can be done.
+        step: the drag.
+        taken: the point that each arm holds, article frame (m).
+
+    Raises:
+        RequestError: these grips hold in none of the ways.
+    """
+    way = next((way for way in ways if is_taken_alike(way.taken, taken)), None)
+    if way is None:
+        raise RequestError("holdings", "these grips do not hold what the drag needs")
+    picks, start = dict(zip(way.arms, way.picks, strict=True)), step.before.placement
+
+    def at(segment: Segment, t_s: float) -> Mapping[int, FloatArray]:
+        now = segment.placement_at(t_s)
+        shift = np.array([now.x_m - start.x_m, now.y_m - start.y_m, 0.0])
+        return {arm: pick + shift for arm, pick in picks.items()}
+
+    return at
 
 
 def hands_at(

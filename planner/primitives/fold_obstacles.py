@@ -2,7 +2,11 @@
 
 from collections.abc import Iterator
 
+import numpy as np
+
+from planner.cloth.fold_kinds import FOLD_KINDS
 from planner.geometry.pose import Point2
+from planner.geometry.table_top import TableTop
 from planner.geometry.tolerance import LENGTH_M
 from planner.primitives.context import Context
 from planner.primitives.obstacle import Obstacle
@@ -43,10 +47,25 @@ def geometric_obstacles(context: Context, state: State, fold: int) -> Iterator[O
     if behind > context.behind_max_m + LENGTH_M:
         says = worded("behind_line", {"behind_m": behind}, folds, fold)
         yield Obstacle(fold, Code.NOT_A_G_STATE, says, behind, state)
+    out_m = edge_off_table(context, fold, state.offset)
+    if out_m > LENGTH_M:
+        yield Obstacle(fold, Code.LINE_OFF_TABLE, worded("turn_off_table", {"off_m": out_m}, folds, fold), out_m, state)
     unrest = context.unrest(state.done | 1 << fold, state.offset)
     if unrest is not None:
         says = worded("afterwards", {"what": unrest.says.to_dict()}, folds, fold)
         yield Obstacle(fold, Code(unrest.code), says, unrest.severity, state, unrest.point)
+
+
+def edge_off_table(context: Context, fold: int, offset: Point2) -> float:
+    """Return how far the edge about which a fold turns all of the cloth reaches beyond the table (m); else 0.
+
+    Nothing but that edge lies on the table while the cloth stands.
+    """
+    line = context.sequence.folds[fold].line
+    if not FOLD_KINDS[context.sequence.folds[fold].kind].is_whole:
+        return 0.0
+    ends = context.placed(offset).to_outer(np.array([line.start, line.end]))
+    return float(TableTop.of(context.scene.table).beyond(ends).max())
 
 
 def is_line_on_table(context: Context, fold: int, offset: Point2) -> bool:

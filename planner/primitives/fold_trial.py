@@ -181,7 +181,7 @@ class _OnTable:
         """Return the paths over an endless table before any drag, and the corners of the rectangle that they cover."""
         context = self._context
         endless = TableTop((-math.inf, -math.inf), (math.inf, math.inf))
-        path = FoldPath(_line(context, _UNDRAGGED, fold), context.kept(Depths).of(fold)[1], endless, endless)
+        path = _over(context, _UNDRAGGED, fold, (endless, endless))
         points = context.placement.to_outer(np.array(cover))
         sweeps = path.sweeps(points)
         tools = path.tool_paths(points, sweeps)
@@ -205,12 +205,18 @@ def grips_obstacle(context: Context, state: State, fold: int) -> Obstacle | None
 
 
 def _path(context: Context, state: State, fold: int) -> FoldPath:
-    in_table, (_, depth) = _line(context, state.offset, fold), context.kept(Depths).of(fold)
     top = TableTop.of(context.scene.table)
     if not state.is_dragged:
-        return FoldPath(in_table, depth, top, top, context.scene.edge_clear_m)
+        return _over(context, state.offset, fold, (top, top))
     held = context.placed(state.offset).to_outer(np.array([h.point for h in state.held]))
-    return FoldPath(in_table, depth, top, top.open_towards(held), context.scene.edge_clear_m)
+    return _over(context, state.offset, fold, (top, top.open_towards(held)))
+
+
+def _over(context: Context, offset: Point2, fold: int, tops: tuple[TableTop, TableTop]) -> FoldPath:
+    """Return the path of a fold after drags by an offset (m), over the table's top and the one until the apex."""
+    line, (_, depth_m) = _line(context, offset, fold), context.kept(Depths).of(fold)
+    stacks = context.sequence.rests_of(fold)
+    return FoldPath(line, depth_m, *tops, context.scene.edge_clear_m, context.placed(offset), stacks)
 
 
 def _line(context: Context, offset: Point2, fold: int) -> Segment:

@@ -1,6 +1,6 @@
 """The g-drag: the base backs off with the arms still, and the cloth comes along (paper, section 6)."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from functools import partial
 
 import numpy as np
@@ -12,16 +12,18 @@ from planner.primitives.base_legs import unbeaten
 from planner.primitives.context import Context
 from planner.primitives.drag_grips import dragged, longest_drag
 from planner.primitives.drag_step import DragStep
-from planner.primitives.drag_way import DragWay, DragWays
+from planner.primitives.drag_way import DragWay, DragWays, dragged_tools
 from planner.primitives.holding_drags import STEPS_PER_DRAG, HoldingDrags
 from planner.primitives.move_times import MoveTimes
-from planner.primitives.primitive import Deferred, DeferredSteps
+from planner.primitives.primitive import Deferred, DeferredSteps, HeldTools
 from planner.primitives.state import State
+from planner.task.plan_step import PlanStep
 
 
 class GDrag:
     """Drags the article towards the robot, in steps of 10 cm."""
 
+    kind = DragStep.kind
     begins_with_driving = True
 
     def __init__(self, context: Context) -> None:
@@ -37,6 +39,10 @@ class GDrag:
             return DeferredSteps(())
         held = State(state.done, state.offset, state.station, 0, dragged=1)
         return DeferredSteps((*self._later(state, 1, state), *self._later(state, 1, held)))
+
+    def tools(self, step: PlanStep, taken: Mapping[int, Point2], before: State, _after: State) -> HeldTools:
+        """Return where the tools must be: they keep hold of the cloth as it comes along."""
+        return dragged_tools(self._ways.of(before), step, taken)
 
     def by(self, state: State, count: int) -> Iterator[DragStep]:
         """Yield the drags of one distance, `count` steps of the grid of drags."""

@@ -1,19 +1,24 @@
 """The g-fold: reach the grips, lift them over the fold line, lay them down (paper, sections 6 and 7)."""
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import partial
 from typing import TypeAlias
 
 import numpy as np
 
+from planner.errors import RequestError
 from planner.geometry.driving import IMPOSSIBLE
+from planner.geometry.pose import FloatArray, Point2
 from planner.primitives.context import Context
 from planner.primitives.fold_query import FoldQueries
 from planner.primitives.fold_stands import FoldStands
 from planner.primitives.fold_step import FoldStep, fold_step
+from planner.primitives.fold_trial import fold_trials
 from planner.primitives.move_times import MoveTimes
-from planner.primitives.primitive import Deferred, DeferredSteps
+from planner.primitives.primitive import Deferred, DeferredSteps, HeldTools, is_taken_alike
 from planner.primitives.state import ANYWHERE, State
+from planner.task.plan_step import PlanStep
+from planner.task.trajectory import Segment
 
 _Found: TypeAlias = FoldStep | Deferred[FoldStep]
 _Steps: TypeAlias = Callable[[State, int, int], Iterable[_Found]]
@@ -22,6 +27,7 @@ _Steps: TypeAlias = Callable[[State, int, int], Iterable[_Found]]
 class GFold:
     """Performs any fold that the Fold-DAG makes available."""
 
+    kind = FoldStep.kind
     begins_with_driving = True
 
     def __init__(self, context: Context) -> None:
@@ -40,6 +46,20 @@ class GFold:
         if state.is_dragged:
             folds = tuple(fold for fold in folds if not self._context.sequence.folds[fold].is_red)
         return DeferredSteps(tuple([self._later(state, fold, 0, self._begun) for fold in folds]))
+
+    def tools(self, step: PlanStep, taken: Mapping[int, Point2], before: State, _after: State) -> HeldTools:
+        """Return where the tools must be: on the path of the fold's cloth, at the sweep of the time."""
+        trials = () if step.fold is None else fold_trials(self._context, before, step.fold)
+        found = next((trial for trial in trials if is_taken_alike(trial.taken, taken)), None)
+        if found is None:
+            raise RequestError("holdings", "these grips do not hold what the fold needs")
+
+        def at(segment: Segment, t_s: float) -> Mapping[int, FloatArray]:
+            first, last = segment.phase.cloth.sweep
+            sweep = first + segment.fraction_at(t_s) * (last - first)
+            return dict(zip(found.arms, found.path.tool_points(found.points, sweep), strict=True))
+
+        return at
 
     def _later(self, state: State, fold: int, driven: int, steps: _Steps) -> Deferred[FoldStep]:
         """Return deferred steps that need at least `driven` steps of driving."""

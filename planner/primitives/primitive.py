@@ -1,14 +1,18 @@
 """The protocols of a primitive and of its steps. To add one, write its file and name its class in `PRIMITIVES`."""
 
+import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any, Generic, Protocol, TypeVar
+from typing import Any, Generic, Protocol, TypeAlias, TypeVar
 
-from planner.geometry.pose import Approach
+from planner.geometry.pose import Approach, FloatArray, Point2
+from planner.geometry.tolerance import LENGTH_M
 from planner.primitives.context import Context
 from planner.primitives.state import State
 from planner.task.grip import Grip, Holding
 from planner.task.phase import Phase
+from planner.task.plan_step import PlanStep
+from planner.task.trajectory import Segment
 
 
 class Motion(Protocol):
@@ -155,19 +159,47 @@ class DeferredSteps(Generic[S]):
         return _worked_out(self.found)
 
 
+HeldTools: TypeAlias = Callable[[Segment, float], Mapping[int, FloatArray]]
+"""Where each arm that holds cloth must have its tool, given a segment and a time in it: table frame, shape (3,), m."""
+
+
 class Primitive(Protocol):
     """A kind of motion, for one task.
 
     Attributes:
+        kind: the name of its steps in a plan.
         begins_with_driving: whether the base may first drive to another standoff at its station, at the cost of the
             drive; a step begun there then costs that much less.
     """
 
+    kind: str
     begins_with_driving: bool
+
+    def __init__(self, context: Context) -> None:
+        """Take the task's planning context; nothing is computed before it is asked for."""
 
     def successors(self, state: State) -> Iterable[Step]:
         """Return the possible steps of this kind in a state; `DeferredSteps` where computing them is slow."""
         ...
+
+    def tools(self, step: PlanStep, taken: Mapping[int, Point2], before: State, after: State) -> HeldTools:
+        """Return where a step of this kind from elsewhere must have its tools while it holds cloth.
+
+        Args:
+            step: the step.
+            taken: the point that each arm holds, article frame (m).
+            before: the state it starts in.
+            after: the state it leads to.
+
+        Raises:
+            RequestError: these grips do not hold what the step needs.
+        """
+        ...
+
+
+def is_taken_alike(taken: Mapping[int, Point2], other: Mapping[int, Point2]) -> bool:
+    """Return whether the same arms hold the same points, within the tolerance."""
+    return taken.keys() == other.keys() and all(math.dist(taken[arm], other[arm]) <= LENGTH_M for arm in taken)
 
 
 def in_time(found: Iterable[Step]) -> "Iterable[Step | Deferred[Step]]":

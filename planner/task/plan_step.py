@@ -13,7 +13,7 @@ class PlanStep:
     """A step of a plan: a primitive with its states.
 
     Attributes:
-        kind: the primitive's name: "fold", "drag", "arm_drag" or "move".
+        kind: the primitive's name, as "fold" or "move".
         start_s: the time of its start (s).
         duration_s: its duration (s): the cost model's, or longer if the joints are slower.
         details: the fields of its kind alone, as JSON: the fold, the distance, the stations.

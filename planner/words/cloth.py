@@ -77,6 +77,13 @@ def _line_off_table(values: Values) -> str:
     )
 
 
+def _turn_off_table(values: Values) -> str:
+    return (
+        f"the edge about which it turns reaches {values['off_m']:.2f} m beyond the table's edge; all of it must be on "
+        f"the table{carried(values)}"
+    )
+
+
 def _behind_line(values: Values) -> str:
     return (
         f"the part that moves reaches {values['behind_m']:.2f} m behind the line's extension, where the fold cannot "
@@ -90,6 +97,7 @@ CLOTH: Mapping[str, Callable[[Values], str]] = {
     "at_start": _at_start,
     "afterwards": _afterwards,
     "line_off_table": _line_off_table,
+    "turn_off_table": _turn_off_table,
     "behind_line": _behind_line,
 }
 """Sentences about cloth by the message's code."""

@@ -70,6 +70,7 @@ FIELDS: list[tuple[dict[str, Any], str]] = [
     ({"garment": towel(outline=[[0, 0], [11, 0], [0, 1]])}, "garment.outline[1][0]"),
     ({"garment": towel(name="My towel")}, "garment.name"),
     ({"garment": towel(areal_density_kg_m2=0)}, "garment.areal_density_kg_m2"),
+    ({"garment": towel(thickness_m=0.05)}, "garment.thickness_m"),
     (
         {"garment": towel(folds=[{"name": "", "kind": "green", "start": [0.4, 0.15], "end": [0, 0.15]}])},
         "garment.folds[0].kind",

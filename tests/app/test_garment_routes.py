@@ -25,7 +25,7 @@ async def test_the_shipped_garments_are_listed(client: httpx.AsyncClient) -> Non
 
 async def test_a_garment_comes_with_every_field(client: httpx.AsyncClient) -> None:
     garment = (await client.get("/api/garments/t-shirt")).json()
-    fields = {"name", "title", "outline", "areal_density_kg_m2", "folds", "grip_radius_m", "placement"}
+    fields = {"name", "title", "outline", "areal_density_kg_m2", "thickness_m", "folds", "grip_radius_m", "placement"}
     assert set(garment) == fields
     assert all("grip_radius_m" in fold for fold in garment["folds"])
 

@@ -11,13 +11,14 @@ from app.ui.colours import DARK, LIGHT
 from app.ui.lighting import ink
 from app.ui.view_3d import View3D
 from planner import Plan, Scene, load_garment, make_plan
-from planner.motion.cloth_surface import LAYER_GAP_M
 from planner.motion.timeline import Timeline
 from planner.robots.load_robot import load_robot
 from planner.task.plan_step import PlanStep
 
 CARD = load_robot("pr2").card
 ABOVE_M = 0.003
+LAYER_M = 0.002
+"""The height of a layer: 1 mm of cloth and 1 mm of air."""
 BLUE, RED = 0, 1
 
 
@@ -62,7 +63,7 @@ def test_a_blue_line_is_drawn_through_and_a_red_one_as_dashes_and_dots(view: Vie
 def test_the_two_kinds_have_the_two_colours_of_the_theme(view: View3D) -> None:
     for is_dark, palette in ((False, LIGHT), (True, DARK)):
         view.set_theme(is_dark=is_dark)
-        for index, wanted in ((BLUE, palette.fold_blue), (RED, palette.fold_red)):
+        for index, wanted in ((BLUE, palette.folds["blue"]), (RED, palette.folds["red"])):
             handle = view._server.scene.get_handle_by_name(f"/folds/{index}")
             assert isinstance(handle, viser.LineSegmentsHandle)
             assert tuple(handle.colors) == tuple(ink(wanted))
@@ -77,7 +78,7 @@ def test_a_red_line_lies_where_it_will_be_folded_on_the_cloth_as_it_is(view: Vie
         view.show(Timeline.of(letter).at(t_s))
         drawn = line(view, RED)
         assert drawn[..., 0] == pytest.approx(np.full(drawn.shape[:2], placement.x_m + 0.39), abs=1e-6)
-        assert drawn[..., 2] == pytest.approx(np.full(drawn.shape[:2], layers * LAYER_GAP_M + ABOVE_M), abs=1e-6)
+        assert drawn[..., 2] == pytest.approx(np.full(drawn.shape[:2], layers * LAYER_M + ABOVE_M), abs=1e-6)
 
 
 def test_once_folded_a_line_is_gone(view: View3D, letter: Plan) -> None:
@@ -101,7 +102,7 @@ def test_while_a_red_fold_is_made_the_cloth_under_its_flap_lies_still(view: View
         shown.append(
             [
                 {tuple(c) for c in np.round(corners[np.isclose(corners[:, 2], z, atol=1e-5)], 5).tolist()}
-                for z in (LAYER_GAP_M, 2 * LAYER_GAP_M)
+                for z in (LAYER_M, 2 * LAYER_M)
             ]
         )
     assert all(len(layer) >= 4 for layer in shown[0])

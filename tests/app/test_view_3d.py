@@ -24,7 +24,6 @@ from app.ui.viser_patches import LOOPBACK, SECRET_HEADER
 from planner import Plan, Scene, load_garment, make_plan
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
-from planner.motion.cloth_surface import LAYER_GAP_M
 from planner.motion.timeline import Timeline
 from planner.robots.load_robot import load_robot
 from tests.app.pose_matrix import matrix
@@ -133,7 +132,7 @@ def test_fold_lines_lie_on_the_cloth_all_through(view: View3D, plan: Plan) -> No
         for i in range(len(plan.garment.folds)):
             points = line_points(view, i)
             heights = points[..., 2][frame.top.beyond(points) == 0.0]
-            assert np.all(heights <= layers * LAYER_GAP_M + 0.003 + 1e-6)
+            assert np.all(heights <= layers * plan.garment.layer_m + 0.003 + 1e-6)
 
 
 @pytest.mark.parametrize("name", ["t-shirt", "letter-towel", "big-towel", "vest"])
@@ -178,7 +177,7 @@ def test_a_theme_colours_the_whole_3d_view(view: View3D, plan: Plan) -> None:
         front, line = scene.get_handle_by_name("/cloth/front"), scene.get_handle_by_name("/folds/0")
         assert isinstance(front, viser.MeshHandle) and isinstance(line, viser.LineSegmentsHandle)
         assert tuple(front.color) == paint(palette.cloth_front)
-        assert tuple(line.colors) == tuple(ink(palette.fold_blue))
+        assert tuple(line.colors) == tuple(ink(palette.folds["blue"]))
 
 
 def test_stations_are_named_in_the_readers_language_whatever_robot_comes(view: View3D) -> None:

@@ -5,7 +5,7 @@ import pytest
 
 from app.ui.cloth_view import outlines
 from app.ui.colours import DARK, LIGHT, Palette
-from app.ui.dashes import dash_dot, solid, split_at
+from app.ui.dashes import dashed, solid, split_at
 from app.ui.lighting import ink, paint, seen, seen_line
 from app.ui.lying_cloth import lying_cloth
 from app.ui.relief import Relief
@@ -24,7 +24,7 @@ def test_what_lies_level_looks_like_the_colour_asked_for(palette: Palette) -> No
 @pytest.mark.parametrize("palette", [LIGHT, DARK])
 def test_lines_keep_their_hue_where_the_film_does_not_show_all_of_their_light(palette: Palette) -> None:
     brightest = 226  # of white, after the film
-    for wanted in (palette.fold_blue, palette.fold_red, palette.cloth_edge, palette.route):
+    for wanted in (*palette.folds.values(), palette.cloth_edge, palette.route):
         red, green, blue = ink(wanted).tolist()
         assert np.abs(np.subtract(seen_line((red, green, blue)), np.minimum(wanted, brightest))).max() <= 14
     assert seen_line((255, 255, 255)) == (brightest, brightest, brightest)
@@ -105,8 +105,9 @@ def test_a_garment_beyond_the_edge_hangs() -> None:
 
 def test_a_solid_line_has_no_gaps_and_a_dashed_one_has() -> None:
     start, end = np.array([0.0, 0.0]), np.array([0.3, 0.4])
-    whole, dashed = solid(start, end), dash_dot(start, end)
+    whole, parts = solid(start, end), dashed(start, end, (0.04, 0.01))
     length = np.linalg.norm(whole[:, 1] - whole[:, 0], axis=1).sum()
     assert length == pytest.approx(0.5)
-    assert np.linalg.norm(dashed[:, 1] - dashed[:, 0], axis=1).sum() < 0.45
+    assert np.linalg.norm(parts[:, 1] - parts[:, 0], axis=1).sum() == pytest.approx(0.4)
+    np.testing.assert_array_equal(dashed(start, end, ()), whole)
     np.testing.assert_allclose(whole[-1, 1], end)

@@ -21,9 +21,11 @@ def test_a_documents_settings_are_one_step_and_stations_stay_beside_the_table(
     settings.get_by_role("button", name="Apply").click()
     expect(settings.get_by_role("alert")).to_have_text("Depth: \u201c0.1\u201d is too little: at least 20.0 cm.")
     settings.get_by_label("Depth").fill("1.5m")
+    settings.get_by_label("Thickness").fill("5")
     settings.get_by_role("button", name="Apply").click()
     expect(settings).to_have_count(0)
     after = sheet.state["drawing"]
+    assert (before["thickness_m"], after["thickness_m"]) == (0.0006, pytest.approx(0.005))
     assert after["comfort_radius_m"] == pytest.approx(0.02)
     assert after["scene"]["table"]["depth_m"] == pytest.approx(1.5)
     assert after["scene"]["stations"]["front"]["x_m"] == pytest.approx(

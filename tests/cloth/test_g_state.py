@@ -73,7 +73,7 @@ def test_of_two_opposite_edges_only_the_difference_pulls() -> None:
 def test_folded_layers_weigh_as_much_as_there_are() -> None:
     # Of 0.6 m 0.25 m hang. The far 0.2 m are folded towards the edge, so that their end hangs too.
     cloth = over_near_edge(0.25, 0.35)
-    folded = fold_cloth(cloth, Segment((-0.65, 0.2), (-0.65, -0.2)), is_red=False).cloth
+    folded = fold_cloth(cloth, Segment((-0.65, 0.2), (-0.65, -0.2)), "blue").cloth
     assert folded.area == pytest.approx(0.24)
     # The flap lies from -0.65 to -0.85: 0.05 m of it hang, in all 0.3 m against 0.3 m.
     assert why(folded) is None
@@ -117,7 +117,7 @@ def test_a_triangle_that_hangs_by_its_base_stays_and_by_its_tip_does_not() -> No
 def with_hanging_flap(end_x: float, line_x: float) -> ClothState:
     """Return a strip over the near edge whose near end is folded up over a line beside the table."""
     strip = ClothState.spread_out(rectangle(-0.3 - end_x, 0.4, end_x, -0.2))
-    return fold_cloth(strip, Segment((line_x, -0.2), (line_x, 0.2)), is_red=False).cloth
+    return fold_cloth(strip, Segment((line_x, -0.2), (line_x, 0.2)), "blue").cloth
 
 
 def test_a_flap_that_hangs_from_nothing_but_its_crease_does_not_stay() -> None:

@@ -19,6 +19,7 @@ FULL: Json = {
     **LEAST,
     "title": "A towel",
     "areal_density_kg_m2": 0.3,
+    "thickness_m": 0.003,
     "folds": [{**FOLD, "grip_radius_m": 0.05}],
     "grip_radius_m": 0.1,
     "placement": {"x_m": 0.1, "y_m": -0.2, "yaw_rad": 1.0},
@@ -36,7 +37,7 @@ def refusal(change: Callable[[Json], None]) -> tuple[str, str]:
 def test_what_is_left_out_has_its_default() -> None:
     towel = Garment.from_dict(LEAST)
     assert towel.title == "towel"
-    assert towel.areal_density_kg_m2 == 0.2
+    assert (towel.areal_density_kg_m2, towel.thickness_m) == (0.2, 0.001)
     assert towel.grip_radius_m == 0.127
     assert towel.folds == ()
 
@@ -113,10 +114,13 @@ def put(path: str, value: object) -> Callable[[Json], None]:
         ("areal_density_kg_m2", 0.0, "areal_density_kg_m2", "greater than 0"),
         ("areal_density_kg_m2", -1.0, "areal_density_kg_m2", "greater than 0"),
         ("areal_density_kg_m2", "0.2", "areal_density_kg_m2", "number"),
+        ("thickness_m", 0.00009, "thickness_m", "greater than or equal to 0.0001, not 9e-05"),
+        ("thickness_m", 0.021, "thickness_m", "less than or equal to 0.02, not 0.021"),
+        ("thickness_m", "0.001", "thickness_m", "number"),
         ("grip_radius_m", 0.0, "grip_radius_m", "greater than 0"),
         ("grip_radius_m", 11.0, "grip_radius_m", "11"),
         ("folds", {}, "folds", "list"),
-        ("folds.0.kind", "green", "folds[0].kind", "neither 'blue' nor 'red'"),
+        ("folds.0.kind", "green", "folds[0].kind", "expected one of blue, red, turn; got 'green'"),
         ("folds.0.kind", "red", "folds[0].kind", "the first fold cannot be red"),
         ("folds.0.name", "x" * 201, "folds[0].name", "201 characters"),
         ("folds.0.start", [0.0, 0.1], "folds[0].end", "0.000 mm"),

@@ -145,7 +145,7 @@ TOWEL = ClothState.spread_out(rectangle(0.8, 0.4, -1.1, -0.2))
 
 
 def folded(start: Point2, end: Point2) -> ClothState:
-    return fold_cloth(TOWEL, Segment(start, end), is_red=False).cloth
+    return fold_cloth(TOWEL, Segment(start, end), "blue").cloth
 
 
 def hanging_and_lying_m2(cloth: ClothState) -> tuple[float, float]:

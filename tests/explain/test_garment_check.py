@@ -130,7 +130,7 @@ def test_a_red_fold_is_held_with_what_the_fold_before_it_holds() -> None:
     half, back = fold((0.4, 0.2), (0.0, 0.2)), fold((0.0, 0.35), (0.4, 0.35), "red")
     towel = check_garment(garment(rectangle_points(0.4, 0.5), half, back))
     assert towel.is_holdable
-    assert [one.is_red for one in towel.folds] == [False, True]
+    assert [one.kind for one in towel.folds] == ["blue", "red"]
     assert sorted(towel.folds[1].grips) == [pytest.approx((0.0, 0.4)), pytest.approx((0.4, 0.4))]
 
 

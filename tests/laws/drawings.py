@@ -6,10 +6,11 @@ import numpy as np
 from hypothesis import strategies as st
 
 from planner.cloth.cloth_state import ClothState
+from planner.cloth.fold_kinds import FOLD_KINDS
 from planner.cloth.garment import DrawnFold, Garment
 from planner.errors import FieldError
 from planner.folds.fold import snapped_line
-from planner.folds.fold_cloth import flap_silhouette, fold_cloth
+from planner.folds.fold_cloth import fold_cloth
 from planner.geometry.pose import Point2
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
@@ -32,8 +33,8 @@ def folded(draw: st.DrawFn, outline: Outline, most_folds: int, least_folds: int 
     """Return a garment of this outline with random legal folds."""
     cloth, folds, lines = spread(outline), list[DrawnFold](), list[Segment]()
     for _ in range(draw(st.integers(least_folds, most_folds))):
-        is_red = bool(folds) and draw(st.integers(0, 3)) == 0
-        drawn = draw(_folds(flap_silhouette(cloth, is_red=is_red), lines, is_red=is_red))
+        kind = "red" if folds and draw(st.integers(0, 3)) == 0 else "blue"
+        drawn = draw(_folds(FOLD_KINDS[kind].silhouette(cloth), lines, kind))
         after = None if drawn is None else _after(cloth, drawn, lines)
         if drawn is not None and after is not None:
             line, cloth = after
@@ -45,15 +46,15 @@ def folded(draw: st.DrawFn, outline: Outline, most_folds: int, least_folds: int 
 def _after(cloth: ClothState, drawn: DrawnFold, lines: list[Segment]) -> tuple[Segment, ClothState] | None:
     """Return the line as snapped and the cloth afterwards; None if the fold is not legal."""
     try:
-        line = snapped_line(drawn, flap_silhouette(cloth, is_red=drawn.is_red))
+        line = snapped_line(drawn, FOLD_KINDS[drawn.kind].silhouette(cloth))
         crease = lines[-1] if drawn.is_red else None
-        return line, fold_cloth(cloth, line, is_red=drawn.is_red, crease=crease).cloth
+        return line, fold_cloth(cloth, line, drawn.kind, crease).cloth
     except FieldError:
         return None
 
 
 @st.composite
-def _folds(draw: st.DrawFn, silhouette: Region, lines: list[Segment], *, is_red: bool) -> DrawnFold | None:
+def _folds(draw: st.DrawFn, silhouette: Region, lines: list[Segment], kind: str) -> DrawnFold | None:
     """Return a fold along a chord of the silhouette, with ends drawn as roughly as by hand."""
     chord = _chord(silhouette, draw(_through(silhouette, lines)))
     if chord is None:
@@ -63,7 +64,7 @@ def _folds(draw: st.DrawFn, silhouette: Region, lines: list[Segment], *, is_red:
         start, end = end, start
     if draw(st.integers(0, 3)) == 0:
         start, end = (_rounded(p) for p in (start, end))
-    return fold(start, end, "red" if is_red else "blue") if math.dist(start, end) > 0.006 else None
+    return fold(start, end, kind) if math.dist(start, end) > 0.006 else None
 
 
 @st.composite

@@ -27,5 +27,5 @@ def replayed(sequence: FoldSequence, order: list[int]) -> ClothState:
     for index in order:
         fold = sequence.folds[index]
         crease = sequence.folds[index - 1].line if fold.is_red else None
-        cloth = fold_cloth(cloth, fold.line, is_red=fold.is_red, crease=crease).cloth
+        cloth = fold_cloth(cloth, fold.line, fold.kind, crease).cloth
     return cloth

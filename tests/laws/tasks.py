@@ -8,11 +8,12 @@ from random import Random
 import numpy as np
 
 from planner.cloth.cloth_state import ClothState
+from planner.cloth.fold_kinds import FOLD_KINDS
 from planner.cloth.garment import DrawnFold, Garment
 from planner.cloth.outline import require_simple_outline
 from planner.errors import FieldError
 from planner.folds.fold import snapped_line
-from planner.folds.fold_cloth import flap_silhouette, fold_cloth
+from planner.folds.fold_cloth import fold_cloth
 from planner.geometry.pose import Point2, Pose2
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
@@ -153,9 +154,9 @@ def _folded(rng: Random, outline: Outline, wanted: int, line_of: Line) -> Garmen
     for _ in range(_TRIES * wanted):
         if len(folds) == wanted:
             break
-        is_red = bool(folds) and rng.random() < 0.2
-        silhouette = flap_silhouette(cloth, is_red=is_red)
-        drawn = smaller_part_over(silhouette, line_of(rng, silhouette), "red" if is_red else "blue")
+        kind = "red" if folds and rng.random() < 0.2 else "blue"
+        silhouette = FOLD_KINDS[kind].silhouette(cloth)
+        drawn = smaller_part_over(silhouette, line_of(rng, silhouette), kind)
         after = None if drawn is None else after_fold(cloth, drawn, lines)
         if drawn is not None and after is not None:
             line, cloth = after
@@ -180,8 +181,8 @@ def smaller_part_over(silhouette: Region, line: Segment, kind: str) -> DrawnFold
 
 def after_fold(cloth: ClothState, drawn: DrawnFold, lines: Sequence[Segment]) -> tuple[Segment, ClothState] | None:
     try:
-        line = snapped_line(drawn, flap_silhouette(cloth, is_red=drawn.is_red))
-        return line, fold_cloth(cloth, line, is_red=drawn.is_red, crease=lines[-1] if drawn.is_red else None).cloth
+        line = snapped_line(drawn, FOLD_KINDS[drawn.kind].silhouette(cloth))
+        return line, fold_cloth(cloth, line, drawn.kind, lines[-1] if drawn.is_red else None).cloth
     except FieldError:
         return None
 

@@ -8,7 +8,6 @@ import pytest
 
 from planner import Plan, make_plan
 from planner.geometry.pose import FloatArray
-from planner.motion.cloth_surface import LAYER_GAP_M
 from planner.motion.joint_trajectory import CLOSED_M, OPEN_M
 from planner.motion.sample import ClothSurface
 from planner.motion.timeline import Timeline
@@ -18,6 +17,8 @@ from tests.replay.checker import check
 from tests.required import required
 
 RELEASE_S = 0.5
+LAYER_M = 0.002
+"""The height of a layer: 1 mm of cloth and 1 mm of air."""
 
 
 @cache
@@ -120,4 +121,4 @@ def test_at_the_end_the_layers_lie_above_one_another_in_the_order_of_the_folds()
     end = Timeline.of(plan).at(required(plan.cost_s)).cloth
     for layer in range(4):
         heights = end.vertices[end.triangles[end.layers == layer]][..., 2]
-        assert heights == pytest.approx(np.full_like(heights, (layer + 1) * LAYER_GAP_M), abs=1e-6)
+        assert heights == pytest.approx(np.full_like(heights, (layer + 1) * LAYER_M), abs=1e-6)

@@ -3,16 +3,15 @@
 import math
 from dataclasses import dataclass
 
+from planner.cloth.garment import DEFAULT_THICKNESS_M, LAYER_AIR_M
+
 GRAVITY_M_S2 = 9.81
 
 BUCKLED = 0.2
 """The share of its length by which a row is pushed together where it bears what buckles it."""
 
-_BULK_KG_M3 = 100.0
-"""The areal density of a cloth over the distance of its layers; that of real cloth is three to four times as much."""
-
-_LAYERS_M = (0.0014, 0.002)
-"""How near to each other layers are at least, and at most (m).
+_LAYER_MIN_M = 0.0014
+"""How far apart layers are at least (m).
 
 Cloth that has lost a contact falls by .6 mm in a time step, and must not come to lie on the far side of a layer.
 """
@@ -30,7 +29,7 @@ class Fabric:
         shear_n_m: the stiffness in shear, in which threads turn against each other: force per width and angle (N/m).
         bending_length_m: the cube root of the bending stiffness per width over the weight per area (m), which textile
             laboratories measure on a strip that hangs over an edge: half of its length when it droops by 41.5 degrees.
-        thickness_m: the distance that contacts keep between layers (m); None as far as its weight suggests (`layer_m`).
+        thickness_m: the cloth's thickness where fingers press it (m).
         damping_s: Rayleigh damping of stretch and bending (s).
         drag_per_s: the deceleration by the air, per speed (1/s).
         friction: the friction coefficient on the table.
@@ -42,7 +41,7 @@ class Fabric:
     push_n_m: float | None = None
     shear_n_m: float = 80.0
     bending_length_m: float = 0.018
-    thickness_m: float | None = None
+    thickness_m: float = DEFAULT_THICKNESS_M
     damping_s: float = 0.002
     drag_per_s: float = 1.0
     friction: float = 1.0
@@ -50,11 +49,8 @@ class Fabric:
 
     @property
     def layer_m(self) -> float:
-        """The distance between layers (m): that of light cloth is less."""
-        if self.thickness_m is not None:
-            return self.thickness_m
-        nearest_m, furthest_m = _LAYERS_M
-        return min(max(self.density_kg_m2 / _BULK_KG_M3, nearest_m), furthest_m)
+        """The distance that contacts keep between layers (m)."""
+        return max(self.thickness_m + LAYER_AIR_M, _LAYER_MIN_M)
 
     @property
     def bend_nm(self) -> float:

@@ -14,12 +14,10 @@ from app.rehearsal.camera.camera import Camera
 from app.rehearsal.vision.crease_edges import CreaseEdges
 from app.rehearsal.vision.outline_edges import OutlineEdges
 from planner.cloth.cloth_state import ClothState
+from planner.cloth.garment import Garment
 from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.region import Region
 from planner.geometry.tolerance import LENGTH_M
-
-LAYER_M = 0.002
-"""The thickness of a layer (m)."""
 
 LOOP_M = 0.016
 """The height of the loop of a crease on which nothing lies: .907 bending lengths of 18 mm (m)."""
@@ -39,22 +37,26 @@ class EdgeHeights:
         outline: the outline, article frame.
         borders: which parts of it are creases.
         layers: what each layer covers.
+        layer_m: the height of a layer (m).
     """
 
     outline: OutlineEdges
     borders: CreaseEdges
     layers: tuple[Region, ...]
+    layer_m: float
 
     @staticmethod
-    def of(stack: ClothState, pattern: Region) -> "EdgeHeights":
-        """Return the heights of a stack made of a pattern."""
+    def of(stack: ClothState, garment: Garment) -> "EdgeHeights":
+        """Return the heights of a stack of a garment."""
         layers = tuple(layer.region for layer in stack.layers)
-        return EdgeHeights(OutlineEdges.of(stack.silhouette), CreaseEdges.of(stack, pattern), layers)
+        return EdgeHeights(
+            OutlineEdges.of(stack.silhouette), CreaseEdges.of(stack, garment.pattern), layers, garment.layer_m
+        )
 
     @property
     def middle_m(self) -> float:
-        """Half of the thickness of all layers (m)."""
-        return LAYER_M * len(self.layers) / 2.0
+        """Half of the height of all layers (m)."""
+        return self.layer_m * len(self.layers) / 2.0
 
     def seen_at(self, camera: Camera, pixels: FloatArray, placement: Pose2) -> FloatArray:
         """Return where pixels that show the outline are, each at the height of its edge, shape (n, 2), table frame, m.
@@ -83,5 +85,5 @@ class EdgeHeights:
         inside = points - _INSIDE_M * outwards
         counts = sum((layer.distances_to(inside) <= LENGTH_M).astype(np.float64) for layer in self.layers)
         is_crease = self.borders.are_creases(points, _SLACK_M)
-        lowest_m = np.where(is_crease, LOOP_M - 2.0 * LAYER_M, 0.0)  # a loop is as high with two layers
-        return np.asarray((lowest_m + LAYER_M * np.maximum(counts, 1.0)) / 2.0)
+        lowest_m = np.where(is_crease, LOOP_M - 2.0 * self.layer_m, 0.0)  # a loop is as high with two layers
+        return np.asarray((lowest_m + self.layer_m * np.maximum(counts, 1.0)) / 2.0)

@@ -21,6 +21,7 @@ from app.rehearsal.vision.fit_stack import thinned
 from app.rehearsal.vision.seen_stack import SeenStack
 from app.rehearsal.vision.stack_figure import Figure
 from app.rehearsal.vision.stack_fit import StackFit
+from planner.cloth.fold_kinds import FOLD_KINDS
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.pose import FloatArray, Pose2
 
@@ -88,8 +89,8 @@ class Creased:
 
     @cached_property
     def folded(self) -> FoldedOutline | None:
-        """The outline for any last crease; None of spread-out cloth."""
-        if not self.folds:
+        """The outline for any last crease; None of cloth that is spread out, or was turned over last."""
+        if not self.folds or FOLD_KINDS[self.sequence.folds[self.folds[-1]].kind].is_whole:
             return None
         return FoldedOutline(self.sequence, self._done & ~(1 << self.folds[-1]), self.folds[-1])
 

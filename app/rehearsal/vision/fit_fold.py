@@ -16,7 +16,7 @@ from scipy.optimize import least_squares
 from app.rehearsal.vision.fit_stack import fit_stack, thinned
 from app.rehearsal.vision.stack_figure import POINTS, Figure, Fitted, covariance_of
 from app.rehearsal.vision.stack_fit import FoldFit
-from planner.folds.fold_cloth import flap_silhouette
+from planner.cloth.fold_kinds import FOLD_KINDS, FoldKind
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray, Pose2
@@ -105,8 +105,8 @@ class FoldedOutline:
         return self.sequence.folds[self.index].line
 
     @property
-    def _is_red(self) -> bool:
-        return self.sequence.folds[self.index].is_red
+    def _kind(self) -> FoldKind:
+        return FOLD_KINDS[self.sequence.folds[self.index].kind]
 
     @cached_property
     def _moving(self) -> Region:
@@ -114,12 +114,12 @@ class FoldedOutline:
 
     @cached_property
     def _active(self) -> Region:
-        return flap_silhouette(self.sequence.cloth(self.done), is_red=self._is_red)
+        return self._kind.silhouette(self.sequence.cloth(self.done))
 
     @cached_property
     def _below(self) -> Region:
         cloth = self.sequence.cloth(self.done)
-        staying = cloth.layers[: len(cloth.layers) - cloth.moved] if self._is_red else ()
+        staying = cloth.layers[: len(cloth.layers) - len(self._kind.layers(cloth))]
         return Region.union(layer.region for layer in staying) if staying else Region.empty()
 
     @cached_property

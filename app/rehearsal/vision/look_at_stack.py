@@ -104,7 +104,7 @@ class Looker:
         """
         near = near or Expected(ought)
         stack = sequence.cloth(sum(1 << fold for fold in folds))
-        heights = EdgeHeights.of(stack, sequence.garment.pattern)
+        heights = EdgeHeights.of(stack, sequence.garment)
         height_m = heights.middle_m
         rings = [self._pixels(ought.to_outer(ring), height_m) for ring in stack.silhouette.rings]
         expected = max(rings, key=len)

@@ -16,6 +16,7 @@ from app.rehearsal.vision.picture import read_picture
 from app.rehearsal.vision.scale_said import read_scale
 from app.rehearsal.vision.stack_figure import POINTS, Figure, fits_as_well
 from app.rehearsal.vision.stack_fit import LOOKS_ALIKE, FoldFit, StackFit, unknown_json
+from planner.cloth.fold_kinds import FOLD_KINDS
 from planner.cloth.garment import Garment
 from planner.folds.fold_sequence import FoldSequence, replayed
 from planner.geometry.pose import FloatArray
@@ -169,6 +170,8 @@ def _creased(contour: FloatArray, sequence: FoldSequence, flat: FittedState) -> 
     if not flat.done:
         return flat
     last = sequence.last_done(flat.done)
+    if FOLD_KINDS[sequence.folds[last].kind].is_whole:
+        return flat
     before = flat.done & ~(1 << last)
     fit = fit_fold(contour, sequence, before, last)
     outline = FoldedOutline(sequence, before, last).region(fit.offset_m, fit.turn_rad)

@@ -1,6 +1,6 @@
 /** The first problem in words, beside the place where it is. */
 
-import { foldName } from "../dock/words.js";
+import { foldName } from "../dock/step_kinds.js";
 import { element } from "../dom.js";
 import { inWords } from "../messages/in_words.js";
 

@@ -38,7 +38,7 @@ export class FoldPaint {
   put(kind) {
     const ids = this.chosen;
     this.kind = kind;
-    const label = kind === "red" ? inEnglish("step.make_red") : inEnglish("step.make_blue");
+    const label = inEnglish(`step.make_${kind}`);
     if (ids.length) this.board.store.edit(label, (drawing) => paintFolds(drawing, ids, kind));
     else this.askAgain();
     this.board.render();

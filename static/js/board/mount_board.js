@@ -1,6 +1,7 @@
 /** Puts the board and its rail on the page. */
 
 import { byId } from "../dom.js";
+import { FOLD_KINDS, KIND_NAMES } from "../fold_kinds.js";
 import { Blank } from "./blank.js";
 import { Board } from "./board.js";
 import { Rail } from "./rail.js";
@@ -44,8 +45,7 @@ export function boardKeys(board) {
     i: () => board.choose("photo"),
     s: () => board.store.isLost || board.mirroring.mirror(),
     n: () => board.toggleSnap(),
-    b: () => board.paint.put("blue"),
-    r: () => board.paint.put("red"),
+    ...Object.fromEntries(KIND_NAMES.map((kind) => [FOLD_KINDS[kind].key, () => board.paint.put(kind)])),
     x: () => board.paint.flip(),
     g: () => board.paint.grab(),
     escape: () => board.escape(),

@@ -1,5 +1,6 @@
 /** What the board shows: the drawing, as it is or as it is being dragged, at one moment of its folds. */
 
+import { FOLD_KINDS } from "../fold_kinds.js";
 import { ringOf } from "./curves.js";
 import { cross } from "./geometry.js";
 
@@ -14,6 +15,7 @@ const EMPTY = {
   title: "",
   outline: [],
   areal_density_kg_m2: 0,
+  thickness_m: 0.001,
   grip_radius_m: 0,
   folds: [],
   placement: { x_m: 0, y_m: 0, yaw_rad: 0 },
@@ -137,7 +139,7 @@ export class Shown {
 
   /** What a fold that is drawn now would end on. */
   get rings() {
-    return this.toolInHand?.name === "fold" && this.kindOfNext === "red" ? this.shown.flap : this.shown.silhouette;
+    return this.toolInHand?.name === "fold" && FOLD_KINDS[this.kindOfNext].takesFlap ? this.shown.flap : this.shown.silhouette;
   }
 
   get foldEnds() {
@@ -173,7 +175,7 @@ export class Shown {
     const index = this.drawing.folds.findIndex((fold) => fold.id === id);
     const steps = this.state?.steps ?? [];
     const step = steps[index] ?? steps.at(-1) ?? NOTHING;
-    return this.fold(id)?.kind === "red" ? step.flap : step.silhouette;
+    return FOLD_KINDS[this.fold(id)?.kind ?? this.kindOfNext].takesFlap ? step.flap : step.silhouette;
   }
 
   /** @param {Change} change */

@@ -1,6 +1,7 @@
 /** The strip over the board: which moment of the folds is shown; how folds are drawn; units; fit. */
 
 import { button, element } from "../dom.js";
+import { FOLD_KINDS, KIND_NAMES } from "../fold_kinds.js";
 import { icon } from "../icons.js";
 import { say, translated } from "../language/say.js";
 import { unit, UNITS } from "./units.js";
@@ -16,8 +17,7 @@ export class Strip {
     this.next = iconButton("next", say("strip.step_after"), () => store.showStep(store.step + 1));
     this.moment = element("span", "strip-moment");
     this.moment.setAttribute("aria-live", "polite");
-    this.blue = paint("blue", say("colour.blue_all_layers"), say("colour.blue"), () => board.paint.put("blue"));
-    this.red = paint("red", say("colour.red_last_flap"), say("colour.red"), () => board.paint.put("red"));
+    this.paints = KIND_NAMES.map((kind) => ({ kind, made: paint(kind, () => board.paint.put(kind)) }));
     this.flip = button(
       "strip-button",
       () => board.paint.flip(),
@@ -42,7 +42,7 @@ export class Strip {
         "div",
         "strip",
         group(say("strip.moment"), this.back, this.moment, this.next),
-        group(say("strip.fold"), this.blue, this.red, this.flip, this.grab),
+        group(say("strip.fold"), ...this.paints.map(({ made }) => made), this.flip, this.grab),
         group(say("strip.view"), this.unit, this.fit),
       ),
     );
@@ -67,9 +67,7 @@ export class Strip {
         ? say("strip.spread_out")
         : after;
     this.moment.title = board.isPlacing ? "" : say("strip.moment_of", { step: store.step, last });
-    const kind = board.paint.shown;
-    this.blue.setAttribute("aria-pressed", String(kind === "blue"));
-    this.red.setAttribute("aria-pressed", String(kind === "red"));
+    for (const { kind, made } of this.paints) made.setAttribute("aria-pressed", String(kind === board.paint.shown));
     this.flip.setAttribute("aria-pressed", String(board.paint.isFlipped));
     this.grab.setAttribute("aria-pressed", String(board.paint.grabs && board.tool.name === "fold"));
     this.unit.textContent = unit.name;
@@ -99,15 +97,16 @@ function iconButton(name, label, onClick) {
   return made;
 }
 
-/** @param {FoldKind} kind @param {string} label @param {string} word @param {() => void} onClick */
-function paint(kind, label, word, onClick) {
+/** @param {FoldKind} kind @param {() => void} onClick */
+function paint(kind, onClick) {
+  const label = say(`colour.${kind}.moves`);
   const made = button(
     `strip-button paint is-${kind}`,
     onClick,
     element("span", "swatch"),
-    element("span", "word", word),
+    element("span", "word", say(`colour.${kind}`)),
   );
   made.setAttribute("aria-label", label);
-  made.title = `${label} (${kind[0].toUpperCase()})`;
+  made.title = `${label} (${FOLD_KINDS[kind].key.toUpperCase()})`;
   return made;
 }

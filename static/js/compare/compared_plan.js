@@ -64,7 +64,7 @@ async function planned(drawing, signal) {
 
 /** The request for the plan of a drawing. @param {Drawing} drawing */
 function requestOf(drawing) {
-  const { name, title, areal_density_kg_m2, grip_radius_m, folds } = drawing;
+  const { name, title, areal_density_kg_m2, thickness_m, grip_radius_m, folds } = drawing;
   const drawn = folds.map(({ name: called, kind, start, end, grip_radius_m: own }) => ({
     name: called,
     kind,
@@ -74,7 +74,7 @@ function requestOf(drawing) {
   }));
   const { placement, scene, start_station, robot, comfort_radius_m } = drawing;
   return {
-    garment: { name, title, outline: ringOf(drawing), areal_density_kg_m2, grip_radius_m, folds: drawn },
+    garment: { name, title, outline: ringOf(drawing), areal_density_kg_m2, thickness_m, grip_radius_m, folds: drawn },
     placement,
     scene,
     start_station,

@@ -3,6 +3,7 @@
 import { between, toOuter, turned } from "../board/geometry.js";
 import { path, svg } from "../board/sheet.js";
 import { primitiveAt } from "../dock/lane_blocks.js";
+import { kindOf } from "../dock/step_kinds.js";
 
 /** @import { Point, Pose, StepPicture } from "pleat" */
 /** @import { Compared } from "./compared_plan.js" */
@@ -36,7 +37,7 @@ export function drawScene(root, { drawing, plan, pictures }, t_s, [x, y]) {
   const step = plan?.primitives[index];
   if (!now || !next || !step) return;
   const share = Math.min(Math.max((t_s - step.start_s) / step.duration_s, 0), 1);
-  if (step.kind === "fold") {
+  if (kindOf(step).moves === "part") {
     root.append(cloth(now, now.placement, 1), cloth(next, next.placement, share));
   } else root.append(cloth(now, mixed(now.placement, next.placement, share), 1));
   root.append(base(mixed(now.base, next.base, share)));

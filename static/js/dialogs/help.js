@@ -1,8 +1,11 @@
 /** The keys and gestures, on one page; those of fingers first where there are fingers. */
 
 import { element } from "../dom.js";
+import { FOLD_KINDS, KIND_NAMES } from "../fold_kinds.js";
 import { say } from "../language/say.js";
 import { openDialog } from "./dialog.js";
+
+/** @import { FoldKind } from "pleat" */
 
 /** Titles, with keys and what they do. @typedef {[string, [string, string][]]} Section */
 
@@ -21,6 +24,11 @@ const TOUCH = [
     ],
   ],
 ];
+/** @param {FoldKind} kind @returns {[string, string]} the key of a kind of fold, and what it moves */
+function helpOf(kind) {
+  return [FOLD_KINDS[kind].key.toUpperCase(), say(`colour.${kind}.moves`)];
+}
+
 /** @type {Section[]} */
 const SECTIONS = [
   [
@@ -53,7 +61,7 @@ const SECTIONS = [
   [
     say("help.section.folds"),
     [
-      ["B  R", say("help.colours")],
+      ...KIND_NAMES.map(helpOf),
       ["X", say("help.flip")],
       [say("key.delete"), say("help.remove")],
       ["C", say("help.bend")],

@@ -5,7 +5,7 @@ import { say } from "../language/say.js";
 import { columns, wayOf } from "./dag_layout.js";
 import { before, waitsFor } from "./fold_states.js";
 import { svg } from "./icons.js";
-import { COLOURS, foldName } from "./words.js";
+import { foldName } from "./step_kinds.js";
 
 /** @import { Fold, Plan } from "pleat" */
 /** @import { Place } from "./dag_layout.js" */
@@ -171,7 +171,7 @@ export class Dag {
     /** @param {number[]} others */
     const names = (others) => others.map((other) => foldName(folds[other], other)).join(say("and"));
     const [after, first] = [waitsFor(this.plan, fold), before(this.plan, fold)];
-    const about = [foldName(folds[fold], fold), COLOURS[folds[fold].kind], STATES[state] ?? ""];
+    const about = [foldName(folds[fold], fold), say(`colour.${folds[fold].kind}`), STATES[state] ?? ""];
     if (after.length) about.push(say("dag.after", { folds: names(after) }));
     if (first.length) about.push(say("dag.before", { folds: names(first) }));
     return about.filter(Boolean).join(", ");

@@ -2,15 +2,14 @@
 
 import { parsed, problemOf } from "../board/units.js";
 import { button, element } from "../dom.js";
+import { KIND_NAMES } from "../fold_kinds.js";
 import { say } from "../language/say.js";
 import { iconButton, relabel } from "./buttons.js";
 import { length } from "../messages/lengths.js";
-import { COLOURS, MOVED } from "./words.js";
+import { movedBy } from "./words.js";
 
 /** @import { Fold, FoldKind } from "pleat" */
 
-/** @type {FoldKind[]} */
-const KINDS = ["blue", "red"];
 /** Fingers that hold less hold nothing (m). */
 const LEAST_GRIP_M = 0.001;
 
@@ -21,7 +20,7 @@ export class FoldFields {
    */
   constructor(verbs, onRename) {
     this.verbs = verbs;
-    this.colours = KINDS.map((kind) => this.colour(kind));
+    this.colours = KIND_NAMES.map((kind) => this.colour(kind));
     this.radios = element("div", "segments", ...this.colours);
     this.radios.setAttribute("role", "radiogroup");
     this.radios.addEventListener("keydown", (event) => this.turn(event));
@@ -68,10 +67,10 @@ export class FoldFields {
 
   /** @param {FoldKind} kind */
   colour(kind) {
-    const radio = button("segment", () => this.verbs.onColour(kind), COLOURS[kind]);
+    const radio = button("segment", () => this.verbs.onColour(kind), say(`colour.${kind}`));
     radio.dataset.kind = kind;
     radio.setAttribute("role", "radio");
-    radio.title = `${COLOURS[kind]}: ${MOVED[kind]}`;
+    radio.title = movedBy(kind);
     return radio;
   }
 
@@ -80,7 +79,9 @@ export class FoldFields {
     if (!event.key.startsWith("Arrow") || event.altKey) return;
     event.preventDefault();
     event.stopPropagation();
-    const other = this.colours.find((radio) => radio !== document.activeElement);
+    const step = ["ArrowLeft", "ArrowUp"].includes(event.key) ? -1 : 1;
+    const at = this.colours.findIndex((radio) => radio === document.activeElement);
+    const other = this.colours.at((at + step) % this.colours.length);
     other?.focus();
     other?.click();
   }

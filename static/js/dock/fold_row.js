@@ -7,9 +7,10 @@ import { length } from "../messages/lengths.js";
 import { iconButton, relabel } from "./buttons.js";
 import { FoldFields } from "./fold_fields.js";
 import { icon } from "./icons.js";
-import { COLOURS, foldName, MOVED } from "./words.js";
+import { foldName } from "./step_kinds.js";
+import { movedBy } from "./words.js";
 
-/** @import { Fold } from "pleat" */
+/** @import { Fold, FoldKind } from "pleat" */
 
 const STATES = {
   done: say("fold_state.done"),
@@ -25,7 +26,7 @@ const DONE_BEFORE = say("fold_state.before");
  * @property {() => void} onSelect
  * @property {() => void} onShow
  * @property {(name: string) => void} onRename
- * @property {(kind: "blue"|"red") => void} onColour
+ * @property {(kind: FoldKind) => void} onColour
  * @property {(radius: number|null) => void} onGrip
  * @property {(why: string) => void} onRefuse
  * @property {(by: number) => void} onMove
@@ -87,7 +88,7 @@ export class FoldRow {
     if (!this.field) this.name.textContent = called;
     this.root.dataset.kind = fold.kind;
     this.root.classList.toggle("is-illegal", problem !== "");
-    this.name.title = problem || `${COLOURS[fold.kind]}, ${MOVED[fold.kind]}`;
+    this.name.title = problem || movedBy(fold.kind);
     const assumed = isAssumed ? say("assumption.grip", { radius: length(fold.grip_radius_m ?? articleRadius) }) : "";
     if (assumed !== this.assumed.dataset.text) {
       this.assumed.dataset.text = assumed;
@@ -118,7 +119,7 @@ export class FoldRow {
     this.mark.replaceChildren(this.problem ? "\u2715" : state === "done" ? icon("tick") : String(this.index + 1));
     const told = [
       `${this.index + 1}`,
-      this.fold && `${COLOURS[this.fold.kind]}: ${MOVED[this.fold.kind]}`,
+      this.fold && movedBy(this.fold.kind),
       this.problem || (this.isDoneBefore ? DONE_BEFORE : STATES[state]),
       this.waiting && say("fold.after", { folds: this.waiting }),
     ];

@@ -1,5 +1,7 @@
 /** How far each fold is at a time of the plan. */
 
+import { foldOf } from "./step_kinds.js";
+
 /** @import { Plan } from "pleat" */
 
 /** @typedef {"done"|"current"|"available"|"waiting"} FoldState */
@@ -17,8 +19,9 @@ export function foldStates(plan, t_s, before = []) {
   const done = new Set(before);
   let current = -1;
   for (const primitive of plan.primitives) {
-    if (primitive.kind !== "fold") continue;
-    const { fold, start_s: start, duration_s: duration } = primitive;
+    const { start_s: start, duration_s: duration } = primitive;
+    const fold = foldOf(primitive);
+    if (fold === undefined) continue;
     if (t_s >= start + duration - INSTANT_S) done.add(fold);
     else if (t_s > start) current = fold;
   }

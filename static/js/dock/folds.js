@@ -9,7 +9,7 @@ import * as edits from "./fold_edits.js";
 import { FoldOrder } from "./fold_order.js";
 import { FoldRow } from "./fold_row.js";
 import { foldStates, waitsFor } from "./fold_states.js";
-import { foldName } from "./words.js";
+import { foldName } from "./step_kinds.js";
 
 /** @type {Record<string, number>} */
 const ARROWS = { ArrowUp: -1, ArrowDown: 1 };

@@ -14,10 +14,6 @@ const PATHS = {
   up: ["M8 13V3.5M4.2 7.2 8 3.4l3.8 3.8", false],
   down: ["M8 3v9.5M4.2 8.8 8 12.6l3.8-3.8", false],
   tick: ["M3.5 8.4l3 3 6-6.6", false],
-  fold: ["M2.5 12.5h11M4 10.5C4 6 12 6 12 10M9.8 8.2 12 10.4l2-2.3", false],
-  drag: ["M13 8H3.5M7 4.2 3.2 8 7 11.8", false],
-  arm_drag: ["M8 13V4M4.5 7.4 8 3.8l3.5 3.6M3 13h10", false],
-  move: ["M3 13V9.5a4 4 0 0 1 4-4h5.5M9.6 2.4l3 3.1-3 3.1", false],
 };
 
 /**
@@ -26,6 +22,11 @@ const PATHS = {
  */
 export function icon(name) {
   const [path, isFilled] = PATHS[name];
+  return drawnIcon(path, isFilled);
+}
+
+/** An icon of its own. @param {string} path @param {boolean} isFilled @returns {SVGSVGElement} */
+export function drawnIcon(path, isFilled = false) {
   const kind = isFilled ? "icon is-filled" : "icon";
   const drawn = svg("svg", { viewBox: "0 0 16 16", class: kind, "aria-hidden": "true" });
   drawn.append(svg("path", { d: path }));

@@ -2,8 +2,8 @@
 
 import { say } from "../language/say.js";
 import { length } from "../messages/lengths.js";
-import { place } from "../messages/names.js";
-import { foldName, hands, seconds, where, whole } from "./words.js";
+import { foldOf, holdsOn, kindOf } from "./step_kinds.js";
+import { hands, seconds, where, whole } from "./words.js";
 
 /** @import { Fold, Plan, PlanStart, Primitive } from "pleat" */
 
@@ -49,10 +49,10 @@ export function laneBlocks(plan, folds, start = null, arms = []) {
 
 /** @param {Primitive} primitive @param {number} index @param {Fold[]} folds @returns {Block} */
 function armBlock(primitive, index, folds) {
-  if (primitive.kind !== "fold") return block(primitive, index, folds, { name: say("lane.drag") });
-  const { fold } = primitive;
-  const told = { name: foldName(folds[fold], fold), number: String(fold + 1), colour: folds[fold]?.kind ?? "" };
-  return block(primitive, index, folds, told);
+  const name = kindOf(primitive).lane(primitive, folds);
+  const fold = foldOf(primitive);
+  if (fold === undefined) return block(primitive, index, folds, { name });
+  return block(primitive, index, folds, { name, number: String(fold + 1), colour: folds[fold]?.kind ?? "" });
 }
 
 /**
@@ -64,7 +64,8 @@ function armBlock(primitive, index, folds) {
  * @returns {Block|null}
  */
 function baseBlock(primitive, index, backOff, folds) {
-  if (primitive.kind === "move") return block(primitive, index, folds, { name: place(primitive.to), kind: "move" });
+  const { moves, lane } = kindOf(primitive);
+  if (moves === "base") return block(primitive, index, folds, { name: lane(primitive, folds) });
   const further = primitive.base.back_off_m - backOff;
   if (Math.abs(further) < MOVED_M) return null;
   const [name, rest] = [length(Math.abs(further)), say(further > 0 ? "lane.back" : "lane.ahead")];
@@ -75,14 +76,14 @@ function baseBlock(primitive, index, backOff, folds) {
 function block(primitive, index, folds, told) {
   const { name, number = "", rest = "", kind = primitive.kind, colour = "", base = "" } = told;
   const { start_s: start, duration_s: duration } = primitive;
-  const holds = primitive.kind !== "move" && primitive.holds;
+  const holds = holdsOn(primitive);
   const by = hands(primitive);
   const at = where(primitive);
   const how = [by && say("lane.by_hands", { hands: by }), at && say("lane.at", { place: at })];
   const parts = [whole(primitive, folds), ...how, base, holds ? say("lane.holds_on") : ""];
   const when = say("lane.from_to", { start: seconds(start), end: seconds(start + duration) });
   const about = [...parts.filter(Boolean), when].join(", ");
-  const isHolding = Boolean(holds) && kind !== "move";
+  const isHolding = holds && kind === primitive.kind;
   return { index, kind, colour, number, name, rest, about, start_s: start, duration_s: duration, isHolding };
 }
 

@@ -9,6 +9,7 @@ import { markStep } from "./step_menu.js";
 import { axisTicks } from "./time_axis.js";
 import { armLetter, armTitle } from "../messages/arms.js";
 import { place } from "../messages/names.js";
+import { kindOf } from "./step_kinds.js";
 import { hands, seconds, whole } from "./words.js";
 
 /** @import { Fold, Primitive } from "pleat" */
@@ -214,7 +215,7 @@ export class Lanes {
 
 /** A primitive in a line: what, by which hands, from where. @param {Primitive} primitive @param {Fold[]} folds */
 function doing(primitive, folds) {
-  const at = primitive.kind === "move" ? "" : place(primitive.base.station);
+  const at = kindOf(primitive).moves === "base" ? "" : place(primitive.base.station);
   return [whole(primitive, folds), hands(primitive), at].filter(Boolean).join(", ");
 }
 

@@ -4,14 +4,15 @@ import { element } from "../dom.js";
 import { language } from "../language/language.js";
 import { numeral } from "../language/numeral.js";
 import { say } from "../language/say.js";
-import { KINDS, seconds } from "./words.js";
+import { STEP_KINDS } from "./step_kinds.js";
+import { seconds } from "./words.js";
 
 /** @import { Plan, PlanBefore, Statistics } from "pleat" */
 
 const NOTICEABLE_S = 0.05;
 /**
  * Of the time that a kind of primitive takes (s).
- * @typedef {{kind: keyof typeof KINDS, count: number, spent: number}} Share
+ * @typedef {{kind: keyof typeof STEP_KINDS, count: number, spent: number}} Share
  */
 
 const COUNTERS = /** @type {const} */ ([
@@ -53,7 +54,7 @@ export function difference(cost_s, before) {
 
 /** What each kind of primitive adds up to (s). @param {Plan} plan @returns {Share[]} */
 function sharesOf(plan) {
-  const kinds = /** @type {(keyof typeof KINDS)[]} */ (Object.keys(KINDS));
+  const kinds = /** @type {(keyof typeof STEP_KINDS)[]} */ (Object.keys(STEP_KINDS));
   return kinds.flatMap((kind) => {
     const own = plan.primitives.filter((primitive) => primitive.kind === kind);
     const spent = own.reduce((sum, primitive) => sum + primitive.duration_s, 0);

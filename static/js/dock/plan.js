@@ -4,12 +4,13 @@ import { unit } from "../board/units.js";
 import { button, element } from "../dom.js";
 import { say } from "../language/say.js";
 import { present } from "../present.js";
-import { icon } from "./icons.js";
+import { drawnIcon } from "./icons.js";
 import { primitiveAt } from "./lane_blocks.js";
 import { layersPicture } from "../repair/folded_picture.js";
 import { inAWord } from "../rehearsal/words.js";
 import { markStep } from "./step_menu.js";
 import { place } from "../messages/names.js";
+import { foldOf, holdsOn, kindOf } from "./step_kinds.js";
 import { briefly, hands, seconds, where, whole } from "./words.js";
 
 /** @import { Fold, Plan, Primitive } from "pleat" */
@@ -117,19 +118,20 @@ export class PlanList {
   row(primitive, index, folds) {
     const name = element("span", "plan-name", briefly(primitive, folds));
     const by = hands(primitive);
-    const at = primitive.kind === "move" ? "" : place(primitive.base.station);
+    const at = kindOf(primitive).moves === "base" ? "" : place(primitive.base.station);
     const about = element("span", "plan-about", ...present([by && element("b", "arm", by), at]));
     const shown = button(
       "plan-row",
       () => this.onSeek(primitive.start_s),
       element("span", "plan-picture"),
-      icon(primitive.kind),
+      drawnIcon(kindOf(primitive).icon),
       name,
       about,
       element("span", "plan-cost", seconds(primitive.duration_s)),
     );
     markStep(shown, index);
-    if (primitive.kind === "fold") shown.dataset.colour = folds[primitive.fold]?.kind ?? "";
+    const fold = foldOf(primitive);
+    if (fold !== undefined) shown.dataset.colour = folds[fold]?.kind ?? "";
     shown.title = told(primitive, folds);
     shown.setAttribute("aria-label", shown.title);
     shown.addEventListener("pointerenter", () => this.store.setHoverTime(primitive.start_s));
@@ -141,9 +143,8 @@ export class PlanList {
 /** A row as it is read out. @param {Primitive} primitive @param {Fold[]} folds */
 function told(primitive, folds) {
   const by = hands(primitive);
-  const holds = primitive.kind !== "move" && primitive.holds;
   const at = where(primitive);
   const how = [by && say("lane.by_hands", { hands: by }), at && say("lane.at", { place: at })];
-  const parts = [whole(primitive, folds), ...how, holds ? say("lane.holds_on") : "", seconds(primitive.duration_s)];
+  const parts = [whole(primitive, folds), ...how, holdsOn(primitive) ? say("lane.holds_on") : "", seconds(primitive.duration_s)];
   return parts.filter(Boolean).join(", ");
 }

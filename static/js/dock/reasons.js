@@ -6,7 +6,8 @@ import { inWords } from "../messages/in_words.js";
 import { enough, length } from "../messages/lengths.js";
 import { called, place, word } from "../messages/names.js";
 import { causeInWords, SMALL_M, toldReason } from "../messages/reasons.js";
-import { capital, foldName, seconds } from "./words.js";
+import { foldName } from "./step_kinds.js";
+import { capital, seconds } from "./words.js";
 
 /** @import { DocumentState, Drawing, DrawingProblem, PlanMessage, Reason, Says } from "pleat" */
 /** @import { Named } from "../messages/names.js" */

@@ -28,6 +28,10 @@ export const DRAWING = {
     say("message.line_too_short", { length: length(has), least: length(least) }),
   end_off_boundary: ({ at, off_m: off, most_m: most }) =>
     say("message.end_off_boundary", { at: onGarment(at), off: length(off), most: length(most) }),
+  turn_off_edge: ({ off_m: off, most_m: most }) =>
+    say("message.turn_off_edge", { off: length(off), most: length(most) }),
+  turn_touches_little: ({ touch_m: touch, least_m: least }) =>
+    say("message.turn_touches_little", { touch: length(touch), least: length(least) }),
   would_tear: ({ along_m: along }) => say("message.would_tear", { along: length(along) }),
   unknown_station: ({ station, stations }) =>
     say("message.unknown_station", { station: place(station), stations: stations.map(place).join(", ") }),

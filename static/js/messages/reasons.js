@@ -98,6 +98,7 @@ export const REASONS = {
       carried: carried(says),
     }),
   line_off_table: (says) => say("message.line_off_table", { off: length(says.off_m), carried: carried(says) }),
+  turn_off_table: (says) => say("message.turn_off_table", { off: length(says.off_m), carried: carried(says) }),
   behind_line: (says) => say("message.behind_line", { behind: length(says.behind_m), carried: carried(says) }),
   at_start: ({ what, is_too_large: isTooLarge }, folds) =>
     say(isTooLarge ? "message.at_start.too_large" : "message.at_start", { why: REASONS[what.code](what, folds) }),

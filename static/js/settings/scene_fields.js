@@ -1,4 +1,4 @@
-/** The numbers of a document that settings show: reach, the table, and how quick the robot is. */
+/** The numbers of a document that settings show: reach, the cloth, the table, and how quick the robot is. */
 
 import { evaluated, length, number, parsed, problemOf, unit } from "../board/units.js";
 import { element } from "../dom.js";
@@ -7,14 +7,15 @@ import { say } from "../language/say.js";
 
 /** @import { Drawing, Scene } from "pleat" */
 
-const DEGREE = Math.PI / 180;
+/** Units in SI units, except that of lengths, which the reader chooses. @type {Record<string, number>} */
+const FACTORS = { "deg/s": Math.PI / 180, mm: 0.001 };
 
 /**
  * A number that can be changed; within its limits, in SI units.
  * @typedef {object} Wanted
  * @property {string} group
  * @property {string} name
- * @property {"length"|"s"|"m/s"|"deg/s"|""} unit
+ * @property {"length"|"mm"|"s"|"m/s"|"deg/s"|""} unit
  * @property {[number, number]} limits
  * @property {(drawing: Drawing) => number} get
  * @property {(drawing: Drawing, value: number) => void} put
@@ -59,6 +60,14 @@ const WANTED = [
     put: (drawing, value) => void (drawing.comfort_radius_m = value),
   },
   single(say("settings.hold"), say("settings.friction"), "", [0, 10], "friction"),
+  {
+    group: say("settings.cloth"),
+    name: say("settings.thickness"),
+    unit: "mm",
+    limits: [0.0001, 0.02],
+    get: ({ thickness_m: thickness }) => thickness,
+    put: (drawing, value) => void (drawing.thickness_m = value),
+  },
   ofTable(say("settings.depth"), "depth_m", [0.2, 5]),
   ofTable(say("settings.width"), "width_m", [0.2, 5]),
   ofTable(say("settings.height"), "height_m", [0.2, 2]),
@@ -92,8 +101,10 @@ export function withValues(drawing, fields) {
 /** @param {Wanted} wanted @param {number} now */
 function field({ group, name, unit: kind, limits: [least, most], put }, now) {
   const input = /** @type {HTMLInputElement} */ (element("input", "field"));
-  const factor = kind === "deg/s" ? DEGREE : 1;
-  const shown = kind === "length" ? number(now) : shortest(Number((now / factor).toPrecision(4)));
+  const factor = FACTORS[kind] ?? 1;
+  /** @param {number} si */
+  const written = (si) => shortest(Number((si / factor).toPrecision(4)));
+  const shown = kind === "length" ? number(now) : written(now);
   input.value = shown;
   input.inputMode = "decimal";
   input.autocomplete = "off";
@@ -108,8 +119,8 @@ function field({ group, name, unit: kind, limits: [least, most], put }, now) {
     const read = value();
     if (kind === "length" && (read === null || read < least)) return problemOf(input.value, least);
     if (read === null) return say("length.no_number", { text: input.value });
-    const shortOf = kind === "length" ? length(least) : `${shortest(least)} ${word}`.trim();
-    const beyond = kind === "length" ? length(most) : `${shortest(most)} ${word}`.trim();
+    const shortOf = kind === "length" ? length(least) : `${written(least)} ${word}`.trim();
+    const beyond = kind === "length" ? length(most) : `${written(most)} ${word}`.trim();
     if (read < least) return say("length.too_little", { text: input.value, least: shortOf });
     return read > most ? say("length.too_much", { text: input.value, most: beyond }) : "";
   };

@@ -36,7 +36,7 @@ def folded_garments(draw: st.DrawFn) -> Garment:
         turn, x, y = math.pi * draw(unit), 0.2 * draw(unit), 0.2 * draw(unit)
         guide = Segment((x, y), (x + math.cos(turn), y + math.sin(turn)))
         try:
-            line = along_line(solve(drawing), None, guide, is_red=False).line
+            line = along_line(solve(drawing), None, guide, "blue").line
             drawn = {"name": "", "kind": "blue", "start": list(line.start), "end": list(line.end)}
             file = {**garment.to_dict(), "folds": [*garment.to_dict()["folds"], drawn]}
             garment = Garment.from_dict(file)
@@ -114,6 +114,7 @@ def test_corners_and_folds_without_names_are_given_some() -> None:
         ({"outline": [{"point": [0, 11]}]}, "outline[0].point[1]"),
         ({"outline": [{"point": [0, 0]}] * 401}, "outline"),
         ({"areal_density_kg_m2": "1"}, "areal_density_kg_m2"),
+        ({"thickness_m": 0.03}, "thickness_m"),
         ({"scene": {"friction": -1}}, "scene.friction"),
         ({"name": "My towel"}, "name"),
         ({"comfort_radius_m": 0.2}, "comfort_radius_m"),

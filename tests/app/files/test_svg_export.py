@@ -26,12 +26,19 @@ def require_same(one: Garment, other: Garment) -> None:
         assert np.allclose([a.start, a.end], [b.start, b.end], rtol=0.0, atol=1e-6)
         assert (a.name, a.kind, a.grip_radius_m) == (b.name, b.kind, b.grip_radius_m)
     assert (one.name, one.title, one.placement) == (other.name, other.title, other.placement)
-    assert (one.areal_density_kg_m2, one.grip_radius_m) == (other.areal_density_kg_m2, other.grip_radius_m)
+    assert (one.areal_density_kg_m2, one.thickness_m) == (other.areal_density_kg_m2, other.thickness_m)
+    assert one.grip_radius_m == other.grip_radius_m
 
 
 @pytest.mark.parametrize("name", shipped_garment_names())
 def test_a_garment_comes_back_from_its_drawing_to_a_micrometre(name: str) -> None:
     cloth = load_garment(name)
+    require_same(cloth, round_trip(cloth))
+
+
+def test_a_turn_comes_back_as_a_turn() -> None:
+    folds = fold((0.0, 0.15), (0.4, 0.15)), fold((0.1, 0.0), (0.3, 0.0), "turn"), fold((0.2, -0.15), (0.2, 0.0))
+    cloth = garment(rectangle_points(0.4, 0.3), *folds)
     require_same(cloth, round_trip(cloth))
 
 

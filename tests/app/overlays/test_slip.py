@@ -22,9 +22,7 @@ def lying(cloth: ClothState, placement: Pose2, friction: float = 1.0) -> Moment:
 
 def folded_over(width_m: float, length_m: float, at_m: float) -> ClothState:
     """Return a strip from y = 0 to its length, with the part below `at_m` folded up over it."""
-    return fold_cloth(
-        spread(rectangle_points(width_m, length_m)), Segment((width_m, at_m), (0.0, at_m)), is_red=False
-    ).cloth
+    return fold_cloth(spread(rectangle_points(width_m, length_m)), Segment((width_m, at_m), (0.0, at_m)), "blue").cloth
 
 
 def test_the_area_beyond_a_line_counts_every_layer() -> None:

@@ -49,6 +49,7 @@ def test_a_template_makes_a_garment_that_a_robot_can_fold(template: Template) ->
 def test_the_defaults_are_the_shipped_garment_to_two_millimetres(name: str, shipped: str) -> None:
     garment, known = made(name), load_garment(shipped)
     assert garment.areal_density_kg_m2 == known.areal_density_kg_m2
+    assert garment.thickness_m == known.thickness_m
     for point, same in zip(garment.outline, known.outline, strict=True):
         assert point == pytest.approx(same, abs=0.002)
     for fold, same_fold in zip(garment.folds, known.folds, strict=True):

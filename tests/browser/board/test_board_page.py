@@ -210,7 +210,7 @@ def test_no_button_over_the_board_covers_another(page: Page, cloth: Desk, size: 
     try:
         page.set_viewport_size({"width": size[0], "height": size[1]})
         boxes = [box for button in page.locator(".strip button").all() if (box := button.bounding_box())]
-        assert len(boxes) == 8
+        assert len(boxes) == 9
         for one, following in pairwise(boxes):
             assert one["x"] + one["width"] <= following["x"] + 0.5
     finally:

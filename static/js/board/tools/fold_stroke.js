@@ -1,5 +1,6 @@
 /** A stroke of the tool `Draw fold`, how it lies to the cloth, and what is seen of it. */
 
+import { FOLD_KINDS } from "../../fold_kinds.js";
 import { say, translated } from "../../language/say.js";
 import { foldItems } from "../draw_folds.js";
 import { lengthLabel } from "../draw_handles.js";
@@ -40,7 +41,7 @@ export const isShort = ({ from, to }) => distance(from, to) < STROKE_MIN_M;
 
 /** Why there is nothing to draw a fold on. @param {Board} board */
 export function whyNoCloth({ paint, step, tools }) {
-  if (paint.kind === "red" && step === 0) return translated(FIRST_IS_RED);
+  if (FOLD_KINDS[paint.kind].takesFlap && step === 0) return translated(FIRST_IS_RED);
   return tools.outline.isBusy ? UNCLOSED : translated(NO_CLOTH);
 }
 

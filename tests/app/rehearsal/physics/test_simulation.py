@@ -17,7 +17,7 @@ from tests.builders import rectangle
 
 G = 9.81
 
-LIGHT = Fabric(density_kg_m2=0.14)
+LIGHT = Fabric(density_kg_m2=0.14, thickness_m=0.0004)
 """A cloth whose layers are near to each other, with stiffer contacts."""
 
 

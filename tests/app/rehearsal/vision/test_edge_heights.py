@@ -30,7 +30,7 @@ def towel() -> FoldSequence:
 
 def heights() -> EdgeHeights:
     sequence = towel()
-    return EdgeHeights.of(sequence.cloth(1), sequence.garment.pattern)
+    return EdgeHeights.of(sequence.cloth(1), sequence.garment)
 
 
 def beside_the_table() -> Camera:
