@@ -9,7 +9,6 @@ from fastapi.concurrency import run_in_threadpool
 from fastapi_offline import FastAPIOffline
 
 from app.api import (
-    document_changes,
     document_routes,
     file_routes,
     garment_routes,
@@ -17,13 +16,11 @@ from app.api import (
     job_routes,
     live,
     metrics_routes,
-    overlay_routes,
     page_routes,
     plan_routes,
     rehearsal_routes,
     robot_routes,
     scene_routes,
-    share_routes,
     study_routes,
     suggestion_events,
     suggestion_routes,
@@ -79,7 +76,7 @@ def create_app(settings: Settings, token: AccessToken | None = None) -> FastAPI:
     app.router.routes.extend(_routes().routes)
     page_routes.mount_files(app)
     install_problems(app)
-    describe(app, Problem, LiveMessage, LiveCommand, *suggestion_events.EVENTS, *job_answers.EVENTS)
+    describe(app, LiveCommand, Problem, LiveMessage, *suggestion_events.EVENTS, *job_answers.EVENTS)
     app.add_middleware(FailuresAsProblems)
     app.add_middleware(Measured, metrics=app.state.metrics)
     if token is not None:
@@ -109,10 +106,7 @@ def _routes() -> APIRouter:
         study_routes,
         template_routes,
         document_routes,
-        document_changes,
-        share_routes,
         file_routes,
-        overlay_routes,
         live,
         view_3d_routes,
         metrics_routes,

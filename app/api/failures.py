@@ -7,7 +7,7 @@ import logging
 
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from app.api.problems import ProblemResponse
+from app.api.problems import FAILED, ProblemResponse
 
 _log = logging.getLogger(__name__)
 
@@ -34,5 +34,5 @@ class FailuresAsProblems:
             if scope["type"] != "http" or has_begun:
                 raise
             _log.exception("%s %s failed", scope["method"], scope["path"])
-            answer = ProblemResponse(500, "The server failed on this request; its log says why.")
+            answer = ProblemResponse(500, FAILED)
             await answer(scope, receive, send)

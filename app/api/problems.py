@@ -16,9 +16,11 @@ from starlette.responses import Response
 from app.api.answers import Says
 from app.api.methods import allowed_methods
 from app.document import EndedDocumentError
+from app.drawing.edit import StaleVersionError
 from app.jobs.job_desk import ForeignJobError
 from app.jobs.job_pool import BusyError
 from app.jobs.limits import TooManyError
+from app.overlays.moment import NoClothError
 from app.store.database import OtherDatabaseError
 from app.store.document_errors import BrokenDocumentError, NewerDocumentError, UnknownDocumentError
 from app.store.job_repository import UnknownJobError
@@ -44,6 +46,8 @@ _log = logging.getLogger(__name__)
 
 MEDIA_TYPE = "application/problem+json"
 
+FAILED = "The server failed on this request; its log says why."
+
 CLIENT_GONE = 499
 """Status in the log, as of other servers, for a client that has gone away: nobody reads the answer."""
 
@@ -53,6 +57,17 @@ class LookOnlyError(FoldingError):
 
     def __str__(self) -> str:
         return "this link is for looking and playing only"
+
+
+class TooLargeError(FoldingError):
+    """A request body is beyond the limit."""
+
+
+class ClientGoneError(FoldingError):
+    """The client has closed the connection."""
+
+    def __str__(self) -> str:
+        return "The client went away."
 
 
 _STATUS_OF: dict[type[FoldingError], int] = {
@@ -70,11 +85,14 @@ _STATUS_OF: dict[type[FoldingError], int] = {
     OtherDatabaseError: 409,
     ForbiddenStorageError: 403,
     LookOnlyError: 403,
+    ClientGoneError: CLIENT_GONE,
     FullStorageError: 507,
     StorageError: 500,
     ReadOnlyGarmentError: 409,
     ReadOnlyRobotError: 409,
     UnsolvedPlanError: 409,
+    StaleVersionError: 409,
+    NoClothError: 409,
     StoppedError: 503,
     PlannerNotLoadedError: 503,
     GarmentFileError: 422,
@@ -100,7 +118,11 @@ class Problem(BaseModel):
 
 
 class ProblemResponse(Response):
-    """The response that carries a problem."""
+    """The response that carries a problem.
+
+    Attributes:
+        problem: the problem as JSON.
+    """
 
     media_type = MEDIA_TYPE
 
@@ -113,19 +135,11 @@ class ProblemResponse(Response):
         members: Mapping[str, Any] | None = None,
     ) -> None:
         """Make the title from the status; `errors` is left out if empty; `members` are further fields."""
-        problem: dict[str, Any] = {"title": _title(status), "status": status, "detail": detail}
+        self.problem: dict[str, Any] = {"title": _title(status), "status": status, "detail": detail}
         if errors:
-            problem["errors"] = list(errors)
-        problem.update(members or {})
-        super().__init__(json.dumps(problem).encode("ascii"), status, headers)
-
-
-class TooLargeError(FoldingError):
-    """A request body is beyond the limit."""
-
-
-class ClientGoneError(FoldingError):
-    """The client has closed the connection."""
+            self.problem["errors"] = list(errors)
+        self.problem.update(members or {})
+        super().__init__(json.dumps(self.problem).encode("ascii"), status, headers)
 
 
 def install_problems(app: FastAPI) -> None:
@@ -133,14 +147,9 @@ def install_problems(app: FastAPI) -> None:
     handlers: dict[type[Exception], Callable[[Request, Any], Awaitable[Response]]] = {
         HTTPException: _http_problem,
         RequestValidationError: _validation_problem,
-        FieldError: _field_problem,
-        TooLargeError: _too_large_problem,
-        ClientDisconnect: _unread_problem,
-        ClientGoneError: _unread_problem,
-        BusyError: _busy_problem,
-        TooManyError: _too_many_problem,
-        FoldingError: _folding_problem,
-        OSError: _system_problem,
+        ClientDisconnect: _problem,
+        FoldingError: _problem,
+        OSError: _problem,
     }
     for kind, handler in handlers.items():
         app.add_exception_handler(kind, handler)
@@ -158,45 +167,47 @@ async def _validation_problem(_: Request, error: RequestValidationError) -> Resp
     return ProblemResponse(422, _summary(fields), fields)
 
 
-async def _field_problem(_: Request, error: FieldError) -> Response:
-    field: dict[str, Any] = {"field": error.field, "message": error.message}
-    if error.says is not None:
-        field["says"] = error.says.to_dict()
-    return ProblemResponse(422, _summary([field]), [field])
+async def _problem(_: Request, error: Exception) -> Response:
+    """Answer an error; raise a bug again."""
+    answer = problem_of(error)
+    if answer is None:
+        raise error
+    return answer
 
 
-async def _too_large_problem(_: Request, error: TooLargeError) -> Response:
-    return ProblemResponse(413, str(error), headers={"connection": "close"})
+def problem_of(error: Exception) -> ProblemResponse | None:
+    """Return the answer to what has raised an error; None for a bug.
+
+    A refusal of the operating system is logged; an `OSError` of a library's own making is a bug.
+    """
+    match error:
+        case FoldingError():
+            return folding_problem(error)
+        case ClientDisconnect():
+            return folding_problem(ClientGoneError())
+        case OSError() if error.errno is not None:
+            what = "the request could not be answered"
+            _log.error(what, exc_info=error)
+            return folding_problem(storage_error(what, error))
+    return None
 
 
-async def _folding_problem(_: Request, error: FoldingError) -> Response:
-    return folding_problem(error)
-
-
-def folding_problem(error: FoldingError) -> Response:
-    """Return the answer to a request that raised an error, by its class."""
+def folding_problem(error: FoldingError) -> ProblemResponse:
+    """Return the answer to what has raised an error of Pleat's own, by its class."""
+    match error:
+        case FieldError():
+            field: dict[str, Any] = {"field": error.field, "message": error.message}
+            if error.says is not None:
+                field["says"] = error.says.to_dict()
+            return ProblemResponse(422, _summary([field]), [field])
+        case TooLargeError():
+            return ProblemResponse(413, str(error), headers={"connection": "close"})
+        case BusyError(retry_after_s=wait_s):
+            return ProblemResponse(503, str(error), headers={"retry-after": str(wait_s)})
+        case TooManyError(retry_after_s=wait_s):
+            return ProblemResponse(429, str(error), headers={"retry-after": str(wait_s)})
     status = next((code for kind, code in _STATUS_OF.items() if isinstance(error, kind)), 422)
     return ProblemResponse(status, str(error))
-
-
-async def _busy_problem(_: Request, error: BusyError) -> Response:
-    return ProblemResponse(503, str(error), headers={"retry-after": str(error.retry_after_s)})
-
-
-async def _too_many_problem(_: Request, error: TooManyError) -> Response:
-    return ProblemResponse(429, str(error), headers={"retry-after": str(error.retry_after_s)})
-
-
-async def _unread_problem(_: Request, __: ClientDisconnect | ClientGoneError) -> Response:
-    return ProblemResponse(CLIENT_GONE, "The client went away.")
-
-
-async def _system_problem(request: Request, error: OSError) -> Response:
-    """Answer a refusal of the operating system; raise an `OSError` of a library's own making again, as a bug."""
-    if error.errno is None:
-        raise error
-    _log.error("%s %s failed", request.method, request.url.path, exc_info=error)
-    return await _folding_problem(request, storage_error("the request could not be answered", error))
 
 
 def _title(status: int) -> str:

@@ -52,7 +52,7 @@ export class Store extends EventTarget {
     this.live = this.listen();
   }
 
-  /** The path of the document's resources. */
+  /** The path of what a program may ask of the document, as its files. */
   get path() {
     return `../api/documents/${this.id}`;
   }
@@ -209,6 +209,15 @@ export class Store extends EventTarget {
   /** @param {Command} command */
   command(command) {
     this.live.send(command);
+  }
+
+  /**
+   * Send a change or a question, and wait for its answer; see `Live.ask`.
+   * @param {Command} command
+   * @param {AbortSignal} [signal]
+   */
+  ask(command, signal) {
+    return this.live.ask(command, signal);
   }
 
   /** Tell the reader that something was not done. @param {string} detail a sentence */
