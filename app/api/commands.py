@@ -54,6 +54,8 @@ def dispatch(wanted: Wanted, workspace: Workspace, document: Document) -> Docume
         StaleVersionError: the change is based on a version that is no longer current.
         FoldingError: it cannot be done.
     """
+    if _play(wanted, document):
+        return document.state
     match wanted:
         case EditRequest():
             return document.edit(_edit(wanted, document.state.drawing))
@@ -66,14 +68,6 @@ def dispatch(wanted: Wanted, workspace: Workspace, document: Document) -> Docume
             return document.undo(wanted.base_version)
         case Redo():
             return document.redo(wanted.base_version)
-        case Play():
-            document.play()
-        case Pause():
-            document.pause()
-        case Seek(t_s=t_s):
-            document.seek(t_s)
-        case SetSpeed(speed=speed):
-            document.set_speed(speed)
         case SetTheme(dark=is_dark):
             document.set_theme(is_dark=is_dark)
         case SetLanguage(language=language):
@@ -107,17 +101,24 @@ def dispatch(wanted: Wanted, workspace: Workspace, document: Document) -> Docume
 
 def play(wanted: Wanted, visitors: VisitorsView) -> None:
     """Carry out a command by a link, for visitors alone; raise `LookOnlyError` if it does more than play."""
+    if not _play(wanted, visitors):
+        raise LookOnlyError
+
+
+def _play(wanted: Wanted, played: Document | VisitorsView) -> bool:
+    """Carry out a command if it is one of playback; return whether it is."""
     match wanted:
         case Play():
-            visitors.play()
+            played.play()
         case Pause():
-            visitors.pause()
+            played.pause()
         case Seek(t_s=t_s):
-            visitors.seek(t_s)
+            played.seek(t_s)
         case SetSpeed(speed=speed):
-            visitors.set_speed(speed)
+            played.set_speed(speed)
         case _:
-            raise LookOnlyError
+            return False
+    return True
 
 
 def put_garment(

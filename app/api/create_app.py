@@ -15,7 +15,7 @@ from app.api import (
     job_answers,
     job_routes,
     live,
-    metrics_routes,
+    metrics,
     page_routes,
     plan_routes,
     rehearsal_routes,
@@ -29,16 +29,13 @@ from app.api import (
 )
 from app.api.client_limits import ClientLimits
 from app.api.described import describe
-from app.api.failures import FailuresAsProblems
 from app.api.guard import OwnNamesOnly
 from app.api.live_answers import LiveCommand, LiveMessage
-from app.api.methods import HeadAsGet
 from app.api.metrics import Measured, Metrics
-from app.api.prefix import BelowPrefix
-from app.api.problems import Problem, install_problems
+from app.api.middleware import BelowPrefix, HeadAsGet, WholeRequests
+from app.api.problems import FailuresAsProblems, Problem, install_problems
 from app.api.shared import Shared
 from app.api.token_only import TokenOnly
-from app.api.whole_requests import WholeRequests
 from app.job_kinds.kinds import KINDS
 from app.server.request_id import RequestIds
 from app.settings import Settings
@@ -109,7 +106,7 @@ def _routes() -> APIRouter:
         file_routes,
         live,
         view_3d_routes,
-        metrics_routes,
+        metrics,
         page_routes,
     ):
         every.include_router(routes.router)

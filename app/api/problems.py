@@ -3,7 +3,7 @@
 import http
 import json
 import logging
-from collections.abc import Awaitable, Callable, Mapping, Sequence
+from collections.abc import Awaitable, Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 from fastapi import FastAPI, Request
@@ -12,9 +12,10 @@ from pydantic import BaseModel
 from starlette.exceptions import HTTPException
 from starlette.requests import ClientDisconnect
 from starlette.responses import Response
+from starlette.routing import BaseRoute, Match, Mount, Router
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from app.api.answers import Says
-from app.api.methods import allowed_methods
 from app.document import EndedDocumentError
 from app.drawing.edit import StaleVersionError
 from app.jobs.job_desk import ForeignJobError
@@ -97,6 +98,7 @@ _STATUS_OF: dict[type[FoldingError], int] = {
     PlannerNotLoadedError: 503,
     GarmentFileError: 422,
 }
+_METHODS = ("GET", "POST", "PUT", "PATCH", "DELETE")
 _REQUEST_PARTS = ("body", "query", "path", "header")
 
 
@@ -142,6 +144,34 @@ class ProblemResponse(Response):
         super().__init__(json.dumps(self.problem).encode("ascii"), status, headers)
 
 
+class FailuresAsProblems:
+    """Middleware that answers unexpected errors of the routes as problems, and logs each once.
+
+    FastAPI's own handler raises the error again after it has answered, so the server would log it a second time.
+    """
+
+    def __init__(self, app: ASGIApp) -> None:
+        """Wrap the routes."""
+        self._app = app
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Call the routes; if they fail after the answer has begun, break it off."""
+        has_begun = False
+
+        async def send_noted(message: Message) -> None:
+            nonlocal has_begun
+            has_begun = has_begun or message["type"] == "http.response.start"
+            await send(message)
+
+        try:
+            await self._app(scope, receive, send_noted)
+        except Exception:
+            if scope["type"] != "http" or has_begun:
+                raise
+            _log.exception("%s %s failed", scope["method"], scope["path"])
+            await ProblemResponse(500, FAILED)(scope, receive, send)
+
+
 def install_problems(app: FastAPI) -> None:
     """Answer every exception with a problem."""
     handlers: dict[type[Exception], Callable[[Request, Any], Awaitable[Response]]] = {
@@ -158,7 +188,7 @@ def install_problems(app: FastAPI) -> None:
 async def _http_problem(request: Request, error: HTTPException) -> Response:
     answer = ProblemResponse(error.status_code, _http_detail(request, error), headers=dict(error.headers or {}))
     if error.status_code == http.HTTPStatus.METHOD_NOT_ALLOWED:
-        answer.headers["allow"] = allowed_methods(request)
+        answer.headers["allow"] = _allowed_methods(request)
     return answer
 
 
@@ -235,3 +265,35 @@ def _summary(fields: Sequence[Mapping[str, Any]]) -> str:
     first = fields[0]
     text = f"{first['field']}: {first['message']}" if first["field"] else first["message"]
     return text if len(fields) == 1 else f"{text} (and {len(fields) - 1} more)"
+
+
+def _allowed_methods(request: Request) -> str:
+    """Return the value of `Allow` for the path of a request: the methods of the routes that lead there.
+
+    Where a route has this very path, those that have a parameter in it do not count: `/api/jobs/studies` is no job.
+    """
+    found = {method: parameters for method in _METHODS if (parameters := _parameters(request, method)) is not None}
+    allowed = [method for method, parameters in found.items() if parameters == min(found.values())]
+    return ", ".join(["GET", "HEAD", *allowed[1:]] if "GET" in allowed else allowed)
+
+
+def _parameters(request: Request, method: str) -> int | None:
+    """Return how many parameters the path has for a route of this method; None if there is no such route.
+
+    Folders of files are only read.
+    """
+    root_path = request.scope.get("app_root_path", request.scope.get("root_path", ""))  # set by mounted folders
+    scope = {**request.scope, "method": method, "root_path": root_path, "path_params": {}}
+    routes = [route for route in _routes(request.app.router) if method == "GET" or not isinstance(route, Mount)]
+    matches = [told for route in routes for match, told in [route.matches(scope)] if match is Match.FULL]
+    return min((len(told.get("path_params", ())) for told in matches), default=None)
+
+
+def _routes(router: Router) -> Iterator[BaseRoute]:
+    """Yield the routes of a router and of the routers in it: an included one does not tell the parameters."""
+    for route in router.routes:
+        inner = getattr(route, "original_router", None)
+        if inner is None:
+            yield route
+        else:
+            yield from _routes(inner)

@@ -10,7 +10,7 @@ import { sayable } from "./dom.js";
 import { inEnglish, say } from "./language/say.js";
 import { RefusedError, UnreachableError } from "./live.js";
 
-/** @import { Command, DocumentState, Drawing, Garment } from "pleat" */
+/** @import { Command, DocumentState, Drawing } from "pleat" */
 
 const TRIES = 3;
 const RETRY_MS = 1000;
@@ -93,27 +93,18 @@ export class EditQueue {
     });
   }
 
-  /** @param {"undo"|"redo"} verb */
-  post(verb) {
-    return this.push(() => this.sent({ do: verb }));
-  }
-
-  /** @param {string|Garment} garment @param {string|null} label @param {boolean} arcs */
-  open(garment, label, arcs) {
-    const run = async () => {
+  /**
+   * Any other change, in its turn.
+   * @param {Command} command
+   * @param {(before: Drawing|undefined) => void} [done] called once it is made
+   */
+  change(command, done) {
+    return this.push(async () => {
       const before = this.store.state?.drawing;
-      const state = await this.sent({ do: "put_garment", garment, label, arcs });
-      this.store.select(null);
-      this.store.showStep(0);
-      this.store.dispatchEvent(new CustomEvent("opened", { detail: before }));
-      return state;
-    };
-    return this.push(run);
-  }
-
-  /** @param {string} robot the name of the robot that shall fold */
-  robot(robot) {
-    return this.push(() => this.sent({ do: "put_robot", robot }));
+      await this.store.ask(command);
+      done?.(before);
+      return this.store.state;
+    });
   }
 
   /** @param {(job: Job) => unknown} isUnwanted */
@@ -230,12 +221,6 @@ export class EditQueue {
   wasMade(job) {
     const last = this.store.state?.history.can_undo ?? null;
     return job.gesture === null && last === job.label && job.after !== last;
-  }
-
-  /** The state that a change has led to. @param {Command} command */
-  async sent(command) {
-    await this.store.ask(command);
-    return this.store.state;
   }
 
   /** @param {unknown} error */

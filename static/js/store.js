@@ -184,11 +184,11 @@ export class Store extends EventTarget {
   }
 
   undo() {
-    return this.queue.post("undo");
+    return this.queue.change({ do: "undo" });
   }
 
   redo() {
-    return this.queue.post("redo");
+    return this.queue.change({ do: "redo" });
   }
 
   /**
@@ -198,12 +198,16 @@ export class Store extends EventTarget {
    * @param {boolean} arcs whether edges that stand for arcs become curves
    */
   open(garment, label = null, arcs = false) {
-    return this.queue.open(garment, label, arcs);
+    return this.queue.change({ do: "put_garment", garment, label, arcs }, (before) => {
+      this.select(null);
+      this.showStep(0);
+      this.dispatchEvent(new CustomEvent("opened", { detail: before }));
+    });
   }
 
   /** Have another robot fold, with the scene that suits it. @param {string} robot its name */
   putRobot(robot) {
-    return this.queue.robot(robot);
+    return this.queue.change({ do: "put_robot", robot });
   }
 
   /** @param {Command} command */
