@@ -13,7 +13,7 @@ from typing import Literal, TypeAlias, get_args
 from babel import Locale
 from babel.numbers import format_decimal
 
-from app.resources import static_dir
+from app.page_files import static_dir
 
 Language: TypeAlias = Literal["en", "de", "es"]
 LANGUAGES: tuple[Language, ...] = get_args(Language)
