@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from rich.table import Table
 
 from app.step_words import step_words
-from planner.explain.vertex_check import Support
+from planner.explain.garment_check import Support
 from planner.task.reason import Code
 from planner.words.catalogue import sentence
 
