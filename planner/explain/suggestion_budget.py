@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Iterator
 from typing import TypeVar
 
+from planner.explain.change import SpentError
 from planner.explain.explanation import FirstExplanation
 from planner.planning.budget import Budget
 from planner.planning.plan_search import PlanSearch
@@ -20,10 +21,6 @@ _TRIALS_LEFT = 6
 
 _SETTING_UP_S = 0.01
 """Work counted for preparing a request, which replays the folds (s); the planner counts none of it."""
-
-
-class TimeUpError(Exception):
-    """The time was up in the middle of something that nobody needs in part."""
 
 
 class TrialBudget:
@@ -59,13 +56,13 @@ class TrialBudget:
             yield thing
 
     def require_time(self, _share: float = 0.0) -> None:
-        """Raise `TimeUpError` once the time is up; what was begun then counts as unknown.
+        """Raise `SpentError` once the time is up; what was begun then counts as unknown.
 
         Progress can be told to it (see `planner.robots.reach_maps`): so the building of maps ends in between.
         """
         if self.is_late:
             self.has_unknown = True
-            raise TimeUpError
+            raise SpentError
 
     def has_spent(self, share: float) -> bool:
         """Return whether this share of the work has been done, or the time is up."""
