@@ -11,7 +11,7 @@ import pytest
 ROOT = Path(__file__).parent.parent
 
 # Modules of planner that stand outside the rooms and that every room but search may use.
-GROUND = frozenset({"planner.errors", "planner.message", "planner.strict_model", "planner.json_form", "planner.weakly"})
+GROUND = frozenset({"planner.errors", "planner.message", "planner.strict_model", "planner.json_form"})
 
 _ROOMS_BELOW_MOTION = ("geometry", "words", "cloth", "folds", "task", "primitives", "robots")
 BELOW_MOTION = GROUND | {f"planner.{room}" for room in _ROOMS_BELOW_MOTION}
@@ -19,7 +19,6 @@ BELOW_MOTION = GROUND | {f"planner.{room}" for room in _ROOMS_BELOW_MOTION}
 # The ladder: what each room may see besides itself.
 MAY_SEE: Mapping[str, frozenset[str]] = {
     "planner.message": frozenset(),
-    "planner.weakly": frozenset(),
     "planner.user_cache": frozenset(),
     "planner.kernel_cache": frozenset({"planner.user_cache"}),
     "planner.errors": frozenset({"planner.message"}),
@@ -135,6 +134,19 @@ def test_a_room_imports_only_rooms_further_down_the_ladder(room: str) -> None:
         and not any(is_within(one.target, seen) for seen in allowed)
     ]
     assert not wrong, f"{room} may see only {sorted(allowed)}: {wrong}"
+
+
+def test_planning_imports_nothing_of_explain_whatever_it_imports() -> None:
+    below: dict[str, set[str]] = {}
+    for one in all_imports():
+        below.setdefault(one.module, set()).add(one.target)
+    seen, waiting = set[str](), [module for module in SOURCES if is_within(module, "planner.planning")]
+    while waiting:
+        module = waiting.pop()
+        if module not in seen:
+            seen.add(module)
+            waiting += below.get(module, ())
+    assert not [module for module in seen if is_within(module, "planner.explain")]
 
 
 def test_the_planner_knows_nothing_of_the_app() -> None:

@@ -11,11 +11,23 @@ from planner.explain.reason_causes import Causes
 from planner.explain.reason_collision import collisions
 from planner.explain.reason_obstacle import of_obstacle
 from planner.explain.reason_places import Places
+from planner.planning.events import Obstacles
 from planner.primitives.context import Context
 from planner.primitives.obstacle import BlockingContact, Obstacle, Situation
 from planner.primitives.primitive import Step
 from planner.task.reason import Code, Reason
 from planner.words.catalogue import worded
+
+
+def reasons_met(obstacles: Obstacles) -> tuple[Reason, ...]:
+    """Return the reasons that a search met, not tried yet."""
+    context = obstacles.problem.context
+    unrest = obstacles.problem.unrest
+    if unrest is not None:
+        return (reason_at_start(context, unrest),)
+    for step, contact in obstacles.contacts():
+        note_collision(context, step, contact)
+    return reasons(context, obstacles.reached, obstacles.impossible)
 
 
 def reasons(context: Context, reached: Collection[Situation], impossible: Collection[int]) -> tuple[Reason, ...]:

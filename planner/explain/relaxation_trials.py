@@ -3,6 +3,7 @@
 from collections.abc import Callable
 
 from planner.errors import FoldingError
+from planner.explain.reasons import reasons_met
 from planner.explain.relaxation import Relaxation
 from planner.explain.relaxed_problem import Ask, RelaxedProblem
 from planner.planning.trial import Trial
@@ -46,7 +47,7 @@ class Trials:
         """Return the reasons that a trial met."""
         if self._is_enough():
             raise SpentError
-        return trial.measured()
+        return reasons_met(trial.obstacles)
 
 
 def applied(relaxation: Relaxation, base: RelaxedProblem, amount: float) -> RelaxedProblem | None:

@@ -1,7 +1,6 @@
 """Compile the numba kernels, or load them from the cache, so that no user's search pays for it."""
 
 import gc
-import math
 from dataclasses import replace
 from functools import cache
 
@@ -14,7 +13,7 @@ from planner.kernel_cache import are_kernels_kept, note_kernels_kept
 from planner.motion.timeline import Timeline
 from planner.planning.budget import Budget
 from planner.planning.driving_bound import DrivingBound
-from planner.planning.plan_search import PlanSearch
+from planner.planning.plan_search import Hints, quickest
 from planner.planning.problem import Problem
 from planner.planning.robot_task import default_scene, task_for
 from planner.primitives.base_legs import legs, travel
@@ -94,10 +93,9 @@ def _use_kernels(name: str) -> None:
     gc.set_threshold(max(_ALLOCATIONS, gc.get_threshold()[0]), *gc.get_threshold()[1:])
     gc.freeze()  # modules are no garbage, and scanning them stops the process for some hundredths of a second
     problem = Problem.of(task_for(napkin(name), robot=name, comfort_radius_m=0.0))
-    endless = Budget.of(math.inf, math.inf)
-    found = PlanSearch(problem, "arm_time", endless, problem.task.limits.max_expanded).plan()
-    if found.plan.is_solved:
-        Timeline.of(found.plan).at(0.0)
+    *_, end = quickest(problem, Budget.endless(), Hints())
+    if end.found.plan.is_solved:
+        Timeline.of(end.found.plan).at(0.0)
     reach = problem.context.reach
     for point in (_FAR, _EDGE):
         reach.shortfall(0, point, np.array([0]))
