@@ -25,6 +25,7 @@ from planner.explain.reason_attempt import Miss
 from planner.explain.reason_obstacle import collisions, lacking, of_obstacle
 from planner.explain.reason_out_of_reach import out_of_reach
 from planner.explain.reason_reach import Places, from_every_station, miss_in, nearest_miss
+from planner.planning.events import Obstacles
 from planner.primitives.context import Context
 from planner.primitives.fold_obstacles import geometric_obstacles
 from planner.primitives.fold_trial import fold_trials, grips_obstacle
@@ -44,6 +45,17 @@ _GRIPS = (Code.TOO_MANY_GRIPS, Code.GRIPS_TOO_CLOSE, Code.RED_NEEDS_HOLD)
 _LOOKED_AT_MAX, _EXAMINED_MAX = 60, 3
 """Mildest obstacles of a kind for which it is checked whether the cloth can be brought there, and how many of those
 that pass are examined."""
+
+
+def reasons_met(obstacles: Obstacles) -> tuple[Reason, ...]:
+    """Return the reasons that a search met, not tried yet."""
+    context = obstacles.problem.context
+    unrest = obstacles.problem.unrest
+    if unrest is not None:
+        return (reason_at_start(context, unrest),)
+    for step, contact in obstacles.contacts():
+        note_collision(context, step, contact)
+    return reasons(context, obstacles.reached, obstacles.impossible)
 
 
 def reasons(context: Context, reached: Collection[Situation], impossible: Collection[int]) -> tuple[Reason, ...]:

@@ -37,16 +37,18 @@ _SLACKS = ("comfort_radius", "cone")
 """Kinds of changes that are tried together with a shift where no change alone is enough."""
 
 
-def confirmed_reasons(base: RelaxedProblem, met: Trial, ask: Ask, is_enough: Callable[[], bool]) -> tuple[Reason, ...]:
+def confirmed_reasons(
+    base: RelaxedProblem, met: Trial, measured: Sequence[Reason], ask: Ask, is_enough: Callable[[], bool]
+) -> tuple[Reason, ...]:
     """Return the reasons why a problem has no plan, each tried.
 
     Args:
         base: the problem.
-        met: its trial, with the reasons met.
+        met: its trial.
+        measured: the reasons met in it.
         ask: tries relaxed problems.
         is_enough: polled before each trial; true ends them.
     """
-    measured = met.measured()
     limit = TrialLimit(is_enough)
     found: list[Reason] = []
     for fold in dict.fromkeys(reason.fold for reason in measured):

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from planner.errors import FoldingError
 from planner.explain.change import Bisection, Change, SpentError
 from planner.explain.changes import COLLISIONS_IGNORED
+from planner.explain.reasons import reasons_met
 from planner.explain.relaxed_problem import Ask, RelaxedProblem
 from planner.planning.trial import Trial
 from planner.task.reason import Code, Reason
@@ -87,7 +88,7 @@ class Trials:
     def measured(self, trial: Trial) -> tuple[Reason, ...]:
         """Return the reasons that a trial met."""
         self._limit.require_time()
-        return trial.measured()
+        return reasons_met(trial.obstacles)
 
     def touched(self, trial: Trial) -> Reason | None:
         """Return what the arms touch in a trial, as a reason; None where it met no collision."""

@@ -1,7 +1,6 @@
 """Compile the numba kernels, or load them from the cache, so that no user's search pays for it."""
 
 import gc
-import math
 import sys
 from dataclasses import replace
 from functools import cache
@@ -15,7 +14,7 @@ from planner.kernel_cache import are_kernels_kept, note_kernels_kept
 from planner.motion.timeline import Timeline
 from planner.planning.budget import Budget
 from planner.planning.driving_bound import DrivingBound
-from planner.planning.plan_search import PlanSearch
+from planner.planning.plan_search import Hints, quickest
 from planner.planning.problem import Problem
 from planner.planning.robot_task import default_scene, task_for
 from planner.primitives.base_legs import legs, travel
@@ -110,10 +109,9 @@ def _use_kernels(name: str, is_backwards: bool) -> None:
 
 def _plan(problem: Problem) -> None:
     """Plan the napkin, and play the plan."""
-    endless = Budget.of(math.inf, math.inf)
-    found = PlanSearch(problem, "arm_time", endless, problem.task.limits.max_expanded).plan()
-    if found.plan.is_solved:
-        Timeline.of(found.plan).at(0.0)
+    *_, end = quickest(problem, Budget.endless(), Hints())
+    if end.found.plan.is_solved:
+        Timeline.of(end.found.plan).at(0.0)
 
 
 def _ask_why(problem: Problem) -> None:

@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 from app import workspace as workspaces
+from app.live_planning import compile_for
 from app.settings import Settings
 from app.worker.stop import Stop
 from app.workspace import Workspace
@@ -35,7 +36,7 @@ def test_the_missing_kinds_of_kernels_are_compiled_in_the_background(
     monkeypatch.setattr(workspace.lanes.background, "run", run)
     workspace.start()
     assert done.wait(30.0)
-    assert asked == [(workspaces.compile_for, "so101-pair")]
+    assert asked == [(compile_for, "so101-pair")]
 
 
 def test_nothing_is_compiled_where_the_cache_has_all(workspace: Workspace, monkeypatch: pytest.MonkeyPatch) -> None:

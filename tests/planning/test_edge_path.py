@@ -5,15 +5,16 @@ from dataclasses import replace
 
 import pytest
 
-from planner import Garment, Scene, Task, find_plan, load_garment
+from planner import Garment, Scene, Task, load_garment
 from planner.motion.edge_hands import EdgeHands
 from planner.motion.plan_segment import PlanSegment, duration_s
 from planner.motion.search_limits import SearchLimits
 from planner.motion.transfer import Transfer
 from planner.motion.transfer_planner import TransferPlanner
-from planner.planning.edge_acts import EdgeActs
+from planner.planning.edge_path import EdgePath
 from planner.planning.motion_validator import MotionValidator
 from planner.planning.warm_up import compile_kernels
+from planner.plans import plan
 from planner.primitives.primitive import Step
 from tests.planning.found import found_plan
 
@@ -41,9 +42,9 @@ def moved(name: str, ahead_m: float, left_m: float = 0.0) -> Garment:
 @pytest.mark.parametrize("name", EDGES)
 def test_the_search_itself_finds_hands_at_edges(monkeypatch: pytest.MonkeyPatch, name: str) -> None:
     monkeypatch.setattr(EdgeHands, "held", lambda self, plan_segments, is_over: plan_segments)
-    plan = found_plan(moved(name, AHEAD_M[name]), time_limit_s=60.0).plan
-    assert plan.is_proven
-    assert [grip.kind for step in plan.steps for grip in step.grips].count("edge") == EDGES[name]
+    found = found_plan(moved(name, AHEAD_M[name]), time_limit_s=60.0).plan
+    assert found.is_proven
+    assert [grip.kind for step in found.steps for grip in step.grips].count("edge") == EDGES[name]
 
 
 def test_where_hands_hold_edges_no_others_are_led_along_the_path(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -58,19 +59,21 @@ def test_hands_that_come_late_to_an_edge_hold_otherwise(monkeypatch: pytest.Monk
     monkeypatch.setattr(EdgeHands, "held", lambda self, plan_segments, is_over: plan_segments)
     rounds: list[float | None] = []
     late: list[bool] = []
-    validated, is_late = MotionValidator.plan_segments, EdgeActs._is_late
+    validated, is_late = MotionValidator.plan_segments, EdgePath.is_late
 
-    def noted(self: MotionValidator, steps: Sequence[Step]) -> tuple[PlanSegment, ...] | None:
-        plan_segments = validated(self, steps)
+    def noted(
+        self: MotionValidator, steps: Sequence[Step], at_edges: tuple[PlanSegment, ...]
+    ) -> tuple[PlanSegment, ...] | None:
+        plan_segments = validated(self, steps, at_edges)
         rounds.append(None if plan_segments is None else duration_s(plan_segments))
         return plan_segments
 
-    def noted_late(self: EdgeActs, plan_segment: PlanSegment) -> bool:
-        late.append(is_late(self, plan_segment))
+    def noted_late(self: EdgePath, validator: MotionValidator) -> bool:
+        late.append(is_late(self, validator))
         return late[-1]
 
     monkeypatch.setattr(MotionValidator, "plan_segments", noted)
-    monkeypatch.setattr(EdgeActs, "_is_late", noted_late)
+    monkeypatch.setattr(EdgePath, "is_late", noted_late)
     found = found_plan(moved("shirt", 0.08, 0.02), time_limit_s=60.0)
     assert found.plan.is_proven and any(late)
     assert rounds == [pytest.approx(found.plan.cost_s)], "the first path is taken, as quick as it seemed"
@@ -89,5 +92,6 @@ def test_hands_that_come_late_to_edges_are_shown_before_others_are_looked_for(mo
 
     monkeypatch.setattr(TransferPlanner, "first_valid", noted)
     task = Task.of(moved("hand-towel", 0.2), Scene(arm_motion_s=1.5))
-    find_plan(task, on_found=lambda found: events.append(f"{found.plan.status}, proven {found.plan.is_proven}"))
+    for event in plan(task):
+        events.append(f"{event.found.plan.status}, proven {event.found.plan.is_proven}")
     assert events[0] == "solved, proven False" and "wide" in events
