@@ -25,9 +25,9 @@ from planner.planning.plan_check import require_replay
 from planner.robots.card_file import CardFile
 from planner.robots.collision.described_parts import described_parts
 from planner.robots.collision.link_shapes import require_shown
-from planner.robots.described_robot import DescribedRobot, read_card
+from planner.robots.described_robot import DescribedRobot
 from planner.robots.described_robot import read_robot as read_known
-from planner.robots.known_robots import robot_names
+from planner.robots.known_robots import read_card, robot_names
 from planner.robots.own_robots import CARD
 from planner.task.plan import Plan
 from planner.task.task import Task

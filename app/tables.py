@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING, Any
 from rich.table import Table
 
 from app.step_kinds import step_words
-from planner.explain.vertex_check import Support
-from planner.task.reason import Code
 from planner.words.catalogue import sentence
 
 if TYPE_CHECKING:  # the tables of a command need not import what the others show
@@ -27,13 +25,13 @@ _POINTS_SHOWN = 4
 """Number of points printed before the rest is only counted."""
 
 _SUPPORTS = {
-    Support.HANGS_FREELY: "must be held, hanging freely: nothing above",
-    Support.ON_THE_LINE: "need not, on the fold line",
-    Support.CLOTH_ABOVE: "need not, held by the cloth above",
-    Support.CLOTH_NEARLY_ABOVE: "need not, held by the cloth nearly straight above",
-    Support.WITHIN_THE_HULL: "need not, held by the cloth on both sides: no corner of the convex hull",
+    "hangs_freely": "must be held, hanging freely: nothing above",
+    "on_the_line": "need not, on the fold line",
+    "cloth_above": "need not, held by the cloth above",
+    "cloth_nearly_above": "need not, held by the cloth nearly straight above",
+    "within_the_hull": "need not, held by the cloth on both sides: no corner of the convex hull",
 }
-"""Reasons in words, those for corners that must be held first."""
+"""Each `planner.explain.vertex_check.Support` in words, those for corners that must be held first."""
 
 _WHY = (
     '"Above" leads away from the fold line: so the part hangs while it is folded. A corner of its convex hull must be '
@@ -111,7 +109,7 @@ def comparison_table(found: Sequence[Comparison]) -> Table:
     table.add_column("why not, and what it would take")
     for one in found:
         folds, plan = one.plan.garment.folds, one.plan
-        causes = sorted(plan.reasons, key=lambda reason: reason.code is Code.WAITS_FOR_FOLD)
+        causes = sorted(plan.reasons, key=lambda reason: reason.code == "waits_for_fold")
         told = [sentence(reason.says, folds, reason.fold) for reason in causes[:1]]
         if one.is_cut_short and not plan.is_solved:
             told.append(
@@ -148,7 +146,7 @@ def check_table(garment: Garment, report: GarmentCheck) -> Table:
 def _corners(fold: FoldCheck) -> Iterator[str]:
     """Yield the corners that must be held, then those that need not, each group with its reason."""
     for support, why in _SUPPORTS.items():
-        points = [vertex.point for vertex in fold.vertices if vertex.support is support]
+        points = [vertex.point for vertex in fold.vertices if vertex.support == support]
         if points:
             yield f"{_points(points)}: {why}"
 

@@ -15,7 +15,8 @@ import numpy as np
 from bench.report import Report, Row, count
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.robots.chain import Chain, tool_poses
-from planner.robots.described_robot import DescribedArm, read_robot, shipped_robots
+from planner.robots.described_robot import DescribedArm, read_robot
+from planner.robots.known_robots import shipped_robots
 from planner.robots.mapped_arm import ALL_ROUND, MappedArm, heights
 from planner.robots.newton import solve_from
 from planner.robots.reach_maps import build_map, grid_of

@@ -22,7 +22,7 @@ from planner.planning.budget import Budget
 from planner.planning.problem import forget_garments
 from planner.planning.robot_task import task_for
 from planner.planning.warm_up import compile_kernels
-from planner.robots.described_robot import shipped_robots
+from planner.robots.known_robots import shipped_robots
 from planner.robots.load_robot import load_robot
 from planner.task.task import DEFAULT_ROBOT
 

@@ -15,7 +15,7 @@ from platformdirs import user_cache_path
 
 from planner.user_cache import use
 
-_IS_KERNEL = re.compile(r"^from numba import", re.MULTILINE)
+_IS_KERNEL = re.compile(r"^from planner.kernels import", re.MULTILINE)
 """The mark of a module that has kernels."""
 
 _IMPORTED = re.compile(r"^from (planner[\w.]*) import", re.MULTILINE)

@@ -11,7 +11,16 @@ import pytest
 ROOT = Path(__file__).parent.parent
 
 # Modules of planner that stand outside the rooms and that every room but search may use.
-GROUND = frozenset({"planner.errors", "planner.message", "planner.strict_model", "planner.json_form", "planner.weakly"})
+GROUND = frozenset(
+    {
+        "planner.errors",
+        "planner.message",
+        "planner.strict_model",
+        "planner.json_form",
+        "planner.kernels",
+        "planner.weakly",
+    }
+)
 
 _ROOMS_BELOW_MOTION = ("geometry", "words", "cloth", "folds", "task", "primitives", "robots")
 BELOW_MOTION = GROUND | {f"planner.{room}" for room in _ROOMS_BELOW_MOTION}
@@ -20,6 +29,7 @@ BELOW_MOTION = GROUND | {f"planner.{room}" for room in _ROOMS_BELOW_MOTION}
 MAY_SEE: Mapping[str, frozenset[str]] = {
     "planner.message": frozenset(),
     "planner.weakly": frozenset(),
+    "planner.kernels": frozenset(),
     "planner.user_cache": frozenset(),
     "planner.kernel_cache": frozenset({"planner.user_cache"}),
     "planner.errors": frozenset({"planner.message"}),
@@ -45,7 +55,7 @@ LIBRARY_HOMES: Mapping[str, tuple[str, ...]] = {
     "networkx": ("planner.folds", "planner.primitives"),
     "pinocchio": ("planner.robots",),
     "coal": ("planner.robots",),
-    "numba": ("planner.robots", "planner.primitives", "planner.motion", "app.physics"),
+    "numba": ("planner.kernels", "planner.robots"),
     "yourdfpy": ("app.ui",),
     "trimesh": ("planner.robots", "app.ui"),
     "viser": ("app.ui",),

@@ -7,7 +7,7 @@ import pytest
 
 from planner import kernel_cache
 
-KERNEL = "from numba import njit\n\nfrom planner.units import STEP\n"
+KERNEL = "from planner.kernels import kernel\n\nfrom planner.units import STEP\n"
 
 
 @pytest.fixture

@@ -19,11 +19,10 @@ from app.api.problems import ProblemResponse
 from app.api.request_parsing import HasGarments, workspace_of
 from app.document_state import DocumentState
 from app.files.crease_reading import Creases
-from app.files.export import Export, UnavailableFileError
+from app.files.export import DEFAULT_RATE_HZ, RATES_HZ, Export, UnavailableFileError
 from app.files.exports import EXPORTS, find_export
 from app.files.import_errors import ImportedFileError, UnitsNeededError
 from app.files.import_file import ENDINGS, SCALES, Imported, largest
-from app.files.recording import DEFAULT_RATE_HZ, RATES_HZ
 from app.files.seam_allowance import Line
 from app.files.sketch_size import UNITS_M
 from app.templates.catalogue import find_template

@@ -25,8 +25,7 @@ from app.worker.template import LostProcessError
 from app.workspace import Workspace
 from planner.errors import RobotError
 from planner.robots.card_file import CardFile
-from planner.robots.described_robot import robot_entry, shipped_card
-from planner.robots.known_robots import card_of, robot_cards
+from planner.robots.known_robots import card_of, robot_cards, robot_entry, shipped_card
 from planner.task.task import DEFAULT_ROBOT
 
 router = APIRouter(prefix="/api/robots", tags=["robots"], route_class=DescribedRoute)

@@ -16,7 +16,7 @@ from app.api.problems import LookOnlyError, ProblemResponse, folding_problem
 from app.store.share_repository import ShareRepository
 from app.visitors_view import VisitorsView
 from planner.errors import FoldingError
-from planner.robots.described_robot import shipped_robots
+from planner.robots.known_robots import shipped_robots
 
 _TOKEN = "pleat.shared"
 """The key of the scope under which a request by a link has the link's token."""

@@ -7,13 +7,9 @@ import typer
 from rich.table import Table
 
 from app.cli.program import blaming, cli, failure, load_source, output, refusing
-from app.files.export import Export
+from app.files.export import DEFAULT_RATE_HZ, Export
 from app.files.exports import EXPORTS, find_export
 from app.files.folder_file import ZIP, unpack
-from app.files.recording import DEFAULT_RATE_HZ
-from app.files.slowed import SPEEDS, slowed
-from app.files.state_of_plan import state_of_garment, state_of_plan
-from planner import Garment, make_plan
 
 
 @cli.command()
@@ -43,6 +39,8 @@ def export(
     kind = find_export(to)
     if kind is None:
         raise failure(f"--to: expected one of {', '.join(one.what for one in EXPORTS)}; got {to!r}")
+    from app.files.slowed import SPEEDS
+
     if not SPEEDS[0] <= speed <= SPEEDS[1]:
         raise failure(f"--speed: expected {SPEEDS[0]:g} to {SPEEDS[1]:g}, got {speed:g}")
     data, name = _made(kind, source, rate_hz, speed)
@@ -57,6 +55,10 @@ def export(
 
 def _made(kind: Export, source: str, rate_hz: float, speed: float) -> tuple[bytes, str]:
     """Return a file's content and its default name."""
+    from app.files.slowed import slowed
+    from app.files.state_of_plan import state_of_garment, state_of_plan
+    from planner import Garment, make_plan
+
     found = load_source(source)
     with blaming(source):
         if isinstance(found, Garment) and not kind.needs_plan:

@@ -8,8 +8,7 @@ from rich.progress import Progress
 
 from app.cli.program import STANDARD_OUTPUT, DataOption, JsonOption, blaming, cli, errors, output, write_json
 from app.tables import robot_check_table, robots_table
-from planner.robots.described_robot import read_robot, robot_entry
-from planner.robots.known_robots import robot_cards
+from planner.robots.known_robots import robot_cards, robot_entry
 
 robot = typer.Typer(help="Look at the card of a robot.", no_args_is_help=True)
 cli.add_typer(robot, name="robot")
@@ -37,6 +36,7 @@ def check(
     where the arms can go, which takes up to half a minute an arm.
     """
     from app.robot_warnings import warnings_of
+    from planner.robots.described_robot import read_robot
     from planner.robots.table_reach import table_reach
     from planner.robots.tool_point import tool_points
 

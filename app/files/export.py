@@ -1,18 +1,27 @@
 """A kind of file that a document is exported as, when it is available, and what it is made from."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from app.document_state import DocumentState
-from app.drawing.solve import garment_of
-from app.jobs.job_pool import ShouldStop
-from planner.cloth.garment import Garment
 from planner.errors import FoldingError, GarmentError
 from planner.message import Message
-from planner.task.plan import Plan
 
-Make = Callable[[DocumentState, float, ShouldStop], bytes]
+if TYPE_CHECKING:
+    from app.document_state import DocumentState
+    from app.jobs.job_pool import ShouldStop
+    from planner.cloth.garment import Garment
+    from planner.task.plan import Plan
+
+RATES_HZ = (1.0, 30.0)
+"""Range of the frame rate of a recording (Hz)."""
+
+DEFAULT_RATE_HZ = 10.0
+"""Frame rate where none is given (Hz)."""
+
+Make = Callable[["DocumentState", float, "ShouldStop"], bytes]
 """Makes a file from a document's state and a frame rate (Hz), unless it should stop."""
 
 
@@ -121,6 +130,8 @@ def no_plan(state: DocumentState) -> Message | None:
 
 def as_drawn(state: DocumentState) -> Garment:
     """Return the garment with its folds as drawn, legal or not; raise `GarmentError` without a valid outline."""
+    from app.drawing.solve import garment_of
+
     return state.solution.garment or garment_of(state.solution.drawing)
 
 

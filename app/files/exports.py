@@ -1,22 +1,18 @@
 """All exports of a document: the kinds of file, and how each is made.
 
-What needs a library that takes long to load imports it when the file is made: no command but `export` should wait for
-that.
+How a file is made is imported when it is made: a list of the kinds takes none of it.
 """
 
-import json
-from typing import Any
+from __future__ import annotations
 
-from app.document_state import DocumentState
+import json
+from typing import TYPE_CHECKING, Any
+
 from app.files.export import Export, as_drawn, garment_in, no_answer, no_outline, no_plan, not_legal, plan_in
-from app.files.fold_format import fold_format
-from app.files.grasp_poses import poses_json, poses_yaml
-from app.files.instruction_sheet import instruction_sheet
-from app.files.plan_table import plan_table
-from app.files.recording import recording
-from app.files.sheet_svg import page_svg
-from app.files.svg_drawing import svg_drawing
-from app.jobs.job_pool import ShouldStop
+
+if TYPE_CHECKING:
+    from app.document_state import DocumentState
+    from app.jobs.job_pool import ShouldStop
 
 
 def find_export(what: str) -> Export | None:
@@ -33,10 +29,14 @@ def _garment_json(state: DocumentState, _: float, __: ShouldStop) -> bytes:
 
 
 def _garment_svg(state: DocumentState, _: float, __: ShouldStop) -> bytes:
+    from app.files.svg_drawing import svg_drawing
+
     return svg_drawing(as_drawn(state), state.drawing.outline).encode("utf-8", "replace")
 
 
 def _garment_fold(state: DocumentState, _: float, should_stop: ShouldStop) -> bytes:
+    from app.files.fold_format import fold_format
+
     return _json(fold_format(garment_in(state), state.solution.cloths, should_stop))
 
 
@@ -45,17 +45,41 @@ def _plan_json(state: DocumentState, _: float, __: ShouldStop) -> bytes:
 
 
 def _plan_csv(state: DocumentState, _: float, __: ShouldStop) -> bytes:
+    from app.files.plan_table import plan_table
+
     return plan_table(plan_in(state)).encode("utf-8", "replace")
 
 
 def _recording(state: DocumentState, rate_hz: float, should_stop: ShouldStop) -> bytes:
+    from app.files.recording import recording
+
     return recording(plan_in(state), rate_hz, should_stop, is_dark=state.is_dark)
 
 
 def _sheet_pdf(state: DocumentState, _: float, __: ShouldStop) -> bytes:
+    from app.files.instruction_sheet import instruction_sheet
     from app.files.sheet_pdf import page_pdf
 
     return page_pdf(instruction_sheet(plan_in(state), state.language))
+
+
+def _sheet_svg(state: DocumentState, _: float, __: ShouldStop) -> bytes:
+    from app.files.instruction_sheet import instruction_sheet
+    from app.files.sheet_svg import page_svg
+
+    return page_svg(instruction_sheet(plan_in(state), state.language))
+
+
+def _poses_json(state: DocumentState, _: float, __: ShouldStop) -> bytes:
+    from app.files.grasp_poses import poses_json
+
+    return poses_json(plan_in(state))
+
+
+def _poses_yaml(state: DocumentState, _: float, __: ShouldStop) -> bytes:
+    from app.files.grasp_poses import poses_yaml
+
+    return poses_yaml(plan_in(state))
 
 
 def _mcap(state: DocumentState, _: float, __: ShouldStop) -> bytes:
@@ -144,7 +168,7 @@ EXPORTS = (
         "-steps.svg",
         "image/svg+xml",
         no_plan,
-        lambda state, *_: page_svg(instruction_sheet(plan_in(state), state.language)),
+        _sheet_svg,
     ),
     Export(
         "recording.html",
@@ -181,7 +205,7 @@ EXPORTS = (
         "-poses.json",
         "application/json",
         no_plan,
-        lambda state, *_: poses_json(plan_in(state)),
+        _poses_json,
     ),
     Export(
         "poses.yaml",
@@ -190,7 +214,7 @@ EXPORTS = (
         "-poses.yaml",
         "application/yaml",
         no_plan,
-        lambda state, *_: poses_yaml(plan_in(state)),
+        _poses_yaml,
     ),
     Export(
         "glb",

@@ -14,12 +14,6 @@ from planner.motion.timeline import Timeline
 from planner.robots.load_robot import load_robot
 from planner.task.plan import Plan
 
-RATES_HZ = (1.0, 30.0)
-"""Range of frame rates (Hz)."""
-
-DEFAULT_RATE_HZ = 10.0
-"""Default frame rate (Hz)."""
-
 HOLD_S = 1.0
 """Time that the last frame stays before the player starts again (s)."""
 
@@ -31,7 +25,7 @@ def recording(plan: Plan, rate_hz: float, should_stop: ShouldStop, *, is_dark: b
 
     Args:
         plan: the plan.
-        rate_hz: the frame rate, within `RATES_HZ`.
+        rate_hz: the frame rate, within `app.files.export.RATES_HZ`.
         should_stop: called before each frame.
         is_dark: whether the background is dark.
 

@@ -11,7 +11,7 @@ from app.jobs.job_kind import JobKind, Progress, Stores
 from app.searches import read_archive
 from planner.json_form import STRICT
 from planner.robots.card_file import CardFile
-from planner.robots.described_robot import robot_entry
+from planner.robots.known_robots import robot_entry
 from planner.robots.load_robot import prepare_robot
 from planner.robots.own_robots import CARD
 

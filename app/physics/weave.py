@@ -9,11 +9,11 @@ lengths of a triangle's edges have grown, and so is that of threads, with other 
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from app.physics.fabric import Fabric
 from planner.geometry.pose import FloatArray
+from planner.kernels import kernel
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -62,7 +62,7 @@ class Weave:
         return found
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _stiffness(
     positions: FloatArray,
     triangles: NDArray[np.int64],

@@ -24,7 +24,7 @@ from app.store.schema import RobotRow
 from app.store.storage_error import storing
 from planner.errors import ReadOnlyRobotError, UnknownRobotError
 from planner.robots.card_file import CardFile
-from planner.robots.described_robot import shipped_robots
+from planner.robots.known_robots import shipped_robots
 from planner.robots.own_robots import CARD
 
 _BEFORE, _NEW = ".before-", ".new-"

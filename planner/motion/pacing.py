@@ -40,9 +40,9 @@ def paced_s(nominal_s: FloatArray, least_s: FloatArray, rest_s: float = 0.0) -> 
     if float(least_s.sum()) >= total:
         return least_s
 
-    def excess(pace: float) -> float:
-        return float(np.maximum(least_s, pace * nominal_s).sum()) - total
-
-    from scipy.optimize import brentq  # slow to import, and seldom needed
-
-    return np.asarray(np.maximum(least_s, brentq(excess, 0.0, 1.0) * nominal_s))
+    # As the pace falls, steps come to their least in the order of these: the first pace that frees the rest is it.
+    borders = np.divide(least_s, nominal_s, out=np.full(len(least_s), np.inf), where=nominal_s > 0.0)
+    order = np.argsort(-borders)
+    free_s = np.cumsum(nominal_s[order][::-1])[::-1]
+    paces = (total - np.append(0.0, np.cumsum(least_s[order])[:-1])) / free_s
+    return np.asarray(np.maximum(least_s, paces[np.argmax(paces >= borders[order])] * nominal_s))

@@ -1,10 +1,10 @@
 """The time from one keyframe of a path to the next, compiled; see `planner.motion.path_timing`."""
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from planner.geometry.pose import FloatArray
+from planner.kernels import kernel
 
 EXCESS = 1.02
 """The greatest acceleration as a share of its limit: the planned time of a drive is that of an exact ramp."""
@@ -16,7 +16,7 @@ _HALVINGS = 24
 """Halvings of an interval's time in which the least is sought."""
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def gap_s(
     at: FloatArray,
     values: FloatArray,
@@ -37,7 +37,7 @@ def gap_s(
     return float(least_s)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def excess(
     start: FloatArray,
     end: FloatArray,
@@ -68,7 +68,7 @@ def excess(
     return float(worst)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def shorten(
     values: FloatArray,
     velocities: FloatArray,

@@ -1,15 +1,15 @@
 """The greatest pace at which each keyframe of a path can be passed, compiled; see `planner.motion.path_timing`."""
 
 import numpy as np
-from numba import njit
 
 from planner.geometry.pose import BoolArray, FloatArray
+from planner.kernels import kernel
 
 _LEAST = 1e-12
 """A slope, or a bend, that is none."""
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def slopes(at: FloatArray, values: FloatArray, is_rest: BoolArray) -> tuple[FloatArray, FloatArray]:
     """Return the monotone slopes of Fritsch and Carlson at both ends of each interval, as weighted harmonic means.
 
@@ -35,7 +35,7 @@ def slopes(at: FloatArray, values: FloatArray, is_rest: BoolArray) -> tuple[Floa
     return starts, ends
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _bends(slope: float, start: float, end: float, width: float) -> tuple[float, float, float]:
     """Return a cubic's second derivatives at both ends, and the size of its steepest slope.
 
@@ -52,7 +52,7 @@ def _bends(slope: float, start: float, end: float, width: float) -> tuple[float,
     return first, last, steepest
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def quickest_paces(
     at: FloatArray,
     values: FloatArray,
@@ -85,7 +85,7 @@ def quickest_paces(
     return np.sqrt(squares)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _gain(
     square: float,
     near: FloatArray,
@@ -103,7 +103,7 @@ def _gain(
     return max(gain, 0.0)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _room(slope: float, bent: float, acceleration: float, width: float) -> float:
     """Return by how much a pace's square may grow where a joint accelerates by `bent` for the path's bend already.
 

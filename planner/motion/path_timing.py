@@ -22,10 +22,10 @@ as long (9 ms for a fold of the T-shirt); a search times every transfer that it 
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from planner.geometry.pose import BoolArray, FloatArray
+from planner.kernels import kernel
 from planner.motion.path_intervals import EXCESS, excess, gap_s, shorten
 from planner.motion.path_paces import quickest_paces, slopes
 
@@ -108,7 +108,7 @@ def quickest(values: FloatArray, at: FloatArray, limits: tuple[FloatArray, Float
     return timed(at, values, ends, np.zeros(len(at), dtype=np.int64), np.zeros(1), limits)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _timed(
     at: FloatArray,
     values: FloatArray,
@@ -145,7 +145,7 @@ def _timed(
     return gaps, velocities
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _even(
     at: FloatArray,
     values: FloatArray,

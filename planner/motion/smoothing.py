@@ -5,10 +5,10 @@ times over, which is a narrow Gaussian filter; the ends stay.
 """
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from planner.geometry.pose import BoolArray, FloatArray
+from planner.kernels import kernel
 
 
 def smoothed(joints: FloatArray, passes: int, may_move: BoolArray | None = None) -> FloatArray:
@@ -26,7 +26,7 @@ def smoothed(joints: FloatArray, passes: int, may_move: BoolArray | None = None)
     return found
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _smooth(joints: FloatArray, rows: NDArray[np.int64], passes: int) -> None:
     """Smooth some rows in place, as often as wanted; compiled, because late hands have many paths smoothed."""
     before = np.empty_like(joints)

@@ -6,13 +6,13 @@ waypoint, with the hands at rest, if the mask contains every standoff on the way
 """
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from planner.geometry.driving import IMPOSSIBLE
+from planner.kernels import kernel
 
 
-@njit(cache=True)
+@kernel
 def _relax(steps: NDArray[np.int64], mask: int, count: int) -> None:
     """Relax the steps by driving to and fro within the mask at one waypoint."""
     for j in range(count):
@@ -25,7 +25,7 @@ def _relax(steps: NDArray[np.int64], mask: int, count: int) -> None:
             steps[j] = steps[j + 1] + 1
 
 
-@njit(cache=True)
+@kernel
 def travel(strips: NDArray[np.uint32], count: int) -> NDArray[np.int64]:
     """Return the least travel along a path, for each of several strips and each pair of standoffs.
 

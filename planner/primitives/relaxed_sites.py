@@ -8,11 +8,11 @@ outside: there the bound assumes that nothing is left to do. The functions are c
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from planner.geometry.driving import IMPOSSIBLE
 from planner.geometry.pose import BoolArray, FloatArray
+from planner.kernels import kernel
 
 OUTSIDE, NOWHERE = -1, -2
 """Markers in place of a site's number: beyond the horizon; no such site."""
@@ -45,7 +45,7 @@ class Sites(NamedTuple):
     per_drag: int
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def to_go(sites: Sites, served: NDArray[np.int64], is_served: BoolArray) -> FloatArray:
     """Return the least time to visit places from which some folds can be done, their arm motions not counted.
 
@@ -75,7 +75,7 @@ def to_go(sites: Sites, served: NDArray[np.int64], is_served: BoolArray) -> Floa
     return found
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _serve(
     sites: Sites,
     here: FloatArray,
@@ -96,7 +96,7 @@ def _serve(
             here[HELD, site, start] = min(here[HELD, site, start], after[FREE, site, start])
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _relax(sites: Sites, here: FloatArray, site: int) -> bool:
     """Look for shorter ways from a site, and return whether there were any."""
     standoffs, has_changed = here.shape[2], False

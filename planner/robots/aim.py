@@ -6,8 +6,7 @@ Everything is seen from the left arm's shoulder (m), parallel to the base, as in
 import math
 from typing import NamedTuple
 
-from numba import njit
-
+from planner.kernels import fast_kernel
 from planner.robots.arm import ArmShape
 
 
@@ -22,13 +21,13 @@ class ToolPose(NamedTuple):
     az: float
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+@fast_kernel
 def aim_at(shape: ArmShape, x: float, y: float, z: float, ax: float, ay: float, az: float) -> ToolPose:
     """Return the tool pose that brings the tool to (x, y, z) along the axis (ax, ay, az)."""
     return ToolPose(x - shape.tool * ax, y - shape.tool * ay, z - shape.tool * az, ax, ay, az)
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+@fast_kernel
 def beside(aim: ToolPose, radius: float, number: int) -> ToolPose:
     """Return the tool pose itself (0), or one beside it on a circle: ahead, back, left or right (1 to 4)."""
     dx = radius if number == 1 else -radius if number == 2 else 0.0
@@ -36,7 +35,7 @@ def beside(aim: ToolPose, radius: float, number: int) -> ToolPose:
     return ToolPose(aim.x + dx, aim.y + dy, aim.z, aim.ax, aim.ay, aim.az)
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+@fast_kernel
 def is_within_length(shape: ArmShape, aim: ToolPose) -> bool:
     """Return whether the wrist is no further from the lift axis than the arm is long, ignoring joint limits."""
     outward = math.hypot(aim.x, aim.y) - shape.offset
@@ -44,7 +43,7 @@ def is_within_length(shape: ArmShape, aim: ToolPose) -> bool:
     return outward * outward + aim.z * aim.z <= length * length
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+@fast_kernel
 def is_within_height(shape: ArmShape, aim: ToolPose) -> bool:
     """Return whether the wrist's height is within what elbow and forearm allow; an approximate test."""
     highest = shape.fore - shape.upper * shape.lift.sin_low

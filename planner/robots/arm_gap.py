@@ -14,15 +14,15 @@ Points are seen from the left arm's shoulder (m), parallel to the base.
 import math
 
 import numpy as np
-from numba import njit
 
 from planner.geometry.pose import FloatArray
+from planner.kernels import kernel
 from planner.robots.aim import ToolPose, aim_at
 from planner.robots.arm import ArmShape
 from planner.robots.joint_slack import slack_within
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def gap(shape: ArmShape, x: float, y: float, z: float) -> float:
     """Return the least distance by which a wrist is out of reach (m); 0 or less where the bound excludes nothing.
 
@@ -42,7 +42,7 @@ def gap(shape: ArmShape, x: float, y: float, z: float) -> float:
     return max(from_elbow - shape.fore, math.sqrt(bent_2) - math.sqrt(from_lift_2))
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _from_elbow(shape: ArmShape, outward: float, across: float, z: float) -> float:
     """Return the distance of a wrist from the elbow's arc at one pan (m).
 
@@ -58,7 +58,7 @@ def _from_elbow(shape: ArmShape, outward: float, across: float, z: float) -> flo
     return math.hypot(min(raised, lowered), across)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def comfort_gap(shape: ArmShape, aim: ToolPose, comfort: float) -> float:
     """Return the largest gap of a tool pose and the four on the circle of radius `comfort` round it (m)."""
     worst = gap(shape, aim.x, aim.y, aim.z)
@@ -68,7 +68,7 @@ def comfort_gap(shape: ArmShape, aim: ToolPose, comfort: float) -> float:
     return worst
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def least_gaps(
     shape: ArmShape, ways: FloatArray, axes: FloatArray, standoffs: int, step: float, comfort: float
 ) -> FloatArray:
@@ -97,7 +97,7 @@ def least_gaps(
     return gaps
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _least_gap(
     shape: ArmShape, point: FloatArray, axis: FloatArray, standoffs: int, step: float, comfort: float
 ) -> float:

@@ -7,10 +7,11 @@ An arm comes to the compiled queries as its numbers: of a closed form (`closed_c
 from typing import Any, TypeAlias
 
 import numpy as np
-from numba import njit, types
+from numba import types
 from numba.extending import overload
 
 from planner.geometry.pose import FloatArray
+from planner.kernels import kernel
 from planner.robots.closed_comfort import (
     ClosedQuery,
     closed_in_height,
@@ -75,7 +76,7 @@ def _is_mapped(kind: types.Type) -> bool:
     return getattr(kind, "instance_class", None) in (MappedArms, MappedQuery)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _arcs() -> FloatArray:
     return np.empty((MOST_ARCS, 2))
 

@@ -8,9 +8,9 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from planner.geometry.pose import BoolArray, FloatArray
+from planner.kernels import fast_inlined, kernel
 
 PITCH, AXIS, WHOLE = 4, 5, 6
 """Rows of a pose: position and pitch, position and approach axis, position and rotation."""
@@ -78,7 +78,7 @@ def length_of(chain: Chain) -> float:
     return float(np.linalg.norm(chain.offsets[1:], axis=1).sum() + np.linalg.norm(chain.tool_offset)) + sliding
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def scratch_for(joints: int) -> Scratch:
     """Return working memory for an arm of some joints."""
     return Scratch(
@@ -95,7 +95,7 @@ def scratch_for(joints: int) -> Scratch:
     )
 
 
-@njit(cache=True, nogil=True, inline="always", error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+@fast_inlined
 def forward(chain: Chain, joints: FloatArray, scratch: Scratch) -> None:
     """Set the axes and places of all joints, and the tool's frame and point, at joint values.
 
@@ -139,7 +139,7 @@ def forward(chain: Chain, joints: FloatArray, scratch: Scratch) -> None:
         frame[2, k] = r20 * tool[0, k] + r21 * tool[1, k] + r22 * tool[2, k]
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def tool_poses(chain: Chain, joints: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return the tool's positions, shape (m, 3), and rotations, shape (m, 3, 3), at rows of joints, shape (m, n)."""
     scratch = scratch_for(joints.shape[1])

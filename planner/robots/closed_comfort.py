@@ -5,10 +5,9 @@ A place also counts only if the body leaves the arm room there (see `planner.rob
 
 from typing import NamedTuple
 
-from numba import njit
-
 from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import LENGTH_M
+from planner.kernels import kernel
 from planner.robots.aim import ToolPose, aim_at, beside, is_within_height, is_within_length
 from planner.robots.arm import ArmShape
 from planner.robots.joint_slack import ring_slack
@@ -37,7 +36,7 @@ class ClosedQuery(NamedTuple):
     step: int
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def closed_query(
     numbers: FloatArray, shoulder: FloatArray, axes: FloatArray, label: int, comfort: float, step: int
 ) -> ClosedQuery:
@@ -51,7 +50,7 @@ def closed_query(
     return ClosedQuery(shape_of(numbers), rest, axis, label, comfort, step)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def aim_from(ask: ClosedQuery, place: Place, standoff: int) -> ToolPose:
     """Return the tool pose at a place with the base at a standoff."""
     x, rest, axis = place.x + standoff * ask.step, ask.rest, ask.axis
@@ -59,20 +58,20 @@ def aim_from(ask: ClosedQuery, place: Place, standoff: int) -> ToolPose:
     return aim_at(ask.shape, ahead, left, up, axis[0], axis[1], axis[2])
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def closed_in_height(ask: ClosedQuery, place: Place) -> bool:
     """Return whether a place's height is one that the arm can have; an approximate test."""
     return is_within_height(ask.shape, aim_from(ask, place, 0))
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def closed_in_length(ask: ClosedQuery, place: Place, standoff: int) -> bool:
     """Return whether the arm is long enough for a place, ignoring most limits."""
     aim = aim_from(ask, place, standoff)
     return is_within_length(ask.shape, aim) and is_within_height(ask.shape, aim)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def closed_within_margin(
     ask: ClosedQuery, hints: FloatArray, room: Room, arcs: FloatArray, place: Place, standoff: int
 ) -> bool:
@@ -84,7 +83,7 @@ def closed_within_margin(
     return answer
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def is_comfortable(
     shape: ArmShape, aim: ToolPose, comfort: float, arcs: FloatArray, hint: FloatArray
 ) -> tuple[bool, int]:

@@ -7,9 +7,9 @@ arcs of pans. As in the kernel the arm is a left arm and poses are in its should
 import math
 
 import numpy as np
-from numba import njit
 
 from planner.geometry.pose import BoolArray, FloatArray
+from planner.kernels import kernel
 from planner.robots.aim import aim_at
 from planner.robots.arm import ArmShape
 from planner.robots.inverse_kinematics import nearby_joints, place_wrist, turn_hand
@@ -28,7 +28,7 @@ _MEET = 0.4
 """Value of cos(roll) below which the elbow's branches nearly meet, and pan hardly determines the other joints."""
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def solutions(
     shape: ArmShape, positions: FloatArray, rotations: FloatArray, floor: float
 ) -> tuple[FloatArray, FloatArray]:
@@ -76,7 +76,7 @@ def solutions(
     return joints, costs
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _sample_cost(shape: ArmShape, joints: FloatArray, slack: float, floor: float) -> float:
     pan_slack = min(joints[0] - shape.pan.low, shape.pan.high - joints[0])
     tight = max(1.0 - min(slack, pan_slack) / NEAR_LIMIT, 0.0)
@@ -86,7 +86,7 @@ def _sample_cost(shape: ArmShape, joints: FloatArray, slack: float, floor: float
     return cost
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def filled(
     shape: ArmShape, positions: FloatArray, rotations: FloatArray, guides: FloatArray
 ) -> tuple[FloatArray, BoolArray]:

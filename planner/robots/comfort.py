@@ -16,10 +16,10 @@ Whether a place is within the radius is told by the arm (see `planner.robots.arm
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from planner.geometry.pose import FloatArray
+from planner.kernels import inlined, kernel
 from planner.robots.arm_query import ArmQuery, Space, is_in_length, is_within_margin
 from planner.robots.place import Place
 from planner.robots.posture_room import Room
@@ -82,7 +82,7 @@ def no_hints() -> FloatArray:
     return np.tile((0.5, 1.0), (64, 1))
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def row_slot(label: int, step: int, keys: NDArray[np.int64], counts: NDArray[np.int64], place: Place) -> int:
     """Return the slot in the memory of the row of a place; begin the row if there is none yet.
 
@@ -106,13 +106,13 @@ def row_slot(label: int, step: int, keys: NDArray[np.int64], counts: NDArray[np.
     return slot
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def cell_of(x: int) -> int:
     """Return the cell of a place in its row from its x; it may lie beyond the row's ends."""
     return x // ROW_STEP + ROW_CELLS // 2
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def cells_of(x: int, count: int) -> int:
     """Return the bits of `count` cells of a row, the first at the place's x; none for cells beyond its ends."""
     first = max(cell_of(x), 0)
@@ -120,19 +120,19 @@ def cells_of(x: int, count: int) -> int:
     return ((1 << max(after - first, 0)) - 1) << min(first, ROW_CELLS)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def from_cell(bits: int, cell: int) -> int:
     """Return the bits of a row from a cell on: one for each standoff by the row's step."""
     return bits >> min(cell, 63) if cell >= 0 else bits << min(-cell, 63)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def to_cell(bits: int, cell: int) -> int:
     """Return the bits of a row's cells for bits of standoffs by its step, the first of which is at a cell."""
     return (bits << min(cell, ROW_CELLS) if cell >= 0 else bits >> min(-cell, 63)) & ((1 << ROW_CELLS) - 1)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def recall(bits: NDArray[np.int64], counts: NDArray[np.int64], slot: int, cells: int, comfort: float) -> None:
     """Let this plan know what others have found out about cells of a row, and charge it for that.
 
@@ -152,7 +152,7 @@ def recall(bits: NDArray[np.int64], counts: NDArray[np.int64], slot: int, cells:
     counts[QUERIES] += NO * _count_of(tested & ~good) + (YES if comfort > 0.0 else NO) * _count_of(good)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _count_of(bits: int) -> int:
     count = 0
     while bits:
@@ -161,7 +161,7 @@ def _count_of(bits: int) -> int:
     return count
 
 
-@njit(cache=True, nogil=True, inline="always")
+@inlined
 def is_comfortable_at(
     ask: ArmQuery, memory: Memory, room: Room, space: Space, slot: int, place: Place, standoff: int
 ) -> bool:

@@ -1,30 +1,24 @@
 """A robot read from its card: its kinematic tree, and each of its arms as a chain."""
 
-import json
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pinocchio as pin
 
-from planner.errors import FieldError, RobotError, UnknownRobotError
+from planner.errors import FieldError, RobotError
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.robots.card_file import ArmFile, CardFile
 from planner.robots.card_joints import check_joints, mimicking, moving_joint
 from planner.robots.card_parts import ToolFile
 from planner.robots.chain import Chain, length_of
 from planner.robots.chain_reader import read_chain
+from planner.robots.known_robots import read_card, shipped_path, shipped_robots
 from planner.robots.own_robots import own_card, own_robots
 from planner.robots.soft_limits import keep_soft_limits
 from planner.robots.urdf_composing import composed_urdf
 from planner.robots.urdf_reader import parsed
-
-_CARDS = Path(__file__).parent / "cards"
-
-CARD_BYTES_MAX = 1_000_000
-"""A larger file is no card."""
 
 REACH_MAX_M = 10.0
 """Arms that are longer, sliding joints included, are refused: their maps would be coarse."""
@@ -99,39 +93,6 @@ class DescribedRobot:
         return DescribedRobot(card, urdf, tuple(arms), limits)
 
 
-@cache
-def shipped_robots() -> tuple[str, ...]:
-    """Return the names of the robots that are shipped, in alphabetical order.
-
-    Remembered: each message about a document looks up its robot, and to list a folder lets go of the interpreter a
-    dozen times, each of which waits for a search in another thread.
-    """
-    return tuple(sorted(path.stem for path in _CARDS.glob("*.json")))
-
-
-def shipped_card(name: str) -> CardFile:
-    """Return the card of a shipped robot, without a look at its URDF; raise `UnknownRobotError` if there is none."""
-    if name not in shipped_robots():
-        raise UnknownRobotError(name)
-    return read_card(shipped_path(name))
-
-
-def shipped_path(name: str) -> Path:
-    """Return the file of a shipped robot's card."""
-    return _CARDS / f"{name}.json"
-
-
-def robot_entry(card: CardFile) -> dict[str, Any]:
-    """Return a robot's entry in a list of robots, as JSON."""
-    return {
-        "name": card.name,
-        "title": card.title,
-        "arms": [arm.name for arm in card.arms],
-        "base": card.base.kind,
-        "shipped": card.name in shipped_robots(),
-    }
-
-
 def read_robot(name_or_path: str) -> DescribedRobot:
     """Return a robot by its name, shipped or one's own, or by the path of its card.
 
@@ -157,21 +118,6 @@ def _shipped(name: str) -> DescribedRobot:
 def read_described(path: Path) -> DescribedRobot:
     """Return the robot of a card's file; raises `RobotError`."""
     return DescribedRobot.of(read_card(path), path.parent)
-
-
-def read_card(path: Path) -> CardFile:
-    """Return the card in a file; raises `RobotError`."""
-    try:
-        if path.stat().st_size > CARD_BYTES_MAX:
-            raise RobotError("", f"{path.name} is larger than {CARD_BYTES_MAX // 1000} kB")
-        data = json.loads(path.read_text(encoding="utf-8"))
-    except RobotError:
-        raise
-    except OSError as error:
-        raise RobotError("", f"{path.name} cannot be read: {error.strerror}") from None
-    except (ValueError, RecursionError) as error:
-        raise RobotError("", f"{path.name} cannot be read as JSON: {error}") from None
-    return CardFile.from_dict(data)
 
 
 def _arm(model: pin.Model, card: CardFile, arm: ArmFile) -> DescribedArm:

@@ -17,16 +17,16 @@ searches for the shortest way through each combination. Nearly all of that work 
 """
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from planner.geometry.driving import IMPOSSIBLE
+from planner.kernels import kernel
 from planner.robots.arm_query import Space, space_for
 from planner.robots.driving_incumbents import EVERY, UNBEATEN, Incumbents, least_steps, no_incumbents, tell_useful
 from planner.robots.driving_task import DrivingTask, ask_each, at_extremes, recalled, remembered
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _follow(
     task: DrivingTask, space: Space, chosen: NDArray[np.int64], best: Incumbents, answer: NDArray[np.int64]
 ) -> bool:
@@ -65,7 +65,7 @@ def _follow(
     return bool(best.useful[-1] != 0)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def least_driving(task: DrivingTask, begun: NDArray[np.int64], most: int, wanted: int) -> tuple[NDArray[np.int64], int]:
     """Return the least total steps of driving for each standoff at which the base may stand in the end.
 
@@ -105,7 +105,7 @@ def least_driving(task: DrivingTask, begun: NDArray[np.int64], most: int, wanted
     return answer, more
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _choices(
     masks: NDArray[np.int64], best: Incumbents
 ) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
@@ -138,7 +138,7 @@ def _choices(
     return choices, shared, bounds
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _of_first_hand(masks: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Return the choices of the first hand's approach alone, and the standoffs within its reach."""
     able = np.flatnonzero(masks[0, :, 0])
@@ -148,7 +148,7 @@ def _of_first_hand(masks: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray
     return choices, shared
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _settle(task: DrivingTask, space: Space, begun: NDArray[np.int64], wanted: int, answer: NDArray[np.int64]) -> None:
     """Remove ends that were beaten later on, and find where the base begins on the way to the others."""
     count = len(begun)
@@ -164,7 +164,7 @@ def _settle(task: DrivingTask, space: Space, begun: NDArray[np.int64], wanted: i
                 best = no_incumbents(alone, answer[0, end], EVERY)
                 best.possible[0] = 1 << end
                 tell_useful(best)
-                _follow(task, space, answer[2:, end], best, found)
+                _follow(task, space, answer[2:, end].copy(), best, found)
                 if best.ends[end] == answer[0, end]:
                     answer[1, end] = first
                     break

@@ -10,10 +10,10 @@ the search stops when they are empty.
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from planner.geometry.driving import IMPOSSIBLE
+from planner.kernels import kernel
 
 UNBEATEN, EVERY, ANY = range(3)
 """Values for the ends wanted, see `planner.geometry.driving.Wanted`."""
@@ -39,7 +39,7 @@ class Incumbents(NamedTuple):
     useful: NDArray[np.int64]
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def no_incumbents(begun: NDArray[np.int64], most: int, wanted: int) -> Incumbents:
     """Return the incumbents of a search that starts, with no end found, and considers at most `most` steps."""
     count = len(begun)
@@ -53,7 +53,7 @@ def no_incumbents(begun: NDArray[np.int64], most: int, wanted: int) -> Incumbent
     return best
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def tell_useful(best: Incumbents) -> None:
     """Update from where an end can still be improved.
 
@@ -75,7 +75,7 @@ def tell_useful(best: Incumbents) -> None:
     _sets(limits, best.useful)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def least_steps(begun: NDArray[np.int64], useful: NDArray[np.int64], begin: int, apex: int, end: int) -> int:
     """Return the least steps in which the base can be in three sets one after the other and still improve an end."""
     after_begin, after_apex = 0, 0
@@ -89,7 +89,7 @@ def least_steps(begun: NDArray[np.int64], useful: NDArray[np.int64], begin: int,
     return IMPOSSIBLE
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _sets(steps: NDArray[np.int64], sets: NDArray[np.int64]) -> None:
     """Set for each number of steps the standoffs that have larger entries in `steps`."""
     sets[:] = 0
@@ -98,7 +98,7 @@ def _sets(steps: NDArray[np.int64], sets: NDArray[np.int64]) -> None:
             sets[level] |= 1 << j
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _spread(steps: NDArray[np.int64]) -> None:
     """Let the base drive from every place with nothing in its way."""
     for j in range(1, len(steps)):

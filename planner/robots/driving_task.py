@@ -7,10 +7,10 @@ of them at once. Only what is not remembered is tested, place by place.
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from planner.geometry.pose import FloatArray
+from planner.kernels import kernel
 from planner.robots.arm_query import ArmNumbers, Space, query
 from planner.robots.comfort import (
     FORGETFUL,
@@ -67,7 +67,7 @@ class DrivingTask(NamedTuple):
     room: Room
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def ask_each(task: DrivingTask, space: Space, hand: int, approach: int, waypoint: int, wanted: int) -> int:
     """Return which of the wanted standoffs have one hand within the comfort radius, testing them one by one."""
     x, y, z = task.places[hand, waypoint]
@@ -91,7 +91,7 @@ def ask_each(task: DrivingTask, space: Space, hand: int, approach: int, waypoint
     return found
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def remembered(bits: NDArray[np.int64], slot: int, cell: int, wanted: int) -> int:
     """Return which wanted standoffs are within the comfort radius, if a row remembers all of them; else -1."""
     if slot < 0 or wanted & from_cell(_WHOLE_ROW, cell) & ~from_cell(bits[slot, KNOWN], cell):
@@ -99,7 +99,7 @@ def remembered(bits: NDArray[np.int64], slot: int, cell: int, wanted: int) -> in
     return wanted & from_cell(bits[slot, GOOD], cell)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def recalled(
     bits: NDArray[np.int64], counts: NDArray[np.int64], slot: int, cell: int, wanted: int, comfort: float
 ) -> int:
@@ -116,7 +116,7 @@ def recalled(
     return wanted & from_cell(bits[slot, GOOD], cell)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def at_extremes(task: DrivingTask, space: Space, hand: int, near: int) -> NDArray[np.int64]:
     """Return the near standoffs within the comfort radius at the beginning, apex and end of a hand's path.
 

@@ -7,9 +7,9 @@ import math
 from typing import TypeAlias
 
 import numpy as np
-from numba import njit
 
 from planner.geometry.pose import FloatArray
+from planner.kernels import kernel
 from planner.robots.arm import ArmShape
 
 Vector: TypeAlias = tuple[float, float, float]
@@ -19,7 +19,7 @@ Frame: TypeAlias = tuple[Vector, Vector, Vector]
 BASE_FRAME: Frame = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _turned(a: Vector, b: Vector, angle: float) -> tuple[Vector, Vector]:
     """Return two axes of a frame, the first turned towards the second by an angle (rad)."""
     cos, sin = math.cos(angle), math.sin(angle)
@@ -29,35 +29,35 @@ def _turned(a: Vector, b: Vector, angle: float) -> tuple[Vector, Vector]:
     )
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def about_x(frame: Frame, angle: float) -> Frame:
     """Return a frame turned about its x axis (rad)."""
     y, z = _turned(frame[1], frame[2], angle)
     return frame[0], y, z
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def about_y(frame: Frame, angle: float) -> Frame:
     """Return a frame turned about its y axis (rad)."""
     z, x = _turned(frame[2], frame[0], angle)
     return x, frame[1], z
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def about_z(frame: Frame, angle: float) -> Frame:
     """Return a frame turned about its z axis (rad)."""
     x, y = _turned(frame[0], frame[1], angle)
     return x, y, frame[2]
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def ahead(place: Vector, frame: Frame, length: float) -> Vector:
     """Return the place a length (m) further along a frame's x axis."""
     x = frame[0]
     return place[0] + length * x[0], place[1] + length * x[1], place[2] + length * x[2]
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _tool(shape: ArmShape, joints: FloatArray, row: int) -> tuple[Vector, Frame]:
     """Return the tool's position and frame at a row of joints."""
     frame = about_z(BASE_FRAME, joints[row, 0])
@@ -70,7 +70,7 @@ def _tool(shape: ArmShape, joints: FloatArray, row: int) -> tuple[Vector, Frame]
     return ahead(place, frame, shape.tool), frame
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def tool_pose(shape: ArmShape, joints: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return the tool's position, shape (3,), and rotation, shape (3, 3), at seven joint angles."""
     place, frame = _tool(shape, joints.reshape((1, 7)), 0)
@@ -81,7 +81,7 @@ def tool_pose(shape: ArmShape, joints: FloatArray) -> tuple[FloatArray, FloatArr
     return np.array(place), rotation
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def tool_places(shape: ArmShape, joints: FloatArray) -> FloatArray:
     """Return the tool's positions for rows of joints, shape (n, 7), seen from the shoulder (m), shape (n, 3)."""
     found = np.empty((len(joints), 3))

@@ -3,9 +3,9 @@
 import math
 
 import numpy as np
-from numba import njit
 
 from planner.geometry.pose import FloatArray
+from planner.kernels import kernel
 from planner.robots.chain import PITCH, Chain, Scratch, forward
 
 _ALONG = 0.999
@@ -15,13 +15,13 @@ _BLENDED = 2.0
 """The heading counts fully for the roll where the approach axis is less than acos(1/2), 60 degrees, steep."""
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def gives_roll(chain: Chain) -> bool:
     """Return whether the last joint turns the hand about its approach axis."""
     return not chain.is_prismatic[-1] and abs(chain.tool_rotation[2, 0]) >= _ALONG
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def turn_to_roll(chain: Chain, rotation: FloatArray, more: float, joints: FloatArray, scratch: Scratch) -> bool:
     """Set the last joint to the roll of a tool pose and an angle more; return whether its limits allow that.
 
@@ -38,7 +38,7 @@ def turn_to_roll(chain: Chain, rotation: FloatArray, more: float, joints: FloatA
     return bool(low <= wanted <= high)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def roll_left(rotation: FloatArray, with_heading: bool, frame: FloatArray) -> float:
     """Return by how much a hand must roll about its own approach axis to have the roll of a rotation (rad).
 
@@ -61,7 +61,7 @@ def roll_left(rotation: FloatArray, with_heading: bool, frame: FloatArray) -> fl
     return roll
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def roll_between(frame: FloatArray, closing: FloatArray) -> float:
     """Return the angle from a frame's y axis to a direction, about its x axis (rad)."""
     along = frame[0, 1] * closing[0] + frame[1, 1] * closing[1] + frame[2, 1] * closing[2]

@@ -12,10 +12,10 @@ As in the kernel the arm is a left arm and poses are in its shoulder's frame (m,
 import math
 
 import numpy as np
-from numba import njit
 
 from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import ANGLE_RAD
+from planner.kernels import kernel
 from planner.robots.aim import ToolPose, aim_at
 from planner.robots.arm import ArmShape, Sector
 from planner.robots.forward_kinematics import BASE_FRAME, Vector, about_x, about_y, about_z
@@ -35,20 +35,20 @@ The largest distance between them, the precision to which they are refined, and 
 """
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _within(limits: Sector, angle: float) -> float:
     """Return the equivalent of an angle within limits, or nan; an angle outside by rounding is clipped."""
     angle += math.tau * math.ceil((limits.low - ANGLE_RAD - angle) / math.tau)
     return min(max(angle, limits.low), limits.high) if angle <= limits.high + ANGLE_RAD else math.nan
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _unwound(angle: float, near: float) -> float:
     """Return the equivalent of an angle within half a turn of another."""
     return angle - math.tau * math.floor((angle - near) / math.tau + 0.5)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def place_wrist(shape: ArmShape, aim: ToolPose, pan: float, branch: float, joints: FloatArray) -> None:
     """Set pan, lift, roll and elbow so that the wrist's centre is at the tool pose's; nan where it cannot be."""
     pan = _within(shape.pan, pan)
@@ -66,14 +66,14 @@ def place_wrist(shape: ArmShape, aim: ToolPose, pan: float, branch: float, joint
     joints[3] = _within(shape.elbow, -math.atan2(bent, cos_elbow))
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _along(axis: Vector, aim: ToolPose) -> float:
     """Return the component of the approach axis along an axis."""
     component: float = aim.ax * axis[0] + aim.ay * axis[1] + aim.az * axis[2]
     return component
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def turn_hand(shape: ArmShape, aim: ToolPose, rotation: FloatArray, near: FloatArray, joints: FloatArray) -> None:
     """Set the last three joints so that the tool has a rotation."""
     frame = about_x(about_y(about_z(BASE_FRAME, joints[0]), joints[1]), joints[2])
@@ -88,7 +88,7 @@ def turn_hand(shape: ArmShape, aim: ToolPose, rotation: FloatArray, near: FloatA
     joints[6] = _unwound(math.atan2(sin, cos), near[6])
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _solve_on(
     shape: ArmShape,
     aim: ToolPose,
@@ -107,13 +107,13 @@ def _solve_on(
     return math.inf if math.isnan(distance) else distance
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _theta_of(arc: FloatArray, pan: float) -> float:
     """Return the angle of an arc's curve, on the first branch, where the pan is nearest to a given pan."""
     return math.acos(min(max((arc[0] - pan) / max(arc[1], ANGLE_RAD), -1.0), 1.0))
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def nearest_joints(
     shape: ArmShape, position: FloatArray, rotation: FloatArray, near: FloatArray
 ) -> tuple[bool, FloatArray]:
@@ -144,7 +144,7 @@ def nearest_joints(
     return True, joints
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def nearby_joints(
     shape: ArmShape, position: FloatArray, rotation: FloatArray, near: FloatArray
 ) -> tuple[bool, FloatArray]:
@@ -180,7 +180,7 @@ def nearby_joints(
             return True, joints
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _step_towards(
     shape: ArmShape,
     aim: ToolPose,

@@ -13,10 +13,10 @@ The samples come from the closed form (`planner.robots.closed_form_samples`) or 
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from planner.geometry.pose import FloatArray
+from planner.kernels import compiled
 
 LIMIT_COST, NEAR_LIMIT = 0.05, 0.15
 """Cost of a sample with a joint at its limit, and the slack from which it costs nothing."""
@@ -28,7 +28,7 @@ _LATE_COST = 100.0
 """Cost of each second that a link exceeds its span."""
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@compiled(error_model="numpy")
 def link_costs(
     before: FloatArray,
     count: int,
@@ -69,7 +69,7 @@ def link_costs(
         cost[a] += _LATE_COST * max(slowest[a] - span, 0.0)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@compiled(error_model="numpy")
 def cheapest_chain(
     joints: FloatArray, costs: FloatArray, speeds: FloatArray, periods: FloatArray, jump: float, spans: FloatArray
 ) -> NDArray[np.int64]:

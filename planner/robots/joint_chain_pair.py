@@ -7,14 +7,14 @@ sums, not m^4.
 """
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from planner.geometry.pose import BoolArray, FloatArray
+from planner.kernels import kernel
 from planner.robots.joint_chain import link_costs
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def cheapest_chain_pair(
     joints: FloatArray,
     costs: FloatArray,
@@ -63,7 +63,7 @@ def cheapest_chain_pair(
     return chains
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _links(
     joints: FloatArray, costs: FloatArray, speeds: FloatArray, periods: FloatArray, jump: float, span: float
 ) -> FloatArray:
@@ -78,7 +78,7 @@ def _links(
     return links
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _linked(totals: FloatArray, links: FloatArray, parents: NDArray[np.int16]) -> FloatArray:
     """Return the least totals, shape (m, m), after a link of the rows' arm; set `parents` to the row each came from."""
     size = len(links)

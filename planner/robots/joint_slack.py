@@ -6,13 +6,12 @@ angle itself near them. The formulas are those of `planner.robots.kernel`.
 
 import math
 
-from numba import njit
-
+from planner.kernels import fast_kernel
 from planner.robots.aim import ToolPose
 from planner.robots.arm import ArmShape, Sector
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+@fast_kernel
 def slack_within(limits: Sector, cos: float, sin: float) -> float:
     """Return the sine of the angle by which a direction lies within limits; negative outside of them."""
     above = sin * limits.cos_low - cos * limits.sin_low
@@ -20,7 +19,7 @@ def slack_within(limits: Sector, cos: float, sin: float) -> float:
     return min(above, below) if limits.high - limits.low <= math.pi else max(above, below)
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+@fast_kernel
 def slacks(shape: ArmShape, aim: ToolPose, pan: float) -> tuple[float, float]:
     """Return the least slack of lift, roll, elbow and wrist at a pan, for cos(roll) >= 0 and for cos(roll) <= 0."""
     cos_pan, sin_pan = math.cos(pan), math.sin(pan)
@@ -47,7 +46,7 @@ def slacks(shape: ArmShape, aim: ToolPose, pan: float) -> tuple[float, float]:
     )
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+@fast_kernel
 def _lift_and_wrist_slack(
     shape: ArmShape, wrist: tuple[float, float, float], axis: tuple[float, float, float], a: float, b: float
 ) -> float:
@@ -62,7 +61,7 @@ def _lift_and_wrist_slack(
     return min(lift, slack_within(shape.wrist, cos_wrist, sin_wrist))
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+@fast_kernel
 def ring_slack(shape: ArmShape, aim: ToolPose, radius: float, pan: float, branch: float) -> tuple[float, int]:
     """Return the least slack at one pan and branch (sign of cos(roll)) of a tool pose and four on a circle round it.
 

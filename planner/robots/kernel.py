@@ -36,9 +36,9 @@ of all files that import it too.
 import math
 
 import numpy as np
-from numba import njit
 
 from planner.geometry.pose import BoolArray, FloatArray
+from planner.kernels import fast_kernel, kernel
 from planner.robots.aim import ToolPose, aim_at
 from planner.robots.arm import ArmShape, Sector
 from planner.robots.joint_slack import slacks
@@ -60,7 +60,7 @@ NEARBY = 0.15
 """Distance from the pan that served last at which others are tried (rad)."""
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def shape_of(numbers: FloatArray) -> ArmShape:
     """Return the arm whose lengths and limits are given as one array (see `planner.robots.arm.numbers_of`).
 
@@ -83,7 +83,7 @@ def shape_of(numbers: FloatArray) -> ArmShape:
     )
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+@fast_kernel
 def _climbed(
     shape: ArmShape, aim: ToolPose, arc: FloatArray, branch: int, theta: float, here: float, step: float
 ) -> tuple[float, float]:
@@ -98,7 +98,7 @@ def _climbed(
     return here, theta
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+@fast_kernel
 def witness(shape: ArmShape, aim: ToolPose, arcs: FloatArray) -> tuple[int, float]:
     """Return an arc and theta at which every joint is within its limits; arc -1 if there is none.
 
@@ -122,13 +122,13 @@ def witness(shape: ArmShape, aim: ToolPose, arcs: FloatArray) -> tuple[int, floa
     return -1, 0.0
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+@fast_kernel
 def is_reachable(shape: ArmShape, aim: ToolPose, arcs: FloatArray) -> bool:
     """Return whether the arm can take this tool pose with every joint within its limits."""
     return witness(shape, aim, arcs)[0] >= 0
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+@fast_kernel
 def is_reachable_near(shape: ArmShape, aim: ToolPose, arcs: FloatArray, hint: FloatArray) -> bool:
     """Return whether the arm can take this tool pose, trying the pan in `hint`, shape (1,), first.
 
@@ -148,7 +148,7 @@ def is_reachable_near(shape: ArmShape, aim: ToolPose, arcs: FloatArray, hint: Fl
     return True
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+@fast_kernel
 def reachable_batch(shape: ArmShape, points: FloatArray, axes: FloatArray) -> BoolArray:
     """Return which tool points and approach axes, each of shape (n, 3), are reachable; shape (n,)."""
     arcs = np.empty((MOST_ARCS, 2))

@@ -1,13 +1,42 @@
-"""The names of robots: the shipped ones, then the user's own."""
+"""The cards of robots by name, the shipped ones and the user's own, read without a look at their URDFs."""
 
+import json
 from contextlib import suppress
+from functools import cache
 from pathlib import Path
+from typing import Any
 
 from planner.errors import RequestError, RobotError, UnknownRobotError
 from planner.robots.card_file import CardFile
-from planner.robots.described_robot import read_card, shipped_card, shipped_path, shipped_robots
 from planner.robots.own_robots import own_card, own_robots
 from planner.robots.varied_card import split_changes, varied
+
+_CARDS = Path(__file__).parent / "cards"
+
+CARD_BYTES_MAX = 1_000_000
+"""A larger file is no card."""
+
+
+@cache
+def shipped_robots() -> tuple[str, ...]:
+    """Return the names of the robots that are shipped, in alphabetical order.
+
+    Remembered: each message about a document looks up its robot, and to list a folder lets go of the interpreter a
+    dozen times, each of which waits for a search in another thread.
+    """
+    return tuple(sorted(path.stem for path in _CARDS.glob("*.json")))
+
+
+def shipped_card(name: str) -> CardFile:
+    """Return the card of a shipped robot, without a look at its URDF; raise `UnknownRobotError` if there is none."""
+    if name not in shipped_robots():
+        raise UnknownRobotError(name)
+    return read_card(shipped_path(name))
+
+
+def shipped_path(name: str) -> Path:
+    """Return the file of a shipped robot's card."""
+    return _CARDS / f"{name}.json"
 
 
 def robot_names() -> tuple[str, ...]:
@@ -41,6 +70,32 @@ def card_of(name: str) -> CardFile:
     if card.name != name:
         raise RobotError("name", f"is {card.name!r}, but its folder is called {name!r}")
     return card
+
+
+def read_card(path: Path) -> CardFile:
+    """Return the card in a file; raises `RobotError`."""
+    try:
+        if path.stat().st_size > CARD_BYTES_MAX:
+            raise RobotError("", f"{path.name} is larger than {CARD_BYTES_MAX // 1000} kB")
+        data = json.loads(path.read_text(encoding="utf-8"))
+    except RobotError:
+        raise
+    except OSError as error:
+        raise RobotError("", f"{path.name} cannot be read: {error.strerror}") from None
+    except (ValueError, RecursionError) as error:
+        raise RobotError("", f"{path.name} cannot be read as JSON: {error}") from None
+    return CardFile.from_dict(data)
+
+
+def robot_entry(card: CardFile) -> dict[str, Any]:
+    """Return a robot's entry in a list of robots, as JSON."""
+    return {
+        "name": card.name,
+        "title": card.title,
+        "arms": [arm.name for arm in card.arms],
+        "base": card.base.kind,
+        "shipped": card.name in shipped_robots(),
+    }
 
 
 def card_path(name_or_path: str) -> Path | None:

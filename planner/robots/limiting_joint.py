@@ -9,9 +9,9 @@ that least slack is the limiting one.
 import math
 
 import numpy as np
-from numba import njit
 
 from planner.geometry.pose import FloatArray
+from planner.kernels import kernel
 from planner.robots.aim import ToolPose, aim_at, is_within_length
 from planner.robots.arm import ArmShape, sector
 from planner.robots.joint_slack import slack_within
@@ -27,7 +27,7 @@ SAMPLES = 64
 ELBOW = 3
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def joint_slacks(shape: ArmShape, aim: ToolPose, pan: float, branch: float) -> tuple[float, float, float, float, float]:
     """Return the slack of each of `JOINT_NAMES` at a pan, with cos(roll) of the sign of `branch`.
 
@@ -57,13 +57,13 @@ def joint_slacks(shape: ArmShape, aim: ToolPose, pan: float, branch: float) -> t
     )
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _least_slack(shape: ArmShape, aim: ToolPose, arc: FloatArray, theta: float) -> float:
     """Return the least slack at an angle of the closed curve over an arc."""
     return min(joint_slacks(shape, aim, pan_on(arc, theta), math.copysign(1.0, math.sin(theta))))
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _best_try(shape: ArmShape, aim: ToolPose, arcs: FloatArray, count: int) -> tuple[int, float]:
     """Return the arc, among the first `count`, and the angle of its curve at which the least slack is greatest."""
     step = math.tau / SAMPLES
@@ -83,7 +83,7 @@ def _best_try(shape: ArmShape, aim: ToolPose, arcs: FloatArray, count: int) -> t
     return best_arc, best_theta
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _limiting(shape: ArmShape, unpanned: ArmShape, point: FloatArray, axis: FloatArray) -> int:
     """Return the index in `JOINT_NAMES` of the limiting joint; -1 beyond the arm's length.
 

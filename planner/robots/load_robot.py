@@ -7,8 +7,8 @@ from typing import TypeAlias
 from planner.errors import RequestError
 from planner.robots.card_file import CardFile
 from planner.robots.card_robot import CardRobot
-from planner.robots.described_robot import DescribedRobot, read_card
-from planner.robots.known_robots import card_path, robot_names
+from planner.robots.described_robot import DescribedRobot
+from planner.robots.known_robots import card_path, read_card, robot_names
 from planner.robots.pr2 import Pr2
 from planner.robots.reach_maps import Progress
 from planner.robots.varied_card import split_changes, varied

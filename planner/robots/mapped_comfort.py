@@ -9,11 +9,11 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.geometry.tolerance import LENGTH_M, grid_keys
+from planner.kernels import kernel
 from planner.robots.chain import Chain, Scratch, length_of, scratch_for
 from planner.robots.newton import solve
 from planner.robots.place import Place
@@ -131,14 +131,14 @@ def rooted(arms: MappedArms, roots: Sequence[FloatArray]) -> MappedArms:
     return arms._replace(numbers=numbers)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def mapped_space(arms: MappedArms) -> MappedSpace:
     """Return working memory for queries."""
     most = arms.flags.shape[2]
     return MappedSpace(np.empty(3), np.empty(most), np.empty(most), scratch_for(most))
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def mapped_query(arms: MappedArms, label: int, comfort: float, step: int) -> MappedQuery:
     """Return the query in the approach, and of the arm, of a label."""
     arm, approach = label // ARM_LABELS, label % ARM_LABELS - 1
@@ -176,13 +176,13 @@ def mapped_query(arms: MappedArms, label: int, comfort: float, step: int) -> Map
     return MappedQuery(chain, known, arms.rotations[approach], rest, n[_LENGTH], approach, label, comfort, step)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def mapped_in_height(ask: MappedQuery, place: Place) -> bool:
     """Return whether a place's height is one that the arm can have."""
     return abs(place.z * LENGTH_M - ask.rest[2]) <= ask.length
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def mapped_in_length(ask: MappedQuery, place: Place, standoff: int) -> bool:
     """Return whether the arm is long enough for a place."""
     x = (place.x + standoff * ask.step) * LENGTH_M - ask.rest[0]
@@ -190,7 +190,7 @@ def mapped_in_length(ask: MappedQuery, place: Place, standoff: int) -> bool:
     return x * x + y * y + z * z <= ask.length * ask.length
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def mapped_within_margin(ask: MappedQuery, space: MappedSpace, place: Place, standoff: int) -> bool:
     """Return whether a place is within the comfort radius from a standoff."""
     point = space.point
@@ -199,7 +199,7 @@ def mapped_within_margin(ask: MappedQuery, space: MappedSpace, place: Place, sta
     return is_held_round(ask, space, point)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def is_held_round(ask: MappedQuery, space: MappedSpace, point: FloatArray) -> bool:
     """Return whether a point, seen from the arm's root (m), is within the comfort radius; `point` may be changed."""
     count, chain, rotation = len(ask.chain.low), ask.chain, ask.rotation
@@ -222,7 +222,7 @@ def is_held_round(ask: MappedQuery, space: MappedSpace, point: FloatArray) -> bo
     return True
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def first_of(scratch: Scratch, joints: int) -> Scratch:
     """Return the working memory of Newton's method for an arm of fewer joints."""
     return Scratch(

@@ -8,10 +8,10 @@ Shells are thicker here, because each query takes longer, and what the arm's len
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from planner.geometry.pose import FloatArray
+from planner.kernels import kernel
 from planner.robots.mapped_comfort import MappedArms, first_of, is_held_round, mapped_query, mapped_space
 from planner.robots.newton import solve
 from planner.robots.reach_map import cell_of, decode
@@ -25,7 +25,7 @@ _FINEST_M = 0.001
 _AT_LIMIT_RAD = 1e-3
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def nearest_place(
     arms: MappedArms,
     labels: NDArray[np.int64],
@@ -85,7 +85,7 @@ def nearest_place(
     return best, best_place, best_approach, best_direction, queries
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def widest_circle(
     arms: MappedArms, labels: NDArray[np.int64], points: FloatArray, comfort: float
 ) -> tuple[float, int, int]:
@@ -113,7 +113,7 @@ def widest_circle(
     return best, best_place, best_approach
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def joint_at_limit(arms: MappedArms, label: int, point: FloatArray) -> int:
     """Return the joint that keeps the tool from a point: at its limit where Newton's method gets no nearer; -1 if none.
 

@@ -8,10 +8,10 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from planner.geometry.pose import FloatArray
+from planner.kernels import kernel
 from planner.robots.arm import ArmShape
 from planner.robots.arm_gap import comfort_gap
 from planner.robots.nearest_comfort import MANY_QUERIES, ROOM_QUERIES, directions_from, nearest_comfort
@@ -49,7 +49,7 @@ class Minimax(NamedTuple):
     examined: int
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def ranked(shape: ArmShape, query: ReachQuery, places: FloatArray) -> tuple[Ranking, Minimax]:
     """Return the order in which `minimax` examines the approaches, and its result before the first."""
     gaps = np.full((len(query.axes), len(places)), math.inf)
@@ -63,7 +63,7 @@ def ranked(shape: ArmShape, query: ReachQuery, places: FloatArray) -> tuple[Rank
     return Ranking(gaps, bounds, order), Minimax(math.inf, -1, int(order[0]), 0)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def minimax(
     shape: ArmShape,
     query: ReachQuery,
@@ -117,7 +117,7 @@ def minimax(
     return Minimax(best, best_place, best_approach, examined)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _is_within_margin(shape: ArmShape, query: ReachQuery, points: FloatArray, scratch: Scratch) -> bool:
     """Return whether a place is within the comfort radius in the first approach, from some place of the base."""
     for point in points:

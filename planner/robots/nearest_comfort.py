@@ -17,9 +17,9 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from planner.geometry.pose import FloatArray
+from planner.kernels import kernel
 from planner.robots.aim import ToolPose, aim_at
 from planner.robots.arm import ArmShape
 from planner.robots.arm_gap import comfort_gap
@@ -57,14 +57,14 @@ class DirectionSearch(NamedTuple):
     inner: FloatArray
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _aim_along(shape: ArmShape, axis: FloatArray, point: FloatArray, far: float, towards: FloatArray) -> ToolPose:
     """Return the tool pose that brings the tool to a point displaced along a direction."""
     x, y, z = point[0] + far * towards[0], point[1] + far * towards[1], point[2] + far * towards[2]
     return aim_at(shape, x, y, z, axis[0], axis[1], axis[2])
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def directions_from(shape: ArmShape, query: ReachQuery, points: FloatArray, directions: FloatArray) -> DirectionSearch:
     """Return the lines of a search that has not begun; see `nearest_comfort` for the arguments."""
     hopeless = np.empty((len(points), len(query.axes), len(directions)))
@@ -74,7 +74,7 @@ def directions_from(shape: ArmShape, query: ReachQuery, points: FloatArray, dire
     return DirectionSearch(hopeless, hopeless[:, :, 0].copy(), np.zeros(1))
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def nearest_comfort(
     shape: ArmShape,
     query: ReachQuery,
@@ -135,7 +135,7 @@ def nearest_comfort(
     return best, best_place, best_approach, best_direction, queries
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _nearest_on(
     shape: ArmShape,
     query: ReachQuery,
@@ -157,7 +157,7 @@ def _nearest_on(
     return far, queries
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def widest_comfort(shape: ArmShape, query: ReachQuery, points: FloatArray) -> tuple[float, int, int, int]:
     """Return the largest circle round a point on which the tool is still within reach.
 
@@ -195,7 +195,7 @@ def widest_comfort(shape: ArmShape, query: ReachQuery, points: FloatArray) -> tu
     return best, best_place, best_approach, queries
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def is_hindered(shape: ArmShape, query: ReachQuery, points: FloatArray) -> bool:
     """Return whether only the body prevents a place that the joints put within the comfort radius."""
     scratch = scratch_for(shape)

@@ -8,10 +8,10 @@ roll), or three for the whole rotation. Joints at a limit that would leave it ar
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from planner.geometry.pose import BoolArray, FloatArray
+from planner.kernels import compiled, fast_inlined, fast_kernel, inlined, kernel
 from planner.robots.chain import AXIS, PITCH, Chain, Scratch, forward, scratch_for
 
 ITERATIONS_MAX = 20
@@ -30,7 +30,7 @@ HOPELESS = 0.5
 """A start is given up where more than this share of the error is left even if the arm moves as its Jacobian says."""
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+@fast_kernel
 def _pitch_row(point: FloatArray, rotation: FloatArray, scratch: Scratch) -> tuple[float, float, float]:
     """Return how far the pitch is from the wanted one (rad), and the horizontal axis (x, y) that raises it.
 
@@ -50,7 +50,7 @@ def _pitch_row(point: FloatArray, rotation: FloatArray, scratch: Scratch) -> tup
     return lacking - math.tau * math.floor(lacking / math.tau + 0.5), hx, hy
 
 
-@njit(cache=True, nogil=True, inline="always", error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+@fast_inlined
 def set_rows(chain: Chain, point: FloatArray, rotation: FloatArray, rows: int, scratch: Scratch) -> float:
     """Set the errors and the Jacobian of a pose; return the error's length (m)."""
     errors, jacobian, frame, scale = scratch.errors, scratch.rows, scratch.frame, chain.scale
@@ -114,7 +114,7 @@ def set_rows(chain: Chain, point: FloatArray, rotation: FloatArray, rows: int, s
     return math.sqrt(squared)
 
 
-@njit(cache=True, nogil=True, inline="always", error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+@fast_inlined
 def set_step(rows: int, damping: float, scratch: Scratch) -> None:
     """Set the damped least-squares step of the joints; those that are held rest."""
     jacobian, normal, errors, step = scratch.rows, scratch.normal, scratch.errors, scratch.step
@@ -147,7 +147,7 @@ def set_step(rows: int, damping: float, scratch: Scratch) -> None:
         step[i] = total
 
 
-@njit(cache=True, nogil=True, inline="always")
+@inlined
 def hold(joint: int, scratch: Scratch) -> None:
     """Leave a joint where it is in the steps that follow, until the Jacobian is set again."""
     scratch.is_held[joint] = True
@@ -155,7 +155,7 @@ def hold(joint: int, scratch: Scratch) -> None:
         scratch.rows[row, joint] = 0.0
 
 
-@njit(cache=True, nogil=True, inline="always", error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+@fast_inlined
 def _squared_left(rows: int, scratch: Scratch) -> float:
     """Return the square of the error that is left after the step, by the Jacobian (m2)."""
     squared = 0.0
@@ -167,7 +167,7 @@ def _squared_left(rows: int, scratch: Scratch) -> float:
     return squared
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+@fast_kernel
 def solve(
     chain: Chain, point: FloatArray, rotation: FloatArray, rows: int, joints: FloatArray, scratch: Scratch
 ) -> bool:
@@ -218,7 +218,7 @@ def solve(
     return False
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@compiled(error_model="numpy")
 def _settled(chain: Chain, joints: FloatArray) -> bool:
     """Bring joints that have whole turns within their limits, nearest to the middle; always possible."""
     for i in range(len(joints)):
@@ -228,7 +228,7 @@ def _settled(chain: Chain, joints: FloatArray) -> bool:
     return True
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def solve_from(
     chain: Chain, points: FloatArray, rotations: FloatArray, rows: int, starts: FloatArray
 ) -> tuple[BoolArray, FloatArray]:

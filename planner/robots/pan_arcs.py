@@ -7,9 +7,8 @@ along an arc (see `planner.robots.kernel`, also for why an angle parametrises it
 
 import math
 
-from numba import njit
-
 from planner.geometry.pose import FloatArray
+from planner.kernels import fast_kernel
 from planner.robots.aim import ToolPose
 from planner.robots.arm import ArmShape, Sector
 
@@ -17,7 +16,7 @@ MOST_ARCS = 8
 """Room for arcs in an array; further arcs are left out."""
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+@fast_kernel
 def pan_arcs(shape: ArmShape, aim: ToolPose, arcs: FloatArray) -> int:
     """Find the pans within limits for which elbow and roll have a solution, the elbow within limits.
 
@@ -53,7 +52,7 @@ def pan_arcs(shape: ArmShape, aim: ToolPose, arcs: FloatArray) -> int:
     return _add_band(shape.pan, bearing, lowest, min(highest, (-root - q) / p), arcs, count)
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+@fast_kernel
 def _add_band(limits: Sector, bearing: float, lowest: float, highest: float, arcs: FloatArray, count: int) -> int:
     """Add the arcs where cos(pan - bearing) is from lowest to highest; return the new count."""
     if lowest > highest:
@@ -65,7 +64,7 @@ def _add_band(limits: Sector, bearing: float, lowest: float, highest: float, arc
     return _add_arc(limits, bearing - far, bearing - near, arcs, count)
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+@fast_kernel
 def _add_arc(limits: Sector, start: float, end: float, arcs: FloatArray, count: int) -> int:
     """Add the part of an arc within the limits, whole turns allowed; return the new count."""
     for turn in (-math.tau, 0.0, math.tau):
@@ -76,7 +75,7 @@ def _add_arc(limits: Sector, start: float, end: float, arcs: FloatArray, count: 
     return count
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+@fast_kernel
 def pan_on(arc: FloatArray, theta: float) -> float:
     """Return the pan at an angle of the closed curve over an arc (middle, half width)."""
     pan: float = arc[0] - arc[1] * math.cos(theta)

@@ -3,10 +3,9 @@
 import math
 from typing import NamedTuple
 
-from numba import njit
-
 from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import HALF_WAY, LENGTH_M
+from planner.kernels import kernel
 
 
 class Place(NamedTuple):
@@ -17,13 +16,13 @@ class Place(NamedTuple):
     z: int
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def in_steps(value: float) -> int:
     """Return a coordinate in steps of `LENGTH_M`, as `planner.geometry.tolerance.grid_key` does."""
     return math.floor(value / LENGTH_M + 0.5 + HALF_WAY)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def place_of(point: FloatArray, shoulder: FloatArray) -> Place:
     """Return the place of a tool point, with point and shoulder in the base frame (m)."""
     return Place(

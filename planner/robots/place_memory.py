@@ -7,8 +7,9 @@ three quarters full it stores no more, and the answers stay the same.
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from planner.kernels import kernel
 
 CELL_BITS = 18
 """Bits of a coordinate in grid steps: with steps of `LENGTH_M`, 1.3 m either way."""
@@ -29,14 +30,14 @@ def empty_memory(bits: int = 18) -> PlaceMemory:
     return PlaceMemory(np.zeros(1 << bits, dtype=np.int64), np.zeros(1, dtype=np.int64))
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def place_key(label: int, x: int, y: int, z: int) -> int:
     """Return the key of a place, in steps of `LENGTH_M` from the shoulder, and an approach's label."""
     half = 1 << (CELL_BITS - 1)
     return (((((label << CELL_BITS) + x + half) << CELL_BITS) + y + half) << CELL_BITS) + z + half
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def slot_of(table: NDArray[np.int64], key: int) -> int:
     """Return the slot in the table where a key is, or should go."""
     scattered = key * _SCATTER
@@ -46,7 +47,7 @@ def slot_of(table: NDArray[np.int64], key: int) -> int:
     return slot
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def learn(memory: PlaceMemory, slot: int, key: int, answer: bool) -> None:
     """Store an answer in the slot that was found for its key, while there is room."""
     if 4 * memory.entries[0] < 3 * len(memory.table):

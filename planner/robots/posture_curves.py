@@ -4,10 +4,10 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from planner.geometry.pose import FloatArray
+from planner.kernels import kernel
 from planner.robots.chain import Chain, Scratch, forward
 from planner.robots.newton import set_rows, set_step, solve
 
@@ -35,7 +35,7 @@ class Samples(NamedTuple):
     joint_count: int
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def spread(
     chain: Chain,
     periods: FloatArray,
@@ -74,7 +74,7 @@ def spread(
         at += 1
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _walk(
     chain: Chain,
     periods: FloatArray,
@@ -98,14 +98,14 @@ def _walk(
             ways[k] = joints[k] - before[k]
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _set_ways(number: int, sign: float, ways: FloatArray) -> None:
     """Set a direction in the space of the joints: any that differ will do."""
     for k in range(len(ways)):
         ways[k] = sign * math.cos(1.0 + 2.3 * k + 3.7 * number)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _go_aside(
     chain: Chain,
     periods: FloatArray,
@@ -126,7 +126,7 @@ def _go_aside(
     )
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _step_aside(
     chain: Chain,
     point: FloatArray,
@@ -166,7 +166,7 @@ def _step_aside(
     return bool(share * longest >= _STRIDE_MIN)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def add(chain: Chain, periods: FloatArray, joints: FloatArray, samples: Samples) -> bool:
     """Add joints, and those whole turns away from them, to the samples; return whether they are new."""
     first = samples.taken[0]
@@ -185,7 +185,7 @@ def add(chain: Chain, periods: FloatArray, joints: FloatArray, samples: Samples)
     return bool(samples.taken[0] > first)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _add_one(periods: FloatArray, joints: FloatArray, samples: Samples) -> None:
     number = samples.taken[0]
     if number < len(samples.joints) and not is_alike(periods, samples, joints, samples.joint_count, _APART):
@@ -193,7 +193,7 @@ def _add_one(periods: FloatArray, joints: FloatArray, samples: Samples) -> None:
         samples.taken[0] += 1
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def is_alike(periods: FloatArray, samples: Samples, joints: FloatArray, count: int, apart: float) -> bool:
     """Return whether the first joints of a sample are all nearer than a distance to given ones."""
     for number in range(samples.taken[0]):

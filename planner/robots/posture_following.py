@@ -3,14 +3,14 @@
 import math
 
 import numpy as np
-from numba import njit
 
 from planner.geometry.pose import BoolArray, FloatArray
+from planner.kernels import kernel
 from planner.robots.chain import PITCH, WHOLE, Chain, forward, scratch_for
 from planner.robots.newton import solve
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def followed(
     chain: Chain, is_endless: BoolArray, points: FloatArray, rotations: FloatArray, guides: FloatArray
 ) -> tuple[FloatArray, BoolArray]:

@@ -15,9 +15,9 @@ from itertools import product
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from planner.geometry.pose import FloatArray
+from planner.kernels import kernel
 from planner.robots.aim import ToolPose
 from planner.robots.arm import ArmShape
 from planner.robots.collision.part_poses import EACH, PLACE, Index, pose_arm, set_middles
@@ -62,13 +62,13 @@ class Room(NamedTuple):
     memory: PlaceMemory
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def may_be_hindered(aim: ToolPose) -> bool:
     """Return whether a wrist is so near that the body may hinder it; a test at no cost."""
     return aim.x <= AHEAD_M
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def has_room_about(shape: ArmShape, room: Room, label: int, aim: ToolPose, arcs: FloatArray) -> bool:
     """Return whether some posture is clear at the centre of the cell that contains the wrist.
 
@@ -89,7 +89,7 @@ def has_room_about(shape: ArmShape, room: Room, label: int, aim: ToolPose, arcs:
     return answer
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def blocked_for(room: Room, label: int, aim: ToolPose, towards: FloatArray) -> float:
     """Return how far a wrist moves along a direction within a cell known to have no room (m); 0 if none is known."""
     if len(room.pairs) == 0 or not may_be_hindered(aim):
@@ -105,7 +105,7 @@ def blocked_for(room: Room, label: int, aim: ToolPose, towards: FloatArray) -> f
     return max(out, 0.0)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def has_room(shape: ArmShape, room: Room, aim: ToolPose, arcs: FloatArray) -> bool:
     """Return whether some posture at a tool pose is clear; `arcs`, shape (MOST_ARCS, 2), is scratch space."""
     joints, near, rotation = np.empty(7), np.zeros(7), np.zeros((3, 3))
@@ -126,7 +126,7 @@ def has_room(shape: ArmShape, room: Room, aim: ToolPose, arcs: FloatArray) -> bo
     return False
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _is_clear(shape: ArmShape, room: Room, joints: FloatArray) -> bool:
     """Return whether the left arm's parts are certainly apart from what they are compared with."""
     corners, spans, bounds, _ = room.parts
@@ -135,7 +135,7 @@ def _is_clear(shape: ArmShape, room: Room, joints: FloatArray) -> bool:
     return first_close_pair(corners, spans, bounds, room.poses, room.pairs, 0, room.margin) < 0
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _level(aim: ToolPose, rotation: FloatArray) -> None:
     """Set a tool's axes for a tool pose, its y axis horizontal."""
     flat = math.hypot(aim.ax, aim.ay)

@@ -12,9 +12,9 @@ samples for all rolls: `axis_samples` finds them, `planner.robots.rolled_samples
 import math
 
 import numpy as np
-from numba import njit
 
 from planner.geometry.pose import FloatArray
+from planner.kernels import kernel
 from planner.robots.chain import AXIS, PITCH, WHOLE, Chain, Scratch, forward, scratch_for
 from planner.robots.hand_roll import gives_roll, roll_left, turn_to_roll
 from planner.robots.joint_chain import ELBOW_CLEAR_M, ELBOW_COST, LIMIT_COST, NEAR_LIMIT
@@ -41,7 +41,7 @@ _ROUNDS = 2
 """Times an arm is brought back to its place after its last joint has turned: the tool may be beside that axis."""
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def posture_samples(
     chain: Chain, known: ReachMap, periods: FloatArray, points: FloatArray, rotations: FloatArray, floor: float
 ) -> tuple[FloatArray, FloatArray]:
@@ -77,7 +77,7 @@ def posture_samples(
     return joints[:, :most].copy(), costs[:, :most].copy()
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def axis_samples(
     chain: Chain, known: ReachMap, periods: FloatArray, points: FloatArray, rotations: FloatArray, floor: float
 ) -> tuple[FloatArray, FloatArray]:
@@ -98,7 +98,7 @@ def axis_samples(
     return joints[:, :most].copy(), costs[:, :most].copy()
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def limit_cost(chain: Chain, periods: FloatArray, joints: FloatArray, count: int) -> float:
     """Return what a sample costs for how near the first joints are to a limit."""
     slack = np.inf
@@ -110,7 +110,7 @@ def limit_cost(chain: Chain, periods: FloatArray, joints: FloatArray, count: int
     return LIMIT_COST * tight * tight
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _elbow_cost(floor: float, scratch: Scratch) -> float:
     """Return what a sample costs for joints between shoulder and hand that are low; `forward` has set their places."""
     lowest = np.inf
@@ -120,7 +120,7 @@ def _elbow_cost(floor: float, scratch: Scratch) -> float:
     return ELBOW_COST * low * low
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _collect(
     chain: Chain,
     known: ReachMap,
@@ -166,7 +166,7 @@ def _collect(
                 spread(chain, periods, point, rotation, AXIS, count - 1 - AXIS, first, samples, scratch)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _collect_rolled(
     chain: Chain,
     periods: FloatArray,
@@ -193,7 +193,7 @@ def _collect_rolled(
         rolled[:, 1:] *= -1.0
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _take_pose(
     chain: Chain, point: FloatArray, rotation: FloatArray, more: float, joints: FloatArray, scratch: Scratch
 ) -> bool:

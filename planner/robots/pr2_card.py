@@ -6,8 +6,9 @@ import pinocchio as pin
 
 from planner.robots.card import RobotCard
 from planner.robots.described_card import card_on
-from planner.robots.described_robot import lift_limits, read_card, shipped_path
+from planner.robots.described_robot import lift_limits
 from planner.robots.description import package_directory, urdf_path
+from planner.robots.known_robots import read_card, shipped_path
 
 
 def pr2_card(model: pin.Model) -> RobotCard:

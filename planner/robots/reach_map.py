@@ -10,10 +10,10 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from planner.geometry.pose import FloatArray
+from planner.kernels import kernel
 from planner.robots.chain import Chain, Scratch, scratch_for
 from planner.robots.newton import solve
 
@@ -57,7 +57,7 @@ class ReachMap(NamedTuple):
     postures: NDArray[np.int8]
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def cell_of(grid: Grid, point: FloatArray) -> int:
     """Return the number of the cell that holds a point; -1 outside the map."""
     found = 0
@@ -69,7 +69,7 @@ def cell_of(grid: Grid, point: FloatArray) -> int:
     return found
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def approach_of(grid: Grid, axis: FloatArray) -> int:
     """Return the approach whose axis is nearest to a given one."""
     best, nearest = -2.0, 0
@@ -81,14 +81,14 @@ def approach_of(grid: Grid, axis: FloatArray) -> int:
     return nearest
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def decode(grid: Grid, codes: NDArray[np.int8], joints: FloatArray) -> None:
     """Set the joints that a stored posture has."""
     for i in range(len(joints)):
         joints[i] = grid.middle[i] + codes[i] / CODES * grid.half[i]
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def find_joints(
     chain: Chain,
     known: ReachMap,
@@ -120,7 +120,7 @@ def find_joints(
     return False
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def reachable_poses(
     chain: Chain, known: ReachMap, points: FloatArray, rotations: FloatArray
 ) -> tuple[NDArray[np.bool_], FloatArray]:

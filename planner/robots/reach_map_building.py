@@ -9,10 +9,10 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from planner.geometry.pose import FloatArray
+from planner.kernels import kernel
 from planner.robots.chain import PITCH, Chain, Scratch, forward, scratch_for
 from planner.robots.hand_roll import gives_roll
 from planner.robots.newton import solve
@@ -50,7 +50,7 @@ class ReachMapBuilding(NamedTuple):
     ends: NDArray[np.int64]
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _encode(grid: Grid, turns: NDArray[np.bool_], joints: FloatArray, codes: NDArray[np.int8]) -> None:
     for i in range(len(joints)):
         off = joints[i] - grid.middle[i]
@@ -59,7 +59,7 @@ def _encode(grid: Grid, turns: NDArray[np.bool_], joints: FloatArray, codes: NDA
         codes[i] = round(min(max(off / grid.half[i], -1.0), 1.0) * CODES)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _is_known(chain: Chain, grid: Grid, building: ReachMapBuilding, entry: int, codes: NDArray[np.int8]) -> bool:
     """Return whether an entry has a posture near to a given one; a last joint that gives the roll does not count."""
     count = len(codes) - 1 if gives_roll(chain) else len(codes)
@@ -77,7 +77,7 @@ def _is_known(chain: Chain, grid: Grid, building: ReachMapBuilding, entry: int, 
     return False
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _try(
     chain: Chain,
     grid: Grid,
@@ -109,7 +109,7 @@ def _try(
         building.ends[1] += 1
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def sow(chain: Chain, grid: Grid, building: ReachMapBuilding, samples: FloatArray) -> None:
     """Add what random joints, shape (m, n), lead to."""
     scratch, joints = scratch_for(samples.shape[1]), np.empty(samples.shape[1])
@@ -127,7 +127,7 @@ def sow(chain: Chain, grid: Grid, building: ReachMapBuilding, samples: FloatArra
             _try(chain, grid, building, cell, approach, codes, joints, scratch)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def grow(chain: Chain, grid: Grid, building: ReachMapBuilding, most: int) -> bool:
     """Try the neighbours of the next postures in the queue, `most` at the most; return whether any are left."""
     count, families = building.postures.shape[2], building.postures.shape[1]
@@ -157,7 +157,7 @@ def grow(chain: Chain, grid: Grid, building: ReachMapBuilding, most: int) -> boo
     return bool(building.ends[0] < building.ends[1])
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def finished(chain: Chain, grid: Grid, building: ReachMapBuilding) -> tuple[NDArray[np.int32], NDArray[np.int8]]:
     """Return the starts and postures of a grown map, those of the fringe included; see `ReachMap`."""
     entries = len(building.known)
@@ -177,7 +177,7 @@ def finished(chain: Chain, grid: Grid, building: ReachMapBuilding) -> tuple[NDAr
     return starts, postures
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _give_neighbours(chain: Chain, grid: Grid, building: ReachMapBuilding, few: int, most: int) -> None:
     """Let entries of fewer than `few` postures take over those of their neighbours, until they have `most`."""
     approaches, nx, ny, nz = len(grid.rotations), grid.counts[0], grid.counts[1], grid.counts[2]
@@ -202,7 +202,7 @@ def _give_neighbours(chain: Chain, grid: Grid, building: ReachMapBuilding, few: 
                 _take_over(chain, grid, building, within, entry, cell * approaches + beside, most)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _drop_useless(chain: Chain, grid: Grid, building: ReachMapBuilding, entry: int) -> None:
     """Drop the postures of an entry that lead to no corner of its cell."""
     joints, scratch, kept = np.empty(len(chain.low)), scratch_for(len(chain.low)), 0
@@ -221,7 +221,7 @@ def _drop_useless(chain: Chain, grid: Grid, building: ReachMapBuilding, entry: i
     building.known[entry] = kept
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _take_over(
     chain: Chain, grid: Grid, building: ReachMapBuilding, within: NDArray[np.int8], entry: int, other: int, most: int
 ) -> None:

@@ -3,10 +3,10 @@
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from planner.geometry.pose import FloatArray
+from planner.kernels import kernel
 from planner.robots.aim import ToolPose, aim_at
 from planner.robots.arm import ArmShape
 from planner.robots.arm_gap import comfort_gap
@@ -43,26 +43,26 @@ class Scratch(NamedTuple):
     hint: FloatArray
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def scratch_for(shape: ArmShape) -> Scratch:
     """Return scratch space for a search that has not begun."""
     return Scratch(np.empty((MOST_ARCS, 2)), np.array([0.5 * (shape.pan.low + shape.pan.high), 1.0]))
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def aim_of(shape: ArmShape, query: ReachQuery, point: FloatArray, approach: int) -> ToolPose:
     """Return the tool pose that brings the tool to a point in an approach."""
     axis = query.axes[approach]
     return aim_at(shape, point[0], point[1], point[2], axis[0], axis[1], axis[2])
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def aims_gap(shape: ArmShape, query: ReachQuery, point: FloatArray, approach: int) -> float:
     """Return a lower bound on how far a tool point is from the comfort radius (m), see `comfort_gap`."""
     return comfort_gap(shape, aim_of(shape, query, point, approach), query.comfort)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def meets_query(
     shape: ArmShape, query: ReachQuery, aim: ToolPose, approach: int, comfort: float, scratch: Scratch
 ) -> tuple[bool, int]:
@@ -71,7 +71,7 @@ def meets_query(
     return found and has_room_about(shape, query.room, query.labels[approach], aim, scratch.arcs), queries
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def rooms_tested(query: ReachQuery) -> int:
     """Return the number of cells tested so far for whether the body leaves the arm room."""
     return int(query.room.memory.entries[0])

@@ -7,9 +7,9 @@ hand turned to the roll and to half a turn more.
 import math
 
 import numpy as np
-from numba import njit
 
 from planner.geometry.pose import FloatArray
+from planner.kernels import kernel
 from planner.robots.chain import AXIS, Chain, forward, scratch_for
 from planner.robots.hand_roll import gives_roll, roll_between
 from planner.robots.newton import EXACT_M
@@ -32,7 +32,7 @@ def _is_along(chain: Chain) -> bool:
     return math.hypot(float(chain.tool_rotation[0, 0]), float(chain.tool_rotation[1, 0])) <= EXACT_M
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def unrolled(rotations: FloatArray) -> FloatArray:
     """Return rotations with the same x axes, shape (n, 3, 3), and rolls that depend on these alone."""
     found = np.empty((len(rotations), 3, 3))
@@ -48,7 +48,7 @@ def unrolled(rotations: FloatArray) -> FloatArray:
     return found
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def rolled_samples(
     chain: Chain, periods: FloatArray, rotations: FloatArray, joints: FloatArray, costs: FloatArray
 ) -> tuple[FloatArray, FloatArray]:

@@ -13,10 +13,10 @@ Arguments dominate the cost of a call, so an arm comes in few arrays (see `plann
 """
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from planner.geometry.pose import BoolArray, FloatArray
+from planner.kernels import kernel
 from planner.robots.arm_query import ArmNumbers, ArmQuery, Space, is_in_height, query, space_for
 from planner.robots.comfort import (
     FORGETFUL,
@@ -37,7 +37,7 @@ ALL = -1
 """Every standoff, of however many."""
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _is_out_of_reach(
     ask: ArmQuery, memory: Memory, room: Room, space: Space, place: Place, count: int, among: int
 ) -> bool:
@@ -61,7 +61,7 @@ def _is_out_of_reach(
     return True
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _arrivals(
     ask: ArmQuery, memory: Memory, room: Room, space: Space, place: Place, before: int, count: int, among: int
 ) -> int:
@@ -81,7 +81,7 @@ def _arrivals(
     return mask
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def standoff_masks(
     numbers: ArmNumbers,
     shoulder: FloatArray,
@@ -143,7 +143,7 @@ def standoff_masks(
     return masks
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def anywhere(
     numbers: ArmNumbers,
     shoulder: FloatArray,

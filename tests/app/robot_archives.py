@@ -5,7 +5,7 @@ import zipfile
 from collections.abc import Mapping
 from typing import TypeVar
 
-from planner.robots.described_robot import shipped_card
+from planner.robots.known_robots import shipped_card
 
 Name = TypeVar("Name", bound=str | zipfile.ZipInfo)
 

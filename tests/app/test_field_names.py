@@ -8,7 +8,7 @@ from app.api.messages import COMMANDS
 from planner.errors import FieldError
 from planner.json_form import JsonForm
 from planner.robots.card_file import CardFile
-from planner.robots.described_robot import shipped_card
+from planner.robots.known_robots import shipped_card
 
 
 @pytest.mark.parametrize(

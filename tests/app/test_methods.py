@@ -7,7 +7,7 @@ from typing import Any
 import httpx
 import pytest
 
-from planner.robots.described_robot import shipped_card
+from planner.robots.known_robots import shipped_card
 from tests.app.samples import towel
 
 pytestmark = pytest.mark.anyio

@@ -9,7 +9,7 @@ import httpx
 import pytest
 
 from app.files.robot_archive import DEPTH_MAX, FILES_MAX, UNPACKED_BYTES_MAX
-from planner.robots.described_robot import shipped_card, shipped_robots
+from planner.robots.known_robots import shipped_card, shipped_robots
 from planner.robots.load_robot import load_robot, prepare_robot, robot_card_file
 from tests.app.robot_archives import BOX, archive, box_card, box_urdf
 from tests.app.test_cli import pleat

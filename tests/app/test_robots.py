@@ -7,7 +7,7 @@ from typing import Any
 import httpx
 import pytest
 
-from planner.robots.described_robot import shipped_card, shipped_robots
+from planner.robots.known_robots import shipped_card, shipped_robots
 from planner.robots.table_reach import TableReach
 from tests.app.test_cli import pleat
 

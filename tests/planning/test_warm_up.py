@@ -8,7 +8,7 @@ import pytest
 
 from planner.planning.robot_task import default_scene
 from planner.planning.warm_up import _use_kernels, compile_kernels, napkin
-from planner.robots.described_robot import shipped_robots
+from planner.robots.known_robots import shipped_robots
 
 # What the process prints at last: the functions that planning has still compiled, or loaded.
 PROGRAM = """

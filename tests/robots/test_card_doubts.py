@@ -10,7 +10,8 @@ import pytest
 import trimesh
 
 from planner.robots.card_doubts import ArmsCrossed, ArmsTogether, OddPart, StationFacesAway, card_doubts
-from planner.robots.described_robot import DescribedRobot, read_described, read_robot, shipped_path, shipped_robots
+from planner.robots.described_robot import DescribedRobot, read_described, read_robot
+from planner.robots.known_robots import shipped_path, shipped_robots
 
 
 def changed(folder: Path, change: Callable[[dict[str, Any]], None], name: str = "panda-pair") -> DescribedRobot:

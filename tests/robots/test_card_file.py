@@ -15,7 +15,8 @@ from planner.robots.card import ParallelogramGripper
 from planner.robots.card_file import CardFile
 from planner.robots.card_parts import CameraFile, ParallelogramDrive
 from planner.robots.chain import tool_poses
-from planner.robots.described_robot import DescribedRobot, read_robot, shipped_card, shipped_robots
+from planner.robots.described_robot import DescribedRobot, read_robot
+from planner.robots.known_robots import shipped_card, shipped_robots
 from planner.robots.load_robot import load_robot
 
 SHIPPED = ("baxter", "panda-pair", "pr2", "so101-pair", "tiago-pro", "ur5e-pair", "ur5e-single")

@@ -13,7 +13,8 @@ from planner.robots.collision import part_source
 from planner.robots.collision.collisions import Collisions
 from planner.robots.collision.described_parts import described_parts
 from planner.robots.collision.link_shapes import link_shapes, require_shown
-from planner.robots.described_robot import DescribedRobot, read_robot, shipped_robots
+from planner.robots.described_robot import DescribedRobot, read_robot
+from planner.robots.known_robots import shipped_robots
 from tests.replay.described_hulls import Hulls
 from tests.required import required
 from tests.sweep import sweep

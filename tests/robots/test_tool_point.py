@@ -5,7 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from planner.robots.described_robot import DescribedRobot, read_described, read_robot, shipped_path, shipped_robots
+from planner.robots.described_robot import DescribedRobot, read_described, read_robot
+from planner.robots.known_robots import shipped_path, shipped_robots
 from planner.robots.tool_point import tool_points
 from tests.app.robot_archives import box_card
 

@@ -3,9 +3,8 @@
 import math
 from typing import NamedTuple
 
-from numba import njit
-
 from planner.geometry.pose import BoolArray, FloatArray
+from planner.kernels import kernel
 from planner.robots.collision.part_poses import PLACE, Index
 
 
@@ -31,7 +30,7 @@ class ArmChains(NamedTuple):
     carriers: Index
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def pose_chain(chains: ArmChains, lift_m: float, arm: int, joints: FloatArray, poses: FloatArray) -> None:
     """Set rotation and position of an arm's parts in the base frame.
 

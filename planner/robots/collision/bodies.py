@@ -141,4 +141,4 @@ def rows(bases: Pose2 | FloatArray) -> FloatArray:
     """Return bases as rows of x (m), y (m) and yaw (rad), shape (n, 3), or (1, 3) for a single base."""
     if isinstance(bases, Pose2):
         return np.array([[bases.x_m, bases.y_m, bases.yaw_rad]])
-    return np.ascontiguousarray(bases, dtype=np.float64)
+    return np.require(bases, np.float64, ["C", "W"])  # kernels are compiled once more for arrays that are read-only

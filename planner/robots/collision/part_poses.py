@@ -10,10 +10,10 @@ box (m), all in the base frame.
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from planner.geometry.pose import FloatArray
+from planner.kernels import kernel
 from planner.robots.arm import ArmShape
 from planner.robots.collision.parts import ARM_PARTS, PALM
 from planner.robots.forward_kinematics import BASE_FRAME, Frame, Vector, about_x, about_y, about_z, ahead
@@ -27,7 +27,7 @@ PLACE, MIDDLE = 3, 4
 Index = NDArray[np.int64]
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _set_pose(poses: FloatArray, part: int, frame: Frame, place: Vector, side: float) -> None:
     """Set a part's pose from the left arm's frame; `side` is -1 for the right arm."""
     x, y, z = frame
@@ -37,7 +37,7 @@ def _set_pose(poses: FloatArray, part: int, frame: Frame, place: Vector, side: f
     poses[part, PLACE, 0], poses[part, PLACE, 1], poses[part, PLACE, 2] = place[0], side * place[1], place[2]
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def pose_arm(shape: ArmShape, lift_m: float, joints: FloatArray, side: float, poses: FloatArray) -> None:
     """Set rotation and position of an arm's parts in the base frame; from the palm on they are one body.
 
@@ -69,7 +69,7 @@ def pose_arm(shape: ArmShape, lift_m: float, joints: FloatArray, side: float, po
         _set_pose(poses, part, frame, place, side)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def pose_table(base: FloatArray, tables: FloatArray, poses: FloatArray) -> None:
     """Set rotation and position of the table's parts in the base frame.
 
@@ -88,7 +88,7 @@ def pose_table(base: FloatArray, tables: FloatArray, poses: FloatArray) -> None:
         poses[part, PLACE, 2] = tables[part, 2]
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def set_middles(bounds: FloatArray, poses: FloatArray) -> None:
     """Set the centres of the bounding boxes, in poses whose other rows are set."""
     for part in range(len(poses)):

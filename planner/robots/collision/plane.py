@@ -11,9 +11,8 @@ parts have a point in common and there is no plane.
 import math
 from typing import TypeAlias
 
-from numba import njit
-
 from planner.geometry.pose import FloatArray
+from planner.kernels import kernel
 from planner.robots.collision.part_poses import MIDDLE, PLACE, Index
 
 _REFLECTIONS = 12
@@ -25,7 +24,7 @@ _FLAT_M3 = 1e-12
 Vector: TypeAlias = tuple[float, float, float]
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _furthest(corners: FloatArray, first: int, last: int, x: float, y: float, z: float) -> int:
     """Return the corner furthest along a direction given in the corners' frame."""
     best, found = -math.inf, first
@@ -36,7 +35,7 @@ def _furthest(corners: FloatArray, first: int, last: int, x: float, y: float, z:
     return found
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _turned(poses: FloatArray, part: int, row: int, corners: FloatArray, corner: int) -> float:
     """Return one coordinate of a corner after a part's rotation."""
     turned: float = (
@@ -47,7 +46,7 @@ def _turned(poses: FloatArray, part: int, row: int, corners: FloatArray, corner:
     return turned
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _nearest_along(
     corners: FloatArray, spans: Index, r: FloatArray, a: int, b: int, gap: float, x: float, y: float, z: float
 ) -> Vector:
@@ -68,20 +67,20 @@ def _nearest_along(
     )
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _volume(a: Vector, b: Vector, c: Vector) -> float:
     """Return six times the signed volume of the tetrahedron of the origin and three points (m3)."""
     return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0])
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _are_round_origin(a: Vector, b: Vector, c: Vector, d: Vector) -> bool:
     """Return whether the origin is inside the tetrahedron of four points."""
     abc, acd, adb, bdc = _volume(a, b, c), _volume(a, c, d), _volume(a, d, b), _volume(b, d, c)
     return min(abc, acd, adb, bdc) > _FLAT_M3 or max(abc, acd, adb, bdc) < -_FLAT_M3
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def room_at_plane(corners: FloatArray, spans: Index, r: FloatArray, a: int, b: int, gap: float, way: Vector) -> float:
     """Return by how much more than a gap parts b and a are apart at a separating plane (m); -1 if none is found.
 

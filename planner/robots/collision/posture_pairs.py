@@ -5,9 +5,9 @@ other, and proving near parts separate takes longest.
 """
 
 import numpy as np
-from numba import njit
 
 from planner.geometry.pose import BoolArray, FloatArray
+from planner.kernels import kernel
 from planner.robots.collision.arm_kinematics import ArmKinematics, pose_parts
 from planner.robots.collision.part_poses import Index, set_middles
 from planner.robots.collision.separation import END, FIRST, HAND, Parts, first_close_pair
@@ -16,7 +16,7 @@ _UNKNOWN = -1
 """Marks a posture that has not been compared with the other arm's hand yet."""
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def postures_apart(
     kinematics: ArmKinematics,
     lift_m: float,
@@ -79,7 +79,7 @@ def postures_apart(
     return are_apart
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _by_hands(pairs: Index, left_hand: int, right_hand: int) -> tuple[Index, Index, Index, Index]:
     """Return the pairs of two hands, of the right hand alone, of the left hand alone, and of neither.
 
@@ -97,7 +97,7 @@ def _by_hands(pairs: Index, left_hand: int, right_hand: int) -> tuple[Index, Ind
     )
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _close_pair(
     corners: FloatArray, spans: Index, bounds: FloatArray, poses: FloatArray, pairs: Index, likely: int, margin: float
 ) -> int:
@@ -110,7 +110,7 @@ def _close_pair(
     return first_close_pair(corners, spans, bounds, poses, pairs, 0, margin)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _placed(kinematics: ArmKinematics, lift_m: float, arm: int, bounds: FloatArray, postures: FloatArray) -> FloatArray:
     """Return the poses of an arm's parts in the given postures, shape (n, p, 5, 3)."""
     poses = np.empty((len(postures), len(bounds), 5, 3))

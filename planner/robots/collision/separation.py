@@ -17,9 +17,9 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from planner.geometry.pose import FloatArray
+from planner.kernels import inlined, kernel
 from planner.robots.collision.arm_kinematics import ArmKinematics, pose_parts
 from planner.robots.collision.part_poses import MIDDLE, Index, pose_table, set_middles
 from planner.robots.collision.plane import room_at_plane
@@ -53,7 +53,7 @@ class Parts(NamedTuple):
     arms: Index
 
 
-@njit(cache=True, nogil=True, inline="always")
+@inlined
 def _towards(bounds: FloatArray, poses: FloatArray, a: int, b: int) -> tuple[float, float, float]:
     """Return the way from the box round part b to the centre of part a (m); zero if that is inside."""
     dx = poses[a, MIDDLE, 0] - poses[b, MIDDLE, 0]
@@ -70,7 +70,7 @@ def _towards(bounds: FloatArray, poses: FloatArray, a: int, b: int) -> tuple[flo
     return ox, oy, oz
 
 
-@njit(cache=True, nogil=True, inline="always")
+@inlined
 def _room_between(
     corners: FloatArray, spans: Index, bounds: FloatArray, poses: FloatArray, a: int, b: int, margin: float
 ) -> float:
@@ -91,7 +91,7 @@ def _room_between(
     return room
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def first_close_pair(
     corners: FloatArray, spans: Index, bounds: FloatArray, poses: FloatArray, pairs: Index, start: int, margin: float
 ) -> int:
@@ -102,7 +102,7 @@ def first_close_pair(
     return -1
 
 
-@njit(cache=True, nogil=True, inline="always")
+@inlined
 def _add_ways(bounds: FloatArray, before: FloatArray, poses: FloatArray, gone: FloatArray) -> None:
     """Add to the distances (m) that any point of each part has moved those since the last pose, and keep the pose.
 
@@ -124,7 +124,7 @@ def _add_ways(bounds: FloatArray, before: FloatArray, poses: FloatArray, gone: F
                     before[part, row, axis] = poses[part, row, axis]
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _pose_arms(
     kinematics: ArmKinematics, lift_m: float, parts: Parts, arms: Index, joints: FloatArray, poses: FloatArray
 ) -> None:
@@ -137,7 +137,7 @@ def _pose_arms(
         column = after
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def first_close(
     kinematics: ArmKinematics,
     lift_m: float,

@@ -17,7 +17,7 @@ from app.studies.study import Study
 from app.studies.study_job import study_id
 from app.studies.table import CSV
 from app.studies.workers import InProcess
-from planner.robots.described_robot import shipped_path
+from planner.robots.known_robots import shipped_path
 from tests.app.samples import towel
 from tests.app.studies.planners import fake_plan
 from tests.app.studies.study_samples import content, study
