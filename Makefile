@@ -28,7 +28,7 @@ help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1 ~\2/p' Makefile | while IFS='~' read -r target text; do \
 	    printf '%-18s %s\n' "$$target" "$$text"; done
 
-run: $(READY) $(KERNELS) ## serve the designer on http://127.0.0.1:8000
+run: $(READY) $(VENV)/.kernels-pr2 ## serve the designer on http://127.0.0.1:8000
 	@exec $(BIN)/pleat serve
 
 check: lint types page-types imports ## format, lint, types of Python and of the page's JavaScript, imports
@@ -113,15 +113,16 @@ $(BIN)/python:
 
 $(READY): requirements.txt pyproject.toml | $(BIN)/python
 	@echo "Setting up $(VENV): a minute or two, once"
-	@$(INSTALL) --require-hashes -r requirements.txt
+	@$(INSTALL) --require-hashes -r requirements.txt --progress-bar on
 	@$(INSTALL) --no-deps --no-build-isolation -e .
 	@touch $@
 
 # So that the first plan does not wait for the compiler, nor several tests at once for the same. A minute or two; seconds
 # where it has been done. The arms of one robot are in closed form, those of the other are mapped: few kernels are both's.
+# Two processes share the work, each from its own end. The server compiles what is missing behind its first page.
 $(KERNELS): $(VENV)/.kernels-%: $(READY) $(shell find planner -name '*.py')
 	@echo "Compiling the kernels for $*"
-	@$(BIN)/python -c "from planner.planning.warm_up import compile_kernels; compile_kernels('$*')"
+	@$(BIN)/python -m planner.planning.warm_up $* backwards & $(BIN)/python -m planner.planning.warm_up $* && wait $$!
 	@touch $@
 
 $(READY_DEV): requirements-dev.txt $(READY)

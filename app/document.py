@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from dataclasses import replace
 from typing import Protocol
 
-from app.document_state import DocumentState
+from app.document_state import DocumentState, VersionPlan
 from app.drawing.draft import Draft
 from app.drawing.drawing import Drawing
 from app.drawing.edit import Edit, OvertakenError, StaleVersionError
@@ -21,7 +21,6 @@ from app.language import Language
 from app.observable import Listener, Observable
 from app.playback import Playback
 from app.rehearsal.trace import RunTrace
-from app.version_plan import VersionPlan
 from planner.errors import FoldingError
 from planner.task.plan import Plan
 from planner.task.task import Task

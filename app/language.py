@@ -10,7 +10,10 @@ from collections.abc import Mapping
 from functools import cache
 from typing import Literal, TypeAlias, get_args
 
-from app.resources import static_dir
+from babel import Locale
+from babel.numbers import format_decimal
+
+from app.page_files import static_dir
 
 Language: TypeAlias = Literal["en", "de", "es"]
 LANGUAGES: tuple[Language, ...] = get_args(Language)
@@ -24,8 +27,6 @@ def say(language: Language, key: str, **values: str | int) -> str:
     """Return the words of a key with values in its places; `count` chooses the form."""
     text = catalogue(language)[key]
     if not isinstance(text, str):
-        from babel import Locale  # many commands say nothing that needs it
-
         kind = Locale.parse(language).plural_form(int(values["count"]))
         text = text.get(kind, text["other"])
     return re.sub(r"\{(\w+)\}", lambda place: str(values[place[1]]), text)
@@ -39,8 +40,6 @@ def translated(language: Language, text: str) -> str:
 
 def numeral(language: Language, value: float, digits: int = 1) -> str:
     """Return a number with so many digits behind the language's decimal mark."""
-    from babel.numbers import format_decimal
-
     return format_decimal(round(value, digits), f"0.{'0' * digits}", locale=language)
 
 

@@ -11,9 +11,12 @@ from dataclasses import dataclass, replace
 from app.known_plans import KnownPlans
 from app.store.packed_plan import PackedPlan
 from app.worker.process import Caller
-from planner import find_plan, quick_plan
+from planner import quick_plan
+from planner.planning.events import Done
 from planner.planning.found_plan import FoundPlan
+from planner.planning.plan_search import Hints
 from planner.planning.warm_up import compile_kernels
+from planner.plans import plan
 from planner.robots.load_robot import prepare_robot
 from planner.task.plan import Plan
 from planner.task.task import TIME_LIMIT_S, Task
@@ -67,6 +70,11 @@ def prepare_live(caller: Caller, robot: str) -> None:
     prepare_robot(robot, lambda share: caller.tell(Mapped(share)))
 
 
+def compile_for(_: Caller, robot: str) -> None:
+    """Compile the kernels for a robot into the cache."""
+    compile_kernels(robot)
+
+
 def plan_live(caller: Caller, document: str, task: Task, shown: str | None, work_limit_s: float) -> None:
     """Tell plans for a task, each better than the one before, the quickest at last.
 
@@ -81,23 +89,19 @@ def plan_live(caller: Caller, document: str, task: Task, shown: str | None, work
     known = None if shown is None else plans.named(shown)
     like = [found for found in plans.by_cost() if found.plan.task.robot == task.robot]
 
-    def tell(found: FoundPlan) -> None:
-        if not caller.should_stop():
-            caller.tell(Found(found.plan, _remembered(plans, found)))
-
     if known is None:
         known = _soon(caller, task, like)
-        if known is not None:
-            tell(known)
+        if known is not None and not caller.should_stop():
+            caller.tell(Found(known.plan, _remembered(plans, known)))
     caller.tell(Lasting())
     limits = replace(task.limits, time_limit_s=TIME_LIMIT_S[1], work_limit_s=work_limit_s)
-    found = find_plan(
-        replace(task, limits=limits), known=known, like=like, on_found=tell, should_stop=caller.should_stop
-    )
-    if not caller.should_stop():
-        is_cut_short = found.plan.statistics.is_cut_short
-        packed = None if is_cut_short else PackedPlan.of(found.plan)
-        caller.tell(Found(found.plan, _remembered(plans, found), is_final=True, packed=packed))
+    for event in plan(replace(task, limits=limits), Hints(known, like), should_stop=caller.should_stop):
+        if caller.should_stop():
+            return
+        found, is_final = event.found, isinstance(event, Done)
+        is_kept = is_final and not found.plan.statistics.is_cut_short
+        packed = PackedPlan.of(found.plan) if is_kept else None
+        caller.tell(Found(found.plan, _remembered(plans, found), is_final=is_final, packed=packed))
 
 
 def _soon(caller: Caller, task: Task, like: list[FoundPlan]) -> FoundPlan | None:

@@ -10,12 +10,28 @@ from app.jobs.lanes import Lanes
 from app.jobs.limits import CLIENT
 from app.player import Player
 from app.replanner import Replanner
-from app.shared_texts import SharedTexts
 from app.shown_robot import shown_robot
 from app.store.plan_store import PlanStore
 from app.ui.view_3d import View3D
 from app.ui.viewpoints.sessions import Sessions
 from app.visitors_view import VisitorsView
+
+
+class SharedTexts:
+    """The newest text of each kind, made once by the first who needs it; safe to use from any thread."""
+
+    def __init__(self) -> None:
+        """Start with no text."""
+        self._lock = threading.Lock()
+        self._texts: dict[str, tuple[object, str]] = {}
+
+    def text(self, kind: str, key: object, make: Callable[[], str]) -> str:
+        """Return the text of a kind, made now unless it has been for the same key; whoever needs it meanwhile waits."""
+        with self._lock:
+            known = self._texts.get(kind)
+            if known is None or known[0] != key:
+                known = self._texts[kind] = (key, make())
+            return known[1]
 
 
 class OpenDocument:

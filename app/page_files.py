@@ -10,8 +10,7 @@ import re
 from functools import lru_cache
 from pathlib import Path
 
-from app.resources import static_dir
-
+_HERE = Path(__file__).resolve().parent
 _FROM = re.compile(r'^((?:import|export)(?:\s[^;"()=]*\bfrom)?\s*)"(\.{1,2}/[^"]+)"', re.MULTILINE)
 _STYLES = re.compile(r'^@import "\./([^"]+)";$', re.MULTILINE)
 
@@ -28,6 +27,12 @@ map.type = "importmap";
 map.textContent = JSON.stringify({{ imports }});
 document.currentScript.after(map);
 """
+
+
+def static_dir() -> Path:
+    """Return the page's folder: inside an installed package, beside the packages in a checkout."""
+    installed = _HERE / "static"
+    return installed if installed.is_dir() else _HERE.parent / "static"
 
 
 def scripts() -> str:

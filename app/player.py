@@ -5,12 +5,11 @@ import threading
 import time
 
 from app.document import Document
-from app.document_state import DocumentState
+from app.document_state import DocumentState, ShownPlan
 from app.shown_robot import shown_robot
 from app.ui.lying_cloth import lying_cloth
 from app.ui.view_3d import View3D
 from app.ui.viewpoints.sessions import Sessions
-from app.version_plan import ShownPlan
 from app.visitors_view import VisitorsView
 from planner.cloth.garment import Garment
 from planner.geometry.pose import Pose2

@@ -1,16 +1,12 @@
 """What the app knows of each kind of step: its words, how it is drawn, and what a world does to perform it."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 from app.language import Language, named, numeral, say, translated
-
-if TYPE_CHECKING:
-    from planner.cloth.garment import Garment
-    from planner.task.plan_step import PlanStep
+from planner.cloth.garment import Garment
+from planner.task.plan_step import PlanStep
 
 
 @dataclass(frozen=True, slots=True)

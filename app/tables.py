@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 from rich.table import Table
 
-from app.step_kinds import step_words
 from planner.words.catalogue import sentence
 
 if TYPE_CHECKING:  # the tables of a command need not import what the others show
@@ -181,6 +180,8 @@ def _table(title: str) -> Table:
 
 
 def _what(step: PlanStep, garment: Garment) -> str:
+    from app.step_kinds import step_words
+
     words = step_words(step, garment)
     return words if step.fold is None else f"{step.fold}: {words}"
 

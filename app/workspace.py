@@ -13,6 +13,7 @@ from app.jobs.job_desk import JobDesk
 from app.jobs.job_kind import AnyKind, Stores
 from app.jobs.lanes import Lanes
 from app.jobs.limits import CLIENT, TooManyError
+from app.live_planning import compile_for
 from app.open_document import OpenDocument
 from app.settings import Settings
 from app.store.data_folder import DataFolder
@@ -25,8 +26,11 @@ from app.store.robot_repository import RobotRepository
 from app.store.share_repository import ShareRepository
 from app.store.study_store import StudyStore
 from app.store.trace_store import TraceStore
-from app.worker.template import template_problem
+from app.worker.process import ignore
+from app.worker.stop import Stop, StoppedError
+from app.worker.template import LostProcessError, template_problem
 from planner.errors import FoldingError
+from planner.planning.warm_up import EACH_KIND, must_compile
 from planner.robots.own_robots import use_robots_folder
 
 FIRST_GARMENT = "t-shirt"
@@ -88,6 +92,7 @@ class Workspace:
         self._open: dict[str, OpenDocument] = {}
         self._lock = threading.RLock()
         self._closing = threading.Event()
+        self._compiling = Stop()
 
     def prepare(self) -> None:
         """Open the database.
@@ -115,6 +120,22 @@ class Workspace:
         except FoldingError as error:
             _log.error("the jobs of the last time could not be read: %s", error)
         threading.Thread(target=self._look_after, name="workspace", daemon=True).start()
+        threading.Thread(target=self._compile, name="kernels", daemon=True).start()
+
+    def _compile(self) -> None:
+        """Compile the kernels that the cache lacks, so that no robot's first plan waits for them; all else goes first.
+
+        The template has those of the first robot. Each kernel is in the cache as soon as it is compiled: who needs the
+        same meanwhile compiles only the rest.
+        """
+        try:
+            for robot in EACH_KIND[1:]:
+                if must_compile(robot):
+                    self.lanes.background.run(compile_for, self._compiling, ignore, robot)
+        except StoppedError:
+            return
+        except (FoldingError, LostProcessError) as error:
+            _log.warning("kernels could not be compiled ahead: %s", error)
 
     def first(self) -> str:
         """Return the id of the document to show first: the last one opened, or a new one if none can be opened."""
@@ -200,6 +221,7 @@ class Workspace:
     def close(self) -> None:
         """Stop all work and close all documents."""
         self._closing.set()
+        self._compiling.set()
         self.lanes.close()
         with self._lock:
             open_documents = tuple(self._open.values())

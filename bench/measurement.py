@@ -12,10 +12,11 @@ from statistics import median
 from time import perf_counter
 from typing import Any
 
-from planner import Garment, find_plan, load_garment
+from planner import Garment, load_garment
 from planner.planning.problem import forget_garments
 from planner.planning.robot_task import task_for
 from planner.planning.warm_up import compile_kernels
+from planner.plans import plan as plan_events
 from planner.robots.load_robot import load_robot
 from planner.task.task import DEFAULT_ROBOT
 
@@ -148,8 +149,10 @@ def _run(garment: Garment, case: Case) -> _Run:
         time_limit_s=TIME_LIMIT_S,
     )
     told_s: list[float] = []
-    plan = find_plan(task, on_found=lambda _: told_s.append(perf_counter() - started)).plan
-    plan_time_s = perf_counter() - started
+    for event in plan_events(task):
+        told_s.append(perf_counter() - started)
+        plan = event.found.plan
+    plan_time_s = told_s[-1]
     found = plan.statistics
     outcome = Outcome(
         "budget_exceeded" if plan.statistics.is_cut_short else plan.status,
@@ -160,7 +163,7 @@ def _run(garment: Garment, case: Case) -> _Run:
         found.explored,
         found.ik_queries,
     )
-    return _Run(outcome, found.ik_time_s, min(told_s, default=plan_time_s), found.search_time_s, plan_time_s)
+    return _Run(outcome, found.ik_time_s, told_s[0], found.search_time_s, plan_time_s)
 
 
 def _measurement(case: Case, runs: Sequence[_Run]) -> Measurement:

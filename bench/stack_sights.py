@@ -11,14 +11,14 @@ from time import process_time
 
 import numpy as np
 
-from app.camera.camera import Camera
-from app.camera.look import PLAIN, Look, random_look
-from app.camera.mounted import hung, overhead
-from app.camera.picture import ClothSeen, picture
-from app.camera.robot_shape import hidden
+from app.rehearsal.camera.camera import Camera
+from app.rehearsal.camera.look import PLAIN, Look, random_look
+from app.rehearsal.camera.mounted import hung, overhead
+from app.rehearsal.camera.picture import ClothSeen, picture
+from app.rehearsal.camera.robot_shape import hidden
 from app.rehearsal.planned_cloth import planned_positions
+from app.rehearsal.vision.look_at_stack import Looker
 from app.templates.catalogue import TEMPLATES
-from app.vision.look_at_stack import Looker
 from planner import Scene, load_garment
 from planner.cloth.garment import Garment
 from planner.cloth.must_hold import must_hold

@@ -15,14 +15,14 @@ from typing import Any
 import numpy as np
 from shapely import Point
 
-from app.camera.look import random_look
-from app.vision.fit_stack import fit_stack
-from app.vision.on_table import outline_on_table
-from app.vision.picture import read_picture
-from app.vision.scale_said import SheetSaid
-from app.vision.seen_garment import drawn
-from app.vision.stack_fit import LOOKS_ALIKE
-from app.vision.vision_errors import NothingToldError
+from app.rehearsal.camera.look import random_look
+from app.rehearsal.vision.fit_stack import fit_stack
+from app.rehearsal.vision.on_table import outline_on_table
+from app.rehearsal.vision.picture import read_picture
+from app.rehearsal.vision.scale_said import SheetSaid
+from app.rehearsal.vision.seen_garment import drawn
+from app.rehearsal.vision.stack_fit import LOOKS_ALIKE
+from app.rehearsal.vision.vision_errors import NothingToldError
 from bench.report import Report, Row, seconds
 from bench.table_photo import Photo, photo
 from planner import load_garment

@@ -14,20 +14,23 @@ The algorithm of the paper (section 5), from top to bottom:
    usually a single fold is to blame.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
+from dataclasses import replace
 from typing import Unpack
 
 from planner.cloth.garment import Garment
 from planner.errors import RequestError
-from planner.explain.explanation import Explanation
+from planner.explain.explanation import explained
 from planner.planning.budget import Budget
+from planner.planning.events import Blocked, Done, Event, Improved
 from planner.planning.found_plan import FoundPlan
-from planner.planning.plan_search import PlanSearch
+from planner.planning.plan_search import Hints, quickest
 from planner.planning.problem import Problem
 from planner.planning.quick_plan import quickly_planned
 from planner.planning.robot_task import task_for
 from planner.planning.warm_up import compile_kernels
 from planner.task.plan import Plan
+from planner.task.reason import Reason
 from planner.task.scene import Scene
 from planner.task.task import Task, TaskOptions
 
@@ -64,16 +67,96 @@ def make_plan(
     return find_plan(task, should_stop=should_stop).plan
 
 
+def plan(
+    task: Task,
+    hints: Hints | None = None,
+    *,
+    should_stop: Callable[[], bool] | None = None,
+    with_reasons: bool = True,
+) -> Generator[Event, None, None]:
+    """Plan a task as `make_plan` does, and tell what is found on the way.
+
+    Nothing is searched ahead of what is taken: who has enough takes no more, and closes the stream.
+
+    Args:
+        task: the task to plan.
+        hints: plans to start from; None for none.
+        should_stop: polled between events; the search ends as out of budget when it returns true.
+        with_reasons: whether to find out why there is no plan, if there is none; this takes further planning.
+
+    Yields:
+        Plans found meanwhile, each quicker than the one before; where there is no plan, the reasons that the search
+        met, before they are tried; at last the answer.
+
+    Raises:
+        FoldError: a fold is not legal on the cloth as the folds before it leave it.
+        RequestError: the folds do not allow the task's start, or the robot is unknown.
+    """
+    compile_kernels(task.robot)
+    problem, given = Problem.of(task), hints or Hints()
+    budget = Budget.of(task.limits.work_limit_s, task.limits.time_limit_s, should_stop)
+    is_known_firm = given.known is not None and given.known.context.is_firm
+    for event in _planned(problem.firm(), budget, given if is_known_firm else replace(given, known=None)):
+        if _is_solved(event):
+            yield event
+            if isinstance(event, Done):
+                return
+    # It knows where the arms reach as far as has been asked.
+    yield from _explained(_planned(Problem.of(task), budget, given), with_reasons=with_reasons)
+
+
+def _planned(problem: Problem, budget: Budget, hints: Hints) -> Iterator[Event]:
+    """Plan a problem, with drags by the arms and hands that let go where these help."""
+    if problem.context.is_fixed and hints.known is None and not problem.may_let_go:
+        # Drags by the arms cost two motions and save none: where folds alone give a plan, drags are not looked for.
+        for event in quickest(problem.without_arm_drags(), budget, hints):
+            if _is_solved(event):
+                yield event
+                if isinstance(event, Done):
+                    return
+        problem = problem.anew()
+    if not problem.may_let_go:
+        yield from quickest(problem, budget, hints)
+        return
+    for event in quickest(problem, budget, hints):
+        held = event.found
+        if isinstance(event, Improved):
+            yield event
+    for event in quickest(problem.let_go(), budget, Hints()):
+        if isinstance(event, Done):
+            yield Done(held.or_quicker(event.found))
+        elif isinstance(event, Blocked):
+            yield event
+
+
+def _explained(events: Iterator[Event], *, with_reasons: bool) -> Iterator[Event]:
+    """Add to a search's events the reasons why there is no plan: those met at once, and those that prove true."""
+    reasons: tuple[Reason, ...] = ()
+    for event in events:
+        if isinstance(event, Blocked) and with_reasons:
+            found = explained(event.obstacles)
+            yield replace(event, found=event.found.with_reasons(next(found)))
+            (reasons,) = found
+        elif isinstance(event, Done) and event.found.plan.status == "infeasible":
+            yield Done(event.found.with_reasons(reasons))
+        else:
+            yield event
+
+
+def _is_solved(event: Event) -> bool:
+    """Return whether an event brings a plan."""
+    return event.found.plan.is_solved
+
+
 def find_plan(
     task: Task,
     *,
     should_stop: Callable[[], bool] | None = None,
     known: FoundPlan | None = None,
     like: Sequence[FoundPlan] = (),
-    on_found: Callable[[FoundPlan], None] | None = None,
     with_reasons: bool = True,
 ) -> FoundPlan:
-    """Plan as `make_plan` does, starting from known plans, and keep the data that the plan was found with.
+    """Return the plan that ends the stream of `plan`, with the data that it was found with.
 
     Args:
         task: the task to plan.
@@ -81,53 +164,14 @@ def find_plan(
         known: a solved plan for the same task, as `quick_plan` returns it; it is the answer unless a quicker one is
             found.
         like: solved plans for similar garments, used as a fallback if the search takes long.
-        on_found: called during a long search with a plan as `quick_plan` returns it, while the search for the quickest
-            continues. Where there is no plan, called with the reasons that the search met, before they are tried.
-        with_reasons: whether to find out why there is no plan, if there is none; this takes further planning.
-
-    Returns:
-        The plan, its problem and its acts.
+        with_reasons: whether to find out why there is no plan, if there is none.
 
     Raises:
         FoldError: a fold is not legal on the cloth as the folds before it leave it.
         RequestError: the folds do not allow the task's start, or the robot is unknown.
     """
-    compile_kernels(task.robot)
-    problem = Problem.of(task)
-    budget = Budget.of(task.limits.work_limit_s, task.limits.time_limit_s, should_stop)
-    firmly_known = known if known is not None and known.context.is_firm else None
-    firm = _planned(problem.firm(), budget, firmly_known, like, on_found, None)
-    if firm.plan.is_solved:
-        return firm
-    # It knows where the arms reach as far as has been asked.
-    return _planned(Problem.of(task), budget, known, like, on_found, Explanation() if with_reasons else None)
-
-
-def _planned(
-    problem: Problem,
-    budget: Budget,
-    known: FoundPlan | None,
-    like: Sequence[FoundPlan],
-    on_found: Callable[[FoundPlan], None] | None,
-    explainer: Explanation | None,
-) -> FoundPlan:
-    """Return the plan for a problem, with drags by the arms and hands that let go where these help; see `find_plan`."""
-    limits = problem.task.limits
-    if problem.context.is_fixed and known is None and not problem.may_let_go:
-        # Drags by the arms cost two motions and save none: where folds alone give a plan, drags are not looked for.
-        still = PlanSearch(
-            problem.without_arm_drags(), limits.heuristic, budget, limits.max_expanded, None, like, on_found
-        ).plan()
-        if still.plan.is_solved:
-            return still
-        problem = problem.anew()
-    if not problem.may_let_go:
-        return PlanSearch(
-            problem, limits.heuristic, budget, limits.max_expanded, known, like, on_found, explainer
-        ).plan()
-    found = PlanSearch(problem, limits.heuristic, budget, limits.max_expanded, known, like, on_found).plan()
-    free = PlanSearch(problem.let_go(), limits.heuristic, budget, limits.max_expanded, explainer=explainer)
-    return found.or_quicker(free.plan())
+    *_, end = plan(task, Hints(known, like), should_stop=should_stop, with_reasons=with_reasons)
+    return end.found
 
 
 def quick_plan(
@@ -151,5 +195,5 @@ def quick_plan(
         RequestError: the folds do not allow the task's start, or the robot is unknown.
     """
     compile_kernels(task.robot)
-    problem, is_over = Problem.of(task), should_stop or (lambda: False)
-    return quickly_planned(problem.firm(), like, is_over) or quickly_planned(problem, like, is_over)
+    problem, budget = Problem.of(task), Budget.endless(should_stop)
+    return quickly_planned(problem.firm(), like, budget) or quickly_planned(problem, like, budget)

@@ -50,7 +50,7 @@ ALLOWED: Mapping[str, tuple[str, str]] = {
     "app/cli/rehearse.py": (r"left|right", "columns of a table are aligned"),
     "app/files/sheet_pdf.py": (r"left", "where a line of text begins"),
     "app/cli/study.py": (r"left", "the time that is left"),
-    "app/vision/outline_edges.py": (r"right", "a side of numpy's searchsorted"),
+    "app/rehearsal/vision/outline_edges.py": (r"right", "a side of numpy's searchsorted"),
     "app/templates/mirrored.py": (r"left|right", "names of folds on the halves of a garment"),
     "static/js/board/edits.js": (r"left|right", "names of folds on the halves of a garment"),
     "static/js/messages/changes.js": (r"left|right", "ways to turn the cloth"),

@@ -33,3 +33,12 @@ def test_a_document_tells_no_history(page: Path) -> None:
 @pytest.mark.parametrize("page", sorted(ROOT.glob("docs/*.md")), ids=lambda page: page.name)
 def test_every_document_is_linked_from_the_readme(page: Path) -> None:
     assert f"(docs/{page.name})" in (ROOT / "README.md").read_text(encoding="utf-8")
+
+
+def test_the_modules_on_the_ways_through_the_program_are_there() -> None:
+    text = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
+    ways = text.partition("## Two ways through the program")[2].partition("\n## ")[0]
+    files = [f"/{file.with_suffix('')}" for folder in ("app", "static/js") for file in (ROOT / folder).rglob("*.*")]
+    named = re.findall(r"(?<![/\w])[a-z_0-9]+(?:/[a-z_0-9]+)+", "\n".join(re.findall(r"^    .*$", ways, re.MULTILINE)))
+    assert len(named) > 20
+    assert [name for name in named if not any(file.endswith(f"/{name}") for file in files)] == []

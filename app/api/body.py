@@ -89,15 +89,16 @@ async def read_bytes(request: Request, most: int) -> bytes:
     """Return the raw body; raises `TooLargeError` if it has more bytes than allowed."""
     declared = request.headers.get("content-length", "0")
     if declared.isascii() and declared.isdigit() and int(declared[:20]) > most:
-        raise _too_large(most)
+        raise too_large(most)
     chunks, size = [], 0
     async for chunk in request.stream():
         size += len(chunk)
         if size > most:
-            raise _too_large(most)
+            raise too_large(most)
         chunks.append(chunk)
     return b"".join(chunks)
 
 
-def _too_large(most: int) -> TooLargeError:
+def too_large(most: int) -> TooLargeError:
+    """Return the error for a request of more bytes than allowed."""
     return TooLargeError(f"a request has at most {most} bytes ({most >> 20} MiB)")

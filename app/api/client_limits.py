@@ -4,6 +4,7 @@ Files of the page are not counted: a page loads a hundred at once. This machine'
 either: there is nobody else whom they could keep waiting.
 """
 
+import asyncio
 import ipaddress
 import math
 import time
@@ -11,7 +12,7 @@ from collections import Counter, OrderedDict
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from starlette.types import ASGIApp, Receive, Scope, Send
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from app.api.problems import ProblemResponse
 from app.jobs.limits import CLIENT
@@ -33,6 +34,8 @@ _NOT_COUNTED = ("/static", "/viser/")
 
 class ClientLimits:
     """Middleware that refuses requests of a client that sends too many, and websockets of one that has too many open.
+
+    Messages on a websocket count as requests do; those that are too many wait for their turn.
 
     What answers the others knows from `CLIENT` whose limits hold.
     """
@@ -75,9 +78,16 @@ class ClientLimits:
             await ProblemResponse(TOO_MANY, detail, headers=headers)(scope, receive, send)
             return
         self._open[client] += 1
+
+        async def receive_in_turn() -> Message:
+            message = await receive()
+            while message["type"] == "websocket.receive" and (wait_s := self._wait_s(client, scope)) > 0.0:
+                await asyncio.sleep(wait_s)
+            return message
+
         try:
             with _known(client):
-                await self._app(scope, receive, send)
+                await self._app(scope, receive_in_turn, send)
         finally:
             self._open[client] -= 1
             if not self._open[client]:

@@ -1,12 +1,13 @@
-"""The page's commands to a document, sent by websocket or by POST."""
+"""What is done with what pages and programs send to change a document, or how it is shown."""
 
 from dataclasses import replace
-from typing import Any
+from typing import TypeAlias
 
-from app.api.messages import (
-    COMMANDS,
+from app.api.document_messages import (
     Choose,
     Command,
+    EditRequest,
+    GarmentRequest,
     LookLonger,
     Pause,
     PlanAgain,
@@ -14,6 +15,8 @@ from app.api.messages import (
     PlanFromState,
     Play,
     Preview,
+    Redo,
+    RobotRequest,
     Seek,
     SetEffort,
     SetLanguage,
@@ -21,37 +24,50 @@ from app.api.messages import (
     SetTheme,
     ShowTrace,
     Stop,
+    Undo,
 )
-from app.api.request_parsing import requested_start
+from app.api.problems import LookOnlyError
+from app.api.request_parsing import requested_garment, requested_start
 from app.document import Document
 from app.document_state import DocumentState
 from app.drawing.arcs import with_arcs
-from app.drawing.edit import Edit
+from app.drawing.drawing import Drawing
+from app.drawing.drawing_json import drawing_from_dict
+from app.drawing.edit import Edit, Phase
 from app.drawing.garment_drawing import drawing_of
 from app.drawing.robot_drawing import with_robot
 from app.rehearsal.trace import RunTrace
+from app.visitors_view import VisitorsView
 from app.workspace import Workspace
 from planner.cloth.garment import Garment
+from planner.errors import FieldError, RequestError
 from planner.robots.known_robots import require_name
 from planner.robots.load_robot import robot_card_file
 
-
-def command_of(data: Any) -> Command:  # noqa: ANN401
-    """Return the command that JSON describes; raises `RequestError`."""
-    return COMMANDS.read(data)
+Wanted: TypeAlias = Command | EditRequest | GarmentRequest | RobotRequest | Undo | Redo
 
 
-def dispatch(command: Command, workspace: Workspace, document: Document) -> None:
-    """Carry out a command."""
-    match command:
-        case Play():
-            document.play()
-        case Pause():
-            document.pause()
-        case Seek(t_s=t_s):
-            document.seek(t_s)
-        case SetSpeed(speed=speed):
-            document.set_speed(speed)
+def dispatch(wanted: Wanted, workspace: Workspace, document: Document) -> DocumentState:
+    """Carry out a command or a change; return the state that it has led to.
+
+    Raises:
+        StaleVersionError: the change is based on a version that is no longer current.
+        FoldingError: it cannot be done.
+    """
+    if _play(wanted, document):
+        return document.state
+    match wanted:
+        case EditRequest():
+            return document.edit(_edit(wanted, document.state.drawing))
+        case GarmentRequest():
+            garment = requested_garment(workspace, wanted.garment)
+            return put_garment(document, garment, wanted.label, wanted.base_version, has_arcs=wanted.arcs)
+        case RobotRequest():
+            return put_robot(document, wanted.robot, wanted.label, wanted.base_version)
+        case Undo():
+            return document.undo(wanted.base_version)
+        case Redo():
+            return document.redo(wanted.base_version)
         case SetTheme(dark=is_dark):
             document.set_theme(is_dark=is_dark)
         case SetLanguage(language=language):
@@ -80,6 +96,29 @@ def dispatch(command: Command, workspace: Workspace, document: Document) -> None
             document.show_trace(None)
         case ShowTrace(trace=str(trace_id)):
             document.show_trace(RunTrace.unpacked(workspace.traces.content(trace_id)))
+    return document.state
+
+
+def play(wanted: Wanted, visitors: VisitorsView) -> None:
+    """Carry out a command by a link, for visitors alone; raise `LookOnlyError` if it does more than play."""
+    if not _play(wanted, visitors):
+        raise LookOnlyError
+
+
+def _play(wanted: Wanted, played: Document | VisitorsView) -> bool:
+    """Carry out a command if it is one of playback; return whether it is."""
+    match wanted:
+        case Play():
+            played.play()
+        case Pause():
+            played.pause()
+        case Seek(t_s=t_s):
+            played.seek(t_s)
+        case SetSpeed(speed=speed):
+            played.set_speed(speed)
+        case _:
+            return False
+    return True
 
 
 def put_garment(
@@ -123,3 +162,16 @@ def put_robot(
     state = document.edit(Edit(label or f"Fold with {title}", drawing, base_version=base, gesture="robot"))
     document.rewind()
     return state
+
+
+def _edit(wanted: EditRequest, now: Drawing) -> Edit:
+    phase = Phase(wanted.phase)
+    if wanted.drawing is None and phase is not Phase.CANCEL:
+        raise RequestError("drawing", "is missing")
+    try:
+        drawing = None if wanted.drawing is None else drawing_from_dict(wanted.drawing)
+        if drawing is not None and drawing.robot != now.robot:
+            require_name(drawing.robot)
+    except FieldError as error:
+        raise error.within("drawing") from None
+    return Edit(wanted.label, drawing, phase, wanted.base_version, wanted.coalesce, wanted.gesture)

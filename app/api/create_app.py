@@ -9,21 +9,18 @@ from fastapi.concurrency import run_in_threadpool
 from fastapi_offline import FastAPIOffline
 
 from app.api import (
-    document_changes,
     document_routes,
     file_routes,
     garment_routes,
     job_answers,
     job_routes,
     live,
-    metrics_routes,
-    overlay_routes,
+    metrics,
     page_routes,
     plan_routes,
     rehearsal_routes,
     robot_routes,
     scene_routes,
-    share_routes,
     study_routes,
     suggestion_events,
     suggestion_routes,
@@ -32,16 +29,13 @@ from app.api import (
 )
 from app.api.client_limits import ClientLimits
 from app.api.described import describe
-from app.api.failures import FailuresAsProblems
 from app.api.guard import OwnNamesOnly
 from app.api.live_answers import LiveCommand, LiveMessage
-from app.api.methods import HeadAsGet
 from app.api.metrics import Measured, Metrics
-from app.api.prefix import BelowPrefix
-from app.api.problems import Problem, install_problems
+from app.api.middleware import BelowPrefix, HeadAsGet, WholeRequests
+from app.api.problems import FailuresAsProblems, Problem, install_problems
 from app.api.shared import Shared
 from app.api.token_only import TokenOnly
-from app.api.whole_requests import WholeRequests
 from app.job_kinds.kinds import KINDS
 from app.server.request_id import RequestIds
 from app.settings import Settings
@@ -79,7 +73,7 @@ def create_app(settings: Settings, token: AccessToken | None = None) -> FastAPI:
     app.router.routes.extend(_routes().routes)
     page_routes.mount_files(app)
     install_problems(app)
-    describe(app, Problem, LiveMessage, LiveCommand, *suggestion_events.EVENTS, *job_answers.EVENTS)
+    describe(app, LiveCommand, Problem, LiveMessage, *suggestion_events.EVENTS, *job_answers.EVENTS)
     app.add_middleware(FailuresAsProblems)
     app.add_middleware(Measured, metrics=app.state.metrics)
     if token is not None:
@@ -109,13 +103,10 @@ def _routes() -> APIRouter:
         study_routes,
         template_routes,
         document_routes,
-        document_changes,
-        share_routes,
         file_routes,
-        overlay_routes,
         live,
         view_3d_routes,
-        metrics_routes,
+        metrics,
         page_routes,
     ):
         every.include_router(routes.router)

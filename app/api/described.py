@@ -73,11 +73,16 @@ def _inlined(schema: Any, definitions: dict[str, Any]) -> Any:  # noqa: ANN401
     return whole
 
 
-def describe(app: FastAPI, *models: type[BaseModel]) -> None:
+def describe(app: FastAPI, sent: type[BaseModel], *models: type[BaseModel]) -> None:
     """Add the schemas that no route's signature names, and links; say that all errors are problems.
 
     Problems, events and websocket messages are in no signature. FastAPI describes its own answer to parameters that are
     not valid, in place of which a problem is sent.
+
+    Args:
+        app: the server.
+        sent: what pages send over the websocket.
+        models: what is sent to them, and other answers.
     """
     plain = app.openapi
 
@@ -86,6 +91,7 @@ def describe(app: FastAPI, *models: type[BaseModel]) -> None:
         schemas = description.setdefault("components", {}).setdefault("schemas", {})
         for model in models:
             schemas.update(_schemas(model))
+        schemas[sent.__name__] = _without_defaults(whole_schema(sent.model_json_schema()))
         _tell_of_problems(description)
         link(description)
         return description
@@ -107,3 +113,12 @@ def _schemas(model: type[BaseModel]) -> dict[str, Any]:
     schema = model.model_json_schema(ref_template="#/components/schemas/{model}", mode="serialization")
     definitions: dict[str, Any] = schema.pop("$defs", {})
     return {**definitions, model.__name__: schema}
+
+
+def _without_defaults(schema: Any) -> Any:  # noqa: ANN401
+    """Return a schema without defaults: the page's types would take a field that has one for required."""
+    if isinstance(schema, list):
+        return [_without_defaults(part) for part in schema]
+    if not isinstance(schema, dict):
+        return schema
+    return {key: _without_defaults(value) for key, value in schema.items() if key != "default"}

@@ -2,6 +2,7 @@
 
 import asyncio
 import contextlib
+import math
 from collections.abc import Callable
 from concurrent.futures import Future
 from typing import Any, ParamSpec, TypeVar
@@ -23,14 +24,12 @@ async def quick_answer(request: Request, work: Callable[P, Answer], *arguments: 
 
 
 async def answer_of(
-    request: Request, pool: JobPool, work: Callable[[Stop], Answer], begins_within_s: float | None = None
+    request: Request | None, pool: JobPool, work: Callable[[Stop], Answer], begins_within_s: float | None = None
 ) -> Answer:
-    """Return the result of a job; stop it if the client disconnects first.
-
-    The request's body must have been read.
+    """Return the result of a job; stop it if the client disconnects first, or if this is cancelled.
 
     Args:
-        request: the client's request.
+        request: the client's request, whose body has been read; None if it came over a websocket.
         pool: the workers.
         work: the job.
         begins_within_s: how long the job may wait for its turn (s); None: as long as the client does.
@@ -48,7 +47,7 @@ async def answer_of(
 
 
 async def until(
-    request: Request, pool: JobPool, job: Job[Any], awaited: Future[Answer], begins_within_s: float | None
+    request: Request | None, pool: JobPool, job: Job[Any], awaited: Future[Answer], begins_within_s: float | None
 ) -> Answer:
     """Return the awaited value of a job; arguments and errors are those of `answer_of`."""
     answer = asyncio.wrap_future(awaited)
@@ -62,7 +61,7 @@ async def until(
         await asyncio.wait(either, return_when=asyncio.FIRST_COMPLETED)
         if answer.done():
             return answer.result()
-        raise ClientGoneError("the client went away")
+        raise ClientGoneError
     finally:
         gone.cancel()
 
@@ -73,7 +72,9 @@ def _heed(answer: asyncio.Future[Any]) -> None:
         answer.exception()
 
 
-async def _disconnect(request: Request) -> None:
+async def _disconnect(request: Request | None) -> None:
+    while request is None:
+        await asyncio.sleep(math.inf)
     while True:
         message = await request.receive()
         if message["type"] == "http.disconnect":

@@ -4,9 +4,11 @@ from typing import Literal
 
 from pydantic import BaseModel, RootModel
 
-from app.api.answers import PlanAnswer, Point
-from app.api.document_answers import DocumentAnswer, PlaybackAnswer
-from app.api.messages import Command
+from app.api.answers import PictureAnswer, PlanAnswer, Point
+from app.api.document_answers import CreaseAnswer, DocumentAnswer, PlaybackAnswer, QuickFixesAnswer, StepsAnswer
+from app.api.document_messages import Sent
+from app.api.overlay_answers import OverlaysAnswer, PlacesAnswer
+from app.api.problems import Problem
 from planner.task.world_state import WorldState
 
 
@@ -69,16 +71,28 @@ class PlanMessage(BaseModel):
     checks: ChecksAnswer | None
 
 
-class Refusal(BaseModel):
-    """A command that was refused."""
+class Result(BaseModel):
+    """The answer to what the page has sent with a number, `ask`.
+
+    `version` is the one that a change has made, `result` the answer to a question; null for a change.
+    """
+
+    kind: Literal["answer"]
+    ask: int
+    version: int
+    result: CreaseAnswer | StepsAnswer | QuickFixesAnswer | OverlaysAnswer | PlacesAnswer | list[PictureAnswer] | None
+
+
+class Refusal(Problem):
+    """What was refused: the problem, and the number of what the page has sent, null if that has none."""
 
     kind: Literal["problem"]
-    detail: str
+    ask: int | None
 
 
-class LiveMessage(RootModel[DocumentAnswer | PlanMessage | PlaybackAnswer | Refusal]):
+class LiveMessage(RootModel[DocumentAnswer | PlanMessage | PlaybackAnswer | Result | Refusal]):
     """A message to the page over the websocket."""
 
 
-class LiveCommand(RootModel[Command]):
-    """A command of the page over the websocket."""
+class LiveCommand(RootModel[Sent]):
+    """What the page sends over the websocket; with a number, `ask`, it is answered with the same number."""

@@ -3,12 +3,18 @@
 import time
 from collections.abc import Iterator
 
+from fastapi import APIRouter, Request
+from fastapi.concurrency import run_in_threadpool
 from prometheus_client import CollectorRegistry, Counter, Histogram, ProcessCollector
+from prometheus_client.exposition import CONTENT_TYPE_PLAIN_0_0_4, generate_latest
 from prometheus_client.metrics_core import CounterMetricFamily, GaugeMetricFamily, Metric
 from prometheus_client.registry import Collector
+from starlette.responses import Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from app.workspace import Workspace
+
+router = APIRouter(include_in_schema=False)
 
 _BUCKETS_S = (0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1.0, 2.5, 5.0, 10.0, 30.0, 60.0)
 _NO_ROUTE = "none"
@@ -83,3 +89,10 @@ class Measured:
 
 def _route(scope: Scope) -> str:
     return str(getattr(scope.get("route"), "path", _NO_ROUTE))
+
+
+@router.get("/metrics")
+async def read_metrics(request: Request) -> Response:
+    """Return the metrics in Prometheus's text format."""
+    metrics: Metrics = request.app.state.metrics
+    return Response(await run_in_threadpool(generate_latest, metrics.registry), media_type=CONTENT_TYPE_PLAIN_0_0_4)

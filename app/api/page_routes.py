@@ -10,8 +10,7 @@ from starlette.responses import FileResponse, RedirectResponse, Response
 from starlette.staticfiles import NotModifiedResponse, StaticFiles
 
 from app.api.request_parsing import workspace_of
-from app.page_files import scripts, styles
-from app.resources import static_dir
+from app.page_files import scripts, static_dir, styles
 from app.workspace import Workspace
 from planner.errors import FoldingError
 

@@ -14,6 +14,7 @@ from app.api.body import JsonBody, read_object
 from app.api.described import DescribedRoute, problems
 from app.api.disconnect import answer_of, quick_answer
 from app.api.messages import DagRequest, PlanRequest
+from app.api.questions import pictures
 from app.api.request_parsing import TimeLimit, requested_garment, requested_task, within_request, workspace_of
 from app.files.import_file import LARGEST_PLAN_FILE
 from app.worker.process import ignore
@@ -120,7 +121,7 @@ async def read_timeline(request: Request, plan_id: str, rate_hz: SampleRate = 30
 @router.get("/plans/{plan_id}/pictures", responses={200: {"model": list[PictureAnswer]}, **problems(404)})
 async def read_pictures(request: Request, plan_id: str) -> JSONResponse:
     """Return cloth and base before each step of a plan and after the last, as seen from above."""
-    return JSONResponse(await run_in_threadpool(_pictures, await _kept(request, plan_id)))
+    return JSONResponse(await run_in_threadpool(pictures, await _kept(request, plan_id)))
 
 
 def plan_answer(plan_id: str, plan: Plan) -> dict[str, Any]:
@@ -138,18 +139,6 @@ async def _plan_file(plan: Plan) -> Response:
     text = await run_in_threadpool(lambda: json.dumps(plan.to_dict()))
     name = f'attachment; filename="{plan.garment.name}.plan.json"'
     return Response(text, media_type=PLAN_FILE_TYPE, headers={"Content-Disposition": name, "Vary": "Accept"})
-
-
-def _pictures(plan: Plan) -> list[dict[str, Any]]:
-    worlds = [*(step.before for step in plan.steps), plan.end]
-    return [
-        {
-            "layers": [layer.to_dict() for layer in plan.sequence.cloth(world.done).layers],
-            "placement": world.placement.to_dict(),
-            "base": world.base.to_dict(),
-        }
-        for world in worlds
-    ]
 
 
 def _imported(workspace: Workspace, data: dict[str, Any], stop: Stop) -> dict[str, Any]:

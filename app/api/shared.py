@@ -11,10 +11,8 @@ from fastapi import WebSocket
 from fastapi.concurrency import run_in_threadpool
 from starlette.types import ASGIApp, Receive, Scope, Send
 
-from app.api.messages import Command, Pause, Play, Seek, SetSpeed
 from app.api.problems import LookOnlyError, ProblemResponse, folding_problem
 from app.store.share_repository import ShareRepository
-from app.visitors_view import VisitorsView
 from planner.errors import FoldingError
 from planner.robots.known_robots import shipped_robots
 
@@ -68,21 +66,6 @@ class Shared:
 def is_shared(scope: Scope) -> bool:
     """Return whether a request comes by a link that holds."""
     return _TOKEN in scope
-
-
-def play(command: Command, visitors: VisitorsView) -> None:
-    """Carry out a command by a link, for visitors alone; raise `LookOnlyError` if it does more than play."""
-    match command:
-        case Play():
-            visitors.play()
-        case Pause():
-            visitors.pause()
-        case Seek(t_s=t_s):
-            visitors.seek(t_s)
-        case SetSpeed(speed=speed):
-            visitors.set_speed(speed)
-        case _:
-            raise LookOnlyError
 
 
 async def until_revoked(websocket: WebSocket, shares: ShareRepository) -> None:

@@ -19,13 +19,13 @@ from app.cli.program import (
     output,
     write_json,
 )
+from app.rehearsal.vision.picture import LARGEST_PICTURE
+from app.rehearsal.vision.seen_garment import Seen
+from app.rehearsal.vision.seen_garment import see as see_garment
+from app.rehearsal.vision.seen_state import SeenState, see_state
+from app.rehearsal.vision.stack_fit import FoldFit
+from app.rehearsal.vision.vision_errors import NothingToldError, PictureError, ScaleNeededError
 from app.templates.catalogue import find_template
-from app.vision.picture import LARGEST_PICTURE
-from app.vision.seen_garment import Seen
-from app.vision.seen_garment import see as see_garment
-from app.vision.seen_state import SeenState, see_state
-from app.vision.stack_fit import FoldFit
-from app.vision.vision_errors import NothingToldError, PictureError, ScaleNeededError
 from planner.cloth.garment import Garment
 
 

@@ -14,10 +14,10 @@ from app.files.sketch import Sketch
 from app.files.sketch_garment import garment_of
 from app.files.sketch_size import UNITS_M, Sizes
 from app.files.svg_sketch import read_svg
+from app.rehearsal.vision.picture import LARGEST_PICTURE
+from app.rehearsal.vision.seen_garment import see
+from app.rehearsal.vision.vision_errors import NothingToldError, PictureError, ScaleNeededError
 from app.templates.catalogue import find_template
-from app.vision.picture import LARGEST_PICTURE
-from app.vision.seen_garment import see
-from app.vision.vision_errors import NothingToldError, PictureError, ScaleNeededError
 from planner.cloth.garment import Garment
 from planner.message import Message
 from planner.task.plan_files import ENDING
@@ -98,7 +98,7 @@ def import_file(
         units: the drawing's unit, one of `UNITS_M`; None to take it from the file.
         scale: the factor by which to enlarge everything.
         creases: the cloth on which the drawing's fold lines are; None for the reading that makes more of them legal.
-        measured: what gives the scale of a picture, as `app.vision.scale_said` reads it; None to look for a sheet.
+        measured: what gives the scale of a picture, as `scale_said` reads it; None to look for a sheet.
         like: the template, by name, or the garment whose measures are fitted to a picture and whose folds come along;
             None to take the outline as it is seen.
         line: which line of a drawing that has a cut line and a seam line is the outline; None for the seam line.

@@ -2,10 +2,9 @@
 
 from dataclasses import replace
 
-from app.document_state import DocumentState
+from app.document_state import DocumentState, VersionPlan
 from app.drawing.draft import draft_of
 from app.drawing.garment_drawing import drawing_of
-from app.version_plan import VersionPlan
 from planner.cloth.garment import Garment
 from planner.task.plan import Plan
 from planner.task.task import Task

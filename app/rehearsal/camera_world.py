@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from app.camera.look import PLAIN, Look
-from app.camera.mounted import camera_of, overhead
-from app.camera.picture import ClothSeen, picture
-from app.camera.posture import Posture
-from app.camera.robot_shape import robot_shape
+from app.rehearsal.camera.look import PLAIN, Look
+from app.rehearsal.camera.mounted import camera_of, overhead
+from app.rehearsal.camera.picture import ClothSeen, picture
+from app.rehearsal.camera.posture import Posture
+from app.rehearsal.camera.robot_shape import robot_shape
 from app.rehearsal.world import Observation, Performed, StepMotion, Truth, World
 from planner.robots.load_robot import load_robot, robot_card_file
 from planner.task.task import Task

@@ -1,17 +1,23 @@
-"""Change the motions of a step to fit the cloth as it lies: moved with it, or taken at another point of it."""
+"""Fit a step's motion to the cloth as it was seen: a list of corrections, each made to what the one before has left.
+
+A correction takes a motion, and the step as it was seen; it leaves alone what it does not concern.
+"""
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 
 import numpy as np
 
+from app.rehearsal.grasp_points import inwards_at
+from app.rehearsal.judge import carry
+from app.rehearsal.step_seen import StepSeen
+from app.rehearsal.taut_way import taut
+from app.rehearsal.trailing_flaps import trailing
+from app.rehearsal.vision.look_at_stack import Sight
 from app.rehearsal.world import GripMotion, StepMotion, way_done
-from app.vision.look_at_stack import Sight
-from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.isometry import Isometry
-from planner.geometry.pose import FloatArray, Point2, Point3, Pose2
-from planner.task.plan_step import PlanStep
+from planner.geometry.pose import Point2, Point3, Pose2
 
 _TRIED = ((1 / 3, 0), (1 / 3, 1), (1 / 3, -1), (2 / 3, 0), (1, 0), (1, 1), (1, -1), (1, 4))
 """How far from the grip, as a share of the radius, and at how many eighths of a turn from inwards it is tried.
@@ -27,103 +33,70 @@ before it.
 """
 
 
-def carry(start: Pose2, end: Pose2) -> Isometry:
-    """Return the isometry that carries an article from one placement to another, table frame."""
-    to, back = (Isometry.rotation(pose.yaw_rad, pose.x_m, pose.y_m) for pose in (end, start))
-    return to.after(back.inverse)
+def corrected(seen: StepSeen) -> StepMotion:
+    """Return the motion of a step, all corrections made."""
+    motion = seen.motion
+    for correction in CORRECTIONS:
+        motion = correction(motion, seen)
+    return motion
 
 
-def shift_of(motion: StepMotion, carried: Isometry) -> float:
-    """Return how far the furthest grip of a step is from where the cloth has it now (m)."""
-    picks = [grip.points[0][:2] for grip in motion.grips]
-    return max((math.dist(pick, carried.apply_point(pick)) for pick in picks), default=0.0)
-
-
-def corrected(motion: StepMotion, carried: Isometry) -> StepMotion:
-    """Return a step made for cloth that lies elsewhere: a fold is carried along, a drag ends where it should."""
-
-    def carried_along(points: FloatArray) -> FloatArray:
-        moved = np.column_stack([carried.apply(points[:, :2]), points[:, 2]])
-        if not motion.is_drag:
-            return moved
-        left = 1.0 - way_done(points)[:, None]
-        return np.asarray(points + left * (moved[0] - points[0]))
-
-    return replace(motion, grips=tuple(_along(grip, carried_along(np.array(grip.points))) for grip in motion.grips))
-
-
-def reflection_in(step: PlanStep, sequence: FoldSequence, carried: Isometry) -> Isometry | None:
-    """Return what a step's fold does to the cloth as it lies, table frame; None if it makes none."""
-    if step.fold is None:
-        return None
-    lies = step.before.placement
-    to_table = carried.after(Isometry.rotation(lies.yaw_rad, lies.x_m, lies.y_m))
-    over = Isometry.reflection(sequence.folds[step.fold].line)
-    return to_table.after(over).after(to_table.inverse)
-
-
-def regrasps(
-    motion: StepMotion,
-    arms: frozenset[str],
-    radius_m: float,
-    inwards: Mapping[str, Point2],
-    offsets: Mapping[str, Point2],
-    fold: Isometry | None,
-) -> Iterator[StepMotion]:
-    """Yield the step with some hands at other points round those where they missed, first further into the cloth.
-
-    Args:
-        motion: the step.
-        arms: the arms that found no cloth.
-        radius_m: how far from there, and from their grips, at most (m): within the comfort radius all is in reach.
-        inwards: for some arms the direction into the cloth, table frame; the others' is that of their way.
-        offsets: how far beside its grip each hand took the cloth at first (m).
-        fold: the reflection of the cloth by the step's fold, table frame; None if it makes none.
-    """
-    for share, eighths in _TRIED:
-        tried = {
-            grip.arm: _within(
-                radius_m,
-                offsets.get(grip.arm, (0.0, 0.0)),
-                _round(inwards.get(grip.arm) or _way(grip), share * radius_m, math.pi / 4.0 * eighths),
-            )
-            for grip in motion.grips
-            if grip.arm in arms
-        }
-        yield beside(motion, {**offsets, **tried}, fold)
-
-
-def beside(motion: StepMotion, offsets: Mapping[str, Point2], fold: Isometry | None) -> StepMotion:
-    """Return the step with hands that hold the cloth beside their grips; they land where the fold brings its points.
-
-    Args:
-        motion: the step.
-        offsets: for some arms, how far beside its grip each begins (m).
-        fold: the reflection of the cloth by the step's fold, table frame; None if it makes none.
-    """
+def carried_along(motion: StepMotion, seen: StepSeen) -> StepMotion:
+    """Follow cloth that lies elsewhere: a fold is carried along, a drag ends where it should."""
 
     def moved(grip: GripMotion) -> GripMotion:
-        offset = offsets[grip.arm]
         points = np.array(grip.points)
-        share = way_done(points)[:, None]
-        landed = offset if fold is None else _turned(fold, offset)
-        points[:, :2] += (1.0 - share) * np.array(offset) + share * np.array(landed)
-        return _along(grip, points)
+        there = np.column_stack([seen.carried.apply(points[:, :2]), points[:, 2]])
+        if motion.is_drag:
+            there = points + (1.0 - way_done(points)[:, None]) * (there[0] - points[0])
+        return grip.along(there)
 
-    return replace(motion, grips=tuple(moved(grip) if grip.arm in offsets else grip for grip in motion.grips))
+    return replace(motion, grips=tuple(map(moved, motion.grips)))
 
 
-def landing_short(motion: StepMotion, arms: frozenset[str], short_m: float) -> StepMotion:
-    """Return a fold in which some hands land short of where they should, from the apex on (m)."""
+def kept_taut(motion: StepMotion, seen: StepSeen) -> StepMotion:
+    """Keep cloth that is folded over taut (see `taut`), as far as that is in reach."""
+    return taut(motion, seen.spare_m)
+
+
+def laid_short(motion: StepMotion, seen: StepSeen) -> StepMotion:
+    """Lay down short of its place what the same hands lift again, from the apex on.
+
+    Beyond the edge below it would hang down, and hook that one. A red fold goes on from where the one before has ended.
+    """
+    fold = seen.step.fold
+    if fold is None or seen.sequence.folds[fold].is_red or not seen.step.details.get("holds"):
+        return motion
+    held = {one.arm for one in seen.step.holdings}
 
     def moved(grip: GripMotion) -> GripMotion:
         points = np.array(grip.points)
         way = points[0, :2] - points[-1, :2]
         late = np.clip(2.0 * way_done(points) - 1.0, 0.0, 1.0)[:, None]
-        points[:, :2] += short_m * late * way / max(float(np.hypot(*way)), short_m)
-        return _along(grip, points)
+        points[:, :2] += SHORT_M * late * way / max(float(np.hypot(*way)), SHORT_M)
+        return grip.along(points)
 
-    return replace(motion, grips=tuple(moved(grip) if grip.arm in arms else grip for grip in motion.grips))
+    return replace(motion, grips=tuple(moved(grip) if grip.arm in held else grip for grip in motion.grips))
+
+
+def beside_grips(motion: StepMotion, seen: StepSeen) -> StepMotion:
+    """Hold the cloth beside the grips (`StepSeen.offsets`); hands land where the fold brings its points."""
+
+    def moved(grip: GripMotion) -> GripMotion:
+        offset = seen.offsets[grip.arm]
+        points = np.array(grip.points)
+        share = way_done(points)[:, None]
+        landed = offset if seen.fold is None else _turned(seen.fold, offset)
+        points[:, :2] += (1.0 - share) * np.array(offset) + share * np.array(landed)
+        return grip.along(points)
+
+    return replace(motion, grips=tuple(moved(grip) if grip.arm in seen.offsets else grip for grip in motion.grips))
+
+
+Correction = Callable[[StepMotion, StepSeen], StepMotion]
+
+CORRECTIONS: tuple[Correction, ...] = (carried_along, kept_taut, laid_short, beside_grips, trailing)
+"""The corrections, in their order."""
 
 
 def aimed(motion: StepMotion, hands: Mapping[str, Point2]) -> StepMotion:
@@ -140,14 +113,34 @@ def aimed(motion: StepMotion, hands: Mapping[str, Point2]) -> StepMotion:
         points = np.array(grip.points)
         share = np.ones(len(points)) if grip.closes else 1.0 - way_done(points)
         points[:, :2] -= share[:, None] * np.array(hands[grip.arm])
-        return _along(grip, points)
+        return grip.along(points)
 
     return replace(motion, grips=tuple(moved(grip) if grip.arm in hands else grip for grip in motion.grips))
 
 
-def still_beside(planned: StepMotion, made: StepMotion) -> dict[str, Point2]:
-    """Return how far beside their planned ends the hands hold cloth after a step, for those that hold on (m)."""
-    pairs = zip(planned.grips, made.grips, strict=True)
+def regrasps(seen: StepSeen, arms: frozenset[str]) -> Iterator[dict[str, Point2]]:
+    """Yield where some hands take the cloth at other points round those where they missed, first further into it.
+
+    All are within the comfort radius of where they missed, and of their grips: there all is in reach.
+
+    Args:
+        seen: the step, and where hands took the cloth at first.
+        arms: the arms that found no cloth.
+    """
+    # A drag may pull the cloth behind it, so that its way says nothing of where cloth is; a fold's leads over it.
+    ways = {grip.arm: _way(grip) for grip in carried_along(seen.motion, seen).grips}
+    inwards = ways | (inwards_at(seen) if seen.fold is None else {})
+    for share, eighths in _TRIED:
+        round_it = {arm: _round(inwards[arm], share * seen.radius_m, math.pi / 4.0 * eighths) for arm in arms}
+        yield {
+            **seen.offsets,
+            **{arm: _within(seen.radius_m, seen.offsets.get(arm, (0.0, 0.0)), gone) for arm, gone in round_it.items()},
+        }
+
+
+def still_beside(seen: StepSeen, made: StepMotion) -> dict[str, Point2]:
+    """Return how far beside their ends, carried along, the hands hold cloth that hold on after a step (m)."""
+    pairs = zip(carried_along(seen.motion, seen).grips, made.grips, strict=True)
     return {one.arm: _from(one.points[-1], other.points[-1]) for one, other in pairs if not one.opens}
 
 
@@ -211,7 +204,3 @@ def _within(radius_m: float, first: Point2, second: Point2) -> Point2:
 def _turned(isometry: Isometry, vector: Point2) -> Point2:
     (x, y), (x0, y0) = isometry.apply_point(vector), isometry.apply_point((0.0, 0.0))
     return x - x0, y - y0
-
-
-def _along(grip: GripMotion, points: FloatArray) -> GripMotion:
-    return replace(grip, points=tuple((x, y, z) for x, y, z in points.tolist()))

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from app.camera.posture import Posture
+from app.rehearsal.camera.posture import Posture
 from planner.geometry.pose import FloatArray
 from planner.robots.load_robot import load_robot
 

@@ -7,14 +7,14 @@ from typing import Any
 
 import numpy as np
 
-from app.camera.develop import coded
-from app.camera.posture import Posture
-from app.camera.robot_shape import RobotShape, hidden, robot_shape
+from app.rehearsal.camera.develop import coded
+from app.rehearsal.camera.posture import Posture
+from app.rehearsal.camera.robot_shape import RobotShape, hidden, robot_shape
 from app.rehearsal.hand_eye import HandEye
+from app.rehearsal.vision.expected import Expected
+from app.rehearsal.vision.fit_stack import fit_stack
+from app.rehearsal.vision.look_at_stack import Looker, Sight
 from app.rehearsal.world import Observation, StepMotion
-from app.vision.expected import Expected
-from app.vision.fit_stack import fit_stack
-from app.vision.look_at_stack import Looker, Sight
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.pose import Point2, Pose2
 from planner.robots.card import RobotCard

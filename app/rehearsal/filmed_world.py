@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from app.physics.physics_world import PhysicsWorld
+from app.rehearsal.physics.physics_world import PhysicsWorld
 from app.rehearsal.trace import Frames, rounded
 from app.rehearsal.world import Observation, Performed, StepMotion, Truth
 from planner.task.plan import Plan

@@ -14,7 +14,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from app.physics.pinch import PAD_M
+from app.rehearsal.physics.pinch import PAD_M
 from app.rehearsal.world import GripMotion, StepMotion
 
 _LEAST_WAY_M = 4.0 * PAD_M
@@ -69,4 +69,4 @@ def _turned(grip: GripMotion, thickness_m: float, most_m: float) -> GripMotion:
     points[:, :2] -= short_m[:, None] * way[:2] / way_m
     on_table = points[0, 2] + way[2] * done
     points[:, 2] = on_table + (1.0 - 2.0 * scale * ahead_m / way_m) * (points[:, 2] - on_table)
-    return replace(grip, points=tuple((x, y, z) for x, y, z in points.tolist()))
+    return grip.along(points)

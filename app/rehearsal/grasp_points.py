@@ -1,17 +1,16 @@
-"""Where exactly hands take the cloth and seek it, and which edges they lay down short of their place."""
+"""Where exactly hands take the cloth, and where they seek it."""
 
 import math
 from collections.abc import Mapping
 
 import numpy as np
 
-from app.vision.seen_stack import SeenStack
+from app.rehearsal.step_seen import StepSeen
+from app.rehearsal.vision.seen_stack import SeenStack
 from planner.folds.fold_sequence import FoldSequence
-from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Point2
 from planner.geometry.tolerance import LENGTH_M
 from planner.task.grip import Holding
-from planner.task.plan import Plan
 from planner.task.plan_step import PlanStep
 
 INSIDE_M = 0.01
@@ -22,26 +21,29 @@ their middle. All else is taken at its edge: beyond the fingers cloth crumples.
 """
 
 
-def where_seen(step: PlanStep, carried: Isometry, seen: SeenStack | None, radius_m: float) -> dict[str, Point2]:
-    """Return how far beside their grips hands take the cloth, because it is seen there, table frame (m).
+def taken_at(seen: StepSeen) -> dict[str, Point2]:
+    """Return how far beside their grips hands take the cloth, table frame (m).
+
+    A part that moved last, and an edge, is taken where it is seen, corners of several layers inside of that.
+    """
+    inwards = inwards_at(seen)
+    corners = {arm: inwards[arm] for arm in at_layered_corners(seen.step, seen.sequence) & inwards.keys()}
+    return inside(where_seen(seen), corners, seen.spare_m)
+
+
+def where_seen(seen: StepSeen) -> dict[str, Point2]:
+    """Return how far beside their grips, as far as is in reach, the cloth is seen, table frame (m).
 
     That is the part that moved last, and an edge: with the finger's tip beyond a crease that lies inside of its line a
     hand held only what stuck out of it, and laid what it held down as far beyond its place.
-
-    Args:
-        step: the step in which hands close.
-        carried: from where the stack should lie to where it lies, table frame.
-        seen: how the stack was seen; None where it was not.
-        radius_m: how far at most (m).
     """
-    if seen is None or not step.holdings:
+    holdings = seen.step.holdings
+    if seen.stack is None or not holdings:
         return {}
-    points = np.array([one.point for one in step.holdings])
-    offsets = seen.beside(points) + seen.edge_beside(points)
-    offsets *= np.minimum(1.0, radius_m / np.maximum(np.hypot(*offsets.T), LENGTH_M))[:, None]
-    return {
-        one.arm: _turned(step, carried, (x, y)) for one, (x, y) in zip(step.holdings, offsets.tolist(), strict=True)
-    }
+    points = np.array([one.point for one in holdings])
+    offsets = seen.stack.beside(points) + seen.stack.edge_beside(points)
+    offsets *= np.minimum(1.0, seen.spare_m / np.maximum(np.hypot(*offsets.T), LENGTH_M))[:, None]
+    return {one.arm: seen.to_table((x, y)) for one, (x, y) in zip(holdings, offsets.tolist(), strict=True)}
 
 
 def are_edges_hidden(step: PlanStep, seen: SeenStack | None) -> bool:
@@ -50,17 +52,11 @@ def are_edges_hidden(step: PlanStep, seen: SeenStack | None) -> bool:
     return bool(seen is not None and points and seen.is_edge_hidden(np.array(points)))
 
 
-def inwards_at(step: PlanStep, sequence: FoldSequence, carried: Isometry) -> dict[str, Point2]:
-    """Return the direction from each grip on the outline into the cloth, table frame.
-
-    Args:
-        step: the step in which hands close.
-        sequence: the garment's folds.
-        carried: from where the stack should lie to where it lies, table frame.
-    """
-    outline = sequence.cloth(step.before.done).silhouette
-    found = {one.arm: outline.inward_bisector(one.point) for one in step.holdings}
-    return {arm: _turned(step, carried, inwards) for arm, inwards in found.items() if inwards is not None}
+def inwards_at(seen: StepSeen) -> dict[str, Point2]:
+    """Return the direction from each grip on the outline into the cloth, table frame."""
+    outline = seen.sequence.cloth(seen.step.before.done).silhouette
+    found = {one.arm: outline.inward_bisector(one.point) for one in seen.step.holdings}
+    return {arm: seen.to_table(inwards) for arm, inwards in found.items() if inwards is not None}
 
 
 def at_layered_corners(step: PlanStep, sequence: FoldSequence) -> frozenset[str]:
@@ -97,21 +93,3 @@ def inside(offsets: Mapping[str, Point2], inwards: Mapping[str, Point2], radius_
     }
     shares = {arm: min(1.0, radius_m / max(math.hypot(*gone), LENGTH_M)) for arm, gone in moved.items()}
     return {arm: (float(share * moved[arm][0]), float(share * moved[arm][1])) for arm, share in shares.items()}
-
-
-def laid_short(plan: Plan, step: PlanStep) -> frozenset[str]:
-    """Return the arms that a fold has lay their edge of the cloth down short of its place.
-
-    That is where the same hands lift it again: beyond the edge below it would hang down, and hook that one. A red fold
-    goes on from where the one before has ended.
-    """
-    if step.fold is None or plan.sequence.folds[step.fold].is_red or not step.details.get("holds"):
-        return frozenset()
-    return frozenset(one.arm for one in step.holdings)
-
-
-def _turned(step: PlanStep, carried: Isometry, vector: Point2) -> Point2:
-    """Return a vector of the article frame in the table frame, as the cloth lies."""
-    yaw_rad = step.before.placement.yaw_rad + math.atan2(carried.c, carried.a)
-    x, y = Isometry.rotation(yaw_rad).apply_point(vector)
-    return x, y

@@ -5,9 +5,9 @@ from collections.abc import Mapping
 import numpy as np
 from scipy.linalg import block_diag
 
-from app.camera.camera import Camera
-from app.vision.own_arms import SeenBeside, seen_beside
-from app.vision.picture import Image
+from app.rehearsal.camera.camera import Camera
+from app.rehearsal.vision.own_arms import SeenBeside, seen_beside
+from app.rehearsal.vision.picture import Image
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray
 

@@ -104,6 +104,18 @@ class Slide:
     turned_rad: float
 
 
+def carry(start: Pose2, end: Pose2) -> Isometry:
+    """Return the isometry that carries an article from one placement to another, table frame."""
+    to, back = (Isometry.rotation(pose.yaw_rad, pose.x_m, pose.y_m) for pose in (end, start))
+    return to.after(back.inverse)
+
+
+def carried_pose(placement: Pose2, carried: Isometry) -> Pose2:
+    """Return the placement of an article that was carried elsewhere by an isometry."""
+    x, y = carried.apply_point((placement.x_m, placement.y_m))
+    return Pose2(x, y, placement.yaw_rad + math.atan2(carried.c, carried.a))
+
+
 def slide_of(planned: FloatArray, found: FloatArray) -> Slide:
     """Return the turn and shift that bring points nearest to where they are, by least squares; shapes (n, 2), m."""
     middle, target = planned.mean(axis=0), found.mean(axis=0)
@@ -136,7 +148,7 @@ def judged(
         gate: what counts as held.
         empty: the arms that found no cloth.
     """
-    lies = _carried(state.placement, carried)
+    lies = carried_pose(state.placement, carried)
     planned = planned_positions(sequence, truth.pattern, state.done, lies, table, GAP_M)
     slide = slide_of(planned[:, :2], truth.positions[:, :2])
     back = slide.isometry.inverse
@@ -206,8 +218,3 @@ def _areas(points: FloatArray, triangles: NDArray[np.int64]) -> FloatArray:
     """Return each triangle's area times its normal, shape (m, 3), m^2."""
     first, second = (points[triangles[:, i]] - points[triangles[:, 0]] for i in (1, 2))
     return np.asarray(np.cross(first, second) / 2.0)
-
-
-def _carried(placement: Pose2, carried: Isometry) -> Pose2:
-    x, y = carried.apply_point((placement.x_m, placement.y_m))
-    return Pose2(x, y, placement.yaw_rad + math.atan2(carried.c, carried.a))

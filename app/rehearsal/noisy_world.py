@@ -6,10 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from app.camera.posture import Posture
-from app.rehearsal.corrections import carry
+from app.rehearsal.camera.posture import Posture
 from app.rehearsal.deflection import deflected
-from app.rehearsal.judge import slide_of
+from app.rehearsal.judge import carry, slide_of
 from app.rehearsal.noise import Noise
 from app.rehearsal.world import REACH, GripMotion, Observation, Performed, StepMotion, Truth, World, way_done
 from planner.geometry.isometry import Isometry
@@ -100,4 +99,4 @@ class NoisyWorld:
         before = after if grip.closes else self._arm_errors.get(grip.arm, after)
         self._arm_errors[grip.arm] = after
         points[:, :2] = self._short.apply(self._error.apply(points[:, :2])) + (1.0 - done) * before + done * after
-        return replace(grip, points=tuple((x, y, z) for x, y, z in points.tolist()))
+        return grip.along(points)

@@ -1,47 +1,33 @@
 """Perform a plan in a world and judge each step; with feedback, look before each and correct it (paper, section 9).
 
-Before hands close the stack's outline is fitted to what is seen. Grips follow the cloth as far as the comfort radius
-goes; beyond that, the rest is planned again from what is there. A hand that finds no cloth tries again round its grip,
-and holds the cloth beside it for as long as it holds on. Where it is not known where the stack lies, the arms withdraw
-for another look; where that does not help, one step is made as planned, and a run that stays blind ends. So does one in
-which a fold has left another outline than planned, on a second look too; after the last step it is looked for as well.
+Before hands close the stack's outline is fitted to what is seen, and the step is corrected for it (`CORRECTIONS`).
+Where cloth lies further away than the comfort radius, or hands find none, the rest is planned again from what is there.
+A hand that finds no cloth tries again round its grip, and holds the cloth beside it for as long as it holds on. Where
+it is not known where the stack lies, the arms withdraw for another look; where that does not help, one step is made as
+planned, and a run that stays blind ends. So does one in which a fold has left another outline than planned, on a second
+look too; after the last step it is looked for as well.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 
-from app.rehearsal.corrections import (
-    SHORT_M,
-    aimed,
-    beside,
-    carry,
-    corrected,
-    held_beside,
-    landing_short,
-    reflection_in,
-    regrasps,
-    seen_after_drag,
-    shift_of,
-    still_beside,
-)
+from app.rehearsal.corrections import aimed, corrected, held_beside, regrasps, seen_after_drag, still_beside
 from app.rehearsal.eyes import Picture
 from app.rehearsal.finger_ends import round_finger_ends
-from app.rehearsal.grasp_points import at_layered_corners, inside, inwards_at, laid_short, where_seen
-from app.rehearsal.judge import Gate, StepVerdict, judged
-from app.rehearsal.rest import rest_task
+from app.rehearsal.grasp_points import taken_at
+from app.rehearsal.judge import Gate, StepVerdict, carried_pose, carry, judged
 from app.rehearsal.result import Decision
 from app.rehearsal.step_motions import posture_at, step_motions
-from app.rehearsal.taut_way import taut
+from app.rehearsal.step_seen import StepSeen
 from app.rehearsal.trace import ClothAfter, counterpart
-from app.rehearsal.trailing_flaps import flaps_beside, trailing
 from app.rehearsal.watch import WITHDRAW_S, Watch
 from app.rehearsal.world import WITHDRAW, Performed, StepMotion, World
 from planner.geometry.isometry import Isometry
-from planner.geometry.pose import Point2, Pose2
+from planner.geometry.pose import Point2
 from planner.robots.load_robot import robot_card_file
 from planner.task.plan import Plan
 from planner.task.plan_step import PlanStep
-from planner.task.task import Task
+from planner.task.task import TIME_LIMIT_S, Task
 from planner.task.world_state import WorldState
 
 FAILURES_MAX = 3
@@ -81,136 +67,142 @@ class Performer:
     progress: Callable[[float], None] = lambda _: None
     _verdicts: list[StepVerdict] = field(default_factory=list)
     _decisions: list[Decision] = field(default_factory=list)
-    _made: int = 0
-    _beside: dict[str, Point2] = field(default_factory=dict)
-    _hands: dict[str, Point2] = field(default_factory=dict)
     _cloths: list[ClothAfter] = field(default_factory=list)
+    _made: int = 0
+    _held: dict[str, Point2] = field(default_factory=dict)
+    _hands: dict[str, Point2] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        """Note the plan as it is at first."""
+        """Note the plan as it is at first, and begin it."""
         self._first = self.plan
         self._watch = Watch(self.world, self.plan.task, self._decide)
+        self._begin()
 
     def performed(self) -> Performance:
-        """Perform the plan."""
-        motions, number, carried = self._anew()
-        while number < len(motions):
-            step, motion = self.plan.steps[number], motions[number]
-            is_free = all(grip.closes for grip in motion.grips)
-            if self.replan is not None and motion.grips and is_free:
-                lies, blind = self._watch.before(self.plan, step, self._made)
-                if blind:
-                    return self._ended(blind)
-                carried = carry(step.before.placement, lies)
-                shift_m = shift_of(motion, carried)
-                answer = None
-                if shift_m <= self.plan.task.limits.comfort_radius_m:
-                    self._decide("corrected", ("shift_m", shift_m))
-                    spare_m = self.plan.task.limits.comfort_radius_m - shift_m
-                    answer = self._tried(replace(corrected(motion, carried), needs_all=True), step, carried, spare_m)
-                if answer is None:
-                    reason = self._planned_again(step, lies, shift_m)
-                    if reason:
-                        return self._ended(reason)
-                    motions, number, carried = self._anew()
-                    self.world.perform(StepMotion(self._made, WITHDRAW, WITHDRAW_S, ends=self._watch.posture))
-                    continue
-            else:
-                answer = self._held_on(corrected(motion, carried), step, carried)
-            self._watch.after(motion)
-            if motion.is_drag:
-                carried = self._after_drag(motion, step)
-            self._judge(motion, step, answer, carried)
-            number += 1
-            self._made += 1
-            self.progress(number / len(motions))
-        sees_end = self.replan is not None and len(motions) > 0
-        return self._ended(self._watch.at_end(self.plan, self.plan.steps[-1], self._made) if sees_end else "")
-
-    def _ended(self, reason: str) -> Performance:
+        """Perform the plan: before each step look; correct the step and make it; or plan the rest again from there."""
+        reason = ""
+        while self._number < len(self._motions) and not reason:
+            seen, reason = self._seen(self.plan.steps[self._number], self._motions[self._number])
+            answer = None if reason else self._performed(seen)
+            if answer is not None:
+                self._go_on(seen, answer)
+            elif not reason:
+                reason = self._planned_again(seen)
+        if self.replan is not None and self._motions and not reason:
+            reason = self._watch.at_end(self.plan, self.plan.steps[-1], self._made)
         pictures, cloths = tuple(self._watch.pictures), tuple(self._cloths)
         return Performance(tuple(self._verdicts), tuple(self._decisions), reason, pictures, cloths)
 
-    def _anew(self) -> tuple[tuple[StepMotion, ...], int, Isometry]:
-        """Begin the plan: its motions, the number of the first, and how far the stack lies from its place."""
+    def _begin(self) -> None:
+        """Begin the plan: all its steps are to be made, and the stack is believed to lie where it should."""
         path, radius_m = self.plan.trajectory, self.plan.task.limits.comfort_radius_m
         self._watch.posture = None if path is None else posture_at(path, 0.0)
         arms = robot_card_file(self.plan.task.robot).arms
         thickness_m = {arm.name: arm.gripper.finger_thickness_m for arm in arms}
-        return tuple(round_finger_ends(step_motions(self.plan), thickness_m, radius_m)), 0, Isometry()
+        self._motions = tuple(round_finger_ends(step_motions(self.plan), thickness_m, radius_m))
+        self._number, self._carried = 0, Isometry()
 
-    def _after_drag(self, motion: StepMotion, step: PlanStep) -> Isometry:
+    def _seen(self, step: PlanStep, motion: StepMotion) -> tuple[StepSeen, str]:
+        """Return a step and how the cloth lies before it, and why the run must end, "" if it need not.
+
+        It is looked at where hands are to take it; those that hold on hold it where they took it.
+        """
+        known = StepSeen(self.plan, step, motion, self._carried, offsets=self._held)
+        if self.replan is None or not known.takes_cloth:
+            return known, ""
+        lies, blind = self._watch.before(self.plan, step, self._made)
+        seen = replace(known, carried=carry(step.before.placement, lies), stack=self._watch.stack)
+        return replace(seen, offsets=taken_at(seen)), blind
+
+    def _performed(self, seen: StepSeen) -> Performed | None:
+        """Perform a step as corrected; None where cloth lies beyond the comfort radius, or hands never find any.
+
+        Hands that find no cloth try again round where they missed.
+        """
+        if self.replan is None:
+            return self.world.perform(seen.motion)
+        if not seen.takes_cloth:
+            hands, self._hands = self._hands, {}
+            return self._tried(seen, hands)
+        if seen.shift_m > seen.radius_m:
+            return None
+        self._decide("corrected", ("shift_m", seen.shift_m))
+        self._hands = self._watch.reached(seen, self._made)
+        answer = self._tried(seen, self._hands)
+        for offsets in regrasps(seen, answer.missing):
+            if not answer.missing:
+                break
+            self._decide("regrasped", ("radius_m", seen.radius_m))
+            answer = self._tried(replace(seen, offsets=offsets), self._hands)
+        return None if answer.missing else answer
+
+    def _tried(self, seen: StepSeen, hands: Mapping[str, Point2]) -> Performed:
+        """Perform a step as corrected, with hands that are seen that far beside their places."""
+        made = replace(corrected(seen), needs_all=seen.takes_cloth)
+        self._held = still_beside(seen, made)
+        return self.world.perform(aimed(made, hands))
+
+    def _go_on(self, seen: StepSeen, answer: Performed) -> None:
+        """Judge a step that was made, and go on to the next one."""
+        self._watch.after(seen.motion)
+        self._carried = self._after_drag(seen) if seen.motion.is_drag else seen.carried
+        self._judge(seen, answer)
+        self._number += 1
+        self._made += 1
+        self.progress(self._number / len(self._motions))
+
+    def _after_drag(self, seen: StepSeen) -> Isometry:
         """Return how far from where it should be a stack lies after a drag; hands that hold on are beside it then.
 
         A drag ends where it should, but the stack swings behind a single hand, and is pulled straight by it.
         """
-        if self.replan is None or all(grip.opens for grip in motion.grips):
+        if self.replan is None or all(grip.opens for grip in seen.motion.grips):
             return Isometry()
-        sight, radius_m = self._watch.look(self.plan, step.after, self._made), self.plan.task.limits.comfort_radius_m
-        carried = seen_after_drag(motion, step.after.placement, sight, radius_m)
-        self._beside = held_beside(motion, self._beside, carried)
+        ought = seen.step.after
+        sight = self._watch.look(self.plan, ought, self._made)
+        carried = seen_after_drag(seen.motion, ought.placement, sight, seen.radius_m)
+        self._held = held_beside(seen.motion, self._held, carried)
         return carried
 
-    def _tried(self, motion: StepMotion, step: PlanStep, carried: Isometry, spare_m: float) -> Performed | None:
-        """Perform a step, and where hands find no cloth again round their grips; None if they never find any.
-
-        A part that moved last, and an edge, is taken where it is seen, corners of several layers inside of that,
-        `spare_m` from the grips at most.
-        """
-        radius_m, sequence = self.plan.task.limits.comfort_radius_m, self.plan.sequence
-        fold, flaps = reflection_in(step, sequence, carried), flaps_beside(step, sequence, carried)
-        inwards = inwards_at(step, sequence, carried)
-        corners = {arm: inwards[arm] for arm in at_layered_corners(step, sequence) & inwards.keys()}
-        offsets = inside(where_seen(step, carried, self._watch.stack, spare_m), corners, spare_m)
-        short = landing_short(taut(motion, spare_m), laid_short(self.plan, step), SHORT_M)
-        made = trailing(beside(short, offsets, fold), motion, flaps, carried, radius_m)
-        self._hands = self._watch.reached(self.plan, step, motion, self._made)
-        answer = self.world.perform(aimed(made, self._hands))
-        missing = frozenset(arm for arm, has in answer.has_cloth.items() if not has)
-        # A drag may pull the cloth behind it, so that its way says nothing of where cloth is; a fold's leads over it.
-        ahead = {} if step.fold is not None else inwards
-        for again in regrasps(short, missing, radius_m, ahead, offsets, fold) if missing else ():
-            self._decide("regrasped", ("radius_m", radius_m))
-            made = trailing(again, motion, flaps, carried, radius_m)
-            answer = self.world.perform(aimed(made, self._hands))
-            if not answer.is_missing_cloth:
-                break
-        self._beside = still_beside(motion, made)
-        return None if answer.is_missing_cloth else answer
-
-    def _held_on(self, motion: StepMotion, step: PlanStep, carried: Isometry) -> Performed:
-        """Perform a step with the hands where they hold the cloth, be that beside their grips."""
-        held = {grip.arm: self._beside[grip.arm] for grip in motion.grips if grip.arm in self._beside}
-        short = landing_short(motion, laid_short(self.plan, step), 0.0 if self.replan is None else SHORT_M)
-        made = beside(short, held, reflection_in(step, self.plan.sequence, carried))
-        self._beside = still_beside(motion, made)
-        hands, self._hands = self._hands, {}
-        return self.world.perform(aimed(made, hands))
-
-    def _planned_again(self, step: PlanStep, lies: Pose2, shift_m: float) -> str:
-        """Plan the rest from what is there; return why that cannot be, "" if it can."""
-        self._decide("replanned", ("shift_m", shift_m))
+    def _planned_again(self, seen: StepSeen) -> str:
+        """Plan the rest from what is there, and begin it; return why that cannot be, "" if it can."""
+        self._decide("replanned", ("shift_m", seen.shift_m))
         if sum(one.code == "replanned" for one in self._decisions) > FAILURES_MAX:
             return f"step {self._made} failed after the rest was planned again {FAILURES_MAX} times"
-        start = WorldState(step.before.folds_done, lies, step.before.base)
+        before = seen.step.before
+        lies = carried_pose(before.placement, seen.carried)
         assert self.replan is not None
-        again = self.replan(rest_task(self._first.task, start))
-        if again.is_solved:
-            self.plan = again
-            return ""
-        return f"from where the cloth lies before step {self._made} the plan is {again.status}"
+        again = self.replan(rest_task(self._first.task, WorldState(before.folds_done, lies, before.base)))
+        if not again.is_solved:
+            return f"from where the cloth lies before step {self._made} the plan is {again.status}"
+        self.plan = again
+        self._begin()
+        self.world.perform(StepMotion(self._made, WITHDRAW, WITHDRAW_S, ends=self._watch.posture))
+        return ""
 
-    def _judge(self, motion: StepMotion, step: PlanStep, answer: Performed, carried: Isometry) -> None:
-        truth = self.world.truth()
-        if truth is None or not all(grip.opens for grip in motion.grips):
+    def _judge(self, seen: StepSeen, answer: Performed) -> None:
+        truth, after = self.world.truth(), seen.step.after
+        if truth is None or not all(grip.opens for grip in seen.motion.grips):
             return
-        empty = tuple(arm for arm, has in answer.has_cloth.items() if not has)
-        verdict = judged(
-            truth, self._made, self.plan.sequence, step.after, carried, self.plan.scene.table, self.gate, empty
-        )
-        of_plan = counterpart(self._first, step)
+        table, empty = self.plan.scene.table, tuple(sorted(answer.missing))
+        verdict = judged(truth, self._made, self.plan.sequence, after, self._carried, table, self.gate, empty)
+        of_plan = counterpart(self._first, seen.step)
         self._verdicts.append(replace(verdict, of_plan=of_plan))
         self._cloths += [] if of_plan is None else [ClothAfter(of_plan, truth.positions)]
 
     def _decide(self, code: str, *numbers: tuple[str, float]) -> None:
         self._decisions.append(Decision(self._made, code, numbers))
+
+
+def rest_task(task: Task, start: WorldState) -> Task:
+    """Return the task of the rest from a state.
+
+    The work ends its search, on any machine and under any load, so that a run twice is the same.
+
+    Args:
+        task: the task as it was at first.
+        start: the state as it is.
+    """
+    limits = task.limits
+    work_s = limits.work_limit_s or limits.time_limit_s
+    return replace(task, start=start, limits=replace(limits, work_limit_s=work_s, time_limit_s=TIME_LIMIT_S[1]))

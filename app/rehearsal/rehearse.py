@@ -10,9 +10,9 @@ from time import process_time
 
 import numpy as np
 
-from app.physics.fabric import Fabric, Resolution
 from app.rehearsal.judge import Gate
 from app.rehearsal.noise import NOISE, Noise
+from app.rehearsal.physics.fabric import Fabric, Resolution
 from app.rehearsal.result import RehearsalResult, Run
 from app.worker.process import Caller
 from app.worker.stop import Stop
@@ -122,11 +122,11 @@ def one_run(
 ) -> Run:
     """Perform a plan once."""
     # Here: they need MuJoCo and the whole planner, which a server that only passes rehearsals on does not load.
-    from app.physics.physics_world import PhysicsWorld
     from app.rehearsal.camera_world import CameraWorld
     from app.rehearsal.filmed_world import FilmedWorld, Tick
     from app.rehearsal.noisy_world import NoisyWorld
     from app.rehearsal.perform import Performance, Performer
+    from app.rehearsal.physics.physics_world import PhysicsWorld
     from app.rehearsal.step_motions import posture_at
     from app.rehearsal.trace import looked_before, traced
     from app.rehearsal.world import WITHDRAW, StepMotion

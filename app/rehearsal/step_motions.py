@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.camera.posture import Posture
+from app.rehearsal.camera.posture import Posture
 from app.rehearsal.world import GripMotion, StepMotion
 from planner.errors import UnsolvedPlanError
 from planner.geometry.pose import Point3, Pose2

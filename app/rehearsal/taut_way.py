@@ -66,5 +66,4 @@ def _turned_over(points: FloatArray, done: FloatArray) -> FloatArray:
 
 def _along(grip: GripMotion, times_s: FloatArray, points: FloatArray) -> GripMotion:
     turned_rad = tuple(grip.turned_at(t_s) for t_s in times_s.tolist()) if grip.turned_rad else ()
-    path = tuple((x, y, z) for x, y, z in points.tolist())
-    return replace(grip, times_s=tuple(times_s.tolist()), points=path, turned_rad=turned_rad)
+    return replace(grip.along(points), times_s=tuple(times_s.tolist()), turned_rad=turned_rad)

@@ -7,21 +7,19 @@ it lays the crease down: the free edge stays behind, and the flap lies down inwa
 """
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
 
 from app.rehearsal.planned_cloth import creases
+from app.rehearsal.step_seen import StepSeen
 from app.rehearsal.world import GripMotion, StepMotion, way_done
 from planner.cloth.layer import Layer
-from planner.folds.fold_sequence import FoldSequence
-from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray, Point2
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 from planner.geometry.tolerance import LENGTH_M
-from planner.task.plan_step import PlanStep
 
 INWARDS_M = 0.02
 """How far inwards a hand goes at most (m): a row of the simulated mesh."""
@@ -39,17 +37,13 @@ _SHARES = ((0.0, 0.1, 0.5, 0.8, 1.0), (0.0, 0.0, 1.0, 1.0, 0.0))
 """The share of its way that a hand has done, and how much of the way inwards it is then."""
 
 
-def flaps_beside(step: PlanStep, sequence: FoldSequence, carried: Isometry) -> dict[str, Point2]:
+def flaps_beside(seen: StepSeen) -> dict[str, Point2]:
     """Return for each hand beside a crease from which a flap will hang the way inwards, table frame, of length 1.
 
     That is a crease on the outline of what a fold moves, along the hands' way; its flap is held by no other hand. There
     is none for a hand alone: all it carries would go with it, and hardly come back.
-
-    Args:
-        step: the step in which hands close.
-        sequence: the garment's folds.
-        carried: from where the stack should lie to where it lies, table frame.
     """
+    step, sequence = seen.step, seen.sequence
     if step.fold is None or len(step.holdings) < _HANDS:
         return {}
     line, folded = sequence.folds[step.fold].line, sequence.folded(step.before.done, step.fold)
@@ -61,37 +55,31 @@ def flaps_beside(step: PlanStep, sequence: FoldSequence, carried: Isometry) -> d
             beside = int(crease.distances(held).argmin())
             if _is_at_side(crease, line, folded.moving) and not np.delete(is_in_hand, beside).any():
                 inwards[beside] += _inwards(crease, line, folded.moving)
-    turn = Isometry.rotation(step.before.placement.yaw_rad + math.atan2(carried.c, carried.a))
     lengths = np.hypot(*inwards.T)  # of a hand between two such creases 0: it cannot go both ways
     return {
-        step.holdings[number].arm: turn.apply_point(_point(inwards[number] / lengths[number]))
+        step.holdings[number].arm: seen.to_table(_point(inwards[number] / lengths[number]))
         for number in np.flatnonzero(lengths > LENGTH_M).tolist()
     }
 
 
-def trailing(
-    made: StepMotion, planned: StepMotion, inwards: Mapping[str, Point2], carried: Isometry, radius_m: float
-) -> StepMotion:
-    """Return a fold in which some hands go inwards on their way and outwards again as they land.
+def trailing(motion: StepMotion, seen: StepSeen) -> StepMotion:
+    """Have hands beside flaps go inwards on the way of a fold, as far as is in reach, and outwards again as they land.
 
     Args:
-        made: the step as it will be made.
-        planned: the step as planned, carried along with the stack.
-        inwards: the directions for these arms, table frame, of length 1.
-        carried: how far the stack lies from where the plan has it, table frame.
-        radius_m: how far from the plan's path hands may be at most (m).
+        motion: the step as corrected until now.
+        seen: the step, and how the cloth was seen.
     """
-    plans = {grip.arm: grip for grip in planned.grips}
+    flaps = flaps_beside(seen) if seen.takes_cloth else {}
+    planned = {grip.arm: grip for grip in seen.motion.grips}
 
     def moved(grip: GripMotion) -> GripMotion:
-        points, way = np.array(grip.points), np.array(inwards[grip.arm])
-        path = np.array([plans[grip.arm].at(t_s) for t_s in grip.times_s])
-        beside = points[:, :2] - carried.inverse.apply(path[:, :2])
+        points, way = np.array(grip.points), np.array(flaps[grip.arm])
+        path = np.array([planned[grip.arm].at(t_s) for t_s in grip.times_s])
         share = np.interp(way_done(points), *_SHARES)
-        points[:, :2] += _reach_m(beside, way, radius_m) * share[:, None] * way
-        return replace(grip, points=tuple((x, y, z) for x, y, z in points.tolist()))
+        points[:, :2] += _reach_m((points - path)[:, :2], way, seen.radius_m) * share[:, None] * way
+        return grip.along(points)
 
-    return replace(made, grips=tuple(moved(grip) if grip.arm in inwards else grip for grip in made.grips))
+    return replace(motion, grips=tuple(moved(grip) if grip.arm in flaps else grip for grip in motion.grips))
 
 
 def _reach_m(beside: FloatArray, way: FloatArray, radius_m: float) -> float:

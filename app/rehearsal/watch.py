@@ -10,13 +10,14 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
 
-from app.camera.posture import Posture
+from app.rehearsal.camera.posture import Posture
 from app.rehearsal.eyes import Eyes, Picture, kept
 from app.rehearsal.grasp_points import are_edges_hidden
 from app.rehearsal.step_motions import posture_at
+from app.rehearsal.step_seen import StepSeen
+from app.rehearsal.vision.look_at_stack import Sight
+from app.rehearsal.vision.seen_stack import SeenStack
 from app.rehearsal.world import REACH, WITHDRAW, StepMotion, World
-from app.vision.look_at_stack import Sight
-from app.vision.seen_stack import SeenStack
 from planner.geometry.pose import Point2, Pose2
 from planner.task.plan import Plan
 from planner.task.plan_step import PlanStep
@@ -144,19 +145,17 @@ class Watch:
         self.pictures += [] if picture is None else [picture]
         return sight
 
-    def reached(self, plan: Plan, step: PlanStep, motion: StepMotion, made: int) -> dict[str, Point2]:
+    def reached(self, seen: StepSeen, made: int) -> dict[str, Point2]:
         """Return how far beside its place each hand is seen where it is to close, by arm, table frame (m).
 
         Args:
-            plan: the plan.
-            step: its step.
-            motion: the step's motion, in which all hands close.
+            seen: a step in which all hands close.
             made: how many steps have been made.
         """
-        path = plan.trajectory
+        path, motion = seen.plan.trajectory, seen.motion
         if path is None or not self.eyes.has_camera:
             return {}
-        self.posture = posture_at(path, step.start_s + max(grip.times_s[0] for grip in motion.grips))
+        self.posture = posture_at(path, seen.step.start_s + max(grip.times_s[0] for grip in motion.grips))
         self.world.perform(StepMotion(made, REACH, 0.0, ends=self.posture))
         hands = self.eyes.hands(self.world.observe(), self.posture)
         if hands:

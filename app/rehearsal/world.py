@@ -1,15 +1,15 @@
 """The port to a world in which a plan is performed: simulated, recorded, or a laboratory's own robot."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from app.camera.camera import Camera
-from app.camera.posture import Posture
+from app.rehearsal.camera.camera import Camera
+from app.rehearsal.camera.posture import Posture
 from app.step_kinds import step_kind
 from planner.geometry.pose import FloatArray, Point3, Pose2
 
@@ -45,6 +45,10 @@ class GripMotion:
     def turned_at(self, t_s: float) -> float:
         """Return how far the hand has rolled over with the cloth at a time since the step's start (rad)."""
         return float(np.interp(t_s, self.times_s, self.turned_rad)) if self.turned_rad else 0.0
+
+    def along(self, points: FloatArray) -> "GripMotion":
+        """Return the same motion along other points, shape (n, 3), m."""
+        return replace(self, points=tuple((x, y, z) for x, y, z in points.tolist()))
 
     @cached_property
     def _track(self) -> FloatArray:
@@ -114,9 +118,9 @@ class Performed:
     has_cloth: Mapping[str, bool] = field(default_factory=dict)
 
     @property
-    def is_missing_cloth(self) -> bool:
-        """Whether a hand that should hold cloth does not."""
-        return not all(self.has_cloth.values())
+    def missing(self) -> frozenset[str]:
+        """The hands that should hold cloth and do not."""
+        return frozenset(arm for arm, has in self.has_cloth.items() if not has)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

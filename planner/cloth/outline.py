@@ -80,14 +80,16 @@ def crossings(outline: Sequence[Point2]) -> Iterator[tuple[int, int, Point2]]:
 
 
 def _pairs_near_crossing(starts: FloatArray) -> list[tuple[int, int]]:
-    """Return the pairs of edges, ascending, of which neither is clearly to one side of the other: others never meet."""
+    """Return the pairs of edges, ascending, that may meet: neither lies clearly beside the other or beyond its ends."""
     ends = np.roll(starts, -1, axis=0)
     along = ends - starts
     left = np.column_stack([-along[:, 1], along[:, 0]]) / np.hypot(*along.T)[:, None]
     offsets = (left * starts).sum(axis=1)[:, None]
     sides = left @ starts.T - offsets, left @ ends.T - offsets
     straddles = (np.minimum(*sides) <= LENGTH_M) & (np.maximum(*sides) >= -LENGTH_M)
-    return [(int(i), int(j)) for i, j in np.argwhere(np.triu(straddles & straddles.T, 1))]
+    low, high = np.minimum(starts, ends), np.maximum(starts, ends) + 2.0 * LENGTH_M
+    are_beside = (low[:, None] <= high).all(axis=2)
+    return [(int(i), int(j)) for i, j in np.argwhere(np.triu(straddles & straddles.T & are_beside & are_beside.T, 1))]
 
 
 def _fold_back(edges: list[Segment], i: int, j: int) -> Point2 | None:

@@ -1,54 +1,35 @@
-"""The entry point of this package: explains to planning why there is no plan."""
+"""Find out why there is no plan: what a search met, and what of it proves to be the cause."""
 
-from collections.abc import Callable, Collection, Iterable
+from collections.abc import Iterator
 
-from planner.cloth.g_state import Unrest
-from planner.explain.reasons import note_collision, reason_at_start, reasons
+from planner.explain.reasons import reasons_met
 from planner.explain.relaxation_sets import confirmed_reasons
 from planner.explain.relaxed_problem import RelaxedProblem
+from planner.planning.events import Obstacles
 from planner.planning.problem import Problem
-from planner.planning.trial import Trial, TryFolds
-from planner.primitives.context import Context
-from planner.primitives.obstacle import BlockingContact, Situation
-from planner.primitives.primitive import Step
+from planner.planning.trial import Trial, try_folds
 from planner.task.reason import Reason
 
-
-class Explanation:
-    """Explains why there is no plan; implements `planner.planning.trial.Explainer`."""
-
-    def at_start(self, context: Context, unrest: Unrest) -> Reason:
-        """Return the reason why cloth does not stay as it lies at the start."""
-        return reason_at_start(context, unrest)
-
-    def met(
-        self,
-        context: Context,
-        blocked: Iterable[tuple[Step, BlockingContact | None]],
-        reached: Collection[Situation],
-        impossible: Collection[int],
-    ) -> tuple[Reason, ...]:
-        """Return the reasons that a search met, not tried yet."""
-        for step, contact in blocked:
-            note_collision(context, step, contact)
-        return reasons(context, reached, impossible)
-
-    def tried(
-        self, problem: Problem, met: Trial, try_folds: TryFolds, is_enough: Callable[[], bool]
-    ) -> tuple[Reason, ...]:
-        """Return minimal sets of the reasons met, each tried."""
-
-        def ask(relaxed: RelaxedProblem, folds: int) -> Trial:
-            return try_folds(relaxed.searched, relaxed.may_collide, folds)
-
-        return confirmed_reasons(RelaxedProblem.of(problem), met, ask, is_enough)
+REASONS_WORK_S = 4.0
+"""Work of all trials of the causes for one plan (s, see `Budget`)."""
 
 
-class FirstExplanation(Explanation):
-    """Returns the reasons met without trying any, for callers that try changes themselves."""
+def explained(obstacles: Obstacles) -> Iterator[tuple[Reason, ...]]:
+    """Yield the reasons that a search met, and then those that proved true when tried, since trying takes long.
 
-    def tried(
-        self, problem: Problem, met: Trial, try_folds: TryFolds, is_enough: Callable[[], bool]
-    ) -> tuple[Reason, ...]:
-        """Return the reasons met."""
-        return met.measured()
+    A reason proves true if removing the cause gives a plan, or at least allows its fold.
+    """
+    met = reasons_met(obstacles)
+    yield met
+    budget, tried = obstacles.budget.part(REASONS_WORK_S), list[Problem]()
+
+    def ask(relaxed: RelaxedProblem, folds: int) -> Trial:
+        tried.append(relaxed.searched)
+        return try_folds(tried[-1], budget, folds, may_collide=relaxed.may_collide)
+
+    try:
+        base = RelaxedProblem.of(obstacles.problem)
+        yield confirmed_reasons(base, Trial.failed(obstacles), met, ask, lambda: budget.is_over)
+    finally:
+        for problem in tried:
+            problem.forget()

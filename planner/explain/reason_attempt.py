@@ -7,10 +7,17 @@ worst point is least out of reach decides. The checks get stricter until one of 
 2. all waypoints of each hand's path;
 3. whether the base can drive from standoff to standoff while the hand rests;
 4. all hands' paths at once, from common standoffs.
+
+The point that is furthest out of reach says why an attempt failed. But repairing that point alone may not be enough,
+since the hands must follow their whole path. A sure repair is to shift the whole path as the robot sees it, which a
+person can do: sideways by moving the station or the cloth, up or down by the height of the table or the torso. The
+least such shift is looked for along each of `DIRECTIONS`, and each shift is tried as the planner would try it.
 """
 
+import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from enum import StrEnum
 from functools import reduce
 from itertools import product
 from operator import and_
@@ -18,11 +25,12 @@ from operator import and_
 import numpy as np
 from numpy.typing import NDArray
 
-from planner.explain.reason_miss import Demand, Miss, least_miss, worst_miss
-from planner.geometry.pose import FloatArray
+from planner.explain.change import Bisection
+from planner.geometry.pose import FloatArray, Point3
 from planner.geometry.shortfall import Shortfall
 from planner.primitives.context import STANDOFF_STEP_M, Context
 from planner.primitives.fold_trial import FoldTrial
+from planner.primitives.fold_way import can_follow
 from planner.primitives.state import State
 
 _ORIENTATIONS_MAX, _PAIRED_MAX = 8, 4
@@ -30,6 +38,77 @@ _ORIENTATIONS_MAX, _PAIRED_MAX = 8, 4
 
 _FINEST_M = 0.002
 """Shortfalls that differ by less count as equal (m); each is found to a millimetre."""
+
+FURTHEST_M = 0.2
+"""Largest shift that is tried (m)."""
+
+_SHIFT_STEP_M, _SHIFT_FINEST_M = 0.02, 0.001
+"""Step between the shifts tried, and how exactly the least shift is found (m)."""
+
+_SLANT = math.sqrt(0.5)
+
+DIRECTIONS: tuple[Point3, ...] = (
+    (-1.0, 0.0, 0.0),
+    (0.0, 1.0, 0.0),
+    (0.0, -1.0, 0.0),
+    (1.0, 0.0, 0.0),
+    (-_SLANT, _SLANT, 0.0),
+    (-_SLANT, -_SLANT, 0.0),
+    (_SLANT, _SLANT, 0.0),
+    (_SLANT, -_SLANT, 0.0),
+    (0.0, 0.0, -1.0),
+    (0.0, 0.0, 1.0),
+)
+"""Directions in which a path is shifted, base frame: eight horizontal directions, down and up."""
+
+
+class Demand(StrEnum):
+    """The requirements on a point that is out of reach."""
+
+    ALONE = "alone"
+    ONE_ORIENTATION = "one orientation"
+    DRIVING = "driving"
+    WITH_THE_OTHER_HAND = "with the other hand"
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Miss:
+    """The point of an attempt that is furthest out of reach, seen from where it is least so.
+
+    Attributes:
+        state: the state in which the attempt was made.
+        trial: the attempt.
+        stands: the standoffs at which the base may be when it begins, as a bit mask.
+        grip: the index of the grip.
+        waypoint: the index of the waypoint in the trial.
+        standoff: the standoff from which the point is least out of reach.
+        shortfall: by how much, and why.
+        demand: what the point must satisfy.
+    """
+
+    state: State
+    trial: FoldTrial
+    stands: int
+    grip: int
+    waypoint: int
+    standoff: int
+    shortfall: Shortfall
+    demand: Demand
+
+    @property
+    def short_by_m(self) -> float:
+        """The distance by which the point would have to be displaced (m)."""
+        return self.shortfall.short_by_m
+
+
+def worst_miss(misses: Iterable[Miss | None]) -> Miss | None:
+    """Return the miss that lacks most, the first of equals; None if there is none."""
+    return max((m for m in misses if m is not None), key=lambda m: m.short_by_m, default=None)
+
+
+def least_miss(misses: Iterable[Miss | None]) -> Miss | None:
+    """Return the miss that lacks least, the first of equals; None if there is none."""
+    return min((m for m in misses if m is not None), key=lambda m: m.short_by_m, default=None)
 
 
 def miss_of(context: Context, state: State, trial: FoldTrial, stands: int, at_most_m: float) -> Miss | None:
@@ -204,3 +283,72 @@ def _spread(seed: int, mask: int) -> int:
         if wider == seed:
             return seed
         seed = wider
+
+
+def least_shift(context: Context, miss: Miss) -> tuple[float, Point3] | None:
+    """Return the least shift tried that lets the arms follow an attempt; None if none does.
+
+    It is given by its distance (m) and its unit direction, base frame.
+    """
+    attempt = _Shifted(context, miss)
+    best: tuple[float, Point3] | None = None
+    for towards in DIRECTIONS:
+        limit = FURTHEST_M if best is None else best[0] - _SHIFT_FINEST_M
+        distance_m = attempt.least(towards, limit)
+        if distance_m is not None:
+            best = distance_m, towards
+    return best
+
+
+class _Shifted:
+    """An attempt, shifted as its robot sees it."""
+
+    def __init__(self, context: Context, miss: Miss) -> None:
+        self._context = context
+        self._trial = miss.trial
+        self._station = miss.state.station
+        self._stands = miss.stands
+        pose = context.station_pose(self._station)
+        self._axes = pose.to_outer(np.eye(3)) - pose.to_outer(np.zeros((3, 3)))
+        last = len(miss.trial.sweeps) - 1
+        self._extremes = (last // 2, last, 0)
+
+    def least(self, towards: Point3, limit: float) -> float | None:
+        """Return the least sufficient shift along a direction, up to a limit; None if there is none."""
+        outer = np.array(towards) @ self._axes
+        near, far, is_over = 0.0, _SHIFT_STEP_M, self._context.patience.is_over
+        while far <= limit + _SHIFT_FINEST_M and not is_over():
+            short = self._at_least_short(far * outer)
+            if short > 0.0:
+                near, far = far + short, far + max(_SHIFT_STEP_M, _SHIFT_STEP_M * math.ceil(short / _SHIFT_STEP_M))
+            elif self._is_in_reach(far * outer):
+                return self._settled(outer, near, far)
+            else:
+                near, far = far, far + _SHIFT_STEP_M
+        return None
+
+    def _settled(self, outer: FloatArray, near: float, far: float) -> float:
+        search = Bisection(near, far, _SHIFT_FINEST_M)
+        while (distance := search.amount) is not None:
+            search.note(distance, distance if self._is_in_reach(distance * outer) else None)
+        return search.works
+
+    def _at_least_short(self, shift: FloatArray) -> float:
+        context, trial = self._context, self._trial
+        return max(
+            float(
+                context.reach.at_least_short(
+                    arm, self._seen(hand, shift)[None], approaches, context.standoffs, STANDOFF_STEP_M
+                )[0]
+            )
+            for hand, (arm, approaches) in enumerate(zip(trial.arms, trial.approaches, strict=True))
+        )
+
+    def _is_in_reach(self, shift: FloatArray) -> bool:
+        """Return whether the arms can follow the attempt, shifted in the table frame."""
+        shifted = replace(self._trial, tools=self._trial.tools + shift)
+        return can_follow(self._context, self._station, shifted, self._stands)
+
+    def _seen(self, hand: int, shift: FloatArray) -> FloatArray:
+        """Return apex, end and start of a hand's path in the base frame, shape (3, 3), m."""
+        return self._context.in_base(self._station, self._trial.tools[hand, list(self._extremes)] + shift)

@@ -17,6 +17,7 @@ from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 from planner.geometry.smallest_circle import pair_centres
 from planner.geometry.tolerance import LENGTH_M
+from planner.primitives.context import Context
 
 # Beyond that only grips at the vertices are tried. The planner tries all of these too, so it can plan with the radius
 # found.
@@ -40,6 +41,13 @@ def needed_radius(piece: Region, baseline: Segment, vertices: FloatArray, grips:
     if grips == 1:
         return float(distances.max(axis=1).min())
     return _in_runs(distances, grips)
+
+
+def radius_for(context: Context, fold: int, grips: int) -> float:
+    """Return a grip radius with which so many grips hold all that a fold needs (m), as `needed_radius` does."""
+    arms, drawn = len(context.reach.arm_names), context.sequence.folds[fold]
+    vertices = np.array(context.sequence.covers(fold, context.scene.support_angle_rad, arms).vertices)
+    return needed_radius(context.sequence.moving(fold), drawn.line, vertices, grips) if len(vertices) else 0.0
 
 
 def held_radius(held: Cover, vertices: FloatArray) -> float:

@@ -7,9 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from planner.explain.reason_attempt import explained
-from planner.explain.reason_miss import Miss
-from planner.explain.reason_shift import FURTHEST_M, least_shift
+from planner.explain.reason_attempt import FURTHEST_M, Miss, explained, least_shift
 from planner.geometry.pose import FloatArray, Point3, Pose2
 from planner.geometry.tolerance import ANGLE_RAD
 from planner.primitives.context import STANDOFFS_PER_M, Context
@@ -25,21 +23,24 @@ def out_of_reach(context: Context, fold: int, miss: Miss) -> Reason:
     station, pose = context.scene.stations[miss.state.station]
     arm = context.reach.arm_names[trial.arms[miss.grip]]
     point = _point(trial.tools[miss.grip, miss.waypoint])
-    needed = None if found.is_at_least else least_shift(context, miss)
-    values = {
+    shift_m, shift_towards = (None if found.is_at_least else least_shift(context, miss)) or (None, None)
+    same: dict[str, Any] = {
         "arm": arm,
-        "at": list(point),
-        "moment": _moment(miss).value,
-        "demand": miss.demand.value,
+        "station": station or None,
+        "back_off_m": miss.standoff / STANDOFFS_PER_M,
         "cause": found.cause,
         "joint": found.joint,
-        "towards": list(found.towards),
         "short_by_m": found.short_by_m,
         "is_at_least": found.is_at_least,
         "comfort_m": found.comfort_m,
+    }
+    values = {
+        **same,
+        "at": list(point),
+        "moment": _moment(miss).value,
+        "demand": miss.demand.value,
+        "towards": list(found.towards),
         "wanted_comfort_m": context.reach.comfort_m,
-        "station": station or None,
-        "back_off_m": miss.standoff / STANDOFFS_PER_M,
         **dragged(miss.state),
         "shift_m": None,
         "shift_towards": None,
@@ -52,20 +53,13 @@ def out_of_reach(context: Context, fold: int, miss: Miss) -> Reason:
         fold,
         Code.OUT_OF_REACH,
         worded("out_of_reach", values, context.sequence.folds, fold),
-        cause=found.cause,
-        joint=found.joint,
         point=point,
-        short_by_m=found.short_by_m,
-        is_at_least=found.is_at_least,
         towards=_turned(pose, found.towards),
-        arm=arm,
-        station=station or None,
-        back_off_m=miss.standoff / STANDOFFS_PER_M,
         approach=context.reach.approaches[found.approach],
         offset_m=miss.state.offset,
-        shift_m=None if needed is None else needed.distance_m,
-        shift_towards=None if needed is None else _turned(pose, needed.towards),
-        comfort_m=found.comfort_m,
+        shift_m=shift_m,
+        shift_towards=None if shift_towards is None else _turned(pose, shift_towards),
+        **same,
     )
 
 
@@ -103,21 +97,19 @@ def removed_by(reason: Reason, context: Context, kinds: tuple[str, ...]) -> Reas
     shift, towards = reason.shift_m, reason.shift_towards
     pose = dict(context.scene.stations).get(reason.station or "")
     if not kinds or shift is None or towards is None or pose is None:
-        return replace(_advised(reason, context, {"movable": []}), shift_m=None, shift_towards=None)
+        return _advised(reason, context, {"movable": []}, shift_m=None)
     in_base = _point(pose.to_inner(np.array(towards) + np.array([pose.x_m, pose.y_m, 0.0])))
-    return _advised(reason, context, {"movable": list(kinds), "shift_m": shift, "shift_towards": list(in_base)})
+    return _advised(reason, context, {"movable": list(kinds), "shift_towards": list(in_base)}, shift_m=shift)
 
 
 def reached_with_comfort(reason: Reason, context: Context, comfort_m: float) -> Reason:
     """Return a reason with the smaller comfort radius that was tried and brings the point into reach."""
-    advised = _advised(reason, context, {"movable": None, "enough_comfort_m": comfort_m})
-    return replace(advised, comfort_m=comfort_m, shift_m=None, shift_towards=None)
+    return _advised(reason, context, {"enough_comfort_m": comfort_m}, comfort_m=comfort_m, shift_m=None)
 
 
 def reached_with_cone(reason: Reason, context: Context, cone_rad: float) -> Reason:
     """Return a reason with the wider approach cone that was tried and brings the point into reach."""
-    advised = _advised(reason, context, {"movable": None, "enough_cone_rad": cone_rad})
-    return replace(advised, shift_m=None, shift_towards=None)
+    return _advised(reason, context, {"enough_cone_rad": cone_rad}, shift_m=None)
 
 
 def enough_with_others(reason: Reason, context: Context) -> Reason:
@@ -125,10 +117,12 @@ def enough_with_others(reason: Reason, context: Context) -> Reason:
     return _advised(reason, context, {"is_enough": False})
 
 
-def _advised(reason: Reason, context: Context, values: Mapping[str, Any]) -> Reason:
-    """Return a reason that also says what would help."""
-    says = worded(reason.says.code, {**reason.says.values, **values}, context.sequence.folds, reason.fold)
-    return replace(reason, says=says)
+def _advised(reason: Reason, context: Context, values: Mapping[str, Any], **same: float | None) -> Reason:
+    """Return a reason that also says what would help; `same` are numbers that the reason and its message both have."""
+    told = {**reason.says.values, **values, **same}
+    says = worded(reason.says.code, told, context.sequence.folds, reason.fold)
+    changed = replace(reason, says=says, **same)  # type: ignore[arg-type]
+    return replace(changed, shift_towards=None) if changed.shift_m is None else changed
 
 
 def dragged(state: State) -> dict[str, Any]:

@@ -1,15 +1,13 @@
 """A planning problem with some obstacles removed, and the interface for trying it."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
-from planner.cloth.garment import Garment
-from planner.geometry.pose import Pose2
+from planner.explain.change import NO_LIBERTIES, Change, Liberties, request_fields
 from planner.planning.problem import Problem
 from planner.planning.trial import Trial
 from planner.primitives.context import Context
-from planner.task.scene import Scene
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -17,23 +15,22 @@ class RelaxedProblem:
     """A planning problem with some causes removed.
 
     Attributes:
-        problem: the problem, with all changes that a request can express.
-        change: the fields of the request that changed; None where no request can express the change.
-        has_long_arms: whether every place is in reach.
-        more_hands: the number of hands beyond the robot's; with any, all hands reach every place.
-        may_collide: whether the arms may pass through anything.
+        problem: the problem, with all changes that a request can ask for.
+        liberties: the changes that none can ask for.
     """
 
     problem: Problem
-    change: Mapping[str, Any] | None
-    has_long_arms: bool = False
-    more_hands: int = 0
-    may_collide: bool = False
+    liberties: Liberties = NO_LIBERTIES
 
     @staticmethod
     def of(problem: Problem) -> "RelaxedProblem":
         """Return a problem as it is."""
-        return RelaxedProblem(problem, {})
+        return RelaxedProblem(problem)
+
+    @property
+    def may_collide(self) -> bool:
+        """Whether the arms may pass through anything."""
+        return self.liberties.may_collide
 
     @property
     def context(self) -> Context:
@@ -43,46 +40,31 @@ class RelaxedProblem:
     @property
     def searched(self) -> Problem:
         """The problem to search, with nothing computed yet."""
-        return self.problem.with_long_arms(self.more_hands) if self.has_long_arms else self.problem.varied()
+        free = self.liberties
+        return self.problem.with_long_arms(free.more_hands) if free.has_long_arms else self.problem.varied()
 
-    def with_garment(self, garment: Garment) -> "RelaxedProblem":
-        """Replace the garment; raise `FoldError` if a fold of it is not legal."""
-        return self._varied(self.problem.varied(garment=garment), {"garment": garment.to_dict()})
+    def changed(self, change: Change, amount: float = 0.0) -> "RelaxedProblem":
+        """Return the problem with a change made by an amount; raise `FoldingError` where that gives no valid task."""
+        before, free = self.problem.task, change.frees(self.liberties, amount)
+        after, problem = change.applied(before, amount), self.problem
+        is_wider = (free.behind_max_m, free.grips_apart_m) != (
+            self.liberties.behind_max_m,
+            self.liberties.grips_apart_m,
+        )
+        if after is not before or is_wider:
+            problem = problem.varied(
+                garment=None if after.garment is before.garment else after.garment,
+                scene=None if after.scene is before.scene else after.scene,
+                placement=after.start.placement,
+                comfort_m=after.limits.comfort_radius_m,
+                behind_max_m=free.behind_max_m,
+                grips_apart_m=free.grips_apart_m,
+            )
+        return RelaxedProblem(problem, free)
 
-    def with_scene(self, scene: Scene) -> "RelaxedProblem":
-        """Replace the scene; raise `SceneError` if the robot cannot be as it says."""
-        return self._varied(self.problem.varied(scene=scene), {"scene": scene.to_dict()})
-
-    def with_placement(self, placement: Pose2) -> "RelaxedProblem":
-        """Place the article elsewhere on the table."""
-        return self._varied(self.problem.varied(placement=placement), {"placement": placement.to_dict()})
-
-    def with_comfort(self, comfort_m: float) -> "RelaxedProblem":
-        """Replace the comfort radius (m)."""
-        return self._varied(self.problem.varied(comfort_m=comfort_m), {"comfort_radius_m": comfort_m})
-
-    def with_reach_behind(self, behind_m: float) -> "RelaxedProblem":
-        """Allow carrying cloth that reaches this far behind a line's extension (m)."""
-        return replace(self, problem=self.problem.varied(behind_max_m=behind_m), change=None)
-
-    def with_long_arms(self) -> "RelaxedProblem":
-        """Put every place in reach; since such arms belong to no robot, collisions are ignored."""
-        return replace(self, change=None, has_long_arms=True, may_collide=True)
-
-    def with_more_hands(self, number: int) -> "RelaxedProblem":
-        """Add hands; since they belong to no robot, all hands reach every place."""
-        return replace(self.with_long_arms(), more_hands=number)
-
-    def with_grips_nearer(self, apart_m: float) -> "RelaxedProblem":
-        """Allow hands to be as near to each other as this (m)."""
-        return replace(self, problem=self.problem.varied(grips_apart_m=apart_m), change=None)
-
-    def with_collisions_ignored(self) -> "RelaxedProblem":
-        """Let the arms pass through anything."""
-        return replace(self, change=None, may_collide=True)
-
-    def _varied(self, problem: Problem, fields: Mapping[str, Any]) -> "RelaxedProblem":
-        return replace(self, problem=problem, change=None if self.change is None else {**self.change, **fields})
+    def change_from(self, base: "RelaxedProblem") -> Mapping[str, Any] | None:
+        """Return the fields of a request that turn another problem into this; None where no request can ask for it."""
+        return request_fields(base.problem.task, self.problem.task) if self.liberties == NO_LIBERTIES else None
 
 
 Ask = Callable[[RelaxedProblem, int], Trial]

@@ -1,13 +1,17 @@
 """Limit the work of a search for suggestions, and of each of its trials."""
 
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from typing import TypeVar
 
-from planner.explain.explanation import FirstExplanation
+from planner.explain.change import SpentError
+from planner.explain.reasons import reasons_met
 from planner.planning.budget import Budget
-from planner.planning.plan_search import PlanSearch
+from planner.planning.events import Blocked
+from planner.planning.plan_search import Hints, quickest
 from planner.planning.problem import Problem
 from planner.task.plan import Plan
+from planner.task.reason import Reason
 from planner.task.task import Task
 
 T = TypeVar("T")
@@ -20,10 +24,6 @@ _TRIALS_LEFT = 6
 
 _SETTING_UP_S = 0.01
 """Work counted for preparing a request, which replays the folds (s); the planner counts none of it."""
-
-
-class TimeUpError(Exception):
-    """The time was up in the middle of something that nobody needs in part."""
 
 
 class TrialBudget:
@@ -59,13 +59,13 @@ class TrialBudget:
             yield thing
 
     def require_time(self, _share: float = 0.0) -> None:
-        """Raise `TimeUpError` once the time is up; what was begun then counts as unknown.
+        """Raise `SpentError` once the time is up; what was begun then counts as unknown.
 
         Progress can be told to it (see `planner.robots.reach_maps`): so the building of maps ends in between.
         """
         if self.is_late:
             self.has_unknown = True
-            raise TimeUpError
+            raise SpentError
 
     def has_spent(self, share: float) -> bool:
         """Return whether this share of the work has been done, or the time is up."""
@@ -82,20 +82,21 @@ class TrialBudget:
         """
         self.spent_s += _SETTING_UP_S
         problem = Problem.of(task).without_arm_drags() if by_folds_alone else Problem.of(task)
-        explainer = FirstExplanation() if with_reasons else None
-        plan = self._searched(problem, work_s, explainer, is_patient=with_reasons)
-        firm = self._searched(problem.firm(), work_s, None, is_patient=True) if plan.is_solved else plan
+        plan = self._searched(problem, work_s, with_reasons=with_reasons, is_patient=with_reasons)
+        if not plan.is_solved:
+            return plan
+        firm = self._searched(problem.firm(), work_s, with_reasons=False, is_patient=True)
         return firm if firm.is_solved else plan
 
-    def _searched(
-        self, problem: Problem, work_s: float | None, explainer: FirstExplanation | None, *, is_patient: bool
-    ) -> Plan:
+    def _searched(self, problem: Problem, work_s: float | None, *, with_reasons: bool, is_patient: bool) -> Plan:
         left_s = max(self._whole.work_limit_s - self.spent_s, 0.0)
         wanted_s = max(left_s / _TRIALS_LEFT, SHORTEST_TRIAL_S) if work_s is None else work_s
         part = self._whole.part(min(wanted_s, left_s))
-        heuristic, most = problem.task.limits.heuristic, problem.task.limits.max_expanded
-        search = PlanSearch(problem, heuristic, part, most, explainer=explainer, is_patient=is_patient)
-        plan = search.plan().plan
+        reasons: tuple[Reason, ...] = ()
+        for event in quickest(problem, part, Hints(), is_patient=is_patient):
+            plan = event.found.plan
+            if with_reasons and isinstance(event, Blocked):
+                reasons = reasons_met(event.obstacles)
         self.spent_s += part.spent_s
         self.has_unknown |= plan.status == "budget_exceeded"
-        return plan
+        return replace(plan, reasons=reasons)

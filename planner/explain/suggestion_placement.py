@@ -9,12 +9,13 @@ the arms, which are much more work, only where folds alone give no plan at any o
 
 import math
 from collections.abc import Generator, Iterator
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
 
-from planner.explain.suggestion import Suggestion
-from planner.explain.suggestion_grid import Room, turned_in_place
-from planner.explain.suggestion_trial import AS_QUICK_S, Proof, Search, SuggestionTrial, smallest
+from planner.explain.change import SpentError
+from planner.explain.room import Room, turned_in_place
+from planner.explain.suggestion import AS_QUICK_S, Search, Suggestion, SuggestionTrial, proven, smallest
 from planner.geometry.pose import Pose2
 from planner.message import Message
 from planner.robots.load_robot import load_robot
@@ -68,24 +69,21 @@ def placements(task: Task, known_cost_s: float | None) -> Search:
         known_cost_s: the cost of its plan (s), which a suggestion must then beat; None if it has no plan.
     """
     to_beat, best = known_cost_s, None
-    for place, is_last_resort, by_folds_alone in _tried(task):
-        if is_last_resort and to_beat is not None:
-            break
-        trial = _trial(task, place, by_folds_alone=by_folds_alone)
-        plan = yield trial
-        if plan is None:
-            break
-        proof = Proof.of(trial, plan)
-        if proof is None:
-            continue
-        if to_beat is None:
-            nearest = yield from _nearer(task, place, proof, math.inf)
-            yield nearest.suggestion
-            to_beat = nearest.cost_s
-        best = (place, proof) if best is None or proof.cost_s < best[1].cost_s - AS_QUICK_S else best
+    with suppress(SpentError):
+        for place, is_last_resort, by_folds_alone in _tried(task):
+            if is_last_resort and to_beat is not None:
+                break
+            proof = yield from proven(_trial(task, place, by_folds_alone=by_folds_alone))
+            if proof is None:
+                continue
+            if to_beat is None:
+                nearest = yield from _nearer(task, place, proof, math.inf)
+                yield nearest
+                to_beat = nearest.cost_s
+            best = (place, proof) if best is None or proof.cost_s < best[1].cost_s - AS_QUICK_S else best
     if best is not None and to_beat is not None and best[1].is_worth_more_than(to_beat):
         nearest = yield from _nearer(task, *best, best[1].cost_s + AS_QUICK_S)
-        yield nearest.suggestion
+        yield nearest
 
 
 def _tried(task: Task) -> Iterator[tuple[_Place, bool, bool]]:
@@ -100,8 +98,8 @@ def _tried(task: Task) -> Iterator[tuple[_Place, bool, bool]]:
 
 
 def _nearer(
-    task: Task, place: _Place, proof: Proof, most_s: float
-) -> Generator[SuggestionTrial | Suggestion, Plan | None, Proof]:
+    task: Task, place: _Place, proof: Suggestion, most_s: float
+) -> Generator[SuggestionTrial | Suggestion, Plan | None, Suggestion]:
     """Look for the shortest move in the same direction with a plan that costs at most `most_s` (s), then along x and y.
 
     A move that does not turn the garment is at least one step long.
@@ -132,9 +130,7 @@ def _shortened(
 
 def _trial(task: Task, place: _Place, *, by_folds_alone: bool) -> SuggestionTrial:
     pose = _turned(task, place.quarters).moved(place.dx_m, place.dy_m)
-    return SuggestionTrial(
-        "placement", place.says, {"placement": pose.to_dict()}, place.size, task.at(pose), by_folds_alone
-    )
+    return SuggestionTrial("placement", place.says, place.size, task, task.at(pose), by_folds_alone)
 
 
 def _places(task: Task, step_m: float) -> list[_Place]:

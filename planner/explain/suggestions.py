@@ -7,21 +7,16 @@ suggested.
 """
 
 from collections.abc import Callable, Generator, Iterator, Sequence
+from functools import partial
 from typing import TypeAlias
 
-from planner.explain.suggestion import Suggestion
-from planner.explain.suggestion_added_fold import halvings, splits
-from planner.explain.suggestion_assumption import comforts, frictions, grip_radii
+from planner.explain.change import SpentError
+from planner.explain.suggestion import Search, Suggestion, SuggestionTrial
+from planner.explain.suggestion_assumption import comforts, frictions, grip_radii, together
 from planner.explain.suggestion_budget import TrialBudget
-from planner.explain.suggestion_flip import flips
-from planner.explain.suggestion_fold_line import fold_lines
-from planner.explain.suggestion_order import orders
+from planner.explain.suggestion_drawing import flips, fold_lines, halvings, orders, sizes, splits
 from planner.explain.suggestion_placement import placements
-from planner.explain.suggestion_robot import robots
-from planner.explain.suggestion_size import sizes
-from planner.explain.suggestion_station import stations
-from planner.explain.suggestion_together import together
-from planner.explain.suggestion_trial import Search, SuggestionTrial
+from planner.explain.suggestion_robot import robots, stations
 from planner.planning.budget import Budget
 from planner.planning.warm_up import compile_kernels
 from planner.robots.load_robot import needs_maps
@@ -190,31 +185,31 @@ class _Lane:
         Between two trials the search may take long, as where the maps of another robot are built.
         """
         if self._trial is None:
-            yield from self._told_of(None)
+            yield from self._resumed(partial(next, self._search))
         if self._trial is not None and not self.is_done:
             on_trial(self._trial)
             begun_s = budget.spent_s
             plan = budget.plan(self._trial.task, by_folds_alone=self._trial.by_folds_alone)
             self.spent_s += budget.spent_s - begun_s
-            yield from self._told_of(plan)
+            yield from self._resumed(partial(self._search.send, plan))
 
     def last_words(self) -> Iterator[Suggestion]:
         """Yield the suggestions left when there is no time for trials."""
         while self._trial is not None and not self.is_done:
-            yield from self._told_of(None)
+            yield from self._resumed(partial(self._search.throw, SpentError()))
 
-    def _told_of(self, plan: Plan | None) -> Iterator[Suggestion]:
-        """Send a plan to the search, and yield its suggestions until it asks for its next trial."""
+    def _resumed(self, resume: Callable[[], SuggestionTrial | Suggestion]) -> Iterator[Suggestion]:
+        """Resume the search, and yield its suggestions until it asks for its next trial."""
         while not self.is_done:
             try:
-                wish = self._search.send(plan)
-            except StopIteration:
+                wish = resume()
+            except (StopIteration, SpentError):
                 self.is_done = True
                 return
             if isinstance(wish, SuggestionTrial):
                 self._trial = wish
                 return
             yield wish
-            plan = None
+            resume = partial(next, self._search)
             self._told += 1
             self.is_done = self._told >= TOLD_MAX

@@ -1,7 +1,6 @@
 """Find the postures in which arms can hold cloth at single waypoints: a test much cheaper than a joint path."""
 
 from collections.abc import Iterable, Sequence
-from functools import lru_cache
 from itertools import combinations
 from typing import TypeAlias
 
@@ -11,11 +10,11 @@ from planner.geometry.pose import FloatArray
 from planner.motion.hand_holds import HandHold, Holds, opening_of, wide_holds
 from planner.motion.lying_cloth import LyingCloth
 from planner.motion.opened_collisions import OpenedCollisions
+from planner.motion.recent_answers import RecentAnswers
 from planner.motion.robot_port import Collisions, RobotPort
 from planner.motion.transfer_tool_paths import rolled
 from planner.motion.waypoints import Waypoints
 from planner.robots.joint_layout import JointLayout
-from planner.weakly import weakly
 
 _LOOKED_AT = 5
 """The waypoints at which the arms' postures are tested together before a path is searched."""
@@ -41,8 +40,8 @@ class FreePostures:
         self._torso_m = torso_m
         self._layout = JointLayout.of(machine.card)
         self._rolling = np.array([-1.0 if arm.is_mirrored else 1.0 for arm in machine.card.arms])
-        self._free_postures = lru_cache(_PLACES_KEPT)(weakly(self._search_postures))
-        self._are_apart = lru_cache(_PLACES_KEPT)(weakly(self._search_apart))
+        self._free_postures = RecentAnswers[tuple[int, _Pose], FloatArray](_PLACES_KEPT)
+        self._are_apart = RecentAnswers[tuple[_Pose | None, ...], bool](_PLACES_KEPT)
 
     def can_hold(self, waypoints: Waypoints, first: Iterable[int] = (), ways: Sequence[Holds] = ()) -> bool:
         """Return whether the arms have free postures at a few waypoints; without them there is hardly ever a path.
@@ -75,9 +74,9 @@ class FreePostures:
             poses[arm] = _pose(collisions, waypoints.bases[waypoint], waypoints.positions[arm, waypoint], rotation)
         if len(held) < len(arms):
             return all(len(self._able(arm, pose)) > 0 for arm, pose in enumerate(poses))
-        return self._are_apart(*poses)
+        return self._are_apart.answer(tuple(poses), self._search_apart)
 
-    def _search_apart(self, *poses: "_Pose | None") -> bool:
+    def _search_apart(self, poses: "tuple[_Pose | None, ...]") -> bool:
         """Return whether all arms can take their tool poses at once without contact; None: at home."""
         able = [self._able(arm, pose) for arm, pose in enumerate(poses)]
         pairs = [*combinations(self._layout.arms, 2)]
@@ -94,12 +93,13 @@ class FreePostures:
 
     def _able(self, arm: int, pose: "_Pose | None") -> FloatArray:
         """Return the postures of one arm at a tool pose, or at home, that touch neither body nor table."""
-        return self._layout.home[None, self._layout.spans[arm]] if pose is None else self._free_postures(arm, *pose)
+        if pose is None:
+            return self._layout.home[None, self._layout.spans[arm]]
+        return self._free_postures.answer((arm, pose), self._search_postures)
 
-    def _search_postures(
-        self, arm: int, collisions: Collisions, base: bytes, position: bytes, rotation: bytes
-    ) -> FloatArray:
+    def _search_postures(self, wanted: "tuple[int, _Pose]") -> FloatArray:
         """Return the postures that certainly are free; where none is, those that are by the exact test."""
+        arm, (collisions, base, position, rotation) = wanted
         stand, place, axes = (np.frombuffer(part) for part in (base, position, rotation))
 
         def able(*, is_certain: bool) -> FloatArray:
@@ -127,7 +127,7 @@ class FreePostures:
 
         Its fingers are open as far as they are before and after it holds cloth.
         """
-        able = self._free_postures(arm, *_pose(self._collisions.of(hold, is_open=True), base, position, rotation))
+        able = self._able(arm, _pose(self._collisions.of(hold, is_open=True), base, position, rotation))
         is_clear = (
             cloth is None or cloth.arm_clear(arm, base[None], able, opening_m=opening_of(hold), is_certain=True).any()
         )

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from functools import lru_cache, partial
+from functools import partial
 from hashlib import blake2b
 
 import numpy as np
@@ -13,13 +13,13 @@ from planner.geometry.tolerance import ANGLE_RAD
 from planner.motion.free_postures import FreePostures
 from planner.motion.hand_holds import Holds, edge_holds, opening_of, settles, wide_holds
 from planner.motion.opened_collisions import OpenedCollisions
+from planner.motion.recent_answers import RecentAnswers
 from planner.motion.robot_port import RobotPort
 from planner.motion.transfer_path import TransferPath
 from planner.motion.transfer_tool_paths import FAR, NEAR, UP, ApproachLines, Cloths, TransferToolPath, TransferToolPaths
 from planner.motion.waypoints import Waypoints
 from planner.robots.joint_layout import JointLayout
 from planner.robots.tool_path import IsFree, NoPath
-from planner.weakly import weakly
 
 _TRANSFERS_KEPT = 64
 """Size of the cache of transfers, some 45 kB each. While three garments are drawn, more save nothing (measured)."""
@@ -62,7 +62,7 @@ class TransferPathFinder:
         self._height_m = height_m
         self._layout = JointLayout.of(machine.card)
         self._rolling = np.array([-1.0 if arm.is_mirrored else 1.0 for arm in machine.card.arms])
-        self._searched = lru_cache(_TRANSFERS_KEPT)(weakly(self._search))
+        self._searched = RecentAnswers[tuple[_TransferKey, Holds], TransferPath | NoPath](_TRANSFERS_KEPT)
         self.postures = FreePostures(machine, collisions, torso_m)
 
     def transfer_path(self, waypoints: Waypoints, cloths: Cloths, ways: Sequence[Holds] = ()) -> TransferPath | NoPath:
@@ -75,12 +75,13 @@ class TransferPathFinder:
         """
         asked = _TransferKey.of(waypoints, cloths)
         *others, last = ways or wide_holds(waypoints)
-        found = (self._searched(asked, holds) for holds in others)
+        found = (self._searched.answer((asked, holds), self._search) for holds in others)
         best = next((one for one in found if isinstance(one, TransferPath)), None)
-        return self._searched(asked, last) if best is None else best
+        return self._searched.answer((asked, last), self._search) if best is None else best
 
-    def _search(self, asked: _TransferKey, holds: Holds) -> TransferPath | NoPath:
+    def _search(self, wanted: tuple[_TransferKey, Holds]) -> TransferPath | NoPath:
         """Return the joint paths of a transfer whose hands hold in given ways."""
+        asked, holds = wanted
         found = self._with_lines(asked, ApproachLines(holds, FAR))
         for shares in (UP, NEAR):
             if isinstance(found, TransferPath) or found.is_hopeless:

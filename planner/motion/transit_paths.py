@@ -7,7 +7,6 @@ arms go one after the other, or by way of raised configurations. Where nothing o
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from functools import lru_cache
 from itertools import chain, pairwise, product
 
 import numpy as np
@@ -21,11 +20,11 @@ from planner.motion.lying_cloth import NEAR_GRIP_M, LyingCloth
 from planner.motion.opened_collisions import OpenedCollisions
 from planner.motion.pacing import needed_s
 from planner.motion.path_timing import quickest
+from planner.motion.recent_answers import RecentAnswers
 from planner.motion.robot_port import Collisions, RobotPort
 from planner.motion.sampled_paths import SampledPaths, sampled
 from planner.robots.joint_layout import JointLayout
 from planner.robots.openings import OPENING_M
-from planner.weakly import weakly
 
 _LEADS = (0.25, 0.5, 0.75)
 """The fractions of their path by which some arms are tried ahead of the others."""
@@ -72,7 +71,7 @@ class TransitPaths:
         self._machine, self._torso_m = machine, torso_m
         self._opened, self._collisions = collisions, collisions.wide
         self.layout = JointLayout.of(machine.card)
-        self._searched = lru_cache(_WAYS_KEPT)(weakly(self._search))
+        self._searched = RecentAnswers[_WayKey, FloatArray | None](_WAYS_KEPT)
         self._tested = AnswerMemory[bool](_ANSWERS_KEPT)
         self._lengths_m = AnswerMemory[float](_ANSWERS_KEPT)
 
@@ -155,7 +154,7 @@ class TransitPaths:
         unturned = start - turns
         first, last = (joints.round(_DIGITS) + 0.0 for joints in (unturned, self.unwound(goal - turns, unturned)))
         key = tuple(part.tobytes() for part in (first, last, *spared))
-        found = self._searched(_WayKey(key, base, cloth, samples, first, last, spared))
+        found = self._searched.answer(_WayKey(key, base, cloth, samples, first, last, spared), self._search)
         return None if found is None else np.array([start, *(found[1:-1] + turns), self.unwound(goal, start)])
 
     def _search(self, wanted: _WayKey) -> FloatArray | None:

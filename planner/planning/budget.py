@@ -91,12 +91,18 @@ class Budget:
     beside_s: float = 0.0
     _problems: list[Problem] = field(default_factory=list)
     _folds: int = 0
+    _is_late: bool = False
 
     @staticmethod
     def of(work_limit_s: float | None, time_limit_s: float, should_stop: Callable[[], bool] | None = None) -> "Budget":
         """Return a budget whose time starts now; without a work limit it allows as much work as time."""
         work_s = time_limit_s if work_limit_s is None else work_limit_s
         return Budget(work_s, Deadline.after(time_limit_s), should_stop or (lambda: False))
+
+    @staticmethod
+    def endless(should_stop: Callable[[], bool] | None = None) -> "Budget":
+        """Return a budget that is over only when the search is told to stop."""
+        return Budget.of(math.inf, math.inf, should_stop)
 
     def part(self, work_s: float) -> "Budget":
         """Return a budget for a part of the work, with the deadline of the whole."""
@@ -146,8 +152,9 @@ class Budget:
 
     @property
     def is_late(self) -> bool:
-        """Whether the time is up, whatever work is left, or the search was told to stop."""
-        return _is_past(self.deadline, self.should_stop)
+        """Whether the time is up, whatever work is left, or the search was told to stop; it stays so."""
+        self._is_late = self._is_late or _is_past(self.deadline, self.should_stop)
+        return self._is_late
 
     @property
     def left_s(self) -> float:

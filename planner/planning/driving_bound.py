@@ -11,13 +11,14 @@ that nothing remains to be done. The bound is the largest of these times, plus t
 relaxed problem, hence consistent.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from itertools import takewhile
 
 import numpy as np
 from numpy.typing import NDArray
 
 from planner.geometry.pose import BoolArray, FloatArray
+from planner.planning.budget import Budget
 from planner.planning.heuristic import Heuristic, arm_time
 from planner.primitives.context import Context
 from planner.primitives.drag_service import Service
@@ -45,10 +46,10 @@ _TOGETHER_MAX = 4
 class DrivingBound:
     """The arms' time for the remaining folds plus the least driving, dragging and moving."""
 
-    def __init__(self, context: Context, start: State, is_over: Callable[[], bool] = lambda: False) -> None:
-        """Explore the surroundings of a problem's start until `is_over` returns true."""
+    def __init__(self, context: Context, start: State, budget: Budget | None = None) -> None:
+        """Explore the surroundings of a problem's start, until the budget is over if there is one."""
         self._context = context
-        self._is_over = is_over
+        self._budget = budget or Budget.endless()
         self._start = start
         self._arms: Heuristic = arm_time(context)
         self._stands = context.kept(FoldStands)
@@ -86,27 +87,27 @@ class DrivingBound:
 
     def _left(self, done: int) -> FloatArray:
         """Return the bound for the folds left, shape (2, sites, standoffs), s."""
-        is_over = not self._service.all_folds & ~done
-        key = (done & self._mask, is_over)
+        are_served = not self._service.all_folds & ~done
+        key = (done & self._mask, are_served)
         if key not in self._known:
             left = [number for number, fold in enumerate(self._folds) if not done >> fold & 1]
-            rows = self._table(is_over)[left]
+            rows = self._table(are_served)[left]
             together = sum(1 << bit for bit, number in enumerate(self._together) if number in left)
-            self._known[key] = np.maximum(self._joint[is_over][together], rows.max(axis=0, initial=0.0))
+            self._known[key] = np.maximum(self._joint[are_served][together], rows.max(axis=0, initial=0.0))
         return self._known[key]
 
-    def _table(self, is_over: bool) -> FloatArray:
+    def _table(self, are_served: bool) -> FloatArray:
         """Return the bound for each fold alone, shape (folds, 2, sites, standoffs).
 
         This also computes the bound for folds together.
         """
-        if is_over not in self._joint:
-            sites = self._map.sites(self._within, is_over)
-            if is_over not in self._alone:
-                self._alone[is_over] = self._each_alone(sites, self._steps)
+        if are_served not in self._joint:
+            sites = self._map.sites(self._within, are_served)
+            if are_served not in self._alone:
+                self._alone[are_served] = self._each_alone(sites, self._steps)
             steps, is_served = self._steps[self._together], self._is_served[self._together]
-            self._joint[is_over] = to_go(sites, steps, is_served)
-        return self._alone[is_over]
+            self._joint[are_served] = to_go(sites, steps, is_served)
+        return self._alone[are_served]
 
     def _within_horizon(self) -> tuple[tuple[Site, ...], NDArray[np.int64], FloatArray]:
         """Return the sites, the steps of each fold at each site, and the bound for each fold alone."""
@@ -120,7 +121,7 @@ class DrivingBound:
             alone = self._each_alone(self._map.sites(within, is_service_over=False), steps)
             needed_s = float(alone[:, FREE, 0, self._start.standoff].max())
             is_enough = needed_s < horizon_s - _BEYOND_S or are_all or len(within) >= _SITES_MAX
-            if is_enough or self._is_over():
+            if is_enough or self._budget.is_over:
                 return self._without_the_impossible(within, steps, alone)
             horizon_s *= _GROWTH
 
@@ -136,7 +137,7 @@ class DrivingBound:
     def _in_time(self, within: Sequence[Site]) -> Iterator[Site]:
         """Yield the first site, and the sites after it while there is time."""
         yield within[0]
-        yield from takewhile(lambda _: not self._is_over(), within[1:])
+        yield from takewhile(lambda _: not self._budget.is_over, within[1:])
 
     def _steps_at(self, site: Site) -> list[NDArray[np.int64]]:
         return [self._stands.least(fold, site.offset, site.station) for fold in self._folds]

@@ -1,8 +1,8 @@
 """The edges of the search graph: the primitives possible in each state, computed once."""
 
-from collections.abc import Callable, Hashable, Iterable
+from collections.abc import Hashable, Iterable
 from functools import partial
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple, Protocol
 
 from planner.geometry.tolerance import TIME_S
 from planner.primitives.context import Context
@@ -10,10 +10,18 @@ from planner.primitives.primitive import Deferred, Step, in_time
 from planner.primitives.primitive_set import PRIMITIVES
 from planner.primitives.state import ANYWHERE, State
 from planner.search.a_star import DeferredEdges, Edge, Successors
-from planner.weakly import weakly
 
-Possible: TypeAlias = Callable[[State, Iterable[Step]], Iterable[tuple[Step, float]]]
-"""Selects the steps that the search may follow from a state, each with its cost (s)."""
+
+class Judge(Protocol):
+    """Knows which steps the arms could not follow, and what others take."""
+
+    def possible(self, state: State, steps: Iterable[Step]) -> Iterable[tuple[Step, float]]:
+        """Return the steps leaving a state that may succeed, each with the least known cost (s)."""
+        ...
+
+    def is_in_doubt(self, held: State) -> bool:
+        """Return whether spare steps to the grasp of a state are wanted by now."""
+        ...
 
 
 class _Found(NamedTuple):
@@ -37,25 +45,16 @@ class _Found(NamedTuple):
 class Edges:
     """The successors of each state of one planning problem."""
 
-    def __init__(self, context: Context, possible: Possible, is_wanted: Callable[[State], bool]) -> None:
-        """Start with nothing computed.
-
-        Args:
-            context: the planning context.
-            possible: called each time that edges are wanted.
-            is_wanted: says whether spare steps to the grasp of a state are wanted by now; called each time that there
-                are any.
-        """
+    def __init__(self, context: Context, judge: Judge) -> None:
+        """Start with nothing computed; the judge is asked each time that edges are wanted."""
         self._primitives = [kind(context) for kind in PRIMITIVES]
-        self._compute = weakly(self._computed)
         self._context = context
-        self._possible = possible
-        self._meets_query = is_wanted
+        self._judge = judge
         self._steps: dict[tuple[State, bool], _Found] = {}
         self._asked: set[State] = set()
         self._left: dict[tuple[object, ...], list[tuple[int, float]]] = {}
         self._worked_out: dict[Deferred[Step], _Found] = {}
-        self._deferred: dict[Deferred[Step], DeferredEdges[State, Step]] = {}
+        self._towards: dict[Deferred[Step], State] = {}
 
     @property
     def expanded(self) -> int:
@@ -102,7 +101,7 @@ class Edges:
     ) -> None:
         """Append the edges of what a primitive found; of deferred steps computed before, those of their results."""
         for later in found.deferred:
-            if later.is_spare and not self._meets_query(later.towards):
+            if later.is_spare and not self._judge.is_in_doubt(later.towards):
                 continue
             worked_out = self._worked_out.get(later)
             if worked_out is None:
@@ -110,16 +109,14 @@ class Edges:
             else:
                 self._collect(state, worked_out, edges)
         if found.steps:
-            edges += [Edge(step, cost_s, step.after) for step, cost_s in self._possible(state, found.steps)]
+            edges += [Edge(step, cost_s, step.after) for step, cost_s in self._judge.possible(state, found.steps)]
 
     def _edges_of(self, state: State, later: Deferred[Step]) -> DeferredEdges[State, Step]:
-        """Return the deferred edges of deferred steps that leave a state. Cached."""
-        edges = self._deferred.get(later)
-        if edges is None:
-            towards = later.towards if later.is_there else _anywhere(later.towards)
-            edges = DeferredEdges(later.duration_s, towards, partial(self._compute, state, later))
-            self._deferred[later] = edges
-        return edges
+        """Return the deferred edges of deferred steps that leave a state."""
+        towards = self._towards.get(later)
+        if towards is None:
+            towards = self._towards[later] = later.towards if later.is_there else _anywhere(later.towards)
+        return DeferredEdges(later.duration_s, towards, partial(self._computed, state, later))
 
     def _computed(self, state: State, later: Deferred[Step]) -> Successors[State, Step]:
         self._worked_out[later] = _Found.of(later.steps())

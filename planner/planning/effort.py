@@ -32,7 +32,11 @@ class Effort:
         finally:
             self._joint_time_s += time.perf_counter() - begun
 
-    def statistics(self, reach: Counted, bound_s: float) -> Statistics:
+    def leave_out(self, seconds: float) -> None:
+        """Leave out time that is counted elsewhere (s)."""
+        self._started += seconds
+
+    def statistics(self, reach: Counted, bound_s: float | None) -> Statistics:
         """Return the statistics so far, for a plan whose lower bound is `bound_s` (s)."""
         search_s = time.perf_counter() - self._started - self._joint_time_s
         return Statistics(

@@ -6,21 +6,20 @@ early, since after that it is usually no quicker than the optimal search; a pati
 found nothing for long, tries several times as much.
 """
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
-from itertools import count
 
 from planner.motion.plan_segment import PlanSegment, is_transfer, transfers_of
 from planner.motion.search_limits import QUICK
 from planner.motion.transfer import Transfer
+from planner.planning.budget import Budget
 from planner.planning.edges import Edges
 from planner.planning.effort import Effort
 from planner.planning.heuristic import arm_time
 from planner.planning.problem import Problem
 from planner.primitives.primitive import Step
 from planner.primitives.state import State, StateKey
-from planner.search.a_star import a_star
-from planner.weakly import weakly
+from planner.search.a_star import Outcome, a_star
 
 WEIGHT = 10.0
 """Weight of the remaining time against the time so far."""
@@ -42,7 +41,7 @@ def greedy(
     problem: Problem,
     start: State,
     effort: Effort,
-    is_over: Callable[[], bool],
+    budget: Budget,
     wanted: int | None = None,
     *,
     is_patient: bool = False,
@@ -53,7 +52,7 @@ def greedy(
         problem: the problem to plan.
         start: the state to start from.
         effort: counters that the work is added to.
-        is_over: polled repeatedly; true means that there is no time left.
+        budget: ends the search once it is over.
         wanted: the folds to be done, as a bit mask that includes the folds they depend on; None for all.
         is_patient: whether to give up later.
 
@@ -61,65 +60,87 @@ def greedy(
         The segments, the first beginning with primitive 0; None where the search soon found no way that the arms can
             follow.
     """
-    return _Greedy(problem, effort, is_over, wanted, is_patient=is_patient).plan_segments(start)
+    return _Greedy(problem, effort, budget, wanted, is_patient=is_patient).plan_segments(start)
+
+
+class _Failures:
+    """The transfers that failed in a greedy search, a `Judge` of its edges."""
+
+    def __init__(self) -> None:
+        self._struck: set[tuple[StateKey, StateKey]] = set()
+        self._doubted: set[tuple[object, ...]] = set()
+
+    def __len__(self) -> int:
+        return len(self._struck)
+
+    def note(self, steps: Sequence[Step]) -> None:
+        """Strike out the last step of a transfer that failed."""
+        self._struck.add(_ends(steps[-1]))
+        self._doubted.update(step.after.grasp for step in steps if step.after.held)
+
+    def possible(self, _state: State, steps: Iterable[Step]) -> Iterator[tuple[Step, float]]:
+        return ((step, step.duration_s) for step in steps if _ends(step) not in self._struck)
+
+    def is_in_doubt(self, held: State) -> bool:
+        return held.grasp in self._doubted
 
 
 class _Greedy:
     """A greedy search in one planning problem."""
 
     def __init__(
-        self, problem: Problem, effort: Effort, is_over: Callable[[], bool], wanted: int | None, *, is_patient: bool
+        self, problem: Problem, effort: Effort, budget: Budget, wanted: int | None, *, is_patient: bool
     ) -> None:
         self._problem = problem
         self._effort = effort
-        self._is_over = is_over
+        self._budget = budget
         self._failures_max = _PATIENT_FAILURES_MAX if is_patient else _FAILURES_MAX
         expanded_max = _PATIENT_EXPANDED_MAX if is_patient else _EXPANDED_MAX
         self._expanded_max = expanded_max + _EXPANDED_PER_FOLD * len(problem.context.sequence.folds)
+        self._looks_left = _LOOKS_PER_STATE * self._expanded_max + 1
         self._wanted = (1 << len(problem.context.sequence.folds)) - 1 if wanted is None else wanted
         self._remaining = arm_time(problem.context, self._wanted)
-        self._edges = Edges(problem.context, weakly(self._possible), weakly(self._is_in_doubt))
+        self._failures = _Failures()
+        self._edges = Edges(problem.context, self._failures)
         self._made: dict[tuple[StateKey, ...], Transfer | None] = {}
-        self._struck: set[tuple[StateKey, StateKey]] = set()
-        self._doubted: set[tuple[object, ...]] = set()
 
     def plan_segments(self, start: State) -> tuple[PlanSegment, ...] | None:
-        looks = count()
-        while len(self._struck) < self._failures_max and not self._is_over():
-            self._edges.begin()
-            result = a_star(
-                start,
-                self._edges.leaving,
-                lambda state: state.done & self._wanted == self._wanted,
-                lambda state: WEIGHT * self._remaining(state),
-                self._expanded_max,
-                lambda: next(looks) > _LOOKS_PER_STATE * self._expanded_max or self._is_over(),
-                is_consistent=False,
-            )
-            self._effort.expanded += result.expanded
-            self._effort.explored += result.explored
-            if not result.path:
+        while len(self._failures) < self._failures_max and not self._budget.is_over:
+            path = self._path(start)
+            if not path:
                 return None
             with self._effort.on_joints():
-                found = self._real([edge.action for edge in result.path])
+                found = self._real(path)
             if found is not None:
                 return found
         return None
 
-    def _possible(self, _state: State, steps: Iterable[Step]) -> Iterator[tuple[Step, float]]:
-        return ((step, step.duration_s) for step in steps if _ends(step) not in self._struck)
-
-    def _is_in_doubt(self, held: State) -> bool:
-        return held.grasp in self._doubted
+    def _path(self, start: State) -> list[Step]:
+        """Return the steps of a path to the goal; empty where none is found soon."""
+        self._edges.begin()
+        for result in a_star(
+            start,
+            self._edges.leaving,
+            lambda state: state.done & self._wanted == self._wanted,
+            lambda state: WEIGHT * self._remaining(state),
+            self._expanded_max,
+            is_consistent=False,
+        ):
+            if result.outcome is Outcome.UNFINISHED:
+                self._looks_left -= 1
+                if self._looks_left < 0 or self._budget.is_over:
+                    break
+        self._effort.expanded += result.expanded
+        self._effort.explored += result.explored
+        return [edge.action for edge in result.path]
 
     def _real(self, steps: Sequence[Step]) -> tuple[PlanSegment, ...] | None:
         """Validate steps, transfer by transfer; where a transfer fails, reject its last step."""
         plan_segments = []
         for first, part in transfers_of(steps):
-            plan_segment = None if self._is_over() else self._act(first, part)
+            plan_segment = None if self._budget.is_over else self._act(first, part)
             if plan_segment is None:
-                self._struck.add(_ends(part[-1]))
-                self._doubted.update(step.after.grasp for step in part if step.after.held)
+                self._failures.note(part)
                 return None
             plan_segments.append(plan_segment)
         return tuple(plan_segments)

@@ -17,7 +17,7 @@ and the rest are found only once no path is left that takes no longer than the o
 """
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from itertools import islice
 
@@ -28,20 +28,22 @@ from planner.motion.search_limits import QUICK, SearchLimits
 from planner.motion.transfer import Transfer
 from planner.motion.transfer_candidate import Candidate, ways_of
 from planner.motion.transfer_planner import TransferPlanner
-from planner.planning.budget import OutOfTimeError
-from planner.planning.edge_acts import EdgeActs
+from planner.planning.budget import Budget, OutOfTimeError
 from planner.planning.failure_memory import FailureMemory
 from planner.planning.rejection import Rejection
 from planner.planning.sequence_costs import SequenceCosts, step_key
 from planner.primitives.primitive import Step
 from planner.primitives.state import State
-from planner.weakly import weakly
+
+_EDGES_TRIED = 2
+"""Transfers in which hands hold edges that are tried for each part of a path; more are once a plan is found."""
 
 
 class MotionValidator:
     """The steps of one planning problem that are slower than assumed, or rejected.
 
     Attributes:
+        maker: plans the transfers.
         rejected: the transfers that failed, each up to the step that failed.
         slower: the segments of the steps validated last, where they succeed but take longer than assumed.
         sequence_costs: what sequences of steps take longer because hands come late from one transfer to the next.
@@ -50,31 +52,28 @@ class MotionValidator:
     def __init__(
         self,
         maker: TransferPlanner,
-        is_over: Callable[[], bool],
+        budget: Budget,
         search_limits: SearchLimits = QUICK,
         transfers_max: float = math.inf,
         hands: EdgeHands | None = None,
-        show: Callable[[tuple[PlanSegment, ...]], None] = lambda _: None,
     ) -> None:
         """Start with nothing known.
 
         Args:
             maker: plans the transfers.
-            is_over: polled before each transfer and each look; true means that there is no time left.
+            budget: ends validation once it is over.
             search_limits: how much is tried.
             transfers_max: the most transfers that the arms are led through.
             hands: finds transfers in which hands hold edges; None where it does not matter how they hold.
-            show: called with segments that can be performed, before it is known whether others are quicker.
         """
-        self._maker = maker
-        self._is_over = is_over
+        self.maker = maker
+        self._budget = budget
         self._search_limits = search_limits
         self._last_try = maker.path_requests + transfers_max
         self._made: dict[tuple[object, ...], Transfer | None] = {}
         self._ways: dict[tuple[object, ...], tuple[Transfer, ...]] = {}
-        self._edges = hands and EdgeActs(
-            hands, maker, weakly(self._real), weakly(self._known_s), weakly(self._require_time), show
-        )
+        self._hands = hands
+        self._at_edges: dict[tuple[object, ...], Transfer | None] = {}
         self._least_s: dict[object, float] = {}
         self._others: dict[object, tuple[Step, ...]] = {}
         self._real_steps: set[object] = set()
@@ -100,7 +99,7 @@ class MotionValidator:
                 found.append(step)
         for situation in situations:
             found += [other.begun_in(state) for other in self._others.get(situation, ())]
-        costs_s = [self._known_s(step) for step in found]
+        costs_s = [self.known_s(step) for step in found]
         return [(step, cost_s) for step, cost_s in zip(found, costs_s, strict=True) if cost_s < math.inf]
 
     @property
@@ -112,23 +111,28 @@ class MotionValidator:
         """Return whether ways to or from a grasp have failed or turned out to take longer than assumed."""
         return held.grasp in self._doubted or self._given_up.is_given_up_from(held.station)
 
-    def plan_segments(self, steps: Sequence[Step]) -> tuple[PlanSegment, ...] | None:
+    def plan_segments(
+        self, steps: Sequence[Step], at_edges: tuple[PlanSegment, ...] = ()
+    ) -> tuple[PlanSegment, ...] | None:
         """Validate a plan's steps; return None if a step was rejected, or if some take longer than assumed.
 
         In the second case the segments can still be performed: they are in `slower`.
+
+        Args:
+            steps: the steps.
+            at_edges: segments that do the same with hands at edges, if there are any.
 
         Raises:
             OutOfTimeError: there was no time to find out; what is known by then stays.
         """
         self.slower = ()
-        seemed_s = sum(self._known_s(step) for step in steps) + self.sequence_costs.of(steps)
-        held = self._edges.plan_segments(steps) if self._edges else None
-        if held is not None and duration_s(held) <= seemed_s + TIME_S:
-            return held
+        seemed_s = sum(self.known_s(step) for step in steps) + self.sequence_costs.of(steps)
+        if at_edges and duration_s(at_edges) <= seemed_s + TIME_S:
+            return at_edges
         found: list[PlanSegment] = []
         transfers: list[tuple[tuple[Step, ...], Transfer]] = []
         for first, part in transfers_of(steps):
-            made = self._real(part) if is_transfer(part) else None
+            made = self.real(part) if is_transfer(part) else None
             found.append(PlanSegment(first, part if made is None else made.steps, made))
             if made is not None:
                 transfers.append((part, made))
@@ -136,7 +140,7 @@ class MotionValidator:
                 self._all_agree(transfers)
                 self._reject(part, seemed_s)
                 return None
-        plan_segments = self._sooner(linked(found, self._maker))
+        plan_segments = self._sooner(linked(found, self.maker))
         if duration_s(plan_segments) <= seemed_s + TIME_S:
             return plan_segments
         is_known = self._all_agree(transfers)
@@ -145,7 +149,7 @@ class MotionValidator:
             self._doubt(late)
         if is_known:
             return plan_segments
-        self.slower = plan_segments if held is None else min(plan_segments, held, key=duration_s)
+        self.slower = min(plan_segments, at_edges, key=duration_s) if at_edges else plan_segments
         return None
 
     def _sooner(self, plan_segments: tuple[PlanSegment, ...]) -> tuple[PlanSegment, ...]:
@@ -162,7 +166,7 @@ class MotionValidator:
                     self._alternatives(plan_segments[place].steps) if plan_segments[number].late_s > TIME_S else ()
                 ):
                     changed = PlanSegment(plan_segments[place].first, other.steps, other)
-                    tried = linked((*plan_segments[:place], changed, *plan_segments[place + 1 :]), self._maker)
+                    tried = linked((*plan_segments[:place], changed, *plan_segments[place + 1 :]), self.maker)
                     if duration_s(tried) < duration_s(plan_segments) - TIME_S:
                         plan_segments = tried
                     if plan_segments[number].late_s <= TIME_S:
@@ -177,8 +181,8 @@ class MotionValidator:
             found: list[Transfer] = []
             failed = 0
             with suppress(OutOfTimeError):
-                for candidate in self._maker.candidates(self._in_time(ways_of(steps, self._search_limits))):
-                    made = self._maker.made(candidate)
+                for candidate in self.maker.candidates(self._in_time(ways_of(steps, self._search_limits))):
+                    made = self.maker.made(candidate)
                     if made is None:
                         failed += 1
                     else:
@@ -190,20 +194,43 @@ class MotionValidator:
             self._ways[key] = tuple(found)
         return self._ways[key]
 
-    def _real(self, steps: tuple[Step, ...]) -> Transfer | None:
+    def real(self, steps: tuple[Step, ...]) -> Transfer | None:
+        """Return a transfer that does as some steps do, whose hands hold in any way; None if none is found.
+
+        Raises:
+            OutOfTimeError: there was no time to find out.
+        """
         key = tuple(step_key(step) for step in steps)
         if key not in self._made:
             ways = self._in_time(ways_of(steps, self._search_limits))
-            made = self._maker.first_valid(ways, self._search_limits)
-            self._made[key] = self._edges.transfer(steps) if made is None and self._edges else made
+            made = self.maker.first_valid(ways, self._search_limits)
+            self._made[key] = self.at_edges(steps) if made is None else made
         return self._made[key]
+
+    def at_edges(self, steps: tuple[Step, ...]) -> Transfer | None:
+        """Return a transfer that does as some steps do and in which hands hold edges; None if none is soon found.
+
+        Raises:
+            OutOfTimeError: there was no time to find out.
+        """
+        if self._hands is None:
+            return None
+        key = tuple(step_key(step) for step in steps)
+        if key not in self._at_edges:
+            self.require_time()
+            self._at_edges[key] = next(self.ways_at_edges(steps), None)
+        return self._at_edges[key]
+
+    def ways_at_edges(self, steps: tuple[Step, ...]) -> Iterator[Transfer]:
+        """Yield a few transfers that do as some steps do and in which hands hold edges."""
+        return iter(()) if self._hands is None else self._hands.ways(steps, _EDGES_TRIED)
 
     def _reject(self, steps: tuple[Step, ...], path_s: float) -> None:
         """Reject the first step at which a transfer fails, and find other ways to do the same.
 
         Where one of them is as good as the step itself, the others are left for later; see `catch_up`.
         """
-        number = next((n for n in range(len(steps) - 1) if self._real(steps[: n + 1]) is None), len(steps) - 1)
+        number = next((n for n in range(len(steps) - 1) if self.real(steps[: n + 1]) is None), len(steps) - 1)
         culprit, before = steps[number], steps[:number]
         self.rejected.append(steps[: number + 1])
         self._least_s[step_key(culprit)] = math.inf
@@ -221,7 +248,7 @@ class MotionValidator:
 
     def _as_good(self, rejection: Rejection) -> tuple[Step, ...]:
         """Return a valid way to the same state that takes no longer than the rejected step; empty if none is found."""
-        for candidate in islice(self._maker.candidates(self._in_time(rejection.as_good())), self._search_limits.enough):
+        for candidate in islice(self.maker.candidates(self._in_time(rejection.as_good())), self._search_limits.enough):
             made = self._noted(candidate)
             if made is not None and made.durations_s()[-1] <= rejection.culprit.duration_s + TIME_S:
                 return (candidate.steps[-1],)
@@ -233,7 +260,7 @@ class MotionValidator:
         others = {step_key(other): other for other in self._others.get(situation, ()) if rejection in self._postponed}
         enough = len(others) + search_limits.enough
         new = ((*rejection.before, other) for other in rejection.elsewhere if step_key(other) not in others)
-        for tried, candidate in enumerate(islice(self._maker.candidates(self._in_time(new)), search_limits.tried)):
+        for tried, candidate in enumerate(islice(self.maker.candidates(self._in_time(new)), search_limits.tried)):
             if candidate.is_together and tried == search_limits.vain and not others:
                 break
             if self._noted(candidate) is not None:
@@ -244,7 +271,7 @@ class MotionValidator:
 
     def _noted(self, candidate: Candidate) -> Transfer | None:
         """Return the transfer of a candidate for another way, and note what its last step takes."""
-        made = self._maker.made(candidate)
+        made = self.maker.made(candidate)
         if made is not None:
             self._made[tuple(step_key(step) for step in candidate.steps)] = made
             self._least_s[step_key(candidate.steps[-1])] = made.durations_s()[-1]
@@ -267,14 +294,15 @@ class MotionValidator:
 
     def _in_time(self, choices: Iterable[tuple[Step, ...]]) -> Iterator[tuple[Step, ...]]:
         for steps in choices:
-            self._require_time()
+            self.require_time()
             yield steps
 
-    def _require_time(self) -> None:
-        if self._is_over() or self._maker.path_requests >= self._last_try:
+    def require_time(self) -> None:
+        """Raise `OutOfTimeError` where the budget is over, or no more transfers are to be tried."""
+        if self._budget.is_over or self.maker.path_requests >= self._last_try:
             raise OutOfTimeError
 
-    def _known_s(self, step: Step) -> float:
+    def known_s(self, step: Step) -> float:
         """Return the least time that a step is known to take (s)."""
         return max(step.duration_s, self._least_s.get(step_key(step), 0.0))
 
@@ -286,7 +314,7 @@ class MotionValidator:
     def _agrees(self, steps: tuple[Step, ...], made: Transfer) -> bool:
         is_known = True
         for step, lasts_s in zip(steps, made.durations_s(), strict=True):
-            known = self._known_s(step)
+            known = self.known_s(step)
             is_known &= lasts_s <= known + TIME_S
             self._least_s[step_key(step)] = max(lasts_s, known)
             self._real_steps.add(step_key(step))

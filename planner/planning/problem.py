@@ -73,6 +73,11 @@ class Problem:
             nearest_whole(world.dragged_m * DRAGS_PER_M),
         )
 
+    def forget(self) -> None:
+        """Drop what the context has cached, and who waits for the answer; a plan's steps keep their contexts."""
+        self.context.forget()
+        self.context.patience.end()
+
     def is_goal(self, state: State) -> bool:
         """Return whether all folds are done."""
         return state.done == (1 << len(self.context.sequence.folds)) - 1

@@ -1,10 +1,11 @@
 """Find a plan soon: adapt the plan for a similar garment as far as possible, and complete it with a greedy search."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 from planner.motion.plan_segment import PlanSegment, linked
 from planner.planning.adapted import adapted
+from planner.planning.budget import Budget
 from planner.planning.effort import Effort
 from planner.planning.found_plan import FoundPlan
 from planner.planning.greedy import greedy
@@ -14,7 +15,7 @@ from planner.primitives.state import State
 
 
 def quickly_planned(
-    problem: Problem, like: Sequence[FoundPlan], is_over: Callable[[], bool], *, is_patient: bool = False
+    problem: Problem, like: Sequence[FoundPlan], budget: Budget, *, is_patient: bool = False
 ) -> FoundPlan | None:
     """Return a plan adapted from similar ones, completed greedily if need be; None if none was found.
 
@@ -24,11 +25,11 @@ def quickly_planned(
     Args:
         problem: the problem to plan.
         like: plans for similar problems.
-        is_over: polled repeatedly; true means that there is no time left.
+        budget: ends the search once it is over.
         is_patient: whether the greedy search gives up later.
     """
     context, effort = problem.context, Effort()
-    found = _acts(problem, like, effort, is_over, is_patient=is_patient) if problem.unrest is None else ()
+    found = _acts(problem, like, effort, budget, is_patient=is_patient) if problem.unrest is None else ()
     plan_segments = linked(found, problem.maker)
     statistics = effort.statistics(context.reach, arm_time(context)(problem.start))
     context.forget()
@@ -38,16 +39,16 @@ def quickly_planned(
 
 
 def _acts(
-    problem: Problem, like: Sequence[FoundPlan], effort: Effort, is_over: Callable[[], bool], *, is_patient: bool
+    problem: Problem, like: Sequence[FoundPlan], effort: Effort, budget: Budget, *, is_patient: bool
 ) -> tuple[PlanSegment, ...]:
     """Return all segments to the goal, or none where they were not found."""
     begun: tuple[PlanSegment, ...] = ()
     for plan in like:
-        found = () if is_over() else adapted(plan, problem, effort)
+        found = () if budget.is_over else adapted(plan, problem, effort)
         if problem.is_goal(_after(problem, found)):
             return found
         begun = max(begun, found, key=lambda plan_segments: _after(problem, plan_segments).done.bit_count())
-    rest = greedy(problem, _after(problem, begun), effort, is_over, is_patient=is_patient)
+    rest = greedy(problem, _after(problem, begun), effort, budget, is_patient=is_patient)
     shift = sum(len(plan_segment.steps) for plan_segment in begun)
     return (*begun, *(replace(plan_segment, first=shift + plan_segment.first) for plan_segment in rest)) if rest else ()
 

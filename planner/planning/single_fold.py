@@ -11,7 +11,6 @@ end and start: can the point be reached from anywhere along that line? The few c
 The relaxation drops constraints and adds none, so it never denies what can be done.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import islice
 
@@ -20,6 +19,7 @@ from numpy.typing import NDArray
 
 from planner.geometry.pose import BoolArray, FloatArray, Pose2
 from planner.geometry.tolerance import LENGTH_M, grid_key, grid_keys
+from planner.planning.budget import Budget
 from planner.planning.single_fold_cases import Case, Cases
 from planner.primitives.context import STANDOFF_STEP_M, Context
 from planner.primitives.drag_grips import dragged, longest_drag
@@ -28,7 +28,6 @@ from planner.primitives.fold_obstacles import geometric_obstacle, geometric_obst
 from planner.primitives.fold_trial import FoldTrial, fold_trials
 from planner.primitives.fold_way import attempt_of, can_follow
 from planner.primitives.state import State
-from planner.weakly import weakly
 
 _SETS_MAX = 64
 """Sets of folds that may precede a fold; a fold with more sets is left to the search."""
@@ -61,15 +60,14 @@ class _ReachKey:
 class SingleFold:
     """Decides for each fold of a planning problem whether it could be done alone."""
 
-    def __init__(self, context: Context, station: int, should_stop: Callable[[], bool]) -> None:
-        """Prepare the check of folds begun at a station; after `should_stop` returns true, folds count as possible."""
-        self._should_stop = should_stop
-        self._is_stopped = False
+    def __init__(self, context: Context, station: int, budget: Budget) -> None:
+        """Prepare the check of folds begun at a station; once the budget is over, folds count as possible."""
+        self._budget = budget
         self._context = context
         self._station = station
         self._offsets = drag_offsets(context, OFFSETS_MAX)
         self._places = self._offsets
-        self._cases = Cases(context, station, self._offsets, weakly(self._has_to_stop))
+        self._cases = Cases(context, station, self._offsets, budget)
         self._answers: dict[_ReachKey, BoolArray] = {}
 
     def is_impossible(self, fold: int) -> bool:
@@ -90,14 +88,9 @@ class SingleFold:
             self._note_lines_off(fold, sets)
             context.obstacles.put_back(before)
             return True
-        is_impossible = not any(self._is_possible_after(done, fold) for done in sets) and not self._is_stopped
+        is_impossible = not any(self._is_possible_after(done, fold) for done in sets) and not self._budget.is_over
         context.obstacles.put_back(before)
         return is_impossible
-
-    def _has_to_stop(self) -> bool:
-        """Return whether the time is up; what was not checked by then counts as possible."""
-        self._is_stopped = self._is_stopped or self._should_stop()
-        return self._is_stopped
 
     def _is_possible_after(self, done: int, fold: int) -> bool:
         return any(
@@ -142,7 +135,7 @@ class SingleFold:
         for trial in fold_trials(self._context, anywhere, fold):
             stages = self._stages(case, trial, station)
             for index in np.flatnonzero(stages == len(_EXTREMES)):
-                if self._has_to_stop():
+                if self._budget.is_over:
                     return True
                 state = case.state(station, self._places[index])
                 here = (t for t in fold_trials(self._context, state, fold) if t.is_like(trial))
@@ -159,7 +152,7 @@ class SingleFold:
         left = np.arange(len(self._places))
         for sweep, points in zip(_EXTREMES, unrolled, strict=True):
             for grip, arm in enumerate(trial.arms):
-                if self._has_to_stop():
+                if self._budget.is_over:
                     return stages
                 rows = np.flatnonzero(alive[grip][:, left].any(axis=1))
                 asked = _ReachKey(case.done, bool(case.held) and sweep < 1.0, station, arm, sweep, _key(points[grip]))
@@ -209,7 +202,7 @@ class SingleFold:
         lowest, highest = int(steps.min()), int(steps.max()) + context.standoffs
         found = np.zeros((len(approaches), len(first)), dtype=bool)
         for start in range(lowest, highest, _BITS):
-            if self._has_to_stop():
+            if self._budget.is_over:
                 break
             lines = phases[first] + np.array([start * STANDOFF_STEP_M, 0.0, 0.0])
             count = min(_BITS, highest - start)

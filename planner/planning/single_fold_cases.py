@@ -1,6 +1,6 @@
 """Enumerate what the hands may hold when a fold begins, wherever drags have carried the article."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import permutations
 
@@ -9,6 +9,7 @@ import numpy as np
 from planner.cloth.grips import Cover
 from planner.geometry.pose import FloatArray, Point2
 from planner.geometry.tolerance import LENGTH_M
+from planner.planning.budget import Budget
 from planner.primitives.context import Context
 from planner.primitives.drag_grips import drag_covers, hangs_ahead, towards_robot
 from planner.primitives.fold_trial import grips_obstacle
@@ -39,12 +40,12 @@ class Case:
 class Cases:
     """Finds the cases of one planning problem."""
 
-    def __init__(self, context: Context, station: int, offsets: FloatArray, should_stop: Callable[[], bool]) -> None:
+    def __init__(self, context: Context, station: int, offsets: FloatArray, budget: Budget) -> None:
         """Prepare cases that begin at a station, with the offsets that drags can lead to, shape (n, 2), m."""
         self._context = context
         self._station = station
         self._offsets = offsets
-        self._should_stop = should_stop
+        self._budget = budget
 
     def of(self, done: int, fold: int) -> Iterator[Case]:
         """Yield free hands, then whatever a drag that starts anywhere may leave held."""
@@ -74,7 +75,7 @@ class Cases:
         silhouette = context.sequence.cloth(done).silhouette
         is_whole_seen = False
         for offset in ((float(x), float(y)) for x, y in self._offsets):
-            if self._should_stop():
+            if self._budget.is_over:
                 return
             is_whole = context.table_in_article(offset).contains(silhouette)
             if (is_whole and is_whole_seen) or not (is_whole or self._is_near(fold, offset)):

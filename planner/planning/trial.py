@@ -1,16 +1,22 @@
-"""The outcome of trying a planning problem, and the interface of what explains why there is no plan."""
+"""Try whether some folds of a problem can be done at all, not necessarily in the quickest way."""
 
-from collections.abc import Callable, Collection, Iterable
 from dataclasses import dataclass
-from typing import Protocol, TypeAlias
 
-from planner.cloth.g_state import Unrest, needed_friction
+from planner.cloth.g_state import needed_friction
+from planner.planning.budget import Budget
+from planner.planning.effort import Effort
+from planner.planning.events import Obstacles
+from planner.planning.greedy import WEIGHT, greedy
+from planner.planning.heuristic import arm_time
+from planner.planning.path_search import PathSearch
 from planner.planning.problem import Problem
 from planner.primitives.context import Context
-from planner.primitives.obstacle import BlockingContact, Situation
 from planner.primitives.primitive import Step
 from planner.primitives.state import State
-from planner.task.reason import Reason
+from planner.search.a_star import Outcome
+
+_EXPANDED_MAX, _GLANCE_WORK_S, _TRIAL_WORK_S = 200, 0.4, 1.0
+"""States expanded in a trial, and its work: without joint paths, and with them (s, see `Budget`)."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -21,13 +27,18 @@ class Trial:
         context: the planning context, with the obstacles met.
         states: the states on the path found; None if there is none.
         has_collided: whether some ways are in reach, but the arms touch something on them.
-        measured: computes the reasons that the search met, not tried yet.
+        obstacles: what stood in the way, where no path was found.
     """
 
     context: Context
     states: tuple[State, ...] | None
     has_collided: bool
-    measured: Callable[[], tuple[Reason, ...]]
+    obstacles: Obstacles
+
+    @staticmethod
+    def failed(obstacles: Obstacles) -> "Trial":
+        """Return the trial of a problem for which no path was found."""
+        return Trial(obstacles.problem.context, None, bool(obstacles.rejected), obstacles)
 
     @property
     def is_possible(self) -> bool:
@@ -45,46 +56,39 @@ class Trial:
         return max(found, default=0.0)
 
 
-TryFolds: TypeAlias = Callable[[Problem, bool, int], Trial]
-"""Tries whether some folds of a problem, a bit mask, can be done, and whether arms may pass through anything.
+def try_folds(problem: Problem, budget: Budget, folds: int, *, may_collide: bool) -> Trial:
+    """Try whether some folds of a problem can be done, and all folds that they depend on.
 
-Its arguments are the problem, whether the arms may collide, and the folds."""
+    Args:
+        problem: the problem to try.
+        budget: the time for the trial, whose work is limited here and added to the budget's.
+        folds: the folds, as a bit mask.
+        may_collide: whether the arms may pass through anything: then it is enough that the places are in reach.
+    """
+    part = budget.part(0.0)
+    search = PathSearch(problem, part, _EXPANDED_MAX, wanted=folds)
+    begun_s = part.spent_s
+    part.work_limit_s = begun_s + (_GLANCE_WORK_S if may_collide else _TRIAL_WORK_S)
+    path = None if problem.unrest is not None else _path(search, folds, may_collide=may_collide)
+    budget.beside_s += part.spent_s - begun_s
+    if path is None:
+        return Trial(problem.context, None, search.has_rejected, search.obstacles)
+    states = (problem.start, *(step.after for step in path))
+    return Trial(problem.context, states, search.has_rejected, Obstacles(problem, part))
 
 
-class Explainer(Protocol):
-    """Explains why there is no plan; `planner.explain` implements it."""
-
-    def at_start(self, context: Context, unrest: Unrest) -> Reason:
-        """Return the reason why cloth does not stay as it lies at the start."""
-        ...
-
-    def met(
-        self,
-        context: Context,
-        blocked: Iterable[tuple[Step, BlockingContact | None]],
-        reached: Collection[Situation],
-        impossible: Collection[int],
-    ) -> tuple[Reason, ...]:
-        """Return the reasons that a search met, not tried yet.
-
-        Args:
-            context: the planning context, with the obstacles met.
-            blocked: steps whose places are in reach but that the arms cannot follow, with their blocking contacts.
-            reached: the situations that the search reached.
-            impossible: folds that cannot be done even alone, for which the search may have ended early; empty if the
-                search has exhausted all states.
-        """
-        ...
-
-    def tried(
-        self, problem: Problem, met: Trial, try_folds: TryFolds, is_enough: Callable[[], bool]
-    ) -> tuple[Reason, ...]:
-        """Return those reasons that prove true when tried: removing the cause gives a plan, or allows its fold.
-
-        Args:
-            problem: the problem to plan.
-            met: the trial of the problem, with the reasons met.
-            try_folds: plans with causes removed.
-            is_enough: polled before each trial; true ends them.
-        """
-        ...
+def _path(search: PathSearch, folds: int, *, may_collide: bool) -> tuple[Step, ...] | None:
+    """Return the steps of some path, validated unless the arms may collide; None if none is found."""
+    problem = search.problem
+    if may_collide:
+        remaining = arm_time(problem.context, folds)
+        for _ in search.propose(lambda state: WEIGHT * remaining(state), is_consistent=False):
+            pass
+    else:
+        plan_segments = greedy(problem, problem.start, Effort(), search.budget, folds)
+        if plan_segments is not None:
+            return tuple(step for plan_segment in plan_segments for step in plan_segment.steps)
+        for _ in search.run():
+            if search.found:
+                break
+    return search.path if search.result.outcome is Outcome.SOLVED else None

@@ -3,7 +3,6 @@
 import heapq
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cache
 
 import numpy as np
 
@@ -16,7 +15,6 @@ from planner.primitives.drag_service import Service
 from planner.primitives.holding_drags import STEPS_PER_DRAG
 from planner.primitives.relaxed_sites import NOWHERE, OUTSIDE, Sites
 from planner.primitives.state import State
-from planner.weakly import weakly
 
 SiteKey = tuple[int, int, int]
 """A site on the grid: the article's place (x, y) and the station."""
@@ -50,7 +48,7 @@ class SiteMap:
         self._start = Site(start.offset, start.station)
         self._moves = context.kept(BaseMove)
         self._longest = longest_drag(context)
-        self._move_s = cache(weakly(self._moved_s))
+        self._moves_s: dict[tuple[int, int], FloatArray] = {}
 
     def within(self, horizon_s: float, most: int) -> tuple[tuple[Site, ...], bool]:
         """Return up to `most` sites within a horizon of the start (s), nearest first, and whether these are all."""
@@ -113,7 +111,10 @@ class SiteMap:
                 return
             yield Site(offset, site.station)
 
-    def _moved_s(self, station: int, goal: int) -> FloatArray:
-        """Return the duration of a move from each standoff (s)."""
-        starts = (State(0, (0.0, 0.0), station, standoff) for standoff in range(self._context.standoffs))
-        return np.array([step.duration_s for start in starts for step in self._moves.to(start, goal)])
+    def _move_s(self, station: int, goal: int) -> FloatArray:
+        """Return the duration of a move from each standoff (s). Cached."""
+        if (station, goal) not in self._moves_s:
+            starts = (State(0, (0.0, 0.0), station, standoff) for standoff in range(self._context.standoffs))
+            steps = (step for start in starts for step in self._moves.to(start, goal))
+            self._moves_s[station, goal] = np.array([step.duration_s for step in steps])
+        return self._moves_s[station, goal]

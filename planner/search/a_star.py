@@ -35,6 +35,7 @@ _WORTH_REOPENING = 1e-6
 class Outcome(StrEnum):
     """The outcome of a search."""
 
+    UNFINISHED = "unfinished"
     SOLVED = "solved"
     INFEASIBLE = "infeasible"
     BUDGET_EXCEEDED = "budget_exceeded"
@@ -72,12 +73,11 @@ Successors: TypeAlias = Iterable[Edge[S, A] | DeferredEdges[S, A]]
 """The edges that leave a state, some of them deferred."""
 
 
-@dataclass(frozen=True, slots=True)
-class SearchResult(Generic[S, A]):
+class SearchResult(NamedTuple, Generic[S, A]):
     """The result of a search.
 
     Attributes:
-        outcome: solved, infeasible (all states that can be reached were seen), or out of budget.
+        outcome: solved, infeasible (all states that can be reached were seen), out of budget, or not finished yet.
         path: the edges from the start to the goal; empty unless solved.
         cost: the path's cost; infinite unless solved.
         bound: a lower bound on the cost of any path to a goal.
@@ -157,12 +157,13 @@ def a_star(
     is_goal: Callable[[S], bool],
     heuristic: Callable[[S], float],
     max_expanded: int,
-    should_stop: Callable[[], bool],
     limit: float = math.inf,
     *,
     is_consistent: bool = True,
-) -> SearchResult[S, A]:
+) -> Iterator[SearchResult[S, A]]:
     """Search the cheapest path from a state to a goal.
+
+    The search pauses before each expansion, and before deferred edges are computed. To stop it, take no more from it.
 
     Args:
         start: the state at which the search begins.
@@ -170,11 +171,12 @@ def a_star(
         is_goal: tells whether a state is a goal.
         heuristic: a consistent lower bound on the cost from a state to a goal; infinite where there is no path to one.
         max_expanded: the budget in expansions.
-        should_stop: called before each expansion and before deferred edges are computed; true ends the search as out of
-            budget.
         limit: the cost from which on a path is as good as none.
         is_consistent: whether the heuristic is consistent; a weighted one is not, and the path found may then not be
             the cheapest.
+
+    Yields:
+        At each pause what is known by then, an unfinished result; at last the result.
     """
     search: _Search[S, A] = _Search(heuristic, limit, is_consistent, {start: 0.0})
     search.push(start, 0.0, heuristic(start), None)
@@ -185,13 +187,16 @@ def a_star(
         if deferred is None and state in search.closed:
             continue
         if deferred is None and is_goal(state):
-            return SearchResult(Outcome.SOLVED, search.path_to(state), cost, cost, expanded, search.explored)
-        if (deferred is None and expanded >= max_expanded) or should_stop():
-            return SearchResult(Outcome.BUDGET_EXCEEDED, (), math.inf, estimate, expanded, search.explored)
+            yield SearchResult(Outcome.SOLVED, search.path_to(state), cost, cost, expanded, search.explored)
+            return
+        if deferred is None and expanded >= max_expanded:
+            yield SearchResult(Outcome.BUDGET_EXCEEDED, (), math.inf, estimate, expanded, search.explored)
+            return
+        yield SearchResult(Outcome.UNFINISHED, (), math.inf, estimate, expanded, search.explored)
         if deferred is None:
             search.closed.add(state)
             expanded += 1
             search.push_all(state, cost, successors(state, cost))
         else:
             search.push_all(state, cost, deferred.compute())
-    return SearchResult(Outcome.INFEASIBLE, (), math.inf, math.inf, expanded, search.explored)
+    yield SearchResult(Outcome.INFEASIBLE, (), math.inf, math.inf, expanded, search.explored)

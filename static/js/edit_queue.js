@@ -7,14 +7,14 @@
  */
 
 import { sayable } from "./dom.js";
-import { bodyOf, send, sentence, UnreachableError } from "./edit_sending.js";
 import { inEnglish, say } from "./language/say.js";
+import { RefusedError, UnreachableError } from "./live.js";
 
-/** @import { DocumentState, Drawing, Garment } from "pleat" */
-/** @import { Answer } from "./edit_sending.js" */
+/** @import { Command, DocumentState, Drawing } from "pleat" */
 
 const TRIES = 3;
 const RETRY_MS = 1000;
+const CONFLICT = 409;
 const OFFLINE = say("server.nothing_changed");
 const KEPT = say("server.change_kept");
 
@@ -93,27 +93,18 @@ export class EditQueue {
     });
   }
 
-  /** @param {"undo"|"redo"} verb */
-  post(verb) {
-    return this.push(async () => this.taken(await this.send("POST", `/${verb}`)));
-  }
-
-  /** @param {string|Garment} garment @param {string|null} label @param {boolean} arcs */
-  open(garment, label, arcs) {
-    const run = async () => {
+  /**
+   * Any other change, in its turn.
+   * @param {Command} command
+   * @param {(before: Drawing|undefined) => void} [done] called once it is made
+   */
+  change(command, done) {
+    return this.push(async () => {
       const before = this.store.state?.drawing;
-      const state = this.taken(await this.send("PUT", "/garment", { garment, label, arcs }));
-      this.store.select(null);
-      this.store.showStep(0);
-      this.store.dispatchEvent(new CustomEvent("opened", { detail: before }));
-      return state;
-    };
-    return this.push(run);
-  }
-
-  /** @param {string} robot the name of the robot that shall fold */
-  robot(robot) {
-    return this.push(async () => this.taken(await this.send("PUT", "/robot", { robot })));
+      await this.store.ask(command);
+      done?.(before);
+      return this.store.state;
+    });
   }
 
   /** @param {(job: Job) => unknown} isUnwanted */
@@ -154,7 +145,7 @@ export class EditQueue {
     } catch (error) {
       const isLost = error instanceof UnreachableError;
       if (isLost && job.phase === "commit") return this.hold(job);
-      if (job.phase !== "preview") this.store.refuse(isLost ? OFFLINE : sayable(error));
+      if (job.phase !== "preview") this.store.refuse(isLost ? OFFLINE : this.sentence(error));
     }
     this.waiting = this.waiting.filter((other) => other !== job);
     job.resolve(state);
@@ -191,15 +182,35 @@ export class EditQueue {
     /** @type {Base} */
     let base = (isPartOfGesture && this.gesture) || this.store.state;
     for (let tries = 0; tries < TRIES; tries += 1) {
-      const answer = await this.send("PUT", "/drawing", bodyOf(job, base));
-      if (answer.status !== 409) return this.settled(job, base, answer);
-      /** @type {DocumentState} */
-      const newer = answer.told.state;
-      this.store.take(newer);
-      base = newer;
-      if (job.phase === "cancel") return this.forgotten();
+      const version = await this.versionOf(job, base);
+      if (version !== null) {
+        const goesOn = job.phase === "preview" && job.gesture !== null;
+        this.gesture = goesOn ? { key: job.gesture ?? "", drawing: base.drawing, version } : null;
+        return this.store.state;
+      }
+      base = this.store.state;
+      if (job.phase !== "cancel") continue;
+      this.gesture = null; // somebody else has ended it: there is nothing to take back
+      return this.store.state;
     }
     throw new Error(say("server.changed_elsewhere"));
+  }
+
+  /**
+   * The version that a change makes; null where it came too late, and the newer drawing is here.
+   * @param {Job} job
+   * @param {Base} base
+   */
+  async versionOf({ label, change, phase, coalesce, gesture }, base) {
+    const copy = change && structuredClone(base.drawing);
+    const drawing = copy && (change(copy) ?? copy);
+    const common = { base_version: base.version, label, phase, coalesce, gesture };
+    try {
+      return (await this.store.ask(/** @type {Command} */ ({ do: "edit", ...common, drawing }))).version;
+    } catch (error) {
+      if (error instanceof RefusedError && error.problem.status === CONFLICT) return null;
+      throw error;
+    }
   }
 
   /**
@@ -212,30 +223,8 @@ export class EditQueue {
     return job.gesture === null && last === job.label && job.after !== last;
   }
 
-  /** @param {Job} job @param {Base} base @param {Answer} answer */
-  settled(job, base, answer) {
-    const state = this.taken(answer);
-    const goesOn = job.phase === "preview";
-    this.gesture =
-      goesOn && job.gesture !== null ? { key: job.gesture, drawing: base.drawing, version: state.version } : null;
-    return state;
-  }
-
-  /** Somebody else has ended our gesture: there is nothing to take back. */
-  forgotten() {
-    this.gesture = null;
-    return this.store.state;
-  }
-
-  /** @param {Pick<Answer, "ok"|"told">} answer @returns {DocumentState} */
-  taken({ ok, told }) {
-    if (!ok) throw new Error(sentence(told, this.store.state?.drawing.folds ?? []));
-    this.store.take(told);
-    return told;
-  }
-
-  /** @param {string} method @param {string} path @param {unknown} sent */
-  send(method, path, sent = undefined) {
-    return send(this.store.path + path, method, sent);
+  /** @param {unknown} error */
+  sentence(error) {
+    return error instanceof RefusedError ? error.inWords(this.store.state?.drawing.folds ?? []) : sayable(error);
   }
 }

@@ -19,7 +19,7 @@ import { mountOffline } from "./offline.js";
 import { mountPhone } from "./phone.js";
 import { mountRobots } from "./robots.js";
 import { mountSplitter } from "./splitter.js";
-import { mountView3DPlay } from "./view3d_play.js";
+import { mountView3DPlay } from "./view3d.js";
 import { mountView3D } from "./view3d.js";
 import { Rehearsal } from "./rehearsal/rehearsal.js";
 import { Repair } from "./repair/repair.js";

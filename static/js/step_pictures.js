@@ -20,9 +20,8 @@ export class StepPictures extends EventTarget {
     if (id === this.id) return;
     this.id = id;
     this.take([]);
-    const answer = id ? await fetch(`../api/plans/${id}/pictures`).catch(() => null) : null;
-    const told = answer?.ok ? await answer.json() : [];
-    if (id === this.id) this.take(told);
+    const answer = id ? await this.store.ask({ do: "pictures", plan: id }).catch(() => null) : null;
+    if (id === this.id) this.take(/** @type {StepPicture[]} */ (answer?.result ?? []));
   }
 
   /** @param {StepPicture[]} pictures */

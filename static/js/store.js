@@ -52,7 +52,7 @@ export class Store extends EventTarget {
     this.live = this.listen();
   }
 
-  /** The path of the document's resources. */
+  /** The path of what a program may ask of the document, as its files. */
   get path() {
     return `../api/documents/${this.id}`;
   }
@@ -184,11 +184,11 @@ export class Store extends EventTarget {
   }
 
   undo() {
-    return this.queue.post("undo");
+    return this.queue.change({ do: "undo" });
   }
 
   redo() {
-    return this.queue.post("redo");
+    return this.queue.change({ do: "redo" });
   }
 
   /**
@@ -198,17 +198,30 @@ export class Store extends EventTarget {
    * @param {boolean} arcs whether edges that stand for arcs become curves
    */
   open(garment, label = null, arcs = false) {
-    return this.queue.open(garment, label, arcs);
+    return this.queue.change({ do: "put_garment", garment, label, arcs }, (before) => {
+      this.select(null);
+      this.showStep(0);
+      this.dispatchEvent(new CustomEvent("opened", { detail: before }));
+    });
   }
 
   /** Have another robot fold, with the scene that suits it. @param {string} robot its name */
   putRobot(robot) {
-    return this.queue.robot(robot);
+    return this.queue.change({ do: "put_robot", robot });
   }
 
   /** @param {Command} command */
   command(command) {
     this.live.send(command);
+  }
+
+  /**
+   * Send a change or a question, and wait for its answer; see `Live.ask`.
+   * @param {Command} command
+   * @param {AbortSignal} [signal]
+   */
+  ask(command, signal) {
+    return this.live.ask(command, signal);
   }
 
   /** Tell the reader that something was not done. @param {string} detail a sentence */

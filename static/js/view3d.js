@@ -5,9 +5,9 @@
 
 import { svg } from "./board/sheet.js";
 import { Surface3D } from "./board/surface_3d.js";
-import { byId, element } from "./dom.js";
+import { icon } from "./dock/icons.js";
+import { button, byId, element } from "./dom.js";
 import { say } from "./language/say.js";
-import { View3DViews } from "./viewpoints.js";
 
 /** What the frame says when it is ready, see app/api/view_3d_routes.py. */
 const READY = "pleat-ready";
@@ -64,4 +64,57 @@ function picture() {
   const drawn = svg("svg", { viewBox: "0 0 120 104", "aria-hidden": "true" });
   drawn.append(svg("path", { d: TABLE }), svg("path", { d: CLOTH, class: "view3d-cover-cloth" }));
   return element("div", "view3d-cover", drawn, element("p", "", say("view3d.being_set")));
+}
+
+const VIEWS = /** @type {const} */ (["preset.follow", "preset.robot", "preset.top", "preset.side", "preset.free"]);
+const CHANNEL = "/session/";
+
+/** @typedef {{nodeRefFromName: Record<string, unknown>, sendMessage: (message: object) => void}} Viser */
+
+/** * The viewpoints, in the 3D view itself. The server moves the camera, as it rides along with the robot; which of its sessions this page's frame is, a node of the frame's scene says (`app/ui/viewpoints/viewpoint_choice.py`). */
+class View3DViews {
+  /** @param {HTMLIFrameElement} frame */
+  constructor(frame) {
+    this.frame = frame;
+    this.root = byId("viewpoints");
+    this.root.replaceChildren(
+      ...VIEWS.map((view) => {
+        const made = button("viewpoint", () => this.look(view), say(view));
+        made.title = say(`${view}_hint`);
+        return made;
+      }),
+    );
+  }
+
+  /** @param {boolean} isThere whether it can be looked at */
+  show(isThere) {
+    this.root.hidden = !isThere;
+  }
+
+  /** @param {typeof VIEWS[number]} view */
+  look(view) {
+    const viser = /** @type {{__viserMutable?: Viser}} */ (this.frame.contentWindow ?? {}).__viserMutable;
+    const node = Object.keys(viser?.nodeRefFromName ?? {}).find((name) => name.startsWith(CHANNEL));
+    if (!viser || !node) return;
+    viser.sendMessage({ type: "GuiUpdateMessage", uuid: node.slice(CHANNEL.length), updates: { value: view } });
+  }
+}
+
+/**
+ * On a phone the large 3D view has a button of its own to play and pause: the timeline is under the sheet.
+ * @param {import("./store.js").Store} store
+ * @param {() => void} togglePlay
+ */
+export function mountView3DPlay(store, togglePlay) {
+  const made = /** @type {HTMLButtonElement} */ (byId("view3d-play"));
+  const show = () => {
+    const { playing = false, duration_s: duration = 0 } = store.playback ?? {};
+    const name = playing ? say("play.pause") : say("play.play");
+    made.replaceChildren(icon(playing ? "pause" : "play"));
+    made.setAttribute("aria-label", say("play.in_view3d", { what: name }));
+    made.disabled = duration <= 0 || !store.isLive;
+  };
+  made.addEventListener("click", togglePlay);
+  for (const name of ["playback", "connection"]) store.addEventListener(name, show);
+  show();
 }

@@ -8,6 +8,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from app.document import Document
+from app.document_state import VersionPlan
 from app.drawing.draft import draft_of
 from app.drawing.drawing import Drawing
 from app.drawing.garment_drawing import drawing_of
@@ -16,7 +17,6 @@ from app.jobs.job_pool import JobPool
 from app.replanner import Replanner
 from app.store.database import Database
 from app.store.plan_store import PlanStore
-from app.version_plan import VersionPlan
 from bench.in_thread import InThread
 from planner import find_plan
 from planner.cloth.garment import Garment

@@ -44,6 +44,16 @@ async def test_the_page_s_files_and_this_machine_are_not_limited(limited: httpx.
         assert [answer.status_code for answer in await statuses(limited, client, path)] == [200] * 3
 
 
+async def test_what_a_page_sends_over_its_websocket_counts_as_requests_do(limited: httpx.ASGITransport) -> None:
+    document_id = (await created(limited, "127.0.0.1")).json()["id"]
+    page = Listener(limited.app, f"/api/documents/{document_id}/live", "192.0.2.4")
+    await page.until("document")
+    page.say({"ask": 1, "do": "undo"})
+    await page.until("answer", ask=1)
+    assert [answer.status_code for answer in await statuses(limited, "192.0.2.4")] == [429] * 3
+    await page.hang_up()
+
+
 @pytest.fixture
 async def shared(tmp_path: Path) -> AsyncIterator[httpx.ASGITransport]:
     """Return the way to a server that allows a client two open documents and two websockets."""

@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from app.api.messages import COMMANDS
+from app.api.document_messages import COMMANDS
 from planner.errors import FieldError
 from planner.json_form import JsonForm
 from planner.robots.card_file import CardFile

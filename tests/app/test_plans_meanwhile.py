@@ -7,9 +7,9 @@ from dataclasses import replace
 import pytest
 
 from app import replanner
+from app.document_state import VersionPlan
 from app.drawing.edit import Edit
 from app.drawing.solve import solve
-from app.version_plan import VersionPlan
 from planner import Task, find_plan
 from planner.planning import plan_search
 from planner.planning.found_plan import FoundPlan

@@ -8,10 +8,10 @@ from dataclasses import replace
 import pytest
 
 from app.api.live_messages import plan_message, status_text
+from app.document_state import VersionPlan
 from app.drawing.edit import Edit, Phase
 from app.replanner import Replanner, Searching
 from app.store.plan_store import PlanStore, UnknownPlanError
-from app.version_plan import VersionPlan
 from app.worker.stop import Stop
 from planner import Plan
 from planner.task.grip import Holding

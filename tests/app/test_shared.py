@@ -99,6 +99,13 @@ async def test_a_page_by_a_link_follows_until_that_is_taken_back_and_its_command
     await page.until("document", version=1)
     page.say({"do": "plan_from", "step": None})
     assert "looking and playing" in str(await page.until("problem"))
+    line = {"start": [0.1, 0.0], "end": [0.1, 0.3]}
+    refused: list[dict[str, Any]] = [{"do": "undo"}, {"do": "crease", "line": line}, {"do": "places"}]
+    for ask, sent in enumerate(refused):
+        page.say({"ask": ask, **sent})
+        assert (await page.until("problem", ask=ask))["status"] == 403
+    page.say({"ask": 7, "do": "overlays", "station": "front", "show": "slip"})
+    assert (await page.until("answer", ask=7))["result"]["slip"]["holds"]
     await put(client, state, moved(state, -0.01))
     await page.until("document", version=2)
     assert (await client.delete(f"/api/documents/{state['id']}/share")).status_code == 204

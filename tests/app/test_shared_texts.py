@@ -2,7 +2,7 @@
 
 from concurrent.futures import ThreadPoolExecutor
 
-from app.shared_texts import SharedTexts
+from app.open_document import SharedTexts
 
 
 def test_a_text_is_made_once_for_all_who_ask_and_anew_for_another_key() -> None:

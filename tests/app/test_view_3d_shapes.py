@@ -5,7 +5,7 @@ import pytest
 
 from app.ui.cloth_view import outlines
 from app.ui.colours import DARK, LIGHT, Palette
-from app.ui.dashes import dashed, solid, split_at
+from app.ui.fold_view import dashed, solid, split_at
 from app.ui.lighting import ink, paint, seen, seen_line
 from app.ui.lying_cloth import lying_cloth
 from app.ui.relief import Relief

@@ -1,11 +1,12 @@
 """A window of the page: operations of a person with the mouse, and what the window shows."""
 
+import json
 from typing import Any
 
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Page, WebSocket, expect
 
 from tests.browser.board_hand import Hand, Point
-from tests.browser.conftest import Sheet
+from tests.browser.conftest import PATIENCE_MS, Sheet
 
 DRAWN = "new Promise(requestAnimationFrame)"
 SPREAD_OUT = f"""() => {{
@@ -51,6 +52,9 @@ class Window:
 
     def __init__(self, page: Page) -> None:
         self.page, self.hand = page, Hand(page)
+        self._drops: set[int] = set()
+        self._answered: set[int] = set()
+        page.on("websocket", self._listen)
 
     def open(self, sheet: Sheet) -> None:
         self.page.goto(sheet.page_url)
@@ -98,10 +102,32 @@ class Window:
 
     def end_drag(self) -> None:
         """End a drag, and wait until the server has taken the drop."""
-        with self.page.expect_response(lambda answer: answer.ok and answer.request.method == "PUT"):
-            self.page.keyboard.down("Control")
-            self.page.mouse.up()
-            self.page.keyboard.up("Control")
+        before = set(self._drops)
+        self.page.keyboard.down("Control")
+        self.page.mouse.up()
+        self.page.keyboard.up("Control")
+        for _ in range(PATIENCE_MS // 10):
+            if (self._drops - before) & self._answered:
+                return
+            self.page.wait_for_timeout(10)
+        raise AssertionError("the server never answers")
+
+    def _listen(self, socket: WebSocket) -> None:
+        """Note what the page commits, and what the server answers."""
+
+        def sent(text: str | bytes) -> None:
+            message = json.loads(text)
+            if message["do"] == "edit" and message["phase"] == "commit":
+                self._drops.add(message["ask"])
+
+        def heard(text: str | bytes) -> None:
+            message = json.loads(text)
+            if message["kind"] == "answer":
+                self._answered.add(message["ask"])
+
+        if socket.url.endswith("/live"):
+            socket.on("framesent", sent)
+            socket.on("framereceived", heard)
 
     def add_corner(self, at: Point) -> None:
         self.clear()

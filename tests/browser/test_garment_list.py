@@ -97,7 +97,7 @@ def test_without_the_server_the_document_stays_and_it_is_said(page: Page, new_sh
     page.goto(sheet.page_url)
     expect(page.locator(".fold-row")).to_have_count(2)
     expect(bar(page).locator("option[value='garment:tie']")).to_be_attached()
-    page.context.set_offline(True)
+    page.route("**/api/documents", lambda route: route.abort())
     bar(page).select_option("garment:tie")
     expect(page.get_by_role("log", name="Notices")).to_contain_text("nothing was opened")
     expect(bar(page).locator("option:checked")).to_have_text("Scarf")

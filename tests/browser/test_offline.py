@@ -3,10 +3,11 @@
 from collections.abc import Callable, Iterator
 
 import pytest
-from playwright.sync_api import Page, Route, expect
+from playwright.sync_api import Page, expect
 
 from tests.app.conftest import Served
 from tests.browser.board_hand import Hand
+from tests.browser.channel import Message, listened_to
 from tests.browser.conftest import Garment, Sheet
 from tests.browser.napkin import napkin
 from tests.browser.status_pill import expect_planned
@@ -76,21 +77,23 @@ def test_without_a_server_the_tools_rest_and_the_board_says_why(
 
 
 def test_a_change_whose_answer_alone_was_lost_is_not_made_twice(page: Page, napkin_sheet: Sheet) -> None:
-    hand = Hand(page)
-    hand.click(CORNER)
-    lost: list[int] = []
+    with listened_to(page, napkin_sheet.page_url) as (window, channel):
+        expect_planned(window)
+        lost: list[Message] = []
 
-    def lose_the_first(route: Route) -> None:
-        if lost:
-            route.fallback()
-            return
-        lost.append(route.fetch().status)
-        route.abort()
+        def lose_the_first(heard: Message) -> bool:
+            is_told = heard["kind"] in ("document", "answer") and bool(channel.asked("edit")) and not lost
+            if is_told and heard["kind"] == "answer":
+                lost.append(heard)
+                channel.cut()
+            return not is_told
 
-    page.route("**/drawing", lose_the_first)
-    page.keyboard.press("ArrowRight")
-    expect(page.locator(".corner").first).to_have_attribute("aria-label", at((0.001, 0.0)))
-    expect(page.get_by_role("status")).not_to_contain_text("Not sent yet")
-    expect_planned(page)
-    assert lost == [200]
+        channel.hear = lose_the_first
+        Hand(window).click(CORNER)
+        window.keyboard.press("ArrowRight")
+        expect(window.locator(".corner").first).to_have_attribute("aria-label", at((0.001, 0.0)))
+        expect(window.get_by_role("status")).not_to_contain_text("Not sent yet")
+        expect_planned(window)
+        assert [heard["version"] for heard in lost] == [2]
+        assert len(channel.asked("edit")) == 1
     assert napkin_sheet.drawing["outline"][0]["point"] == pytest.approx((0.001, 0.0), abs=1e-9)

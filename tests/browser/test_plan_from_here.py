@@ -4,8 +4,9 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
-from playwright.sync_api import Browser, Locator, Page, Route, expect
+from playwright.sync_api import Browser, Locator, Page, expect
 
+from tests.browser.channel import Message, listened_to
 from tests.browser.conftest import Garment, Sheet, windows
 from tests.browser.napkin import napkin
 from tests.browser.status_pill import cost_s, expect_planned
@@ -256,21 +257,20 @@ def test_the_line_says_from_what_is_planned(page: Page, changes: dict[str, Any],
 
 
 def test_the_cost_map_is_asked_for_anew_where_another_start_is_chosen(page: Page) -> None:
-    asked: list[str] = []
+    told = {"version": 1, "step_m": 0.1, "cells": [], "best": None, "complete": True}
+    with listened_to(page, page.url) as (window, channel):
 
-    def answer(route: Route) -> None:
-        asked.append(route.request.url)
-        route.fulfill(json={"version": 1, "step_m": 0.1, "cells": [], "best": None, "complete": True})
+        def tell(sent: Message, answer: Callable[[Message], None]) -> bool:
+            is_map: bool = sent["do"] == "places"
+            if is_map:
+                answer({"kind": "answer", "version": 1, "result": told})
+            return not is_map
 
-    chip = page.get_by_role("button", name="Cost map")
-    with page.expect_response("**/overlays/places"):
-        page.route("**/overlays/places", answer)
-        chip.click()
-    with page.expect_response("**/overlays/places"):
-        steps(page).nth(first_fold(page)).click(button="right")
-        menu(page).get_by_role("menuitem").click()
-    expect(page.get_by_role("button", name="Plan from the start")).to_be_visible()
-    expect_planned(page)
-    assert len(asked) == 2
-    chip.click()
-    page.unroute("**/overlays/places")
+        channel.take = tell
+        expect_planned(window)
+        window.get_by_role("button", name="Cost map").click()
+        steps(window).nth(first_fold(window)).click(button="right")
+        menu(window).get_by_role("menuitem").click()
+        expect(window.get_by_role("button", name="Plan from the start")).to_be_visible()
+        expect_planned(window)
+        assert len(channel.asked("places")) == 2

@@ -44,9 +44,7 @@ def spoil(page: Page) -> None:
         route.fulfill(response=fetched, json=spoilt(fetched.json()))
 
     page.route_web_socket("**/live", socket)
-    page.route("**/quick-fixes", answer)
     page.route("**/files", answer)
-    page.route("**/crease", answer)
 
 
 @pytest.fixture

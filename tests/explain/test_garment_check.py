@@ -9,8 +9,7 @@ from planner.cloth.garment import DrawnFold
 from planner.cloth.garment_files import load_garment, shipped_garment_names
 from planner.cloth.must_hold import must_hold
 from planner.errors import FoldError, GarmentError
-from planner.explain.garment_check import check_garment
-from planner.explain.vertex_check import Support, vertex_checks
+from planner.explain.garment_check import Support, check_garment, vertex_checks
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.pose import Point2
 from planner.task.scene import Scene

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from planner import Scene, load_garment
+from planner import Garment, Scene, load_garment
 from planner.explain.reasons import reasons
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
@@ -122,13 +122,14 @@ def test_a_fold_that_was_not_come_to_yet_is_not_to_blame(monkeypatch: pytest.Mon
     flap = fold((0.0, 0.25), (0.4, 0.25), name="flap")
     roof = fold((0.4, 0.0), (0.0, 0.0), name="roof", radius_m=0.08)
     cloth = garment(HOUSE, flap, roof, placement=Pose2(0.2, 0.2, BACK))
-    answer = refused(cloth)
+    answer = found_plan(cloth, time_limit_s=60.0).plan
+    assert answer.status == "infeasible"
     assert answer.statistics.expanded == 1
     assert [(r.fold, r.code) for r in answer.reasons] == [(1, Code.TOO_MANY_GRIPS)]
 
 
 def test_hands_that_do_not_suffice_are_no_reason_where_what_is_held_only_lacks_reach() -> None:
-    context = met(strip(FURTHEST_X - COMFORT_M + 0.05, 0.3, 0.1), fixed()).context
+    context = found_plan(strip(FURTHEST_X - COMFORT_M + 0.05, 0.3, 0.1), fixed()).context
     context.obstacles.note(Obstacle(0, Code.TOO_MANY_GRIPS, None, 1.0, START))
     found = reasons(context, {situation(START)}, ())
     assert [r.code for r in found] == [Code.OUT_OF_REACH]
@@ -145,6 +146,45 @@ def test_folds_that_exclude_each_other_are_blocked_where_most_are_done() -> None
     context.obstacles.note(Obstacle(1, Code.NOT_A_G_STATE, of_no_importance, 0.01, START))
     found = reasons(context, {situation(START), *map(situation, after)}, ())
     assert [(r.fold, r.code) for r in found] == [(0, Code.SLIPS), (1, Code.SLIPS)]
+
+
+RIBBON = garment(
+    rectangle_points(0.05, 0.3), fold((0.05, 0.15), (0.0, 0.15), radius_m=0.01), placement=Pose2(-0.7, 0.21, BACK)
+)
+"""A ribbon whose corners are too near for two hands."""
+
+NAMED_ALIKE = {
+    "arm",
+    "back_off_m",
+    "cause",
+    "comfort_m",
+    "is_at_least",
+    "joint",
+    "needed_friction",
+    "needed_grip_radius_m",
+    "shift_m",
+    "short_by_m",
+    "station",
+}
+"""Fields of reasons that are values of some messages too."""
+
+
+@pytest.mark.parametrize(
+    ("cloth", "scene", "code"),
+    [
+        (strip(FURTHEST_X - COMFORT_M - 0.05, 0.3, 0.1), fixed(1.35), "out_of_reach"),
+        (strip(FURTHEST_X - 0.016, 0.3, 0.1), fixed(), "out_of_reach"),
+        (RIBBON, Scene(), "grips_too_close"),
+        (hammer(), HAMMER_SCENE, "afterwards"),
+    ],
+)
+def test_what_a_reason_and_its_message_both_say_is_the_same(cloth: Garment, scene: Scene, code: str) -> None:
+    found = refused(cloth, scene).reasons
+    assert code in {reason.says.code for reason in found}
+    for reason in found:
+        told = {**reason.says.values, **reason.says.values.get("what", {})}
+        both = NAMED_ALIKE & told.keys()
+        assert {name: getattr(reason, name) for name in both} == {name: told[name] for name in both}
 
 
 def test_every_reason_is_json_with_plain_numbers() -> None:

@@ -1,5 +1,6 @@
-"""Another robot is offered where few kinds of change help: the quickest that can, at its own table."""
+"""The robot stands elsewhere, or another is offered: where few kinds of change help, the quickest that can."""
 
+import math
 import time
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
@@ -9,16 +10,16 @@ from typing import Any, cast
 
 import pytest
 
-from planner import Task, load_garment, make_plan
+from planner import Scene, Task, load_garment, make_plan
 from planner.explain import suggestions as searching
-from planner.explain.suggestion import Suggestion
-from planner.explain.suggestion_robot import robots
-from planner.explain.suggestion_trial import SuggestionTrial
+from planner.explain.suggestion import Suggestion, SuggestionTrial
+from planner.explain.suggestion_robot import robots, stations
 from planner.explain.suggestions import suggestions
 from planner.geometry.pose import Pose2
 from planner.planning.robot_task import default_scene, task_for
 from planner.task.plan import Plan
 from tests.builders import fold, garment, rectangle_points
+from tests.explain.proven_search import asked, towel
 
 SMALL = garment(rectangle_points(0.24, 0.2), fold((0.24, 0.1), (0.0, 0.1)))
 """A napkin that a robot with short arms can fold."""
@@ -163,3 +164,10 @@ def test_the_building_of_maps_ends_with_the_time(monkeypatch: pytest.MonkeyPatch
             break
     assert told, "no robot was begun"
     assert told[-1] - begun_s < 7.0
+
+
+def test_no_station_is_proposed_that_is_there_already() -> None:
+    scene = replace(Scene(), stations=(*Scene().stations, ("far", Pose2(0.95, 0.0, math.pi))))
+    first = next(stations(asked(towel(), scene)))
+    assert isinstance(first, SuggestionTrial)
+    assert [name for name, _ in first.task.scene.stations][-1] == "middle_left"

@@ -34,6 +34,7 @@ export type QuickFixes = Schemas["QuickFixesAnswer"];
 
 export type LiveMessage = Schemas["LiveMessage"];
 export type Command = Schemas["LiveCommand"];
+export type Result = Schemas["Result"];
 export type PlanMessage = Schemas["PlanMessage"];
 export type Playback = Schemas["PlaybackAnswer"];
 export type Plan = Schemas["PlanOnShow"];

@@ -26,6 +26,7 @@ from planner.task.scene import DEFAULT_STATIONS, Scene
 from tests.builders import rectangle_points
 from tests.laws.drawings import folded
 from tests.laws.outlines import Outline, outlines
+from tests.unjudged import Unjudged
 
 MOST_STATES = 100_000
 """The budget of states, which no search of a small scene exhausts: the laws are about costs."""
@@ -85,10 +86,10 @@ class Problem:
         context, state = self.context, self.first_state
         if context.unrest(state.done, state.offset) is not None:
             return math.inf
-        edges = Edges(context, lambda _, steps: ((step, step.duration_s) for step in steps), lambda _: False)
+        edges = Edges(context, Unjudged())
         everything = (1 << len(self.garment.folds)) - 1
         bound = HEURISTICS["arm_time"](context)
-        found = a_star(state, edges.leaving, lambda s: s.done == everything, bound, MOST_STATES, lambda: False)
+        *_, found = a_star(state, edges.leaving, lambda s: s.done == everything, bound, MOST_STATES)
         assert found.outcome is not Outcome.BUDGET_EXCEEDED, "this is no small scene"
         return found.cost
 
@@ -106,7 +107,7 @@ class Problem:
 
         everything = (1 << len(self.garment.folds)) - 1
         bound = bound_of(heuristic, context, state)
-        found = a_star(state, successors, lambda s: s.done == everything, bound, MOST_STATES, lambda: False)
+        *_, found = a_star(state, successors, lambda s: s.done == everything, bound, MOST_STATES)
         assert found.outcome is not Outcome.BUDGET_EXCEEDED, "this is no small scene"
         return found.cost
 

@@ -5,6 +5,7 @@ import math
 import pytest
 from hypothesis import given
 
+from planner.planning.budget import Budget
 from planner.planning.single_fold import SingleFold
 from planner.primitives.primitive_set import PRIMITIVES
 from tests.laws.exhaustive import Exhaustive
@@ -31,7 +32,7 @@ def test_what_is_no_cheaper_than_from_elsewhere_is_left_out_without_loss(problem
 @given(problems())
 @law("planning", short=12, long=50)
 def test_a_fold_that_is_called_impossible_alone_is_done_by_no_sequence_of_primitives(problem: Problem) -> None:
-    alone = SingleFold(problem.context, problem.first_state.station, lambda: False)
+    alone = SingleFold(problem.context, problem.first_state.station, Budget.endless())
     folds = range(len(problem.garment.folds))
     assert not any(alone.is_impossible(fold) for fold in folds) or problem.cost_s() == math.inf
 

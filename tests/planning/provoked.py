@@ -3,6 +3,7 @@
 import math
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import cache
 from typing import Any, Unpack
 
 from planner import Scene, Task, find_plan
@@ -67,8 +68,12 @@ def refused(cloth: Garment, scene: Scene | None = None) -> Plan:
     return met(cloth, scene).plan
 
 
+@cache
 def met(cloth: Garment, scene: Scene | None = None) -> FoundPlan:
-    """Return the answer, which must have no plan, and all reasons that were met before that was known."""
+    """Return the answer, which must have no plan, and all reasons that were met before that was known.
+
+    Each is made once in a test run and shared, so its context is not to be changed.
+    """
     answer = found_plan(cloth, scene, time_limit_s=60.0)
     assert answer.plan.status == "infeasible"
     return answer
@@ -81,14 +86,29 @@ def but_for_collisions(answer: Plan) -> Reason:
     return reason
 
 
+def requested(change: Mapping[str, Any], cloth: Garment, scene: Scene | None = None) -> Task:
+    """Return the task of a request with a change put into it, as a client would."""
+    parts = {"garment": Garment.from_dict, "scene": Scene.from_dict, "placement": lambda pose: Pose2(**pose)}
+    options = {name: parts.get(name, float)(value) for name, value in change.items()}
+    request: dict[str, Any] = {"garment": cloth, "scene": scene, **options}
+    return Task.of(request.pop("garment"), request.pop("scene"), **request)
+
+
 def planned_with(
     change: Mapping[str, Any], cloth: Garment, scene: Scene | None = None, *, with_reasons: bool = False
 ) -> Plan:
-    """Return the plan of a request with a change put into it, as a client would; reasons only if asked for."""
-    parts = {"garment": Garment.from_dict, "scene": Scene.from_dict, "placement": lambda pose: Pose2(**pose)}
-    options = {name: parts.get(name, float)(value) for name, value in change.items()}
-    request: dict[str, Any] = {"garment": cloth, "scene": scene, "time_limit_s": 60.0, **options}
-    return find_plan(Task.of(request.pop("garment"), request.pop("scene"), **request), with_reasons=with_reasons).plan
+    """Return the plan of a request with a change put into it; reasons only if asked for."""
+    return plan_of(requested(change, cloth, scene), with_reasons=with_reasons)
+
+
+def plan_of(task: Task, *, with_reasons: bool = False) -> Plan:
+    """Return the plan of a task, with time enough for a cold machine; each is made once in a test run."""
+    return _plan_of(replace(task, limits=replace(task.limits, time_limit_s=60.0)), with_reasons)
+
+
+@cache
+def _plan_of(task: Task, with_reasons: bool) -> Plan:
+    return find_plan(task, with_reasons=with_reasons).plan
 
 
 def is_gone(reason: Reason, answer: Plan) -> bool:

@@ -18,6 +18,7 @@ from planner.primitives.state import State
 from planner.search.a_star import SearchResult, Successors, a_star
 from planner.task.task import Task
 from tests.builders import fold, garment
+from tests.unjudged import Unjudged
 
 EXPANDED_MAX = 100_000
 
@@ -40,18 +41,15 @@ def quickest(problem: Problem, *, leaves_out: bool = True) -> SearchResult[State
         problem: the problem.
         leaves_out: whether the search leaves out what it deems useless.
     """
-    edges = Edges(
-        problem.context,
-        lambda _, steps: ((step, step.duration_s) for step in steps),
-        lambda _: not leaves_out,
-    )
+    edges = Edges(problem.context, Unjudged(are_spares_wanted=not leaves_out))
 
     def leaving(state: State, cost_s: float) -> Successors[State, Step]:
         if not leaves_out:
             edges.begin()
         return edges.leaving(state, cost_s)
 
-    return a_star(problem.start, leaving, problem.is_goal, arm_time(problem.context), EXPANDED_MAX, lambda: False)
+    *_, found = a_star(problem.start, leaving, problem.is_goal, arm_time(problem.context), EXPANDED_MAX)
+    return found
 
 
 @pytest.mark.parametrize("placement", PLACES)

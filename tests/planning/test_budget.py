@@ -5,11 +5,11 @@ import time
 
 import pytest
 
-from planner import Plan, Task, find_plan, load_garment, make_plan
+from planner import Plan, Task, load_garment, make_plan
 from planner.planning import budget, plan_search
 from planner.planning.budget import Budget
-from planner.planning.found_plan import FoundPlan
 from planner.planning.problem import Problem
+from planner.plans import plan
 from tests.required import required
 
 PAUSE_S = 0.002
@@ -23,10 +23,19 @@ def busy() -> bool:
     return False
 
 
-def what_matters(plan: Plan) -> tuple[object, ...]:
-    found = plan.statistics
-    steps = [(p.kind, p.duration_s) for p in plan.primitives]
-    return plan.status, plan.cost_s, steps, found.expanded, found.explored, found.ik_queries, found.bound_s, found.ways
+def what_matters(answer: Plan) -> tuple[object, ...]:
+    found = answer.statistics
+    steps = [(p.kind, p.duration_s) for p in answer.primitives]
+    return (
+        answer.status,
+        answer.cost_s,
+        steps,
+        found.expanded,
+        found.explored,
+        found.ik_queries,
+        found.bound_s,
+        found.ways,
+    )
 
 
 @pytest.mark.parametrize("work_s", [SEARCH_S, 10.0])
@@ -42,11 +51,11 @@ def test_and_falls_back_on_the_same_plan_at_the_same_time(monkeypatch: pytest.Mo
     answers = []
     task = Task.of(load_garment("t-shirt"), work_limit_s=4.0 * SEARCH_S, time_limit_s=60.0)
     for should_stop in (None, busy):
-        found: list[FoundPlan] = []
-        answers.append((find_plan(task, on_found=found.append, should_stop=should_stop).plan, found))
+        *found, end = (event.found.plan for event in plan(task, should_stop=should_stop))
+        answers.append((end, found))
     (quick, quickly_found), (slow, slowly_found) = answers
     assert what_matters(slow) == what_matters(quick)
-    assert [found.plan.cost_s for found in slowly_found] == [found.plan.cost_s for found in quickly_found] != []
+    assert [found.cost_s for found in slowly_found] == [found.cost_s for found in quickly_found] != []
 
 
 def test_the_clock_ends_a_search_that_has_work_left() -> None:
@@ -90,7 +99,7 @@ def test_more_work_is_looked_at_more_ways() -> None:
 
 def test_what_is_asked_of_every_problem_watched_is_counted() -> None:
     problem = Problem.of(Task.of(load_garment("vest")))
-    budget = Budget.of(math.inf, 60.0, lambda: False)
+    budget = Budget.of(math.inf, 60.0)
     assert budget.spent_s == 0.0
     budget.watch(problem)
     problem.maker.path_requests += 1

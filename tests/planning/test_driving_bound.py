@@ -52,8 +52,8 @@ def test_no_edge_lowers_the_bound_by_more_than_it_costs(name: str) -> None:
             assert bound(state) <= step.duration_s + bound(step.after) + 1e-9, step.details
             yield Edge(step, step.duration_s, step.after)
 
-    found = a_star(START, successors, lambda s: s.done == goal, bound, 100_000, lambda: False)
-    without = a_star(START, successors, lambda s: s.done == goal, arm_time(context), 100_000, lambda: False)
+    *_, found = a_star(START, successors, lambda s: s.done == goal, bound, 100_000)
+    *_, without = a_star(START, successors, lambda s: s.done == goal, arm_time(context), 100_000)
     assert found.outcome is without.outcome is Outcome.SOLVED
     assert found.cost == pytest.approx(without.cost, abs=1e-6)
     assert found.expanded <= without.expanded
@@ -103,7 +103,7 @@ def test_from_where_a_fold_is_begun_is_known_whatever_other_folds_are_done(done:
 def test_forty_loose_folds_on_two_sides_take_a_state_for_each_fold_and_a_few_for_drags() -> None:
     context = work_of(tabs_on_two_sides(40))
     edges, bound = edges_of(context), DrivingBound(context, START)
-    found = a_star(START, edges.leaving, lambda s: s.done == (1 << 40) - 1, bound, 1_000, lambda: False)
+    *_, found = a_star(START, edges.leaving, lambda s: s.done == (1 << 40) - 1, bound, 1_000)
     assert found.outcome is Outcome.SOLVED
     assert found.cost == pytest.approx(40 * 9.0 + 6.5)
     assert found.expanded < 60

@@ -10,13 +10,14 @@ from planner.primitives.primitive import Step
 from planner.primitives.state import State
 from planner.search.a_star import DeferredEdges, Edge, Outcome, Successors, a_star
 from tests.replay.planned import planned
+from tests.unjudged import Unjudged
 
 EXPANDED_MAX = 100_000
 
 
 def edges_of(context: Context, *, are_spares_wanted: bool = False) -> Edges:
     """Return the edges that the model allows, whether arms can follow them or not."""
-    return Edges(context, lambda _, steps: ((step, step.duration_s) for step in steps), lambda _: are_spares_wanted)
+    return Edges(context, Unjudged(are_spares_wanted=are_spares_wanted))
 
 
 @pytest.mark.parametrize("name", ["tie", "scarf", "big-towel"])
@@ -35,8 +36,8 @@ def test_what_is_left_out_makes_no_plan_dearer(name: str) -> None:
         left_out.append(len(everything(state, 0.0)) - len(found))
         return found
 
-    lean = a_star(start, some, goal, bound, EXPANDED_MAX, lambda: False)
-    full = a_star(start, everything, goal, bound, EXPANDED_MAX, lambda: False)
+    *_, lean = a_star(start, some, goal, bound, EXPANDED_MAX)
+    *_, full = a_star(start, everything, goal, bound, EXPANDED_MAX)
     assert lean.outcome is full.outcome is Outcome.SOLVED
     assert lean.cost == pytest.approx(full.cost, abs=1e-9)
     assert max(left_out) > 0, "else nothing is tested"

@@ -8,6 +8,7 @@ import pytest
 from planner import Scene, Task, load_garment, quick_plan
 from planner.geometry.pose import Pose2
 from planner.planning import greedy
+from planner.planning.budget import Budget
 from planner.planning.problem import Problem
 from planner.planning.quick_plan import quickly_planned
 from tests.replay.checker import check
@@ -50,7 +51,7 @@ def test_it_gives_up_where_too_many_states_would_have_to_be_looked_at(monkeypatc
 def test_a_patient_one_finds_what_one_that_gives_up_early_does_not() -> None:
     # At the table's far end the T-shirt's sides are in reach from one station and its bottom from another.
     task = Task.of(replace(load_garment("t-shirt"), placement=Pose2(-0.75, 0.229, -math.pi / 2.0)))
-    assert quickly_planned(Problem.of(task), (), lambda: False) is None
-    found = quickly_planned(Problem.of(task), (), lambda: False, is_patient=True)
+    assert quickly_planned(Problem.of(task), (), Budget.endless()) is None
+    found = quickly_planned(Problem.of(task), (), Budget.endless(), is_patient=True)
     assert found is not None
     check(found.plan.garment.to_dict(), Scene().to_dict(), found.plan.to_dict())

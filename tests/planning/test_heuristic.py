@@ -47,7 +47,7 @@ def test_no_edge_lowers_the_bound_by_more_than_it_costs(name: str) -> None:
                 assert bound(state) <= step.duration_s + bound(step.after) + 1e-9, step.details
                 yield Edge(step, step.duration_s, step.after)
 
-    found = a_star(start, successors, lambda s: s.done == goal, bound, 100_000, lambda: False)
+    *_, found = a_star(start, successors, lambda s: s.done == goal, bound, 100_000)
     assert found.outcome is Outcome.SOLVED
     assert found.cost <= required(case.answer.cost_s) + 1e-6, "joint paths only ever take longer"
 

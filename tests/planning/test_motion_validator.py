@@ -24,6 +24,7 @@ from planner.motion.transfer import Transfer
 from planner.motion.transfer_planner import TransferPlanner
 from planner.planning import motion_validator as validator
 from planner.planning import path_search, plan_search, problem
+from planner.planning.budget import Budget
 from planner.planning.problem import Problem
 from planner.primitives.context import Context
 from planner.primitives.primitive import Step
@@ -282,7 +283,7 @@ def test_where_another_way_is_as_good_the_rest_are_found_only_once_a_path_takes_
     maker, start = problem.maker, problem.start
     made = maker.made
     monkeypatch.setattr(maker, "made", lambda one: None if one.steps[-1].motion == step.motion else made(one))
-    seen = validator.MotionValidator(maker, lambda: False, replace(QUICK, ways=1))
+    seen = validator.MotionValidator(maker, Budget.endless(), replace(QUICK, ways=1))
     assert seen.plan_segments([step]) is None
     ((other, cost_s),) = seen.possible(start, [step])
     assert other.motion != step.motion and other.after.key == step.after.key and cost_s == step.duration_s

@@ -7,6 +7,7 @@ import pytest
 
 from planner import Scene, Task, find_plan, load_garment, make_plan, shipped_garment_names
 from planner.planning import path_search as planning
+from planner.planning.budget import Budget
 from planner.planning.problem import Problem
 from planner.planning.single_fold import OFFSETS_MAX, SingleFold
 from planner.primitives.drag_offsets import drag_offsets
@@ -59,7 +60,7 @@ def test_it_asks_often_whether_to_stop_and_then_calls_nothing_impossible(name: s
     def looked_at(stop_after: float) -> tuple[bool, int]:
         """Return whether the first fold is impossible, and how often the search asked whether to stop."""
         problem, asked = Problem.of(Task.of(load_garment(name))), count(1)
-        alone = SingleFold(problem.context, problem.start.station, lambda: next(asked) > stop_after)
+        alone = SingleFold(problem.context, problem.start.station, Budget.endless(lambda: next(asked) > stop_after))
         return alone.is_impossible(0), next(asked) - 1
 
     is_impossible, times = looked_at(math.inf)

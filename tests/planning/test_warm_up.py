@@ -73,7 +73,7 @@ def test_the_bound_on_the_driving_is_asked_where_nothing_is_in_reach(
     # At the table two hands have a hundred ways each: for TIAGo Pro the bound took 17 s, in every process.
     asked = []
     monkeypatch.setattr("planner.planning.warm_up.DrivingBound", lambda context, start: asked.append(context))
-    _use_kernels.__wrapped__(robot)
+    _use_kernels.__wrapped__(robot, is_backwards=False)
     (context,) = asked
     assert all(math.hypot(pose.x_m, pose.y_m) > 10.0 for _, pose in context.scene.stations)
 

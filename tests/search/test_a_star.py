@@ -2,7 +2,7 @@
 
 import math
 import random
-from collections.abc import Callable, Hashable, Iterable, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from typing import TypeVar
 
 import networkx as nx
@@ -22,17 +22,22 @@ def search(
     goal: S,
     heuristic: Callable[[S], float] = lambda state: 0.0,
     max_expanded: int = 10_000,
-    should_stop: Callable[[], bool] = lambda: False,
     limit: float = math.inf,
 ) -> SearchResult[S, A]:
+    *_, found = paused(start, successors, goal, heuristic, max_expanded, limit)
+    return found
+
+
+def paused(
+    start: S,
+    successors: Callable[[S], Iterable[Edge[S, A]]],
+    goal: S,
+    heuristic: Callable[[S], float] = lambda state: 0.0,
+    max_expanded: int = 10_000,
+    limit: float = math.inf,
+) -> Iterator[SearchResult[S, A]]:
     return a_star(
-        start,
-        lambda state, cost: successors(state),
-        lambda state: state == goal,
-        heuristic,
-        max_expanded,
-        should_stop,
-        limit,
+        start, lambda state, cost: successors(state), lambda state: state == goal, heuristic, max_expanded, limit
     )
 
 
@@ -91,9 +96,19 @@ def test_a_budget_that_just_suffices_suffices() -> None:
     assert search(0, number_line, 9, max_expanded=needed - 1).outcome is Outcome.BUDGET_EXCEEDED
 
 
-def test_whoever_asks_to_stop_is_heard_before_the_first_expansion() -> None:
-    found = search(0, number_line, 9, should_stop=lambda: True)
-    assert (found.outcome, found.expanded) == (Outcome.BUDGET_EXCEEDED, 0)
+def test_it_pauses_before_each_expansion_and_says_what_is_known_by_then() -> None:
+    asked: list[int] = []
+
+    def successors(n: int) -> list[Edge[int, int]]:
+        asked.append(n)
+        return number_line(n)
+
+    *pauses, end = paused(0, successors, 9, lambda n: 0.6 * max(0, 9 - n))
+    assert {pause.outcome for pause in pauses} == {Outcome.UNFINISHED}
+    assert [pause.expanded for pause in pauses] == [*range(end.expanded)]
+    assert all(pause.bound <= end.cost for pause in pauses)
+    asked.clear()
+    assert next(paused(0, successors, 9)).expanded == 0 and asked == [], "nobody needs what nobody takes"
 
 
 def test_a_sum_in_another_order_is_no_better_path() -> None:
@@ -177,6 +192,6 @@ def test_a_state_left_before_is_left_again_if_a_deferred_edge_leads_there_at_les
         "a": [Edge("late", 2.0, "b"), DeferredEdges(5.0, "b", lambda: [Edge("soon", 1.0, "b")])],
         "b": [Edge("on", 4.5, "goal")],
     }
-    found = a_star("a", lambda at, _: ways.get(at, []), "goal".__eq__, lambda _: 0.0, 100, lambda: False)
+    *_, found = a_star("a", lambda at, _: ways.get(at, []), "goal".__eq__, lambda _: 0.0, 100)
     assert [edge.action for edge in found.path] == ["soon", "on"]
     assert found.cost == found.bound == 5.5

@@ -7,9 +7,9 @@ import math
 
 import numpy as np
 
+from app.document_state import ShownPlan
 from app.ui.viewpoint import Viewpoint
 from app.ui.viewpoints.presets import Lens
-from app.version_plan import ShownPlan
 from planner.geometry.pose import Point2, Pose2, wrapped_angle
 
 ASIDE_RAD = math.radians(50.0)

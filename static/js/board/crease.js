@@ -1,9 +1,11 @@
 /** Asks the server where a fold would be; while the hand moves, again and again, of which only the newest counts. */
 
+import { sayable } from "../dom.js";
 import { say } from "../language/say.js";
+import { RefusedError } from "../live.js";
 import { inWords } from "../messages/in_words.js";
 
-/** @import { Crease, Fold, FoldKind, Point, Problem } from "pleat" */
+/** @import { Command, Crease, Fold, FoldKind, Point, Problem } from "pleat" */
 
 const EVERY_MS = 80;
 
@@ -64,16 +66,11 @@ export class CreaseQuestion {
    */
   async post(body) {
     try {
-      const answer = await fetch(`${this.board.store.path}/crease`, {
-        method: "POST",
-        headers: { "content-type": "application/json" },
-        body: JSON.stringify(body),
-      });
-      const told = await answer.json();
-      if (answer.ok) return { ok: true, told };
-      return { ok: false, told: { detail: sentence(told, this.board.drawing.folds) } };
-    } catch {
-      return { ok: false, told: { detail: say("server.unreachable") } };
+      const { result } = await this.board.store.ask(/** @type {Command} */ ({ do: "crease", ...body }));
+      return { ok: true, told: /** @type {Crease} */ (result) };
+    } catch (error) {
+      if (!(error instanceof RefusedError)) return { ok: false, told: { detail: sayable(error) } };
+      return { ok: false, told: { detail: sentence(error.problem, this.board.drawing.folds) } };
     }
   }
 }

@@ -26,9 +26,10 @@ export class Layers {
   async ask() {
     if (this.isAsking) return;
     this.isAsking = true;
-    const answer = await fetch(`${this.store.path}/steps`).catch(() => null);
-    if (answer?.ok) this.known = await answer.json();
+    const answer = await this.store.ask({ do: "steps" }).catch(() => null);
     this.isAsking = false;
-    if (answer?.ok) this.onChange();
+    if (!answer) return;
+    this.known = /** @type {Steps} */ (answer.result);
+    this.onChange();
   }
 }

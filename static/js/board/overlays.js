@@ -1,10 +1,11 @@
 /** "See why": asks the server for what is switched on, at the moment that is looked at. */
 
+import { RefusedError } from "../live.js";
 import { present } from "../present.js";
 import { drawOver, drawUnder } from "./draw_overlays.js";
 import { reasonWithPlace } from "./draw_reason.js";
 
-/** @import { Overlays as Found, Places } from "pleat" */
+/** @import { Command, Overlays as Found, Places } from "pleat" */
 
 /** What the server's overlays are made of; grips come with the plan. */
 const PARTS = ["reach", "slip", "base", "paths"];
@@ -14,12 +15,8 @@ const EVERY_MS = 200;
 const AGAIN_MS = 1000;
 const BUSY = [429, 503];
 
-/** The work that the cost map may take, and so much time that mostly the work ends it. */
-const MAPPED = {
-  method: "POST",
-  headers: { "content-type": "application/json" },
-  body: JSON.stringify({ work_limit_s: 6, time_limit_s: 60 }),
-};
+/** The work that the cost map may take, and so much time that mostly the work ends it. @type {Command} */
+const MAPPED = { do: "places", work_limit_s: 6, time_limit_s: 60 };
 
 export class Overlays {
   /** @param {import("./board.js").Board} board */
@@ -66,24 +63,25 @@ export class Overlays {
     this.tellPending();
   }
 
-  /** What is asked for now; the same again has the same answer. */
-  get query() {
+  /** What is asked for now. @returns {Command} */
+  get question() {
     const { store, isPlacing, drawing } = this.board;
     const show = this.wanted.join(",");
-    /** @type {Record<string, string>} */
-    const moment = isPlacing
-      ? { station: drawing.start_station }
-      : store.hoverTime !== null
-        ? { t_s: store.hoverTime.toFixed(2) }
-        : { t_s: (store.playback?.t_s ?? 0).toFixed(2) };
-    return `${new URLSearchParams({ ...moment, show })}#${store.state?.version}:${store.plan?.plan?.version}`;
+    if (isPlacing) return { do: "overlays", station: drawing.start_station, show };
+    return { do: "overlays", t_s: Number((store.hoverTime ?? store.playback?.t_s ?? 0).toFixed(2)), show };
+  }
+
+  /** The same again has the same answer. */
+  get query() {
+    const { state, plan } = this.board.store;
+    return `${JSON.stringify(this.question)}#${state?.version}:${plan?.plan?.version}`;
   }
 
   async ask() {
     const [query, names] = [this.query, this.wanted];
     this.asked = query;
     const isWanted = () => this.wanted.length > 0 && this.query === query;
-    const found = await told(`${this.board.store.path}/overlays?${query.split("#")[0]}`, isWanted);
+    const found = /** @type {Found|null} */ (await told(this.board.store, this.question, isWanted));
     this.timer = undefined;
     this.found = found;
     this.known = found ? names : [];
@@ -126,7 +124,7 @@ export class Overlays {
     const { signal } = this.stopPlaces;
     this.isMapping = true;
     const isWanted = () => key === this.askedPlaces;
-    const places = await told(`${store.path}/overlays/places`, isWanted, { ...MAPPED, signal });
+    const places = /** @type {Places|null} */ (await told(store, MAPPED, isWanted, signal));
     if (key !== this.askedPlaces) return;
     this.places = places;
     this.isMapping = false;
@@ -159,15 +157,18 @@ const startOf = ({ plan, state }) => (plan && plan.version === state?.version ? 
 
 /**
  * What the server answers; null where it has no answer, or none before it is no longer waited for.
- * @param {string} url
+ * @param {import("../store.js").Store} store
+ * @param {Command} question
  * @param {() => boolean} isWanted whether a server that is too busy is asked again
- * @param {RequestInit} how
+ * @param {AbortSignal} [signal]
  */
-async function told(url, isWanted, how = {}) {
+async function told(store, question, isWanted, signal) {
   for (;;) {
-    const answer = await fetch(url, how).catch(() => null);
-    if (answer?.ok) return answer.json().catch(() => null);
-    if (answer && !BUSY.includes(answer.status)) return null;
+    try {
+      return (await store.ask(question, signal)).result;
+    } catch (error) {
+      if (error instanceof RefusedError && !BUSY.includes(error.problem.status)) return null;
+    }
     await new Promise((resolve) => setTimeout(resolve, AGAIN_MS));
     if (!isWanted()) return null;
   }

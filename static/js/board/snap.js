@@ -4,26 +4,14 @@
  * where it takes hold.
  */
 
-import {
-  between,
-  distance,
-  dot,
-  edgesOf,
-  left,
-  minus,
-  nearestOn,
-  plus,
-  times,
-  turned,
-  unit as direction,
-} from "./geometry.js";
 import { say } from "../language/say.js";
+import { edgePoints, handleOf, outlineEdges } from "./curves.js";
 import { spacing } from "./draw_grid.js";
+import { between, distance, dot, edgesOf, left, minus, nearestOn, plus, times, turned, unit as direction } from "./geometry.js";
 import { FRACTIONS, REACH_PX } from "./rules.js";
 
-/** @import { Point } from "pleat" */
-/** @import { Soft } from "./soft.js" */
 /** @import { View } from "./view.js" */
+/** @import { Drawing, Point } from "pleat" */
 
 /** @typedef {keyof typeof REACH_PX} Kind */
 const KINDS = /** @type {Kind[]} */ (Object.keys(REACH_PX));
@@ -234,3 +222,25 @@ export function straightened(p, from) {
 
 /** The point so far from a on the way to b and beyond. @param {Point} a @param {Point} b @param {number} metres */
 export const atLength = (a, b, metres) => plus(a, times(direction(minus(b, a)), metres));
+
+/** Points of the server's cloth are told from those of the page by no more than this (m). */
+const SAME_M = 1e-4;
+
+/** The points that stand for the curves of a drawing: no corners to a hand that looks for one. */
+export class Soft {
+  /** @param {Pick<Drawing, "outline">} drawing */
+  constructor({ outline }) {
+    const curved = outlineEdges(outline).filter(([a]) => a.curve);
+    /** The middles of the curves. @type {Point[]} */
+    this.handles = curved.map(([a, b]) => handleOf(a, b));
+    this.keys = new Set(curved.flatMap(([a, b]) => edgePoints(a, b).slice(1, -1).map(keyOf)));
+  }
+
+  /** @param {Point} point */
+  has(point) {
+    return this.keys.has(keyOf(point));
+  }
+}
+
+/** @param {Point} point */
+const keyOf = ([x, y]) => `${Math.round(x / SAME_M)},${Math.round(y / SAME_M)}`;

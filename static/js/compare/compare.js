@@ -6,15 +6,13 @@ import { briefly, seconds } from "../dock/words.js";
 import { button, element, sayable } from "../dom.js";
 import { numeral } from "../language/numeral.js";
 import { say } from "../language/say.js";
-import { aligned } from "./aligned.js";
 import { documentsBeside, versionsOf } from "./choices.js";
 import { extentOf } from "./scene_picture.js";
-import { SharedClock } from "./shared_clock.js";
 import { Side } from "./side.js";
 
-/** @import { Primitive } from "pleat" */
 /** @import { Choice } from "./choices.js" */
 /** @import { Compared } from "./compared_plan.js" */
+/** @import { Primitive } from "pleat" */
 
 const SAME_S = 0.05;
 
@@ -129,3 +127,91 @@ class Comparison {
 
 /** How much longer the right one takes. @param {number} by seconds */
 const difference = (by) => (Math.abs(by) < SAME_S ? "=" : `${by > 0 ? "+" : "\u2212"}${seconds(Math.abs(by))}`);
+
+/** @typedef {[Primitive|null, Primitive|null]} Row */
+
+/** @param {Compared} compared @returns {{step: Primitive, what: string}[]} */
+const stepsOf = ({ plan, drawing }) =>
+  (plan?.primitives ?? []).map((step) => ({ step, what: `${step.kind} ${briefly(step, drawing?.folds ?? [])}` }));
+
+/**
+ * The longest sequence of steps that both have stands in common rows, the others in rows of their own.
+ * @param {Compared} left
+ * @param {Compared} right
+ * @returns {Row[]}
+ */
+function aligned(left, right) {
+  const [a, b] = [stepsOf(left), stepsOf(right)];
+  const common = Array.from({ length: a.length + 1 }, () => Array.from({ length: b.length + 1 }, () => 0));
+  for (let i = a.length - 1; i >= 0; i -= 1)
+    for (let j = b.length - 1; j >= 0; j -= 1)
+      common[i][j] =
+        a[i].what === b[j].what ? common[i + 1][j + 1] + 1 : Math.max(common[i + 1][j], common[i][j + 1]);
+  /** @type {Row[]} */
+  const rows = [];
+  let [i, j] = [0, 0];
+  while (i < a.length || j < b.length) {
+    const isSame = i < a.length && j < b.length && a[i].what === b[j].what;
+    const isLeft = isSame || j >= b.length || (i < a.length && common[i + 1][j] >= common[i][j + 1]);
+    const isRight = isSame || !isLeft;
+    rows.push([isLeft ? a[i].step : null, isRight ? b[j].step : null]);
+    i += Number(isLeft);
+    j += Number(isRight);
+  }
+  return rows;
+}
+
+/** One clock for both plans: it runs in real time to the end of the longer one. */
+class SharedClock extends EventTarget {
+  constructor() {
+    super();
+    this.t_s = 0;
+    this.end_s = 0;
+    this.isRunning = false;
+    /** @type {number|undefined} */
+    this.frame = undefined;
+    this.last = 0;
+  }
+
+  /** @param {number} end_s */
+  reach(end_s) {
+    this.end_s = end_s;
+    this.go(Math.min(this.t_s, end_s));
+  }
+
+  /** @param {number} t_s */
+  go(t_s) {
+    this.t_s = t_s;
+    this.dispatchEvent(new Event("tick"));
+  }
+
+  /** Play from here, or from the beginning where this is the end; or stop. */
+  toggle() {
+    if (this.isRunning) this.stop();
+    else this.start();
+  }
+
+  start() {
+    if (this.end_s <= 0) return;
+    if (this.t_s >= this.end_s) this.t_s = 0;
+    this.isRunning = true;
+    this.last = performance.now();
+    this.frame = requestAnimationFrame((now) => this.run(now));
+    this.go(this.t_s);
+  }
+
+  stop() {
+    this.isRunning = false;
+    if (this.frame !== undefined) cancelAnimationFrame(this.frame);
+    this.go(this.t_s);
+  }
+
+  /** @param {number} now (ms) */
+  run(now) {
+    const t_s = Math.min(this.t_s + Math.max(now - this.last, 0) / 1000, this.end_s);
+    this.last = now;
+    if (t_s >= this.end_s) this.isRunning = false;
+    else this.frame = requestAnimationFrame((then) => this.run(then));
+    this.go(t_s);
+  }
+}

@@ -1,19 +1,18 @@
 /** `Import`: a garment file, a plan file, an SVG, a DXF, a picture or a robot, chosen or dropped on the page. */
 
+import { length, parsed, problemOf, unit } from "../board/units.js";
 import { button, element } from "../dom.js";
 import { titleOf } from "../gallery/tile.js";
-import { inEnglish, say } from "../language/say.js";
-import { openDialog, OFFLINE, sentenceOf } from "./dialog.js";
+import { inEnglish, say, translated } from "../language/say.js";
 import { inWords } from "../messages/in_words.js";
+import { OFFLINE, openDialog, sentenceOf } from "./dialog.js";
 import { goToNew } from "./documents.js";
-import { askLength, askSize } from "./import_size.js";
 import { counted, note, onWhichCloth, sizeOf, whichLine, whichSize } from "./import_told.js";
-import { likeness } from "./likeness.js";
 import { picture } from "./picture.js";
 import { takeRobot } from "./take_robot.js";
 
-/** @import { Garment, Imported } from "pleat" */
 /** @import { Store } from "../store.js" */
+/** @import { Garment, Imported, Template } from "pleat" */
 
 /** Files that draw arcs, which stay curves on the board. */
 const DRAWINGS = new Set(["svg", "dxf"]);
@@ -98,7 +97,7 @@ async function read(store, body, file, how) {
  * @param {File} file
  * @param {How} how
  * @param {string} why
- * @returns {import("./import_size.js").Asked}
+ * @returns {Asked}
  */
 const asked = (store, body, file, how, why) => ({
   body,
@@ -167,4 +166,113 @@ async function create(garment, arcs, said) {
   const answer = await goToNew({ garment, arcs }).catch(() => null);
   if (!answer) said.textContent = OFFLINE;
   else if (answer.status !== 201) said.textContent = sentenceOf(await answer.json());
+}
+
+/**
+ * The choice `It is like` for a garment read from a picture: the measures of a template are fitted to the outline, and
+ * its folds come along.
+ * @param {string|undefined} like the template that was chosen
+ * @param {(like: string|undefined) => void} onChoice
+ */
+function likeness(like, onChoice) {
+  const select = /** @type {HTMLSelectElement} */ (element("select", ""));
+  select.append(new Option(say("likeness.nothing"), ""));
+  select.addEventListener("change", () => onChoice(select.value || undefined));
+  fetch("../api/templates")
+    .then((answer) => (answer.ok ? answer.json() : []))
+    .then((/** @type {Template[]} */ templates) => {
+      select.append(...templates.map(({ name, title }) => new Option(translated(title), name)));
+      select.value = like ?? "";
+    })
+    .catch(() => {});
+  return element("label", "likeness", say("likeness.label"), select);
+}
+
+const UNITS = ["mm", "cm", "m", "in"];
+/** No garment is shorter or longer (m). */
+const [LEAST_M, MOST_M] = [0.01, 10];
+
+/**
+ * What an import asks a question about.
+ * @typedef {object} Asked
+ * @property {HTMLElement} body where it is shown
+ * @property {string} filename
+ * @property {How} how the file was read
+ * @property {string} why it is asked
+ * @property {(how: How) => void} read reads the file again
+ */
+
+/** How large the garment is: by one of the units, or by its width. @param {Asked} asked @param {Sizes} sizes */
+function askSize({ body, filename, how, why, read }, sizes) {
+  /** @param {[number, number]} sides */
+  const isPossible = (sides) => Math.min(...sides) > 0 && Math.max(...sides) >= LEAST_M && Math.max(...sides) <= MOST_M;
+  const choices = UNITS.filter((name) => sizes[name] && isPossible(sizes[name])).map((name) => {
+    const [wide, tall] = sizes[name].map((metres) => length(metres));
+    return button(
+      "plain-button",
+      () => read({ ...how, units: name, scale: how.scale ?? 1 }),
+      say("import.size", { name, wide, tall }),
+    );
+  });
+  const { form, said } = lengthForm(say("import.its_width"), say("import.use_width"), (width_m) =>
+    read({ ...how, ...scaledTo(width_m, sizes, how.scale ?? 1) }),
+  );
+  body.replaceChildren(
+    element("p", "dialog-text", `${filename}: ${why}.`),
+    element("p", "dialog-text", say("import.how_large")),
+    element("div", "unit-choices", ...choices),
+    form,
+    said,
+  );
+}
+
+/** How long the garment in a picture is, where nothing in it tells. @param {Asked} asked */
+function askLength({ body, filename, how, why, read }) {
+  const { form, said } = lengthForm(say("import.end_to_end"), say("import.use_length"), (length_m) =>
+    read({ ...how, measured: `${length_m.toFixed(6)}m:longest` }),
+  );
+  body.replaceChildren(
+    element("p", "dialog-text", `${filename}: ${why}.`),
+    element("p", "dialog-text", say("import.how_long")),
+    form,
+    said,
+  );
+}
+
+/**
+ * A field for a length, and what is wrong with it.
+ * @param {string} name
+ * @param {string} verb
+ * @param {(metres: number) => void} onLength
+ */
+function lengthForm(name, verb, onLength) {
+  const said = element("p", "dialog-problem");
+  said.setAttribute("role", "alert");
+  const input = /** @type {HTMLInputElement} */ (element("input", "field"));
+  input.autocomplete = "off";
+  const form = /** @type {HTMLFormElement} */ (element("form", "width-form"));
+  const label = element("label", "measure", element("span", "measure-name", name), input);
+  label.append(element("span", "measure-unit", unit.name));
+  form.append(label, element("button", "plain-button", verb));
+  form.addEventListener("submit", (event) => {
+    event.preventDefault();
+    said.textContent = problemOf(input.value, LEAST_M);
+    if (!said.textContent) onLength(parsed(input.value) ?? 0);
+  });
+  return { form, said };
+}
+
+/**
+ * The unit and the scale of it that make a garment so wide; the scale that is nearest to 1.
+ * @param {number} width_m
+ * @param {Sizes} sizes
+ * @param {number} scale of the sizes
+ * @returns {How}
+ */
+function scaledTo(width_m, sizes, scale) {
+  const ways = UNITS.filter((name) => sizes[name]).map((units) => ({
+    units,
+    scale: (scale * width_m) / sizes[units][0],
+  }));
+  return ways.reduce((best, way) => (Math.abs(Math.log(way.scale)) < Math.abs(Math.log(best.scale)) ? way : best));
 }

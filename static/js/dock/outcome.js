@@ -1,16 +1,14 @@
 /** The column of what planning came to: the plan and its numbers, or why there is none and what would help. */
 
+import { showCompare } from "../compare/compare.js";
 import { button, element } from "../dom.js";
 import { say } from "../language/say.js";
-import { showCompare } from "../compare/compare.js";
+import { Rehearsing } from "../rehearsal/rehearsing.js";
 import { BestPlace } from "./best_place.js";
-import { NoPlan } from "./no_plan.js";
 import { numbers, quicker } from "./numbers.js";
 import { PlanList } from "./plan.js";
 import { Planning } from "./planning.js";
-import { NO_PLAN } from "./reasons.js";
-import { Refining } from "./refining.js";
-import { Rehearsing } from "../rehearsal/rehearsing.js";
+import { details, explanation, NO_PLAN } from "./reasons.js";
 import { StartLine } from "./start_line.js";
 
 /** @import { DocumentState, Plan, PlanBefore, PlanMessage } from "pleat" */
@@ -126,5 +124,65 @@ export class Outcome {
     this.title.textContent = isNone ? say("plan.none") : say("plan.label");
     this.solved.hidden = isNone;
     this.none.root.hidden = !isNone;
+  }
+}
+
+/** What stands where the plan would be: all the reasons, with their numbers. What would help is over the board. */
+class NoPlan {
+  constructor() {
+    this.all = element("ul", "reasons");
+    this.all.setAttribute("aria-label", say("reasons.label"));
+    this.brief = element("p", "hint");
+    this.root = element("div", "no-plan", this.brief, this.all);
+  }
+
+  /**
+   * @param {PlanMessage} message without a plan
+   * @param {DocumentState} state
+   */
+  show(message, state) {
+    const all = details(message, state);
+    this.all.replaceChildren(...all.map((text) => element("li", "", text)));
+    this.all.hidden = !all.length;
+    this.brief.textContent = all.length ? "" : explanation(message, state);
+  }
+}
+
+const LONG_MS = 1000;
+
+/** * Whether a quicker plan is still looked for while one is on show, as soon as that has lasted long enough to be worth a word: mostly it is over in no time. */
+class Refining extends EventTarget {
+  /** @param {import("../store.js").Store} store */
+  constructor(store) {
+    super();
+    this.store = store;
+    this.isLong = false;
+    /** @type {string|null} the plan that may be replaced */
+    this.id = null;
+    for (const name of ["document", "plan", "connection"]) store.addEventListener(name, () => this.look());
+  }
+
+  /** The plan on show, if the drawing has it and a quicker one may come. @returns {string|null} */
+  get unfinished() {
+    const { isLive, plan: message, state } = this.store;
+    const plan = message?.plan;
+    const isOfDrawing = plan && message.status === "solved" && plan.version === state?.version;
+    return isLive && isOfDrawing && !plan.is_final ? plan.id : null;
+  }
+
+  look() {
+    const id = this.unfinished;
+    if (id === this.id) return;
+    this.id = id;
+    clearTimeout(this.timer);
+    this.become(false);
+    if (id !== null) this.timer = setTimeout(() => this.become(true), LONG_MS);
+  }
+
+  /** @param {boolean} isLong */
+  become(isLong) {
+    if (isLong === this.isLong) return;
+    this.isLong = isLong;
+    this.dispatchEvent(new Event("change"));
   }
 }

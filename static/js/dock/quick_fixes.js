@@ -30,9 +30,8 @@ export class QuickFixes extends EventTarget {
 
   /** @param {number} version */
   async ask(version) {
-    const answer = await fetch(`${this.store.path}/quick-fixes`).catch(() => null);
-    /** @type {Answer|null} */
-    const told = answer?.ok ? await answer.json() : null;
+    const answer = await this.store.ask({ do: "quick_fixes" }).catch(() => null);
+    const told = /** @type {Answer|undefined} */ (answer?.result);
     if (this.version !== version || told?.version !== version) return;
     this.take(told.quick_fixes.map(({ label, says, drawing }) => suggestion(label, says, { drawing, version })));
   }

@@ -27,8 +27,7 @@ const SAYS = {
   out_of_reach: outOfReach,
   too_many_grips: ({ needed_grip_radius_m: radius }) =>
     radius ? say("why.too_many_grips.unless", { radius: enough(radius) }) : say("why.too_many_grips"),
-  grips_too_close: ({ short_by_m: short }) =>
-    short ? say("why.grips_too_close.by", { length: length(short) }) : say("why.grips_too_close"),
+  grips_too_close: tooClose,
   red_needs_hold: ({ needed_grip_radius_m: radius }) => say(radius ? "why.red_held_too_far" : "why.red_unheld"),
   not_a_g_state: atRest,
   slips: ({ needed_friction: friction }) =>
@@ -158,6 +157,12 @@ function outOfReach(reason) {
   if (!short) return say("why.hand_out_of_reach", told);
   const by = isAtLeast ? say("amount.at_least", { length: length(short) }) : length(short);
   return say("why.hand_short", { ...told, by });
+}
+
+/** How much too close two hands would be; nothing where only wider grips help, which the message says. @param {Reason} reason */
+function tooClose({ says }) {
+  const { code, apart_m: apart, needed_apart_m: needed } = /** @type {Says} */ (says);
+  return code === "grips_too_close" ? say("why.grips_too_close.by", { length: length(needed - apart) }) : "";
 }
 
 /** @param {Reason} reason */

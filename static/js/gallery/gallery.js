@@ -1,19 +1,18 @@
 /** The gallery: one's documents, templates and examples as pictures; found by name, opened, copied, renamed, removed. */
 
+import { ringOf } from "../board/curves.js";
+import { OFFLINE, openDialog, sentenceOf } from "../dialogs/dialog.js";
 import { goTo, goToNew } from "../dialogs/documents.js";
-import { openDialog, OFFLINE, sentenceOf } from "../dialogs/dialog.js";
 import { showNew } from "../dialogs/new.js";
 import { button, element } from "../dom.js";
 import { listed } from "../garments.js";
 import { icon } from "../icons.js";
-import { say, translated } from "../language/say.js";
+import { inEnglish, say, translated } from "../language/say.js";
 import { Menu } from "../menu.js";
-import { Removal } from "./removal.js";
-import { renamed } from "./rename_document.js";
+import { edited, renamed } from "./rename_document.js";
 import { garmentTile, tile, titleOf, when } from "./tile.js";
-import { showVersions } from "./versions.js";
 
-/** @import { DocumentEntry, GarmentEntry, Template } from "pleat" */
+/** @import { DocumentEntry, DocumentVersion, GarmentEntry, Template } from "pleat" */
 
 const DOCUMENTS = "../api/documents";
 
@@ -206,3 +205,98 @@ export const sent = (address, method, body) =>
   fetch(address, { method, headers: { "content-type": "application/json" }, body: JSON.stringify(body) }).catch(
     () => null,
   );
+
+/**
+ * The versions of a document by the step that led to each and its time; one of them is gone back to as one step.
+ * @param {import("../store.js").Store} store
+ * @param {DocumentEntry} entry
+ */
+async function showVersions(store, entry) {
+  const said = element("p", "dialog-problem");
+  const list = element("div", "tiles");
+  const note = element("p", "dialog-text", say("versions.note"));
+  const dialog = openDialog(say("versions.title", { title: titleOf(entry) }), "is-wide", note, said, list);
+  const answer = await fetch(`../api/documents/${entry.id}/versions`).catch(() => null);
+  if (!answer?.ok) {
+    said.textContent = answer ? sentenceOf(await answer.json()) : OFFLINE;
+    return;
+  }
+  /** @type {DocumentVersion[]} */
+  const versions = await answer.json();
+  if (!versions.length) note.textContent = say("versions.none");
+  /** @param {DocumentVersion} version */
+  const goBack = async ({ label, drawing }) => {
+    const name = inEnglish("step.back_to", { step: label || inEnglish("step.first_drawing") });
+    const done = await edited(entry.id, name, () => drawing);
+    if (!done?.ok) said.textContent = done ? sentenceOf(await done.json()) : OFFLINE;
+    else if (entry.id === store.id) for (const open of document.querySelectorAll("dialog")) open.close();
+    else goTo(entry.id);
+  };
+  list.append(
+    ...versions.map((version) => {
+      const outline = ringOf(version.drawing);
+      const folds = version.drawing.folds.map(({ kind, start, end }) => ({ kind, start: start.point, end: end.point }));
+      const title = translated(version.label) || say("versions.first");
+      return tile(title, when(version.changed_at), outline, folds, () => goBack(version));
+    }),
+  );
+  /** @type {HTMLElement|null} */ (dialog.querySelector(".tile"))?.focus();
+}
+
+/** How long it can be had back (ms). */
+const REGRET_MS = 8000;
+
+/** A document that is deleted: for a while it can be had back, and only then it is removed for good. */
+class Removal {
+  /** @param {(sentence: string) => void} onFault @param {() => void} onBack */
+  constructor(onFault, onBack) {
+    this.onFault = onFault;
+    this.onBack = onBack;
+    /** @type {string|null} the document's */
+    this.id = null;
+    this.timer = 0;
+    this.words = element("span", "");
+    this.root = element(
+      "p",
+      "removal",
+      this.words,
+      button("chip", () => this.takeBack(), say("history.undo")),
+    );
+    this.root.setAttribute("role", "status");
+    this.root.hidden = true;
+    addEventListener("pagehide", () => this.finish());
+  }
+
+  /** @param {string} id @param {string} title */
+  begin(id, title) {
+    this.finish();
+    this.id = id;
+    this.words.textContent = say("gallery.deleted", { title });
+    this.root.hidden = false;
+    this.timer = setTimeout(() => this.finish(), REGRET_MS);
+  }
+
+  takeBack() {
+    clearTimeout(this.timer);
+    this.id = null;
+    this.root.hidden = true;
+    this.onBack();
+  }
+
+  /** Remove it for good. */
+  finish() {
+    const { id } = this;
+    clearTimeout(this.timer);
+    this.root.hidden = true;
+    if (id === null) return;
+    this.id = null;
+    fetch(`../api/documents/${id}`, { method: "DELETE", keepalive: true })
+      .then((answer) => answer.ok || this.fail())
+      .catch(() => this.fail());
+  }
+
+  fail() {
+    this.onFault(say("gallery.not_deleted"));
+    this.onBack();
+  }
+}

@@ -1,10 +1,14 @@
 /** The cards of the repair strip: one place for each kind of help, and all others on demand. */
 
-import { button, element } from "../dom.js";
+import { ringOf } from "../board/curves.js";
+import { picture } from "../dialogs/picture.js";
+import { offer, suggestionWords } from "../dock/suggestion_button.js";
 import { ranked } from "../dock/suggestion_search.js";
+import { seconds } from "../dock/words.js";
+import { button, element } from "../dom.js";
 import { say } from "../language/say.js";
 import { HELP } from "../messages/changes.js";
-import { card, GROUPS, groupOf } from "./card.js";
+import { foldedPicture } from "./folded_picture.js";
 
 /** @import { Suggestion } from "../dock/suggestion_search.js" */
 /** @import { SuggestionEvent } from "pleat" */
@@ -129,3 +133,52 @@ const isAlike = (one, other) =>
   (one.matches(".is-empty") &&
     other.matches(".is-empty") &&
     one.dataset.group === /** @type {HTMLElement} */ (other).dataset.group);
+
+/** The kinds of help, in the order of their places. */
+const GROUPS = /** @type {const} */ (["place", "fold", "assume"]);
+
+/** @type {Record<string, typeof GROUPS[number]>} */
+const GROUP_OF = {
+  placement: "place",
+  size: "place",
+  station: "assume",
+  robot: "assume",
+  friction: "assume",
+  grip_radius: "assume",
+  comfort_radius: "assume",
+  together: "assume",
+};
+
+/** Kinds that take the place of an assumption, and are none. */
+const ABOUT_ROBOT = new Set(["station", "robot"]);
+
+/** @param {Suggestion} one */
+const groupOf = ({ kind }) => GROUP_OF[kind] ?? "fold";
+
+/**
+ * A change that gives a plan, with a picture of the folded cloth, and what the plan then takes.
+ * @param {import("../store.js").Store} store
+ * @param {Suggestion} suggestion
+ */
+function card(store, suggestion) {
+  const { change, cost_s: cost, plan_id: plan } = suggestion;
+  const shown = element("span", "card-picture");
+  if (plan) foldedPicture(plan).then((drawn) => drawn && shown.replaceChildren(drawn));
+  else if (change.drawing) shown.append(pictureOf(change.drawing));
+  const what = element("span", "suggestion-what", suggestionWords(store, suggestion));
+  const parts = cost === null ? [what] : [what, element("span", "suggestion-cost", seconds(cost))];
+  const made = button("card", () => {}, shown, element("span", "card-words", ...parts));
+  made.dataset.kind = suggestion.kind;
+  made.dataset.group = groupOf(suggestion);
+  made.dataset.title = ABOUT_ROBOT.has(suggestion.kind) ? HELP.robot : HELP[groupOf(suggestion)];
+  made.setAttribute("aria-description", made.dataset.title);
+  offer(store, suggestion, made);
+  return made;
+}
+
+/** @param {import("pleat").Drawing} drawing */
+const pictureOf = ({ outline, folds }) =>
+  picture(
+    ringOf({ outline }),
+    folds.map(({ kind, start, end }) => ({ kind, start: start.point, end: end.point })),
+  );

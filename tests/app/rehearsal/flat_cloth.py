@@ -1,6 +1,6 @@
 """A towel that lies flat, seen by a camera beside a robot at home."""
 
-from app.camera.posture import Posture
+from app.rehearsal.camera.posture import Posture
 from app.rehearsal.planned_cloth import planned_positions
 from app.rehearsal.step_motions import posture_at
 from app.rehearsal.world import Observation, Performed, StepMotion, Truth

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.camera.posture import Posture
+from app.rehearsal.camera.posture import Posture
 from app.rehearsal.deflection import deflected
 from planner.geometry.pose import FloatArray, Pose2
 from planner.robots.load_robot import load_robot

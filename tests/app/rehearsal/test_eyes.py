@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from app.camera.posture import Posture
+from app.rehearsal.camera.posture import Posture
 from app.rehearsal.camera_world import CameraWorld
 from app.rehearsal.eyes import Eyes
 from app.rehearsal.grasp_points import INSIDE_M
@@ -15,11 +15,11 @@ from app.rehearsal.judge import Gate
 from app.rehearsal.perform import Performer
 from app.rehearsal.replay_world import Recorded, ReplayWorld
 from app.rehearsal.step_motions import posture_at, step_motions
+from app.rehearsal.vision.expected import Expected
+from app.rehearsal.vision.fit_fold import FoldedOutline
+from app.rehearsal.vision.look_at_stack import Looker
 from app.rehearsal.watch import Watch
 from app.rehearsal.world import REACH, WITHDRAW, Observation, Performed, Truth
-from app.vision.expected import Expected
-from app.vision.fit_fold import FoldedOutline
-from app.vision.look_at_stack import Looker
 from planner import Plan, Task, make_plan
 from planner.cloth.garment import Garment
 from planner.geometry.isometry import Isometry
@@ -115,18 +115,12 @@ def test_a_stack_whose_flap_or_base_may_stick_out_is_taken_at_the_edge_that_was_
 def test_arms_in_front_of_the_cloth_are_withdrawn_for_another_look() -> None:
     cloth = FlatCloth(0.0, 0.0)
     world = CameraWorld(cloth, towel_plan().task, over_the_cloth(), 3)
-    performer = Hindered(towel_plan(), world, Gate(), no_plan)
+    performer = Performer(towel_plan(), world, Gate(), no_plan)
+    performer._watch.posture = over_the_cloth()
     done = performer.performed()
     assert [picture.is_clear for picture in done.pictures] == [False, True]
     assert done.pictures[-1].sight.unknown is None
     assert [motion.kind for motion in cloth.asked] == [WITHDRAW, REACH, "fold"]
-
-
-class Hindered(Performer):
-    """Begins with a robot whose arms are over the cloth."""
-
-    def _begins(self) -> Posture:
-        return over_the_cloth()
 
 
 def test_a_run_that_stays_blind_ends_with_the_reason_and_the_picture() -> None:

@@ -7,10 +7,10 @@ from app.rehearsal.camera_world import CameraWorld
 from app.rehearsal.judge import Gate
 from app.rehearsal.perform import Performance, Performer
 from app.rehearsal.planned_cloth import planned_positions
+from app.rehearsal.vision.look_at_stack import Sight
+from app.rehearsal.vision.stack_fit import StackFit
 from app.rehearsal.watch import FOLDED_OVERLAP, Watch
 from app.rehearsal.world import WITHDRAW, Observation, Performed, StepMotion, Truth
-from app.vision.look_at_stack import Sight
-from app.vision.stack_fit import StackFit
 from planner import Plan, Task, load_garment, make_plan
 from planner.geometry.pose import FloatArray
 from planner.geometry.ring import evenly_along

@@ -6,21 +6,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.rehearsal.corrections import (
-    SHORT_M,
-    carry,
-    corrected,
-    reflection_in,
-    regrasps,
-    shift_of,
-)
+from app.rehearsal.corrections import SHORT_M, beside_grips, carried_along, regrasps
 from app.rehearsal.finger_ends import reach_ahead
-from app.rehearsal.judge import Gate
+from app.rehearsal.judge import Gate, carry
 from app.rehearsal.noise import Noise
 from app.rehearsal.noisy_world import NoisyWorld
-from app.rehearsal.perform import FAILURES_MAX, Performer
-from app.rehearsal.rest import rest_task
+from app.rehearsal.perform import FAILURES_MAX, Performer, rest_task
 from app.rehearsal.step_motions import step_motions
+from app.rehearsal.step_seen import StepSeen
 from app.rehearsal.world import WITHDRAW, Observation, Performed, StepMotion
 from planner import Plan, Task, load_garment, make_plan
 from planner.geometry.isometry import Isometry
@@ -119,7 +112,7 @@ def test_the_fold_after_a_drag_goes_over_the_line_as_the_cloth_lies_then() -> No
     drag, fold = world.asked[:2]
     assert drag.is_drag and fold.is_fold and not fold.grips[0].closes
     begin, end = (fold.grips[0].points[number][:2] for number in (0, -1))
-    over = reflection_in(plan.steps[1], plan.sequence, world.carried)
+    over = StepSeen(plan, plan.steps[1], fold, world.carried).fold
     assert over is not None
     assert begin == pytest.approx(drag.grips[0].points[-1][:2], abs=1e-9)
     landed = np.array(over.apply_point(begin))
@@ -213,9 +206,11 @@ def test_a_fold_taken_at_another_point_lands_where_the_fold_brings_that_point() 
     lies = towel_plan().task.start.placement
     to_table = Isometry.rotation(lies.yaw_rad, lies.x_m, lies.y_m)
     over = to_table.after(Isometry.reflection(fold.line)).after(to_table.inverse)
-    trials = list(regrasps(motion, frozenset({motion.grips[0].arm}), 0.03, {}, {}, over))
+    seen = StepSeen(towel_plan(), towel_plan().steps[0], motion)
+    trials = list(regrasps(seen, frozenset({motion.grips[0].arm})))
     assert len(trials) == 8
-    for trial in trials:
+    for offsets in trials:
+        trial = beside_grips(motion, replace(seen, offsets=offsets))
         grip = trial.grips[0]
         assert grip.points[-1][:2] == pytest.approx(over.apply_point(grip.points[0][:2]), abs=1e-9)
         assert trial.grips[1] == motion.grips[1]
@@ -224,10 +219,11 @@ def test_a_fold_taken_at_another_point_lands_where_the_fold_brings_that_point() 
 def test_a_hand_that_missed_where_the_cloth_was_seen_tries_again_round_there_within_the_radius_of_its_grip() -> None:
     (motion,) = step_motions(towel_plan())
     grip = motion.grips[0]
-    trials = list(regrasps(motion, frozenset({grip.arm}), 0.03, {grip.arm: (1.0, 0.0)}, {grip.arm: (0.0, 0.02)}, None))
-    beside = [np.subtract(trial.grips[0].points[0][:2], grip.points[0][:2]) for trial in trials]
-    assert beside[0] == pytest.approx([0.01, 0.02])
-    assert max(float(np.hypot(*gone)) for gone in beside) <= 0.03 + 1e-9
+    seen = StepSeen(towel_plan(), towel_plan().steps[0], motion, offsets={grip.arm: (0.0, 0.02)})
+    beside = [trial[grip.arm] for trial in regrasps(seen, frozenset({grip.arm}))]
+    way = np.subtract(grip.points[-1], grip.points[0])[:2]
+    assert beside[0] == pytest.approx(np.array([0.0, 0.02]) + 0.01 * way / np.linalg.norm(way), abs=1e-3)
+    assert max(math.hypot(*gone) for gone in beside) <= 0.03 + 1e-9
 
 
 def test_a_hand_that_took_the_cloth_beside_its_grip_holds_it_there_in_the_red_fold_after_it() -> None:
@@ -247,9 +243,11 @@ def test_a_hand_that_took_the_cloth_beside_its_grip_holds_it_there_in_the_red_fo
 def test_a_correction_carries_a_step_along_and_its_shift_is_that_of_the_furthest_grip() -> None:
     (motion,) = step_motions(towel_plan())
     carried = carry(Pose2(0.1, 0.2, 0.3), Pose2(0.1, 0.21, 0.3))
-    assert shift_of(motion, carried) == pytest.approx(0.01)
-    assert shift_of(corrected(motion, carried), carried) == pytest.approx(0.01)
-    assert corrected(motion, Isometry()) == motion
+    seen = StepSeen(towel_plan(), towel_plan().steps[0], motion, carried)
+    assert seen.shift_m == pytest.approx(0.01)
+    assert seen.spare_m == pytest.approx(seen.radius_m - 0.01)
+    assert replace(seen, motion=carried_along(motion, seen)).shift_m == pytest.approx(0.01)
+    assert carried_along(motion, replace(seen, carried=Isometry())) == motion
 
 
 def test_a_robot_that_sees_from_where_it_stands_corrects_its_base_error_too() -> None:

@@ -6,10 +6,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.physics.fabric import Fabric, Resolution
-from app.physics.physics_world import PhysicsWorld
-from app.physics.pinch import PAD_M
 from app.rehearsal.finger_ends import round_finger_ends
+from app.rehearsal.physics.fabric import Fabric, Resolution
+from app.rehearsal.physics.physics_world import PhysicsWorld
+from app.rehearsal.physics.pinch import PAD_M
 from app.rehearsal.world import GripMotion, StepMotion
 from planner import Task
 from planner.folds.fold_path import REST_HEIGHT_M

@@ -6,26 +6,25 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.rehearsal.corrections import SHORT_M, landing_short
-from app.rehearsal.grasp_points import (
-    INSIDE_M,
-    are_edges_hidden,
-    at_layered_corners,
-    inside,
-    inwards_at,
-    laid_short,
-    where_seen,
-)
+from app.rehearsal.corrections import SHORT_M, laid_short
+from app.rehearsal.grasp_points import INSIDE_M, are_edges_hidden, at_layered_corners, inside, inwards_at, where_seen
 from app.rehearsal.step_motions import step_motions
-from app.vision.fit_fold import FoldedOutline
-from app.vision.seen_stack import SeenStack
-from app.vision.stack_figure import Figure
-from planner import Task, load_garment, make_plan
+from app.rehearsal.step_seen import StepSeen
+from app.rehearsal.vision.fit_fold import FoldedOutline
+from app.rehearsal.vision.seen_stack import SeenStack
+from app.rehearsal.vision.stack_figure import Figure
+from app.rehearsal.world import StepMotion
+from planner import Plan, Task, load_garment, make_plan
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Point2
 from planner.geometry.ring import evenly_along
 from planner.task.grip import Holding
 from planner.task.plan_step import PlanStep
+
+
+def seen_before(plan: Plan, step: PlanStep, stack: SeenStack | None, carried_m: float = 0.0) -> StepSeen:
+    """Return a step and the stack seen before it, which lies that far from where it should."""
+    return StepSeen(plan, step, step_motions(plan)[0], Isometry.rotation(0.0, carried_m), stack)
 
 
 def test_a_part_that_moved_last_is_taken_where_it_was_seen() -> None:
@@ -35,11 +34,12 @@ def test_a_part_that_moved_last_is_taken_where_it_was_seen() -> None:
     folded = FoldedOutline(plan.sequence, 0, 0)
     seen = SeenStack(Figure.of(plan.sequence.cloth(1)), folded, np.array([0, 0, 0, 0.004, 0, 0.0]), np.eye(6))
     step = replace(plan.steps[0], holdings=(Holding("left", (0.4, 0.5), ()), Holding("right", (0.1, 0.1), ())))
-    offsets = where_seen(step, Isometry(), seen, 0.03)
+    offsets = where_seen(seen_before(plan, step, seen))
     assert offsets["left"] == pytest.approx((-0.008, 0.0), abs=1e-6)
     assert offsets["right"] == (0.0, 0.0)  # not on the part that moved
-    assert where_seen(step, Isometry(), seen, 0.0)["left"] == pytest.approx((0.0, 0.0))
-    assert where_seen(step, Isometry(), None, 0.03) == {}
+    radius_m = plan.task.limits.comfort_radius_m  # no further than is in reach
+    assert where_seen(seen_before(plan, step, seen, radius_m))["left"] == pytest.approx((0.0, 0.0))
+    assert where_seen(seen_before(plan, step, None)) == {}
 
 
 def test_a_hand_takes_an_edge_where_it_is_seen() -> None:
@@ -63,7 +63,7 @@ def test_a_hand_takes_an_edge_where_it_is_seen() -> None:
             Holding("inside", (left + 0.1, crease_y + 0.1), ()),
         ),
     )
-    offsets = where_seen(step, Isometry(), seen, 0.03)
+    offsets = where_seen(seen_before(plan, step, seen))
     assert step.before.placement.yaw_rad == pytest.approx(-math.pi / 2.0)  # the article's y is the table's x
     assert offsets["middle"] == pytest.approx((0.0065, 0.0), abs=1e-3)
     assert offsets["corner"] == pytest.approx((0.009, 0.0), abs=1.5e-3)
@@ -74,7 +74,7 @@ def test_a_hand_takes_an_edge_where_it_is_seen() -> None:
 def test_hands_take_corners_of_several_layers_inside_of_where_they_are_seen_as_far_as_that_is_in_reach() -> None:
     plan = make_plan(Task.of(load_garment("letter-towel")))
     step, turned = plan.steps[0], Isometry.rotation(0.1)
-    inwards = inwards_at(step, plan.sequence, turned)
+    inwards = inwards_at(StepSeen(plan, step, step_motions(plan)[0], turned))
     middle, lies = plan.garment.pattern.ring.mean(axis=0), step.before.placement
     for one in step.holdings:  # of a rectangle: along the bisectors of its corners
         corner, centre = turned.apply(lies.to_outer(np.array([one.point, middle])))
@@ -126,13 +126,17 @@ def test_an_edge_of_which_nothing_was_seen_is_hidden() -> None:
 def test_an_edge_that_the_same_hands_lift_again_lands_short_and_others_where_they_should() -> None:
     plan = make_plan(Task.of(load_garment("letter-towel")))
     blue, red = plan.steps
-    assert laid_short(plan, blue) == {"left", "right"}
-    assert laid_short(plan, replace(blue, details={"fold": 0})) == frozenset()
-    assert laid_short(plan, red) == frozenset()  # it goes on from there
-    scarf = make_plan(Task.of(load_garment("scarf")))  # in quarters, so that edges lie upon the stack
-    assert {laid_short(scarf, step) for step in scarf.steps} == {frozenset()}
     motion = step_motions(plan)[1]
-    for grip, former in zip(landing_short(motion, frozenset({"left"}), SHORT_M).grips, motion.grips, strict=True):
+
+    def made(step: PlanStep, of: Plan = plan) -> StepMotion:
+        return laid_short(motion, StepSeen(of, step, motion))
+
+    assert made(replace(blue, details={"fold": 0})) == motion
+    assert made(red) == motion  # it goes on from there
+    scarf = make_plan(Task.of(load_garment("scarf")))  # in quarters, so that edges lie upon the stack
+    assert all(made(step, scarf) == motion for step in scarf.steps)
+    one_hand = replace(blue, holdings=tuple(one for one in blue.holdings if one.arm == "left"))
+    for grip, former in zip(made(one_hand).grips, motion.grips, strict=True):
         assert grip.points[0] == former.points[0]
         short = np.subtract(grip.points[-1], former.points[-1])
         back = np.subtract(former.points[0], former.points[-1])

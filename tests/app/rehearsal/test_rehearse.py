@@ -4,8 +4,8 @@ from typing import Any
 
 import pytest
 
-from app.physics.fabric import Fabric, Resolution
-from app.physics.physics_world import PhysicsWorld
+from app.rehearsal.physics.fabric import Fabric, Resolution
+from app.rehearsal.physics.physics_world import PhysicsWorld
 from app.rehearsal.rehearse import CancelledError, RehearsalOptions, rehearse
 from app.rehearsal.result import RehearsalResult, Run, success_bounds
 from app.rehearsal.step_motions import step_motions

@@ -5,9 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.physics.fabric import Fabric, Resolution
-from app.physics.physics_world import PhysicsWorld
+from app.rehearsal.corrections import carried_along
 from app.rehearsal.judge import Gate, judged
+from app.rehearsal.physics.fabric import Fabric, Resolution
+from app.rehearsal.physics.physics_world import PhysicsWorld
+from app.rehearsal.step_seen import StepSeen
 from app.rehearsal.trailing_flaps import INWARDS_M, flaps_beside, trailing
 from app.rehearsal.world import GripMotion, StepMotion
 from planner import Task
@@ -21,6 +23,7 @@ from planner.geometry.table_top import TableTop
 from planner.task.grip import Holding
 from planner.task.plan_step import PlanStep
 from planner.task.world_state import WorldState
+from tests.app.rehearsal.towel import towel_plan
 from tests.builders import fold, garment, rectangle_points
 
 WIDE, LONG, FLAP = 0.3, 0.5, 0.1
@@ -34,7 +37,7 @@ SEQUENCE = replayed(CLOTH)
 SPREAD_OUT = Task.of(CLOTH)
 TASK = replace(SPREAD_OUT, start=replace(SPREAD_OUT.start, folds_done=(0,)))
 CREASED, OPEN = (SIDE, LONG), (0.0, LONG)
-DURATION_S, RADIUS_M = 2.5, 0.03
+DURATION_S, RADIUS_M = 2.5, TASK.limits.comfort_radius_m
 
 
 def half_by(*points: Point2) -> PlanStep:
@@ -58,6 +61,11 @@ def motion_of(step: PlanStep) -> StepMotion:
     return StepMotion(0, "fold", DURATION_S, tuple(hands))
 
 
+def seen(step: PlanStep) -> StepSeen:
+    """Return a step before which the cloth is seen where it should be."""
+    return StepSeen(replace(towel_plan(), task=TASK, steps=(step,)), step, motion_of(step))
+
+
 def inwards_m(made: StepMotion, planned: StepMotion, way: Point2) -> list[float]:
     """Return how far inwards of its path the first hand of a step is at its points (m)."""
     one, other = (np.array(motion.grips[0].points) for motion in (made, planned))
@@ -66,30 +74,30 @@ def inwards_m(made: StepMotion, planned: StepMotion, way: Point2) -> list[float]
 
 
 def test_a_flap_hangs_beside_the_hand_at_its_crease_and_not_beside_the_other() -> None:
-    found = flaps_beside(half_by(CREASED, OPEN), SEQUENCE, Isometry())
+    found = flaps_beside(seen(half_by(CREASED, OPEN)))
     ways = TASK.start.placement.to_outer(np.array([(0.0, 0.0), (-1.0, 0.0)]))
     assert found == {"left": pytest.approx(tuple(ways[1] - ways[0]))}
 
 
 def test_no_flap_hangs_open_that_another_hand_holds_too() -> None:
-    assert not flaps_beside(half_by(CREASED, (SIDE - FLAP, LONG)), SEQUENCE, Isometry())
+    assert not flaps_beside(seen(half_by(CREASED, (SIDE - FLAP, LONG))))
 
 
 def test_a_hand_alone_which_would_carry_all_the_cloth_along_stays_on_its_path() -> None:
-    assert not flaps_beside(half_by(CREASED), SEQUENCE, Isometry())
+    assert not flaps_beside(seen(half_by(CREASED)))
 
 
 def test_no_flap_hangs_from_cloth_that_is_spread_out_or_that_is_dragged() -> None:
     step = half_by(CREASED, OPEN)
     spread_out = replace(step, before=SPREAD_OUT.start, details={"fold": 0})
-    assert not flaps_beside(spread_out, SEQUENCE, Isometry())
-    assert not flaps_beside(replace(step, kind="drag", details={}), SEQUENCE, Isometry())
+    assert not flaps_beside(seen(spread_out))
+    assert not flaps_beside(seen(replace(step, kind="drag", details={})))
 
 
 def test_a_hand_beside_a_flap_begins_and_ends_as_planned_and_is_inwards_while_it_hangs() -> None:
     step = half_by(CREASED, OPEN)
-    planned, flaps = motion_of(step), flaps_beside(step, SEQUENCE, Isometry())
-    made = trailing(planned, planned, flaps, Isometry(), RADIUS_M)
+    planned, flaps = motion_of(step), flaps_beside(seen(step))
+    made = trailing(planned, seen(step))
     apart = inwards_m(made, planned, flaps["left"])
     assert apart[0] == apart[-1] == pytest.approx(0.0, abs=1e-9)
     assert max(apart) == pytest.approx(INWARDS_M)
@@ -99,10 +107,11 @@ def test_a_hand_beside_a_flap_begins_and_ends_as_planned_and_is_inwards_while_it
 @pytest.mark.parametrize("shift_m", [0.02, 0.04])
 def test_hands_go_inwards_no_further_than_is_in_reach(shift_m: float) -> None:
     step = half_by(CREASED, OPEN)
-    flaps = flaps_beside(step, SEQUENCE, Isometry())
-    (x, y), planned = flaps["left"], motion_of(step)
+    (x, y), planned = flaps_beside(seen(step))["left"], motion_of(step)
     carried = Isometry.rotation(0.0, shift_m * x, shift_m * y)  # it lies that far inwards of where it should
-    apart = inwards_m(trailing(planned, planned, flaps, carried, RADIUS_M), planned, (x, y))
+    there = replace(seen(step), carried=carried)
+    along = carried_along(planned, there)
+    apart = inwards_m(trailing(along, there), along, (x, y))
     assert max(apart) == pytest.approx(max(0.0, RADIUS_M - shift_m), abs=1e-6)
 
 
@@ -110,7 +119,7 @@ def test_a_flap_that_trails_behind_its_crease_does_not_land_open() -> None:
     # On the planned path its crease stands up on the flap's free edge, and falls out of the stack by 2 cm.
     step = half_by(CREASED, OPEN)
     planned = motion_of(step)
-    made = trailing(planned, planned, flaps_beside(step, SEQUENCE, Isometry()), Isometry(), RADIUS_M)
+    made = trailing(planned, seen(step))
 
     def outline_mm(motion: StepMotion) -> float:
         world = PhysicsWorld(TASK, Fabric(), Resolution(), seed=1)

@@ -27,7 +27,7 @@ def test_a_record_is_played_step_by_step_and_ends() -> None:
     (motion,) = step_motions(towel_plan())
     assert world.observe() is before
     assert world.perform(motion) is said
-    assert said.is_missing_cloth
+    assert said.missing == {"right"}
     assert world.observe() is after
     with pytest.raises(LookupError):
         world.perform(motion)

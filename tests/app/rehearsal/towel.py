@@ -2,9 +2,9 @@
 
 from functools import cache
 
-from app.physics.fabric import Fabric, Resolution
-from app.physics.physics_world import PhysicsWorld
 from app.rehearsal.judge import Gate, StepVerdict, judged
+from app.rehearsal.physics.fabric import Fabric, Resolution
+from app.rehearsal.physics.physics_world import PhysicsWorld
 from app.rehearsal.world import StepMotion
 from planner import Plan, Task, make_plan
 from planner.cloth.garment import Garment

@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 
+from app.document_state import ShownPlan
 from app.ui.viewpoints.following import Following, work_of
 from app.ui.viewpoints.presets import Lens
-from app.version_plan import ShownPlan
 from planner import Plan, Timeline, load_garment, make_plan
 from planner.geometry.pose import Point2, Point3, Pose2, wrapped_angle
 

@@ -1,13 +1,14 @@
 """The legend explains every shade and line of the overlays that are drawn, and no other."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import pytest
-from playwright.sync_api import Locator, Page, Route, expect
+from playwright.sync_api import Locator, Page, expect
 
 from tests.browser.board_desk import Desk
 from tests.browser.board_hand import Hand
+from tests.browser.channel import Message, listened_to
 from tests.browser.status_pill import expect_planned
 
 SWITCHES = ["Reach", "Grips", "Hand paths", "Base path", "Slip limit", "Cost map"]
@@ -18,7 +19,6 @@ def legend(page: Page, towel: Desk) -> Iterator[Locator]:
     """Return the legend of a planned towel; overlays switched on are switched off afterwards."""
     expect_planned(page)
     yield page.get_by_role("list", name="Legend")
-    page.unroute_all()
     for name in SWITCHES:
         switch = chip(page, name)
         if switch.get_attribute("aria-pressed") == "true":
@@ -29,19 +29,19 @@ def chip(page: Page, name: str) -> Locator:
     return page.get_by_role("button", name=name, exact=True)
 
 
-def test_there_is_no_legend_before_anything_is_switched_on_and_drawn(page: Page, legend: Locator) -> None:
-    expect(legend).to_have_count(0)
-    asked: list[Route] = []
-    page.route("**/overlays?*", lambda route: route.continue_() if asked else asked.append(route))
-    with page.expect_request("**/overlays?*"):
-        chip(page, "Slip limit").click()
-    expect(chip(page, "Slip limit")).to_have_attribute("aria-busy", "true")
-    expect(legend).to_have_count(0)
-    page.evaluate("0")  # what was asked before that has been heard of by then
-    asked[0].continue_()
-    expect(legend.get_by_role("listitem")).to_have_text(["Slip limit: maximum overhang over that edge"])
-    chip(page, "Slip limit").click()
-    expect(legend).to_have_count(0)
+def test_there_is_no_legend_before_anything_is_switched_on_and_drawn(page: Page, towel: Desk) -> None:
+    with listened_to(page, towel.page_url) as (window, channel):
+        expect_planned(window)
+        legend = window.get_by_role("list", name="Legend")
+        expect(legend).to_have_count(0)
+        channel.take = lambda sent, _answer: sent["do"] != "overlays" or len(channel.asked("overlays")) > 1
+        chip(window, "Slip limit").click()
+        expect(chip(window, "Slip limit")).to_have_attribute("aria-busy", "true")
+        expect(legend).to_have_count(0)
+        channel.pass_on(channel.asked("overlays")[0])
+        expect(legend.get_by_role("listitem")).to_have_text(["Slip limit: maximum overhang over that edge"])
+        chip(window, "Slip limit").click()
+        expect(legend).to_have_count(0)
 
 
 def test_what_is_switched_off_and_on_again_is_drawn_again(page: Page, legend: Locator) -> None:
@@ -79,20 +79,29 @@ def test_the_ways_of_base_and_hands_are_named_when_there_are_any(page: Page, leg
     expect(legend.get_by_text("The base at this moment")).to_be_visible()
 
 
-def test_the_cost_map_is_explained_with_what_the_server_told(page: Page, legend: Locator) -> None:
+def test_the_cost_map_is_explained_with_what_the_server_told(page: Page, towel: Desk) -> None:
     cells = [
         {"move": [0.1 * n, 0.0], "placement": {"x_m": 0.0, "y_m": 0.0, "yaw_rad": 0.0}, "cost_s": cost_s}
         for n, cost_s in enumerate((41.26, None, 57.8))
     ]
     told = {"version": 1, "step_m": 0.1, "cells": cells, "best": cells[0], "complete": False}
-    page.route("**/overlays/places", lambda route: route.fulfill(json=told))
-    chip(page, "Cost map").click()
     rows = [
         "Plan time 41.3\N{NO-BREAK SPACE}s (strongest) to 57.8\N{NO-BREAK SPACE}s with the cloth centred here",
         "Empty: no plan from there",
         "No square: not tried yet",
     ]
-    expect(legend.get_by_role("listitem")).to_have_text(rows)
+    with listened_to(page, towel.page_url) as (window, channel):
+
+        def tell(sent: Message, answer: Callable[[Message], None]) -> bool:
+            is_map: bool = sent["do"] == "places"
+            if is_map:
+                answer({"kind": "answer", "version": 1, "result": told})
+            return not is_map
+
+        channel.take = tell
+        expect_planned(window)
+        chip(window, "Cost map").click()
+        expect(window.get_by_role("list", name="Legend").get_by_role("listitem")).to_have_text(rows)
 
 
 def test_the_legend_is_clear_of_the_cloth_and_the_pointer_goes_through(page: Page, legend: Locator) -> None:

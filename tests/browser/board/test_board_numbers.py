@@ -5,6 +5,7 @@ from playwright.sync_api import Page, expect
 
 from tests.browser.board_desk import Desk, corner, expect_no_step, expect_step
 from tests.browser.board_hand import Hand
+from tests.browser.channel import listened_to
 
 # A corner of the T-shirt, as its file has it (m).
 SLEEVE_TIP = (0.61, 0.572)
@@ -71,16 +72,16 @@ def test_a_number_typed_while_drawing_is_the_length(page: Page, cloth: Desk) -> 
 
 def test_a_number_is_put_once_when_enter_takes_it(page: Page, cloth: Desk) -> None:
     """Put again as the field is left it would come after what somebody else had done in between."""
-    hand = Hand(page)
-    hand.click(SLEEVE_TIP)
-    sent: list[str] = []
-    page.on("request", lambda request: sent.append(request.method) if request.url.startswith(cloth.path) else None)
-    page.get_by_label("x of the vertex").fill("63")
-    page.keyboard.press("Enter")
-    expect_step(page, "Move vertex")
-    hand.tool("Undo")  # it waits for its turn
-    expect_step(page, "Begin")
-    assert [method for method in sent if method != "GET"] == ["PUT", "POST"]
+    with listened_to(page, cloth.page_url) as (window, channel):
+        expect_step(window, "Begin")
+        hand = Hand(window)
+        hand.click(SLEEVE_TIP)
+        window.get_by_label("x of the vertex").fill("63")
+        window.keyboard.press("Enter")
+        expect_step(window, "Move vertex")
+        hand.tool("Undo")  # it waits for its turn
+        expect_step(window, "Begin")
+        assert [sent["do"] for sent in channel.sent if sent["do"] in ("edit", "undo")] == ["edit", "undo"]
 
 
 def test_numbers_do_not_come_to_lie_under_the_pointer(page: Page, desk: Desk) -> None:

@@ -1,14 +1,15 @@
 """Overlays on the board: corners that must be held, the reach of hands, and shortfalls."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import pytest
-from playwright.sync_api import Page, Route, expect
+from playwright.sync_api import Page, expect
 
 from planner import Garment, Scene, make_plan
 from tests.browser.board_desk import Desk
 from tests.browser.board_hand import Hand
+from tests.browser.channel import Message, listened_to
 from tests.browser.searches import SEARCH_MS
 from tests.browser.status_pill import expect_planned
 
@@ -33,58 +34,52 @@ def test_the_fold_that_is_looked_at_shows_what_must_be_held_and_where(page: Page
 
 
 def test_what_the_robot_can_reach_is_shown_when_asked_for(page: Page, towel: Desk) -> None:
-    expect_planned(page)
-    reach, wait = page.get_by_role("button", name="Reach", exact=True), page.get_by_text("Working it out")
-    asked: list[Route] = []
-    page.route("**/overlays?*", lambda route: route.continue_() if asked else asked.append(route))
-    reach.click()
-    expect(wait).to_be_visible()
-    expect(reach).to_have_attribute("aria-busy", "true")
-    asked[0].continue_()
-    expect(page.locator(".layer-under .reach")).to_have_count(2)
-    expect(wait).to_have_count(0)
-    expect(reach).to_have_attribute("aria-busy", "false")
-    reach.click()
-    expect(page.locator(".layer-under .reach")).to_have_count(0)
-    page.unroute("**/overlays?*")
+    with listened_to(page, towel.page_url) as (window, channel):
+        expect_planned(window)
+        channel.take = lambda sent, _answer: sent["do"] != "overlays" or len(channel.asked("overlays")) > 1
+        reach, wait = window.get_by_role("button", name="Reach", exact=True), window.get_by_text("Working it out")
+        reach.click()
+        expect(wait).to_be_visible()
+        expect(reach).to_have_attribute("aria-busy", "true")
+        channel.pass_on(channel.asked("overlays")[0])
+        expect(window.locator(".layer-under .reach")).to_have_count(2)
+        expect(wait).to_have_count(0)
+        expect(reach).to_have_attribute("aria-busy", "false")
+        reach.click()
+        expect(window.locator(".layer-under .reach")).to_have_count(0)
 
 
 @pytest.mark.parametrize("status", [None, 429, 503])
 def test_a_server_that_is_busy_or_away_is_asked_again(page: Page, towel: Desk, status: int | None) -> None:
-    expect_planned(page)
-    refused: list[Route] = []
+    with listened_to(page, towel.page_url) as (window, channel):
 
-    def refuse_the_first(route: Route) -> None:
-        if refused:
-            route.continue_()
-            return
-        refused.append(route)
-        if status is None:
-            route.abort()
-        else:
-            route.fulfill(status=status, headers={"retry-after": "1"}, json={"detail": "busy"})
+        def refuse_the_first(sent: Message, answer: Callable[[Message], None]) -> bool:
+            if sent["do"] != "overlays" or len(channel.asked("overlays")) > 1:
+                return True
+            if status is None:
+                channel.cut()
+            else:
+                answer({"kind": "problem", "title": "Busy", "status": status, "detail": "busy"})
+            return False
 
-    page.route("**/overlays?*", refuse_the_first)
-    reach = page.get_by_role("button", name="Reach", exact=True)
-    reach.click()
-    expect(page.locator(".layer-under .reach")).to_have_count(2)
-    assert refused
-    reach.click()
-    page.unroute("**/overlays?*")
+        expect_planned(window)
+        channel.take = refuse_the_first
+        window.get_by_role("button", name="Reach", exact=True).click()
+        expect(window.locator(".layer-under .reach")).to_have_count(2)
+        assert len(channel.asked("overlays")) > 1
 
 
 @pytest.mark.long
 def test_the_cost_map_is_kept_while_the_drawing_stays(page: Page, towel: Desk) -> None:
-    expect_planned(page)
-    asked: list[str] = []
-    page.on("request", lambda request: asked.append(request.url) if "/overlays/places" in request.url else None)
-    chip = page.get_by_role("button", name="Cost map")
-    for _ in range(2):
-        chip.click()
-        expect(page.locator(".layer-under .cost").first).to_be_visible(timeout=SEARCH_MS)
-        chip.click()
-        expect(page.locator(".layer-under .cost")).to_have_count(0)
-    assert len(asked) == 1
+    with listened_to(page, towel.page_url) as (window, channel):
+        expect_planned(window)
+        chip = window.get_by_role("button", name="Cost map")
+        for _ in range(2):
+            chip.click()
+            expect(window.locator(".layer-under .cost").first).to_be_visible(timeout=SEARCH_MS)
+            chip.click()
+            expect(window.locator(".layer-under .cost")).to_have_count(0)
+        assert len(channel.asked("places")) == 1
 
 
 def test_where_a_hand_falls_short_is_marked_with_how_much(page: Page, moved_desk: Desk) -> None:

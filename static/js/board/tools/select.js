@@ -4,22 +4,20 @@ import { inEnglish, say } from "../../language/say.js";
 import { isViewOnly } from "../../view_only.js";
 import { edgeFrom, edgePoints } from "../curves.js";
 import { removeFolds } from "../edits.js";
-import { Gesture } from "../gesture.js";
 import { minus, nearestOnLine, plus } from "../geometry.js";
+import { Gesture } from "../gesture.js";
 import { hit } from "../hit.js";
 import { freshId } from "../ids.js";
-import { cornersWithin, marquee } from "../marquee.js";
 import { insertCorner, moveCorners, removeCorners, straightenEdges } from "../outline_edits.js";
 import { MOVE_CORNER } from "../rules.js";
 import { Drags, endsOfEdge, movedFold } from "./drags.js";
 import { Tool } from "./tool.js";
 
-/** @import { Point } from "pleat" */
 /** @import { Change } from "../../edit_queue.js" */
 /** @import { Hit } from "../hit.js" */
 /** @import { Pointer } from "../pointer.js" */
 /** @import { Dragged, Press } from "./drags.js" */
-/** @import { Frame } from "../marquee.js" */
+/** @import { Point } from "pleat" */
 
 const CURSORS = { vertex: "grab", end: "grab", middle: "grab", fold: "move", edge: "move", cloth: "default" };
 const LABELS = {
@@ -237,4 +235,39 @@ export class SelectTool extends Tool {
   items() {
     return this.state.name === "framing" ? [marquee(this.state.frame)] : [];
   }
+}
+
+/** @typedef {[Point, Point]} Frame two opposite corners (px) */
+
+/** @param {Frame} frame */
+function marquee([[ax, ay], [bx, by]]) {
+  return {
+    key: "frame",
+    tag: "rect",
+    class: "marquee",
+    x: Math.min(ax, bx),
+    y: Math.min(ay, by),
+    width: Math.abs(bx - ax),
+    height: Math.abs(by - ay),
+  };
+}
+
+/**
+ * The corners within, or else the folds whose ends both are.
+ * @param {import("../board.js").Board} board
+ * @param {Frame} frame
+ * @returns {import("../../store.js").Selection|null}
+ */
+function cornersWithin(board, [[ax, ay], [bx, by]]) {
+  /** @param {Point} point */
+  const isIn = (point) => {
+    const [x, y] = board.view.toPx(point);
+    return (x - ax) * (x - bx) <= 0 && (y - ay) * (y - by) <= 0;
+  };
+  const corners = board.isSpread ? board.drawing.outline.filter(({ point }) => isIn(point)) : [];
+  if (corners.length) return { kind: "vertex", ids: corners.map(({ id }) => id) };
+  const folds = board.drawing.folds.filter(
+    ({ start, end }, index) => index >= board.step && isIn(start.point) && isIn(end.point),
+  );
+  return folds.length ? { kind: "fold", ids: folds.map(({ id }) => id) } : null;
 }

@@ -1,0 +1,154 @@
+"""Render what a camera over a table sees: the floor, the table, a cloth with two faces, the robot's arms, shadows.
+
+No graphics card is needed: triangles are painted by OpenCV at twice the picture's resolution, farthest first. What
+reads pictures shares nothing with this but the camera.
+"""
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from app.rehearsal.camera.camera import Camera
+from app.rehearsal.camera.develop import Image, developed
+from app.rehearsal.camera.look import Look
+from app.rehearsal.camera.raster import drawn, shares
+from app.rehearsal.camera.robot_shape import outlines
+from app.rehearsal.camera.texture import FloatImage, stretched, wood
+from planner.geometry.pose import FloatArray
+from planner.geometry.table import Table
+
+_FINER = 2
+_TEXTURE_M = 0.004
+_TEXTURE_PX = 700
+"""Size of a texture's pixel (m), and its side: tables up to 2.8 m a side are covered, larger ones repeat it."""
+
+_FLOOR = (96.0, 98.0, 100.0)
+_ROBOT = (214.0, 212.0, 208.0)
+_SUN = np.array([0.25, -0.35, 1.0])
+"""The direction towards the light, table frame."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ClothSeen:
+    """The cloth that a camera looks at.
+
+    Attributes:
+        pattern: its points in the pattern's frame, shape (n, 2), m.
+        positions: where they are, table frame, shape (n, 3), m.
+        triangles: the triangles between them, counter-clockwise in the pattern, shape (m, 3).
+    """
+
+    pattern: FloatArray
+    positions: FloatArray
+    triangles: NDArray[np.int64]
+
+
+def picture(
+    camera: Camera, table: Table, cloth: ClothSeen, robot: list[FloatArray], look: Look, seed: int, moment: int = 0
+) -> Image:
+    """Return the picture that a camera takes: blue, green, red, shape (height, width, 3).
+
+    Args:
+        camera: the camera.
+        table: the table.
+        cloth: what lies on it.
+        robot: the points of the robot's parts, table frame (m).
+        look: colours, light and noise.
+        seed: of textures and light.
+        moment: of the noise: two pictures of one moment are the same.
+    """
+    width, height = camera.size_px
+    fine = Camera(camera.position, camera.rotation, _FINER * camera.focal_px, (_FINER * width, _FINER * height))
+    light = np.random.default_rng(seed)
+    taken = _ground(fine, table, look, seed).copy()
+    _shade(taken, fine, cloth, robot, look)
+    _lay_cloth(taken, fine, cloth, look, light)
+    for number, ring in enumerate(outlines(robot, fine)):
+        cv2.fillConvexPoly(taken, ring, [part * (0.86 + 0.02 * (number % 8)) for part in _ROBOT], cv2.LINE_8)
+    small = np.asarray(cv2.resize(taken, (width, height), interpolation=cv2.INTER_AREA), np.float32)
+    noise = np.random.default_rng([seed, moment])
+    return developed(small, look, noise)
+
+
+@lru_cache(maxsize=4)
+def _ground(camera: Camera, table: Table, look: Look, seed: int) -> FloatImage:
+    """Return the floor and the table; what does not change is kept, and must not be changed."""
+    width, height = camera.size_px
+    columns, rows = np.meshgrid(np.arange(width), np.arange(height))
+    on = camera.on_plane(np.column_stack([columns.ravel(), rows.ravel()]).astype(float)).reshape(height, width, 2)
+    texture = wood(look, _TEXTURE_PX, np.random.default_rng([seed, 1]))
+    places = np.nan_to_num(on / _TEXTURE_M + _TEXTURE_PX / 2.0).astype(np.float32)
+    grained = cv2.remap(texture, places[..., 0], places[..., 1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REFLECT)
+    x, y = np.abs(on[..., 0]), np.abs(on[..., 1])
+    is_table = (x <= table.depth_m / 2) & (y <= table.width_m / 2)
+    ground = np.where(is_table[..., None], grained, np.array(_FLOOR, np.float32))
+    ground.setflags(write=False)
+    return np.asarray(ground, np.float32)
+
+
+def _shade(taken: FloatImage, camera: Camera, cloth: ClothSeen, robot: list[FloatArray], look: Look) -> None:
+    """Darken the table where cloth and arms keep off the light; shadows have soft edges."""
+    mask = np.zeros(taken.shape[:2], np.float32)
+    falls = cloth.positions - np.maximum(cloth.positions[:, 2:] + 0.006, 0.0) * _SUN
+    falls[:, 2] = 0.0
+    fixed = np.round(camera.pixels(falls)[cloth.triangles]).astype(np.int32)
+    for triangle in fixed:
+        cv2.fillConvexPoly(mask, triangle, 1.0)
+    for part in robot:
+        high = part[part[:, 2] > 0.0]
+        if len(high) > 2:
+            fallen = high - high[:, 2:] * _SUN
+            ring = cv2.convexHull(np.round(camera.pixels(fallen)).astype(np.int32))
+            cv2.fillConvexPoly(mask, ring, 0.6)
+    taken *= 1.0 - look.shadow * cv2.GaussianBlur(mask, (0, 0), 5.0)[:, :, None]
+
+
+def _lay_cloth(taken: FloatImage, camera: Camera, cloth: ClothSeen, look: Look, rng: np.random.Generator) -> None:
+    pixels = camera.pixels(cloth.positions)
+    numbers = drawn(pixels - 0.25, cloth.triangles, camera.depths(cloth.positions), camera.size_px)
+    shown, near = shares(numbers, pixels, cloth.triangles)
+    corners = cloth.triangles[numbers[shown]]
+    on = np.einsum("ij,ijk->ik", near, cloth.pattern[corners])
+    colours = _colours(on, _is_front(camera, cloth)[numbers[shown]], look)
+    brightness = np.einsum("ij,ij->i", near, _brightness(cloth)[corners])
+    folds, weave = stretched(rng, 256, (10, 20), 1.5), stretched(rng, 256, (1, 1), 0.0)
+    places = np.floor(on / _TEXTURE_M).astype(np.int64) % 256
+    wrinkles = (
+        look.wrinkles * 18 * folds[places[:, 0], places[:, 1]] / folds.std() + 3 * weave[places[:, 1], places[:, 0]]
+    )
+    taken[shown] = colours * brightness[:, None] + wrinkles[:, None]
+
+
+def _colours(on: FloatArray, is_front: NDArray[np.bool_], look: Look) -> FloatArray:
+    """Return the colours of points of the pattern, shape (n, 2) -> (n, 3)."""
+    back = look.cloth if look.back is None else look.back
+    colours = np.where(is_front[:, None], np.array(look.cloth), np.array(back))
+    if look.pattern != "plain":
+        waves = np.sin(on[:, 1] * 2 * np.pi / 0.05) > 0.3
+        if look.pattern == "checks":
+            waves ^= np.sin(on[:, 0] * 2 * np.pi / 0.05) > 0.3
+        colours[waves] = np.clip(255 - colours[waves] * 0.7, 15, 240)
+    return np.asarray(colours)
+
+
+def _is_front(camera: Camera, cloth: ClothSeen) -> NDArray[np.bool_]:
+    """Return which triangles show their front, shape (m,)."""
+    a, b, c = (cloth.positions[cloth.triangles[:, i]] for i in range(3))
+    towards = np.array(camera.position) - (a + b + c) / 3.0
+    return np.asarray((np.cross(b - a, c - a) * towards).sum(axis=1) > 0.0)
+
+
+def _brightness(cloth: ClothSeen) -> FloatArray:
+    """Return how bright the cloth is at its points, by how it faces the light, shape (n,), about 1."""
+    a, b, c = (cloth.positions[cloth.triangles[:, i]] for i in range(3))
+    facing = np.cross(b - a, c - a)
+    facing *= np.where(facing[:, 2:] < 0.0, -1.0, 1.0)
+    normals = np.zeros_like(cloth.positions)
+    for corner in range(3):
+        np.add.at(normals, cloth.triangles[:, corner], facing)
+    lengths = np.maximum(np.linalg.norm(normals, axis=1), 1e-12)
+    flat = float(_SUN[2] / np.linalg.norm(_SUN))
+    return np.asarray(0.55 + 0.45 * np.maximum(normals @ _SUN / np.linalg.norm(_SUN) / lengths, 0.0) / flat)
