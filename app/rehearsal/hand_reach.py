@@ -33,6 +33,8 @@ class HandReach:
         for segment in reversed(path.of_step(step)):
             hand = segment.phase.hands[number]
             if hand is not None and hand.is_closed and not hand.is_reaching:
+                if hand.approach not in self._reach.approaches:
+                    break  # of a plan from elsewhere
                 base, height_m = segment.phase.base[-1], self.plan.scene.table.height_m
                 seen = np.column_stack([base.to_inner(points[:, :2]), points[:, 2] + height_m])
                 approaches = np.array([self._reach.approaches.index(hand.approach)])
