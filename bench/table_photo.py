@@ -13,9 +13,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from app.rehearsal.camera.develop import coded, developed
-from app.rehearsal.camera.look import Look
-from app.rehearsal.camera.texture import stretched, wood
+from app.rehearsal.camera.look import Look, coded, developed, stretched, wood
 
 FloatArray = NDArray[np.float64]
 Image = NDArray[np.uint8]

@@ -4,14 +4,16 @@ A correction takes a motion, and the step as it was seen; it leaves alone what i
 """
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import reduce
 
 import numpy as np
 
 from app.rehearsal.grasp_points import inwards_at
 from app.rehearsal.judge import carry
 from app.rehearsal.step_seen import StepSeen
+from app.rehearsal.table_edge import over_edge
 from app.rehearsal.taut_way import taut
 from app.rehearsal.trailing_flaps import trailing
 from app.rehearsal.vision.look_at_stack import Sight
@@ -19,10 +21,11 @@ from app.rehearsal.world import GripMotion, StepMotion, way_done
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Point2, Point3, Pose2
 
-_TRIED = ((1 / 3, 0), (1 / 3, 1), (1 / 3, -1), (2 / 3, 0), (1, 0), (1, 1), (1, -1), (1, 4))
+_TRIED = ((1 / 6, 0), (1 / 3, 0), (1 / 3, 1), (1 / 3, -1), (1, 0), (1, 1), (1, -1), (1, 4))
 """How far from the grip, as a share of the radius, and at how many eighths of a turn from inwards it is tried.
 
-Near to it at first: most fingers that miss have closed just beside an edge, and what is beyond the fingers crumples.
+Near to it at first: most fingers that miss have closed just beside an edge, and what is beyond the fingers crumples, or
+lands doubled back.
 """
 
 SHORT_M = 0.008
@@ -33,12 +36,12 @@ before it.
 """
 
 
-def corrected(seen: StepSeen) -> StepMotion:
-    """Return the motion of a step, all corrections made."""
-    motion = seen.motion
-    for correction in CORRECTIONS:
-        motion = correction(motion, seen)
-    return motion
+Correction = Callable[[StepMotion, StepSeen], StepMotion]
+
+
+def corrected(seen: StepSeen, corrections: Sequence[Correction]) -> StepMotion:
+    """Return the motion of a step, corrections made one after the other."""
+    return reduce(lambda motion, correction: correction(motion, seen), corrections, seen.motion)
 
 
 def carried_along(motion: StepMotion, seen: StepSeen) -> StepMotion:
@@ -93,9 +96,8 @@ def beside_grips(motion: StepMotion, seen: StepSeen) -> StepMotion:
     return replace(motion, grips=tuple(moved(grip) if grip.arm in seen.offsets else grip for grip in motion.grips))
 
 
-Correction = Callable[[StepMotion, StepSeen], StepMotion]
-
-CORRECTIONS: tuple[Correction, ...] = (carried_along, kept_taut, laid_short, beside_grips, trailing)
+WITHOUT_LOOKING: tuple[Correction, ...] = (over_edge,)
+BY_WHAT_IS_SEEN: tuple[Correction, ...] = (carried_along, kept_taut, laid_short, beside_grips, trailing, over_edge)
 """The corrections, in their order."""
 
 

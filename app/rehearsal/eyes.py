@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from app.rehearsal.camera.develop import coded
+from app.rehearsal.camera.look import coded
 from app.rehearsal.camera.posture import Posture
 from app.rehearsal.camera.robot_shape import RobotShape, hidden, robot_shape
 from app.rehearsal.hand_eye import HandEye
-from app.rehearsal.vision.expected import Expected
 from app.rehearsal.vision.fit_stack import fit_stack
 from app.rehearsal.vision.look_at_stack import Looker, Sight
+from app.rehearsal.vision.stack_fit import Expected
 from app.rehearsal.world import Observation, StepMotion
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.pose import Point2, Pose2

@@ -1,6 +1,6 @@
 """Perform a plan in a world and judge each step; with feedback, look before each and correct it (paper, section 9).
 
-Before hands close the stack's outline is fitted to what is seen, and the step is corrected for it (`CORRECTIONS`).
+Before hands close the stack's outline is fitted to what is seen, and the step is corrected for it (`BY_WHAT_IS_SEEN`).
 Where cloth lies further away than the comfort radius, or hands find none, the rest is planned again from what is there.
 A hand that finds no cloth tries again round its grip, and holds the cloth beside it for as long as it holds on. Where
 it is not known where the stack lies, the arms withdraw for another look; where that does not help, one step is made as
@@ -11,11 +11,22 @@ look too; after the last step it is looked for as well.
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 
-from app.rehearsal.corrections import aimed, corrected, held_beside, regrasps, seen_after_drag, still_beside
+from app.rehearsal.corrections import (
+    BY_WHAT_IS_SEEN,
+    WITHOUT_LOOKING,
+    aimed,
+    corrected,
+    held_beside,
+    regrasps,
+    seen_after_drag,
+    still_beside,
+)
 from app.rehearsal.eyes import Picture
 from app.rehearsal.finger_ends import round_finger_ends
 from app.rehearsal.grasp_points import taken_at
+from app.rehearsal.hand_reach import HandReach
 from app.rehearsal.judge import Gate, StepVerdict, carried_pose, carry, judged
+from app.rehearsal.physics.fingers import FingerSize
 from app.rehearsal.result import Decision
 from app.rehearsal.step_motions import posture_at, step_motions
 from app.rehearsal.step_seen import StepSeen
@@ -95,11 +106,11 @@ class Performer:
 
     def _begin(self) -> None:
         """Begin the plan: all its steps are to be made, and the stack is believed to lie where it should."""
-        path, radius_m = self.plan.trajectory, self.plan.task.limits.comfort_radius_m
+        path, task = self.plan.trajectory, self.plan.task
         self._watch.posture = None if path is None else posture_at(path, 0.0)
-        arms = robot_card_file(self.plan.task.robot).arms
-        thickness_m = {arm.name: arm.gripper.finger_thickness_m for arm in arms}
-        self._motions = tuple(round_finger_ends(step_motions(self.plan), thickness_m, radius_m))
+        fingers = {arm.name: FingerSize.of(arm.gripper) for arm in robot_card_file(task.robot).arms}
+        motions, reaches = step_motions(self.plan), HandReach(self.plan)
+        self._motions = tuple(round_finger_ends(motions, fingers, task.limits.comfort_radius_m, reaches))
         self._number, self._carried = 0, Isometry()
 
     def _seen(self, step: PlanStep, motion: StepMotion) -> tuple[StepSeen, str]:
@@ -120,7 +131,7 @@ class Performer:
         Hands that find no cloth try again round where they missed.
         """
         if self.replan is None:
-            return self.world.perform(seen.motion)
+            return self.world.perform(corrected(seen, WITHOUT_LOOKING))
         if not seen.takes_cloth:
             hands, self._hands = self._hands, {}
             return self._tried(seen, hands)
@@ -138,7 +149,7 @@ class Performer:
 
     def _tried(self, seen: StepSeen, hands: Mapping[str, Point2]) -> Performed:
         """Perform a step as corrected, with hands that are seen that far beside their places."""
-        made = replace(corrected(seen), needs_all=seen.takes_cloth)
+        made = replace(corrected(seen, BY_WHAT_IS_SEEN), needs_all=seen.takes_cloth)
         self._held = still_beside(seen, made)
         return self.world.perform(aimed(made, hands))
 

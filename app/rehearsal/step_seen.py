@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 
+from app.rehearsal.step_motions import step_motions
 from app.rehearsal.vision.seen_stack import SeenStack
 from app.rehearsal.world import StepMotion
 from planner.folds.fold_sequence import FoldSequence
@@ -21,7 +22,7 @@ class StepSeen:
     Attributes:
         plan: the plan.
         step: its step.
-        motion: the step's motion, as planned.
+        motion: the step's motion, which lands short by what fingers reach (see `round_finger_ends`).
         carried: from where the stack should lie to where it lies, table frame.
         stack: how it was seen; None where it was not to be made out.
         offsets: how far beside their grips these arms take the cloth, or hold it (m).
@@ -38,6 +39,11 @@ class StepSeen:
     def sequence(self) -> FoldSequence:
         """The garment's folds."""
         return self.plan.sequence
+
+    @cached_property
+    def planned(self) -> StepMotion:
+        """The step's motion as planned."""
+        return step_motions(self.plan)[self.motion.step]
 
     @property
     def radius_m(self) -> float:

@@ -2,7 +2,9 @@
 
 from dataclasses import dataclass
 
+import cv2
 import numpy as np
+from numpy.typing import NDArray
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,3 +67,44 @@ def random_look(rng: np.random.Generator, *, has_arm: bool = False) -> Look:
         has_arm=has_arm,
         wobble_m=float(rng.uniform(0.0, 0.003)),
     )
+
+
+FloatImage = NDArray[np.float32]
+
+
+def wood(look: Look, side: int, rng: np.random.Generator) -> FloatImage:
+    """Return a table of `side` pixels a side, grained along its rows: blue, green, red."""
+    grain = stretched(rng, side, (20, 2), 2.0)
+    knots = stretched(rng, side, (20, 20), 1.3)
+    shade = 22 * look.wood * (grain / grain.std() + 0.6 * knots / knots.std())
+    tint = np.array([0.7, 0.9, 1.0], np.float32)
+    return np.asarray(np.asarray(look.table, np.float32) + shade[:, :, None] * tint, np.float32)
+
+
+def stretched(rng: np.random.Generator, side: int, times: tuple[int, int], blur: float) -> FloatImage:
+    """Return noise of so many pixels, blurred and then stretched across and down."""
+    across, down = times
+    noise = rng.standard_normal((side // down + 1, side // across + 1), dtype=np.float32)
+    if blur:
+        noise = np.asarray(cv2.GaussianBlur(noise, (0, 0), blur), np.float32)
+    return np.asarray(cv2.resize(noise, (side, side), interpolation=cv2.INTER_CUBIC), np.float32)
+
+
+Image = NDArray[np.uint8]
+
+
+def developed(taken: FloatImage, look: Look, rng: np.random.Generator) -> Image:
+    """Return the picture of a scene, shape (height, width, 3); colours 0..255."""
+    height, width = taken.shape[:2]
+    across = np.linspace(-1, 1, width, dtype=np.float32)[None, :]
+    down = np.linspace(-1, 1, height, dtype=np.float32)[:, None]
+    light = 1.0 + rng.uniform(-0.12, 0.12) * across + rng.uniform(-0.12, 0.12) * down - 0.06 * (across**2 + down**2)
+    lit = cv2.GaussianBlur(taken * light[:, :, None].astype(np.float32), (0, 0), 0.9)
+    grainy = np.clip(lit + look.noise * rng.standard_normal(taken.shape, dtype=np.float32), 0, 255)
+    return np.asarray(grainy, np.uint8)
+
+
+def coded(image: Image, quality: int) -> bytes:
+    """Return a picture as a JPEG."""
+    _, data = cv2.imencode(".jpg", image, [cv2.IMWRITE_JPEG_QUALITY, quality])
+    return bytes(data)

@@ -11,8 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.rehearsal.camera.camera import Camera
-from app.rehearsal.vision.crease_edges import CreaseEdges
-from app.rehearsal.vision.outline_edges import OutlineEdges
+from app.rehearsal.vision.outline_edges import CreaseEdges, OutlineEdges
 from planner.cloth.cloth_state import ClothState
 from planner.cloth.garment import Garment
 from planner.geometry.pose import FloatArray, Pose2

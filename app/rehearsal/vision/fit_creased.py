@@ -14,13 +14,12 @@ from functools import cached_property
 import numpy as np
 from scipy.optimize import least_squares
 
-from app.rehearsal.vision.crease_edges import CreaseEdges
-from app.rehearsal.vision.expected import Expected
 from app.rehearsal.vision.fit_fold import FoldedOutline
 from app.rehearsal.vision.fit_stack import thinned
+from app.rehearsal.vision.outline_edges import CreaseEdges
 from app.rehearsal.vision.seen_stack import SeenStack
 from app.rehearsal.vision.stack_figure import Figure
-from app.rehearsal.vision.stack_fit import StackFit
+from app.rehearsal.vision.stack_fit import Expected, StackFit
 from planner.cloth.fold_kinds import FOLD_KINDS
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.pose import FloatArray, Pose2

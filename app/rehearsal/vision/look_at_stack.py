@@ -14,14 +14,13 @@ import numpy as np
 
 from app.rehearsal.camera.camera import Camera
 from app.rehearsal.vision.edge_heights import EdgeHeights
-from app.rehearsal.vision.expected import Expected
 from app.rehearsal.vision.fit_creased import Creased
 from app.rehearsal.vision.fit_stack import fit_near
 from app.rehearsal.vision.on_table import why_in_doubt
 from app.rehearsal.vision.picture import Image
 from app.rehearsal.vision.seen_stack import SeenStack
 from app.rehearsal.vision.segment import Mask, segment
-from app.rehearsal.vision.stack_fit import TOO_UNCERTAIN, StackFit, unknown_json
+from app.rehearsal.vision.stack_fit import TOO_UNCERTAIN, Expected, StackFit, unknown_json
 from app.rehearsal.vision.vision_errors import NothingToldError
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.pose import BoolArray, FloatArray, Pose2

@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from app.rehearsal.vision.expected import Expected
 from app.rehearsal.vision.fit_fold import FoldedOutline
 from app.rehearsal.vision.outline_edges import OutlineEdges
 from app.rehearsal.vision.stack_figure import Figure
+from app.rehearsal.vision.stack_fit import Expected
 from planner.geometry.pose import FloatArray, Pose2
 
 _MOVED_M = 1e-4

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from app.rehearsal.camera.posture import Posture
-from app.rehearsal.deflection import deflected
+from app.rehearsal.noisy_world import deflected
 from planner.geometry.pose import FloatArray, Pose2
 from planner.robots.load_robot import load_robot
 from tests.sweep import sweep

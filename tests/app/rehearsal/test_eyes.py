@@ -15,9 +15,9 @@ from app.rehearsal.judge import Gate
 from app.rehearsal.perform import Performer
 from app.rehearsal.replay_world import Recorded, ReplayWorld
 from app.rehearsal.step_motions import posture_at, step_motions
-from app.rehearsal.vision.expected import Expected
 from app.rehearsal.vision.fit_fold import FoldedOutline
 from app.rehearsal.vision.look_at_stack import Looker
+from app.rehearsal.vision.stack_fit import Expected
 from app.rehearsal.watch import Watch
 from app.rehearsal.world import REACH, WITHDRAW, Observation, Performed, Truth
 from planner import Plan, Task, make_plan

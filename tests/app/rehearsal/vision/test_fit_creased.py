@@ -5,15 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.rehearsal.vision.crease_edges import CreaseEdges
-from app.rehearsal.vision.expected import Expected
 from app.rehearsal.vision.fit_creased import Creased
 from app.rehearsal.vision.fit_fold import FoldedOutline
 from app.rehearsal.vision.fit_stack import fit_near
-from app.rehearsal.vision.outline_edges import OutlineEdges
+from app.rehearsal.vision.outline_edges import CreaseEdges, OutlineEdges
 from app.rehearsal.vision.seen_stack import SeenStack
 from app.rehearsal.vision.stack_figure import Figure
-from app.rehearsal.vision.stack_fit import LOOKS_ALIKE, StackFit
+from app.rehearsal.vision.stack_fit import LOOKS_ALIKE, Expected, StackFit
 from planner import load_garment
 from planner.folds.fold_sequence import FoldSequence, replayed
 from planner.geometry.pose import FloatArray, Pose2

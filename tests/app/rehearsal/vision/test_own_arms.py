@@ -12,8 +12,8 @@ from app.rehearsal.camera.mounted import hung, overhead
 from app.rehearsal.camera.picture import ClothSeen, picture
 from app.rehearsal.camera.posture import Posture
 from app.rehearsal.camera.robot_shape import RobotShape, robot_shape
-from app.rehearsal.deflection import deflected
 from app.rehearsal.hand_eye import HandEye
+from app.rehearsal.noisy_world import deflected
 from app.rehearsal.planned_cloth import planned_positions
 from app.rehearsal.step_motions import posture_at
 from app.rehearsal.vision.own_arms import seen_beside
