@@ -7,6 +7,7 @@ anyone sees it.
 
 import threading
 import time
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
@@ -55,7 +56,49 @@ class EndedDocumentError(FoldingError):
         return "the document has been closed"
 
 
-class Document:
+class Played(ABC):
+    """What has a playback: its controls, for any thread."""
+
+    _clock: Callable[[], float]
+
+    @property
+    @abstractmethod
+    def state(self) -> DocumentState:
+        """The current state."""
+
+    @abstractmethod
+    def _change_playback(self, change: Callable[[Playback], Playback]) -> None:
+        """Put what a function makes of the playback in its place."""
+
+    @property
+    def t_s(self) -> float:
+        """The current time in the plan (s)."""
+        return self.state.playback.at(self._clock())
+
+    def play(self) -> None:
+        """Start playing; without a solved plan, do nothing."""
+        self._change_playback(lambda playback: playback.played(self._clock()))
+
+    def pause(self) -> None:
+        """Stop playing."""
+        self._change_playback(lambda playback: playback.paused(self._clock()))
+
+    def seek(self, t_s: float) -> None:
+        """Go to a time in the plan (s)."""
+        self._change_playback(lambda playback: playback.sought(self._clock(), t_s))
+
+    def set_speed(self, speed: float) -> None:
+        """Set the playback's speed."""
+        self._change_playback(lambda playback: playback.sped(self._clock(), speed))
+
+    def stop_at_end(self) -> None:
+        """Pause if the plan has been played to its end."""
+        playback = self.state.playback
+        if playback.is_playing and playback.has_ended(self._clock()):
+            self.pause()
+
+
+class Document(Played):
     """A drawing with its history, the answer to it, and the playback of that answer."""
 
     def __init__(
@@ -93,11 +136,6 @@ class Document:
     def state(self) -> DocumentState:
         """The current state."""
         return self._state.value
-
-    @property
-    def t_s(self) -> float:
-        """The current time in the plan (s)."""
-        return self.state.playback.at(self._clock())
 
     def subscribe(self, listener: Listener) -> Callable[[], None]:
         """Call a function after every change, in the thread that made it; return the function that unsubscribes it."""
@@ -201,25 +239,9 @@ class Document:
 
         self._state.change(change)
 
-    def play(self) -> None:
-        """Start playing; without a solved plan, do nothing."""
-        self._change_playback(lambda playback: playback.played(self._clock()))
-
-    def pause(self) -> None:
-        """Stop playing."""
-        self._change_playback(lambda playback: playback.paused(self._clock()))
-
-    def seek(self, t_s: float) -> None:
-        """Go to a time in the plan (s)."""
-        self._change_playback(lambda playback: playback.sought(self._clock(), t_s))
-
     def rewind(self) -> None:
         """Stop playing and go to the start."""
         self._change_playback(lambda playback: playback.paused(self._clock()).sought(self._clock(), 0.0))
-
-    def set_speed(self, speed: float) -> None:
-        """Set the playback's speed."""
-        self._change_playback(lambda playback: playback.sped(self._clock(), speed))
 
     def set_theme(self, *, is_dark: bool) -> None:
         """Set whether the background is dark."""
@@ -240,12 +262,6 @@ class Document:
     def show_trace(self, trace: RunTrace | None) -> None:
         """Have the 3D view show the cloth of a rehearsed run along with the plan on show; None: no more."""
         self._state.change(lambda state: state.tracing(trace))
-
-    def stop_at_end(self) -> None:
-        """Pause if the plan has been played to its end."""
-        playback = self.state.playback
-        if playback.is_playing and playback.has_ended(self._clock()):
-            self.pause()
 
     def _redraw(self, change: Callable[[Draft], Draft], base_version: int | None) -> DocumentState:
         """Change the draft; the lock `_edits` allows one change at a time, and only this method makes new versions."""

@@ -115,18 +115,6 @@ class CreaseRequest(StrictModel):
     line: Line | None = None
 
 
-class OverlaysRequest(StrictModel):
-    """A request for overlays, at a time of the plan (s) or with the robot at a station (m back from it).
-
-    `show` names some of them, separated by commas; all by default.
-    """
-
-    t_s: Annotated[float, Field(ge=0.0)] | None = None
-    station: str | None = None
-    back_off_m: float = 0.0
-    show: str | None = None
-
-
 class Play(StrictModel):
     """Let time run."""
 
@@ -302,10 +290,17 @@ class AskPictures(StrictModel):
     plan: Annotated[str, Field(max_length=64)]
 
 
-class AskOverlays(OverlaysRequest):
-    """What are the overlays?"""
+class AskOverlays(StrictModel):
+    """What are the overlays at a time of the plan (s), or with the robot at a station (m back from it)?
+
+    `show` names some of them, separated by commas; all by default.
+    """
 
     do: Literal["overlays"]
+    t_s: Annotated[float, Field(ge=0.0)] | None = None
+    station: str | None = None
+    back_off_m: float = 0.0
+    show: str | None = None
 
 
 class AskPlaces(PlacesRequest):
