@@ -212,21 +212,20 @@ class Document(Played):
         """Request an answer to a version for which planning was stopped or failed."""
         self._state.change(lambda state: replace(state, failure=None) if state.failure else state)
 
-    def plan_from(self, step: int) -> None:
-        """Plan the rest after a step of the plan shown; raise `RequestError` if there is none. -1: before the first."""
-        self._start_at(lambda state: state.start_after(step))
-
-    def plan_from_state(self, start_of: Callable[[Task], WorldState]) -> None:
-        """Plan the rest from a state of the world, made from the task as drawn.
+    def plan_from(self, start_of: Callable[[DocumentState], WorldState | None]) -> None:
+        """Plan the same drawing from another world state, None for its own start; it is saved before anyone sees it.
 
         Raises:
-            RequestError: the drawing has problems, or it cannot be planned from there.
+            RequestError: the drawing cannot be planned from there.
         """
-        self._start_at(lambda state: state.start_in(start_of))
-
-    def plan_from_start(self) -> None:
-        """Plan all folds again, from the drawing's own start."""
-        self._start_at(lambda _: None)
+        with self._edits:
+            if self._has_ended:
+                raise EndedDocumentError
+            start = start_of(self.state)
+            if start != self.state.start:
+                with self._unless_overtaken():
+                    self._keep_start(start)
+            self._state.change(lambda state: state.started_at(start, self._clock()))
 
     def look_longer(self) -> None:
         """Request more search for this version, if that may improve its answer."""
@@ -277,17 +276,6 @@ class Document(Played):
             with self._unless_overtaken():
                 self._keep(version + 1, after)
             return self._state.change(lambda state: state.redrawn(after, self._clock()))
-
-    def _start_at(self, start_of: Callable[[DocumentState], WorldState | None]) -> None:
-        """Plan the same drawing from another world state; it is saved before anyone sees it."""
-        with self._edits:
-            if self._has_ended:
-                raise EndedDocumentError
-            start = start_of(self.state)
-            if start != self.state.start:
-                with self._unless_overtaken():
-                    self._keep_start(start)
-            self._state.change(lambda state: state.started_at(start, self._clock()))
 
     @contextmanager
     def _unless_overtaken(self) -> Iterator[None]:

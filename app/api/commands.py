@@ -81,11 +81,11 @@ def dispatch(wanted: Wanted, workspace: Workspace, document: Document) -> Docume
         case LookLonger():
             document.look_longer()
         case PlanFrom(step=None):
-            document.plan_from_start()
+            document.plan_from(lambda _: None)
         case PlanFrom(step=int(step)):
-            document.plan_from(step)
+            document.plan_from(lambda state: state.start_after(step))
         case PlanFromState(start=start):
-            document.plan_from_state(lambda task: requested_start(task, start))
+            document.plan_from(lambda state: state.start_in(lambda task: requested_start(task, start)))
         case Stop():
             document.stop_planning()
         case Preview(plan=None):

@@ -9,8 +9,7 @@ from typing import Annotated, Any, Literal, TypeAlias, cast
 from pydantic import ConfigDict, Field, PlainValidator
 from pydantic_core import PydanticCustomError
 
-from app.api.conditions import either, gives, leaves_out
-from app.api.messages import GarmentField, PlacesRequest, StartField
+from app.api.messages import GarmentField, PlacesRequest, StartField, either, gives, leaves_out
 from app.drawing.drawing_json import DrawingModel
 from app.language import Language
 from app.playback import SPEED_MAX, SPEED_MIN

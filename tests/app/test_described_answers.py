@@ -20,7 +20,7 @@ from app.api.document_answers import (
 from app.api.file_routes import FileEntry, ImportAnswer
 from app.api.live_answers import LiveMessage
 from app.api.problems import Problem
-from app.api.suggestion_events import DoneEvent, SuggestionEvent, TryingEvent
+from app.api.suggestion_routes import DoneEvent, SuggestionEvent, TryingEvent
 from app.api.template_routes import MadeAnswer, TemplateAnswer
 from planner.robots.card_file import CardFile
 from planner.task.scene import Scene
