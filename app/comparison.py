@@ -4,7 +4,6 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from app.comfort_margin import STEPS, comfort_margin_m
 from planner.cloth.garment import Garment
 from planner.explain.suggestion import Suggestion
 from planner.explain.suggestions import suggestions
@@ -12,7 +11,10 @@ from planner.planning.robot_task import task_for
 from planner.plans import make_plan
 from planner.task.plan import Plan
 from planner.task.reason import Code
-from planner.task.task import Limits, Task
+from planner.task.task import COMFORT_MAX_M, Limits, Task
+
+STEPS = 4
+"""Halvings, each a plan: to some millimetres."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,3 +88,17 @@ def compared(
 def _margin_m(task: Task, should_stop: Callable[[], bool] | None) -> float:
     share = replace(task.limits, time_limit_s=max(task.limits.time_limit_s / STEPS, 0.01))
     return comfort_margin_m(replace(task, limits=share), lambda tried: make_plan(tried, should_stop=should_stop))
+
+
+def comfort_margin_m(task: Task, make_plan: Callable[[Task], Plan]) -> float:
+    """Return the largest comfort radius, at least the task's, for which there is a plan (m), rounded down.
+
+    Args:
+        task: a task that has a plan.
+        make_plan: plans a task.
+    """
+    had, lacking = task.limits.comfort_radius_m, COMFORT_MAX_M
+    for _ in range(STEPS):
+        middle = 0.5 * (had + lacking)
+        had, lacking = (middle, lacking) if make_plan(task.within(middle)).is_solved else (had, middle)
+    return had

@@ -7,6 +7,7 @@ anyone sees it.
 
 import threading
 import time
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
@@ -55,7 +56,49 @@ class EndedDocumentError(FoldingError):
         return "the document has been closed"
 
 
-class Document:
+class Played(ABC):
+    """What has a playback: its controls, for any thread."""
+
+    _clock: Callable[[], float]
+
+    @property
+    @abstractmethod
+    def state(self) -> DocumentState:
+        """The current state."""
+
+    @abstractmethod
+    def _change_playback(self, change: Callable[[Playback], Playback]) -> None:
+        """Put what a function makes of the playback in its place."""
+
+    @property
+    def t_s(self) -> float:
+        """The current time in the plan (s)."""
+        return self.state.playback.at(self._clock())
+
+    def play(self) -> None:
+        """Start playing; without a solved plan, do nothing."""
+        self._change_playback(lambda playback: playback.played(self._clock()))
+
+    def pause(self) -> None:
+        """Stop playing."""
+        self._change_playback(lambda playback: playback.paused(self._clock()))
+
+    def seek(self, t_s: float) -> None:
+        """Go to a time in the plan (s)."""
+        self._change_playback(lambda playback: playback.sought(self._clock(), t_s))
+
+    def set_speed(self, speed: float) -> None:
+        """Set the playback's speed."""
+        self._change_playback(lambda playback: playback.sped(self._clock(), speed))
+
+    def stop_at_end(self) -> None:
+        """Pause if the plan has been played to its end."""
+        playback = self.state.playback
+        if playback.is_playing and playback.has_ended(self._clock()):
+            self.pause()
+
+
+class Document(Played):
     """A drawing with its history, the answer to it, and the playback of that answer."""
 
     def __init__(
@@ -93,11 +136,6 @@ class Document:
     def state(self) -> DocumentState:
         """The current state."""
         return self._state.value
-
-    @property
-    def t_s(self) -> float:
-        """The current time in the plan (s)."""
-        return self.state.playback.at(self._clock())
 
     def subscribe(self, listener: Listener) -> Callable[[], None]:
         """Call a function after every change, in the thread that made it; return the function that unsubscribes it."""
@@ -174,21 +212,20 @@ class Document:
         """Request an answer to a version for which planning was stopped or failed."""
         self._state.change(lambda state: replace(state, failure=None) if state.failure else state)
 
-    def plan_from(self, step: int) -> None:
-        """Plan the rest after a step of the plan shown; raise `RequestError` if there is none. -1: before the first."""
-        self._start_at(lambda state: state.start_after(step))
-
-    def plan_from_state(self, start_of: Callable[[Task], WorldState]) -> None:
-        """Plan the rest from a state of the world, made from the task as drawn.
+    def plan_from(self, start_of: Callable[[DocumentState], WorldState | None]) -> None:
+        """Plan the same drawing from another world state, None for its own start; it is saved before anyone sees it.
 
         Raises:
-            RequestError: the drawing has problems, or it cannot be planned from there.
+            RequestError: the drawing cannot be planned from there.
         """
-        self._start_at(lambda state: state.start_in(start_of))
-
-    def plan_from_start(self) -> None:
-        """Plan all folds again, from the drawing's own start."""
-        self._start_at(lambda _: None)
+        with self._edits:
+            if self._has_ended:
+                raise EndedDocumentError
+            start = start_of(self.state)
+            if start != self.state.start:
+                with self._unless_overtaken():
+                    self._keep_start(start)
+            self._state.change(lambda state: state.started_at(start, self._clock()))
 
     def look_longer(self) -> None:
         """Request more search for this version, if that may improve its answer."""
@@ -201,25 +238,9 @@ class Document:
 
         self._state.change(change)
 
-    def play(self) -> None:
-        """Start playing; without a solved plan, do nothing."""
-        self._change_playback(lambda playback: playback.played(self._clock()))
-
-    def pause(self) -> None:
-        """Stop playing."""
-        self._change_playback(lambda playback: playback.paused(self._clock()))
-
-    def seek(self, t_s: float) -> None:
-        """Go to a time in the plan (s)."""
-        self._change_playback(lambda playback: playback.sought(self._clock(), t_s))
-
     def rewind(self) -> None:
         """Stop playing and go to the start."""
         self._change_playback(lambda playback: playback.paused(self._clock()).sought(self._clock(), 0.0))
-
-    def set_speed(self, speed: float) -> None:
-        """Set the playback's speed."""
-        self._change_playback(lambda playback: playback.sped(self._clock(), speed))
 
     def set_theme(self, *, is_dark: bool) -> None:
         """Set whether the background is dark."""
@@ -241,12 +262,6 @@ class Document:
         """Have the 3D view show the cloth of a rehearsed run along with the plan on show; None: no more."""
         self._state.change(lambda state: state.tracing(trace))
 
-    def stop_at_end(self) -> None:
-        """Pause if the plan has been played to its end."""
-        playback = self.state.playback
-        if playback.is_playing and playback.has_ended(self._clock()):
-            self.pause()
-
     def _redraw(self, change: Callable[[Draft], Draft], base_version: int | None) -> DocumentState:
         """Change the draft; the lock `_edits` allows one change at a time, and only this method makes new versions."""
         with self._edits:
@@ -261,17 +276,6 @@ class Document:
             with self._unless_overtaken():
                 self._keep(version + 1, after)
             return self._state.change(lambda state: state.redrawn(after, self._clock()))
-
-    def _start_at(self, start_of: Callable[[DocumentState], WorldState | None]) -> None:
-        """Plan the same drawing from another world state; it is saved before anyone sees it."""
-        with self._edits:
-            if self._has_ended:
-                raise EndedDocumentError
-            start = start_of(self.state)
-            if start != self.state.start:
-                with self._unless_overtaken():
-                    self._keep_start(start)
-            self._state.change(lambda state: state.started_at(start, self._clock()))
 
     @contextmanager
     def _unless_overtaken(self) -> Iterator[None]:

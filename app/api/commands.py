@@ -28,7 +28,7 @@ from app.api.document_messages import (
 )
 from app.api.problems import LookOnlyError
 from app.api.request_parsing import requested_garment, requested_start
-from app.document import Document
+from app.document import Document, Played
 from app.document_state import DocumentState
 from app.drawing.arcs import with_arcs
 from app.drawing.drawing import Drawing
@@ -81,11 +81,11 @@ def dispatch(wanted: Wanted, workspace: Workspace, document: Document) -> Docume
         case LookLonger():
             document.look_longer()
         case PlanFrom(step=None):
-            document.plan_from_start()
+            document.plan_from(lambda _: None)
         case PlanFrom(step=int(step)):
-            document.plan_from(step)
+            document.plan_from(lambda state: state.start_after(step))
         case PlanFromState(start=start):
-            document.plan_from_state(lambda task: requested_start(task, start))
+            document.plan_from(lambda state: state.start_in(lambda task: requested_start(task, start)))
         case Stop():
             document.stop_planning()
         case Preview(plan=None):
@@ -105,7 +105,7 @@ def play(wanted: Wanted, visitors: VisitorsView) -> None:
         raise LookOnlyError
 
 
-def _play(wanted: Wanted, played: Document | VisitorsView) -> bool:
+def _play(wanted: Wanted, played: Played) -> bool:
     """Carry out a command if it is one of playback; return whether it is."""
     match wanted:
         case Play():

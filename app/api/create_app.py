@@ -22,7 +22,6 @@ from app.api import (
     robot_routes,
     scene_routes,
     study_routes,
-    suggestion_events,
     suggestion_routes,
     template_routes,
     view_3d_routes,
@@ -73,7 +72,7 @@ def create_app(settings: Settings, token: AccessToken | None = None) -> FastAPI:
     app.router.routes.extend(_routes().routes)
     page_routes.mount_files(app)
     install_problems(app)
-    describe(app, LiveCommand, Problem, LiveMessage, *suggestion_events.EVENTS, *job_answers.EVENTS)
+    describe(app, LiveCommand, Problem, LiveMessage, *suggestion_routes.EVENTS, *job_answers.EVENTS)
     app.add_middleware(FailuresAsProblems)
     app.add_middleware(Measured, metrics=app.state.metrics)
     if token is not None:

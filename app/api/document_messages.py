@@ -9,8 +9,7 @@ from typing import Annotated, Any, Literal, TypeAlias, cast
 from pydantic import ConfigDict, Field, PlainValidator
 from pydantic_core import PydanticCustomError
 
-from app.api.conditions import either, gives, leaves_out
-from app.api.messages import GarmentField, PlacesRequest, StartField
+from app.api.messages import GarmentField, PlacesRequest, StartField, either, gives, leaves_out
 from app.drawing.drawing_json import DrawingModel
 from app.language import Language
 from app.playback import SPEED_MAX, SPEED_MIN
@@ -114,18 +113,6 @@ class CreaseRequest(StrictModel):
     kind: FoldName = "blue"
     grab: Grab | None = None
     line: Line | None = None
-
-
-class OverlaysRequest(StrictModel):
-    """A request for overlays, at a time of the plan (s) or with the robot at a station (m back from it).
-
-    `show` names some of them, separated by commas; all by default.
-    """
-
-    t_s: Annotated[float, Field(ge=0.0)] | None = None
-    station: str | None = None
-    back_off_m: float = 0.0
-    show: str | None = None
 
 
 class Play(StrictModel):
@@ -303,10 +290,17 @@ class AskPictures(StrictModel):
     plan: Annotated[str, Field(max_length=64)]
 
 
-class AskOverlays(OverlaysRequest):
-    """What are the overlays?"""
+class AskOverlays(StrictModel):
+    """What are the overlays at a time of the plan (s), or with the robot at a station (m back from it)?
+
+    `show` names some of them, separated by commas; all by default.
+    """
 
     do: Literal["overlays"]
+    t_s: Annotated[float, Field(ge=0.0)] | None = None
+    station: str | None = None
+    back_off_m: float = 0.0
+    show: str | None = None
 
 
 class AskPlaces(PlacesRequest):

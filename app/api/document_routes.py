@@ -17,6 +17,8 @@ from app.api.document_answers import (
     CreaseAnswer,
     DocumentAnswer,
     DocumentEntryAnswer,
+    OverlaysAnswer,
+    PlacesAnswer,
     PlaybackAnswer,
     QuickFixesAnswer,
     StepsAnswer,
@@ -24,6 +26,7 @@ from app.api.document_answers import (
 )
 from app.api.document_messages import (
     AnyCommand,
+    AskOverlays,
     AskQuickFixes,
     AskSteps,
     Command,
@@ -31,7 +34,6 @@ from app.api.document_messages import (
     EditRequest,
     GarmentRequest,
     NewDocument,
-    OverlaysRequest,
     Redo,
     RobotRequest,
     TravelRequest,
@@ -39,7 +41,6 @@ from app.api.document_messages import (
 )
 from app.api.live_messages import document_message, document_text, playback_message
 from app.api.messages import PlacesRequest
-from app.api.overlay_answers import OverlaysAnswer, PlacesAnswer
 from app.api.problems import ProblemResponse
 from app.api.questions import Asked, work_of
 from app.api.request_parsing import requested_garment, workspace_of
@@ -224,7 +225,7 @@ async def read_overlays(
 
     By default they are those at the document's own time; without a plan, at the station where the robot starts.
     """
-    wanted = OverlaysRequest(t_s=t_s, station=station, back_off_m=back_off_m, show=show)
+    wanted = AskOverlays(do="overlays", t_s=t_s, station=station, back_off_m=back_off_m, show=show)
     return await _answered(request, document_id, wanted)
 
 

@@ -5,9 +5,16 @@ from typing import Literal
 from pydantic import BaseModel, RootModel
 
 from app.api.answers import PictureAnswer, PlanAnswer, Point
-from app.api.document_answers import CreaseAnswer, DocumentAnswer, PlaybackAnswer, QuickFixesAnswer, StepsAnswer
+from app.api.document_answers import (
+    CreaseAnswer,
+    DocumentAnswer,
+    OverlaysAnswer,
+    PlacesAnswer,
+    PlaybackAnswer,
+    QuickFixesAnswer,
+    StepsAnswer,
+)
 from app.api.document_messages import Sent
-from app.api.overlay_answers import OverlaysAnswer, PlacesAnswer
 from app.api.problems import Problem
 from planner.task.world_state import WorldState
 

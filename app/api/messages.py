@@ -7,7 +7,6 @@ from annotated_types import Interval
 from pydantic import ConfigDict, Field, PlainValidator
 from pydantic_core import PydanticCustomError
 
-from app.api.conditions import either, gives
 from planner.cloth.garment import FOLDS_MAX, Garment
 from planner.geometry.given import GivenPose
 from planner.planning.robot_task import with_robots_scene
@@ -15,6 +14,21 @@ from planner.strict_model import LARGEST_M, Bounded, StrictModel
 from planner.task.scene import Scene
 from planner.task.task import DEFAULT_ROBOT, TIME_LIMIT_S, Limits
 from planner.task.world_state import HeldPoint
+
+
+def gives(**types: str) -> dict[str, Any]:
+    """Return the schema of objects that have these fields, each of a JSON type and not null."""
+    return {"properties": {name: {"type": kind} for name, kind in types.items()}, "required": list(types)}
+
+
+def leaves_out(*names: str) -> dict[str, Any]:
+    """Return the schema of objects in which these fields are null or left out."""
+    return {"properties": {name: {"type": "null"} for name in names}}
+
+
+def either(*conditions: dict[str, Any]) -> dict[str, Any]:
+    """Return what to add to the schema of an object of which at least one condition has to hold."""
+    return {"anyOf": list(conditions)}
 
 
 def _garment(value: Any) -> str | Garment:  # noqa: ANN401

@@ -8,11 +8,11 @@ import numpy as np
 
 from app import searches
 from app.api.document_messages import (
+    AskOverlays,
     AskPictures,
     AskQuickFixes,
     AskSteps,
     CreaseRequest,
-    OverlaysRequest,
 )
 from app.api.messages import PlacesRequest
 from app.api.request_parsing import TimeLimit
@@ -33,7 +33,7 @@ from planner.geometry.segment import Segment
 from planner.task.plan import Plan
 from planner.task.task import Task
 
-Asked: TypeAlias = CreaseRequest | AskSteps | AskQuickFixes | AskPictures | OverlaysRequest | PlacesRequest
+Asked: TypeAlias = CreaseRequest | AskSteps | AskQuickFixes | AskPictures | AskOverlays | PlacesRequest
 
 
 class Work(NamedTuple):
@@ -62,7 +62,7 @@ def work_of(asked: Asked, workspace: Workspace, opened: OpenDocument) -> Work:
             return Work(quick, lambda _: _quick_fixes(state))
         case AskPictures(plan=plan_id):
             return Work(quick, lambda _: pictures(workspace.plans.plan(plan_id)))
-        case OverlaysRequest():
+        case AskOverlays():
             time_s, shown = opened.document.t_s if asked.t_s is None else asked.t_s, _shown(asked)
             return Work(quick, lambda _: _overlays(state, time_s, asked, shown))
         case PlacesRequest():
@@ -104,7 +104,7 @@ def _quick_fixes(state: DocumentState) -> dict[str, Any]:
     return {"version": state.version, "quick_fixes": [found.to_dict() for found in quick_fixes(state.draft)]}
 
 
-def _shown(asked: OverlaysRequest) -> frozenset[str]:
+def _shown(asked: AskOverlays) -> frozenset[str]:
     """Return the names of the overlays that are asked for."""
     if asked.t_s is not None and asked.station is not None:
         raise RequestError("station", "is asked for together with t_s")
@@ -117,7 +117,7 @@ def _shown(asked: OverlaysRequest) -> frozenset[str]:
     return names
 
 
-def _overlays(state: DocumentState, time_s: float, asked: OverlaysRequest, shown: frozenset[str]) -> dict[str, Any]:
+def _overlays(state: DocumentState, time_s: float, asked: AskOverlays, shown: frozenset[str]) -> dict[str, Any]:
     moment: Moment
     if asked.station is None and state.shown is not None:
         moment = moment_of_plan(state, time_s)

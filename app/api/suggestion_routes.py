@@ -7,7 +7,7 @@ from concurrent.futures import Future
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Depends, Query, Request
 from fastapi.concurrency import run_in_threadpool
@@ -16,12 +16,13 @@ from pydantic import BaseModel
 from starlette.responses import JSONResponse
 
 from app import searches
+from app.api.answers import Change, Says
 from app.api.body import JsonBody
 from app.api.described import DescribedRoute, problems
 from app.api.disconnect import answer_of, until
+from app.api.event_streams import event_stream
 from app.api.messages import PlacementsRequest, PlanRequest
 from app.api.request_parsing import TimeLimit, requested_places, requested_task, within_request, workspace_of
-from app.api.suggestion_events import STREAM
 from app.jobs.job_pool import Job
 from app.store.plan_store import UnknownPlanError
 from app.worker.process import ignore
@@ -45,6 +46,78 @@ Known = Annotated[str | None, Query(description="id of the answer to this reques
 
 _GRACE_S = 2.0
 """Time after its limit in which a search that has begun may end by itself before its process is killed (s)."""
+
+
+Kind = Literal[
+    "placement",
+    "fold_line",
+    "split",
+    "halve",
+    "flip",
+    "order",
+    "station",
+    "robot",
+    "size",
+    "friction",
+    "grip_radius",
+    "comfort_radius",
+    "together",
+]
+
+
+class TryingEvent(BaseModel):
+    """The data of an event `trying`: a change that is being planned."""
+
+    kind: Kind
+    says: Says
+
+
+class SuggestionEvent(BaseModel):
+    """The data of an event `suggestion`: a change that gives a plan, and the plan's id."""
+
+    kind: Kind
+    is_assumption: bool
+    message: str
+    says: Says
+    change: Change
+    size: float
+    cost_s: float
+    plan_id: str
+
+
+class DoneEvent(BaseModel):
+    """The data of the last event, `done`: how many were found, how long it took, whether all changes were tried."""
+
+    count: int
+    elapsed_s: float
+    complete: bool
+
+
+EVENTS = (TryingEvent, SuggestionEvent, DoneEvent)
+
+_SHIFTED: dict[str, Any] = {
+    "kind": "placement",
+    "says": {"code": "place", "quarters": 0, "by": [-0.1, 0.0]},
+}
+STREAM = event_stream(
+    {
+        "trying": (TryingEvent, _SHIFTED),
+        "suggestion": (
+            SuggestionEvent,
+            {
+                **_SHIFTED,
+                "is_assumption": False,
+                "message": "move it 10 cm",
+                "change": {"placement": {"x_m": -0.5, "y_m": 0.2, "yaw_rad": 0.0}},
+                "size": 0.1,
+                "cost_s": 16.2,
+                "plan_id": "0123456789abcdef0123456789abcdef",
+            },
+        ),
+        "done": (DoneEvent, {"count": 1, "elapsed_s": 2.5, "complete": True}),
+    },
+    "Changes as they are tried and found",
+)
 
 
 class CellAnswer(BaseModel):

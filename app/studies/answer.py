@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from app.comfort_margin import comfort_margin_m
+from app.comparison import comfort_margin_m
 from app.studies.cell import Cell
 from app.studies.rehearsed import rehearsed
 from planner.planning.margins import margins_of

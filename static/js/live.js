@@ -70,13 +70,17 @@ export class Live extends EventTarget {
     if (this.socket) this.lose();
   }
 
-  /** @param {{kind: string, ask?: number|null}} message */
+  /** @param {{kind: string, ask?: number|null}} message without a number it is for all who listen */
   hear(message) {
-    const waiting = message.ask === null ? undefined : this.waiting.get(message.ask ?? -1);
-    if (!waiting) this.dispatchEvent(new CustomEvent(message.kind, { detail: message }));
-    else if (message.kind === "answer") waiting.resolve(/** @type {Result} */ (message));
-    else waiting.reject(new RefusedError(/** @type {any} */ (message)));
-    if (waiting) this.waiting.delete(/** @type {number} */ (message.ask));
+    const { kind, ask } = message;
+    if (typeof ask !== "number") {
+      this.dispatchEvent(new CustomEvent(kind, { detail: message }));
+      return;
+    }
+    const waiting = this.waiting.get(ask);
+    this.waiting.delete(ask);
+    if (kind === "answer") waiting?.resolve(/** @type {Result} */ (message));
+    else waiting?.reject(new RefusedError(/** @type {any} */ (message)));
   }
 
   /** @param {number} [code] why the socket was closed */

@@ -71,7 +71,10 @@ const CHANNEL = "/session/";
 
 /** @typedef {{nodeRefFromName: Record<string, unknown>, sendMessage: (message: object) => void}} Viser */
 
-/** * The viewpoints, in the 3D view itself. The server moves the camera, as it rides along with the robot; which of its sessions this page's frame is, a node of the frame's scene says (`app/ui/viewpoints/viewpoint_choice.py`). */
+/**
+ * The viewpoints, in the 3D view itself. The server moves the camera, as it rides along with the robot; which of its
+ * sessions this page's frame is, a node of the frame's scene says (`app/ui/viewpoints/viewpoint_choice.py`).
+ */
 class View3DViews {
   /** @param {HTMLIFrameElement} frame */
   constructor(frame) {

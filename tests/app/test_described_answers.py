@@ -12,15 +12,15 @@ from app.api.document_answers import (
     CreaseAnswer,
     DocumentAnswer,
     DocumentEntryAnswer,
+    OverlaysAnswer,
     PlaybackAnswer,
     QuickFixesAnswer,
     StepsAnswer,
 )
 from app.api.file_routes import FileEntry, ImportAnswer
 from app.api.live_answers import LiveMessage
-from app.api.overlay_answers import OverlaysAnswer
 from app.api.problems import Problem
-from app.api.suggestion_events import DoneEvent, SuggestionEvent, TryingEvent
+from app.api.suggestion_routes import DoneEvent, SuggestionEvent, TryingEvent
 from app.api.template_routes import MadeAnswer, TemplateAnswer
 from planner.robots.card_file import CardFile
 from planner.task.scene import Scene

@@ -6,7 +6,7 @@ import httpx
 import pytest
 from pydantic import TypeAdapter
 
-from app.api import job_answers, suggestion_events
+from app.api import job_answers, suggestion_routes
 from planner.task.task import Limits
 from tests.app.test_described_answers import assert_described
 from tests.app.test_suggestion_routes import events_in
@@ -66,7 +66,7 @@ async def test_every_example_of_a_body_is_answered(client: httpx.AsyncClient) ->
 
 async def test_events_are_described_one_by_one_with_examples_that_are_such_events(client: httpx.AsyncClient) -> None:
     description = (await client.get("/openapi.json")).json()
-    models = {model.__name__: model for model in (*suggestion_events.EVENTS, *job_answers.EVENTS)}
+    models = {model.__name__: model for model in (*suggestion_routes.EVENTS, *job_answers.EVENTS)}
     found = {}
     for path, operations in description["paths"].items():
         for operation in operations.values():

@@ -223,7 +223,7 @@ def test_the_plan_of_a_drawing_that_was_changed_since_is_none_to_go_on_from(plan
     document.edit(Edit("Begin elsewhere", replace(document.state.drawing, start_station="left")))
     assert document.state.answer is not None and not document.state.is_answered
     with pytest.raises(RequestError, match="no plan of the drawing"):
-        document.plan_from(0)
+        document.plan_from(lambda state: state.start_after(0))
     assert document.state.start is None
 
 
@@ -231,7 +231,7 @@ def test_an_answer_from_the_beginning_that_comes_late_is_none_to_what_is_left(pl
     document = answered(plan)
     whole = document.state.task
     assert whole is not None
-    document.plan_from(0)
+    document.plan_from(lambda state: state.start_after(0))
     document.settle(1, whole, plan, "late")
     assert document.state.is_planning
     assert document.state.shown is None

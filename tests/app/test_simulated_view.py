@@ -91,9 +91,9 @@ def test_a_run_is_shown_along_with_its_plan_alone(plan: Plan, trace: RunTrace) -
     document.settle(1, task, plan, "first")
     document.show_trace(trace)
     assert shown_run(document) is trace
-    document.plan_from(0)
+    document.plan_from(lambda state: state.start_after(0))
     assert shown_run(document) is None
-    document.plan_from_start()
+    document.plan_from(lambda _: None)
     again = make_plan(load_garment("t-shirt"))
     document.settle(1, task, again, "again")
     assert shown_run(document) is None

@@ -279,7 +279,7 @@ def test_a_drawing_is_made_as_large_as_the_garment_of_a_suggestion_and_folds_sta
     }
     made = page.evaluate(
         """async (drawing) => {
-          const { applyChange } = await import("/static/js/dock/suggestion_change.js");
+          const { applyChange } = await import("/static/js/dock/suggestion_button.js");
           const { ringOf } = await import("/static/js/board/curves.js");
           const outline = ringOf(drawing).map(([x, y]) => [x / 2, y / 2]);
           const folds = [{ start: [0, 0], end: [0.4, 0.1], grip_radius_m: 0.127 }];

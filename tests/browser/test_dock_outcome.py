@@ -277,7 +277,7 @@ def test_a_change_of_a_suggestion_keeps_the_ties_of_folds_that_stay(page: Page, 
     shifted = {**wanted, "name": "again", "start": [0.4, 0.2], "end": [0.0, 0.2], "grip_radius_m": 0.3}
     changed = page.evaluate(
         """async ([drawing, folds]) => {
-          const { applyChange } = await import("/static/js/dock/suggestion_change.js");
+          const { applyChange } = await import("/static/js/dock/suggestion_button.js");
           applyChange(drawing, { garment: { folds } });
           return drawing.folds;
         }""",

@@ -33,7 +33,7 @@ def test_planning_shows_only_when_it_takes_long(page: Page, designer: Served, mi
 
 
 REFINING = """async (ids) => {
-  const { Refining } = await import("/static/js/dock/refining.js");
+  const { Refining } = await import("/static/js/dock/planning.js");
   const store = Object.assign(new EventTarget(), { isLive: true, state: { version: 2 } });
   const refining = new Refining(store);
   const tell = (id, isFinal) => {

@@ -1,6 +1,6 @@
 """The choice of a viewpoint; it moves only the camera of the visitor who chose it.
 
-Its buttons stand on the page, over the 3D view (`static/js/viewpoints.js`). A page knows its visitor only by the name
+Its buttons stand on the page, over the 3D view (`static/js/view3d.js`). A page knows its visitor only by the name
 that viser gives the choice, which a node of the visitor's own scene tells it.
 
 The robot's-eye camera follows the robot until the visitor moves it. A browser reports its camera with a delay: it

@@ -1,7 +1,7 @@
 /** What can be compared: versions of the document, other documents, plans made before. Each is planned when it is chosen. */
 
 import { OFFLINE, sentenceOf } from "../dialogs/dialog.js";
-import { fetched } from "../dialogs/fetched.js";
+import { fetched } from "../dialogs/documents.js";
 import { titleOf, when } from "../gallery/tile.js";
 import { listed } from "../garments.js";
 import { say, translated } from "../language/say.js";

@@ -1,5 +1,7 @@
 /** Documents: each has its own address, and the page goes there. */
 
+import { OFFLINE, sentenceOf } from "./dialog.js";
+
 /** @import { Garment } from "pleat" */
 
 /** @param {string} id of a document */
@@ -18,4 +20,20 @@ export async function goToNew(wanted, tool = "") {
   });
   if (answer.status === 201) location.assign((answer.headers.get("location") ?? "../") + (tool && `#${tool}`));
   return answer;
+}
+
+/**
+ * The answer's JSON; throws an error with a sentence where the server refuses or cannot be reached.
+ * @param {string} url
+ * @param {string} method
+ * @param {object} [body] sent as JSON
+ */
+export async function fetched(url, method = "GET", body) {
+  const headers = body ? { "content-type": "application/json" } : undefined;
+  const sent = { method, headers, body: body && JSON.stringify(body) };
+  const answer = await fetch(url, sent).catch(() => {
+    throw new Error(OFFLINE);
+  });
+  if (!answer.ok) throw new Error(sentenceOf(await answer.json()));
+  return answer.json();
 }

@@ -10,7 +10,7 @@ import { say } from "../language/say.js";
 import { percent } from "../messages/lengths.js";
 import { word } from "../messages/names.js";
 import { openDialog } from "./dialog.js";
-import { fetched } from "./fetched.js";
+import { fetched } from "./documents.js";
 import { isViewOnly } from "../view_only.js";
 
 /** @import { Job } from "pleat" */

@@ -7,7 +7,7 @@ import { say } from "../language/say.js";
 import { inWords } from "../messages/in_words.js";
 import { length } from "../messages/lengths.js";
 import { openDialog } from "./dialog.js";
-import { fetched } from "./fetched.js";
+import { fetched } from "./documents.js";
 
 /** @import { Job, Reason, RobotEntry, Says } from "pleat" */
 /** @import { Named } from "../messages/names.js" */

@@ -3,16 +3,15 @@
 import { byId, element } from "../dom.js";
 import { say } from "../language/say.js";
 import { RehearsalCard } from "../rehearsal/card.js";
+import { toggle } from "./buttons.js";
 import { Clock } from "./clock.js";
 import { Folds } from "./folds.js";
 import { Lanes } from "./lanes.js";
 import { Outcome } from "./outcome.js";
 import { Planning } from "./planning.js";
-import { seeWhy } from "./see_why.js";
 import { ShownPlan } from "./shown_plan.js";
 import { StepMenu } from "./step_menu.js";
-import { TimeSlider } from "./time_slider.js";
-import { Transport } from "./transport.js";
+import { TimeSlider, Transport } from "./transport.js";
 
 /**
  * @param {import("../store.js").Store} store
@@ -40,4 +39,50 @@ export function mountDock(store, pictures, rehearsal) {
   });
   store.addEventListener("connection", () => root.classList.toggle("is-offline", !store.isLive));
   root.replaceChildren(folds.root, timeline, outcome.root);
+}
+
+const SWITCHES = [
+  ["reach", say("overlay.reach"), say("overlay.reach_hint")],
+  ["grips", say("overlay.grips"), say("overlay.grips_hint")],
+  ["paths", say("overlay.paths"), say("overlay.paths_hint")],
+  ["base", say("overlay.base"), say("overlay.base_hint")],
+  ["slip", say("overlay.slip"), say("overlay.slip_hint")],
+  ["places", say("overlay.places"), say("overlay.places_hint")],
+];
+
+/** What takes less time than this needs no word (ms). */
+const NOTICED_MS = 200;
+
+/**
+ * @param {import("../store.js").Store} store
+ * @returns {HTMLElement}
+ */
+function seeWhy(store) {
+  const switches = SWITCHES.map(([name, text, about]) => {
+    const made = toggle(text, (isOn) => store.setOverlay(name, isOn));
+    made.dataset.overlay = name;
+    made.title = about;
+    return made;
+  });
+  store.addEventListener("overlays", () => {
+    for (const made of switches) {
+      made.setAttribute("aria-pressed", String(store.overlays.has(made.dataset.overlay ?? "")));
+    }
+  });
+  const wait = element("span", "see-why-wait hint");
+  wait.setAttribute("aria-live", "polite");
+  let timer = 0;
+  store.addEventListener("pending", () => {
+    for (const made of switches) {
+      made.setAttribute("aria-busy", String(store.pending.includes(made.dataset.overlay ?? "")));
+    }
+    clearTimeout(timer);
+    if (!store.pending.length) wait.textContent = "";
+    else timer = setTimeout(() => wait.replaceChildren(say("overlay.working")), NOTICED_MS);
+  });
+  const name = element("span", "see-why-name", say("overlay.title"));
+  const root = element("div", "see-why", name, element("span", "chips", ...switches), wait);
+  root.setAttribute("role", "group");
+  root.setAttribute("aria-label", say("overlay.title"));
+  return root;
 }

@@ -18,7 +18,7 @@ export class Lanes {
   /**
    * @param {import("../store.js").Store} store
    * @param {import("./clock.js").Clock} clock
-   * @param {import("./time_slider.js").TimeSlider} slider
+   * @param {import("./transport.js").TimeSlider} slider
    * @param {import("./shown_plan.js").ShownPlan} shown
    * @param {import("../rehearsal/rehearsal.js").Rehearsal} rehearsal
    */

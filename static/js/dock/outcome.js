@@ -3,13 +3,14 @@
 import { showCompare } from "../compare/compare.js";
 import { button, element } from "../dom.js";
 import { say } from "../language/say.js";
+import { startInWords } from "../messages/starts.js";
 import { Rehearsing } from "../rehearsal/rehearsing.js";
-import { BestPlace } from "./best_place.js";
 import { numbers, quicker } from "./numbers.js";
 import { PlanList } from "./plan.js";
-import { Planning } from "./planning.js";
+import { Planning, Refining } from "./planning.js";
 import { details, explanation, NO_PLAN } from "./reasons.js";
-import { StartLine } from "./start_line.js";
+import { suggestionButton } from "./suggestion_button.js";
+import { SuggestionSearch } from "./suggestion_search.js";
 
 /** @import { DocumentState, Plan, PlanBefore, PlanMessage } from "pleat" */
 
@@ -148,41 +149,102 @@ class NoPlan {
   }
 }
 
-const LONG_MS = 1000;
-
-/** * Whether a quicker plan is still looked for while one is on show, as soon as that has lasted long enough to be worth a word: mostly it is over in no time. */
-class Refining extends EventTarget {
-  /** @param {import("../store.js").Store} store */
-  constructor(store) {
-    super();
+/** A line over the plan while it is planned from the middle: from what state, and the way back to the beginning. */
+class StartLine {
+  /**
+   * @param {import("../store.js").Store} store
+   * @param {() => void} onBack after the way back was taken
+   */
+  constructor(store, onBack) {
     this.store = store;
-    this.isLong = false;
-    /** @type {string|null} the plan that may be replaced */
-    this.id = null;
-    for (const name of ["document", "plan", "connection"]) store.addEventListener(name, () => this.look());
+    /** Whether it takes over the focus from a step that is to go away. */
+    this.isAwaited = false;
+    this.words = element("p", "");
+    this.words.setAttribute("aria-live", "polite");
+    const goBack = () => {
+      store.command({ do: "plan_from", step: null });
+      onBack();
+    };
+    this.back = button("chip", goBack, say("start.from_start"));
+    this.back.title = say("start.from_start_hint");
+    this.back.hidden = true;
+    this.root = element("div", "start-line", this.words, this.back);
+    for (const name of ["document", "plan"]) store.addEventListener(name, () => this.show());
+    addEventListener("unit", () => this.show());
+    this.show();
   }
 
-  /** The plan on show, if the drawing has it and a quicker one may come. @returns {string|null} */
-  get unfinished() {
-    const { isLive, plan: message, state } = this.store;
-    const plan = message?.plan;
-    const isOfDrawing = plan && message.status === "solved" && plan.version === state?.version;
-    return isLive && isOfDrawing && !plan.is_final ? plan.id : null;
+  /** Take the focus once planned from the middle, if the step that has it now goes away. */
+  takeFocus() {
+    this.isAwaited = true;
   }
 
-  look() {
-    const id = this.unfinished;
-    if (id === this.id) return;
-    this.id = id;
-    clearTimeout(this.timer);
-    this.become(false);
-    if (id !== null) this.timer = setTimeout(() => this.become(true), LONG_MS);
-  }
-
-  /** @param {boolean} isLong */
-  become(isLong) {
-    if (isLong === this.isLong) return;
-    this.isLong = isLong;
-    this.dispatchEvent(new Event("change"));
+  show() {
+    const { plan, state } = this.store;
+    const start = plan && state && plan.version === state.version ? plan.start : null;
+    const told = start && state ? startInWords(start, state.drawing) : "";
+    this.root.classList.toggle("is-empty", !told);
+    this.back.hidden = !told;
+    if (this.words.textContent !== told) this.words.textContent = this.words.title = told;
+    if (!told || !this.isAwaited) return;
+    this.isAwaited = false;
+    if (document.activeElement === document.body) this.back.focus();
   }
 }
+
+/** All places are tried as long as that lasts (s); then the best so far is told. */
+const WORK_S = 4;
+
+/** The button `Best place`: looks for a place on the table where the plan is quicker, and offers it. */
+class BestPlace {
+  /** @param {import("../store.js").Store} store */
+  constructor(store) {
+    this.store = store;
+    this.search = new SuggestionSearch();
+    /** @type {number|null} the version that it is looked for */
+    this.version = null;
+    this.button = button("chip", () => this.begin(), say("place.best"));
+    this.button.title = say("place.best_hint");
+    this.note = element("p", "hint search-note");
+    this.note.setAttribute("aria-live", "polite");
+    this.offer = element("div", "suggestions");
+    this.end = button("quiet", () => this.close(), say("search.stop"));
+    this.root = element("div", "best-place", this.note, this.offer, this.end);
+    this.search.addEventListener("change", () => this.show());
+    this.close();
+  }
+
+  begin() {
+    const { state } = this.store;
+    if (!state) return;
+    this.version = state.version;
+    this.search.start(state, { work_s: WORK_S });
+  }
+
+  /** What was found is about one drawing only. */
+  follow() {
+    if (this.version !== null && this.version !== this.store.state?.version) this.close();
+  }
+
+  close() {
+    this.version = null;
+    this.store.setPreview(null);
+    this.search.stop();
+  }
+
+  show() {
+    const { found, isRunning, fault } = this.search;
+    const [best] = found.toSorted((one, other) => one.cost_s - other.cost_s);
+    this.root.hidden = this.version === null;
+    this.button.disabled = isRunning;
+    this.note.classList.toggle("is-searching", isRunning);
+    this.note.hidden = best !== undefined;
+    this.offer.hidden = best === undefined;
+    this.note.textContent = isRunning ? say("place.trying") : outcome(fault);
+    this.end.textContent = isRunning ? say("search.stop") : say("dialog.close");
+    this.offer.replaceChildren(...(best ? [suggestionButton(this.store, best, "is-first")] : []));
+  }
+}
+
+/** @param {string} fault */
+const outcome = (fault) => (fault ? say("search.fault", { fault }) : say("place.none"));

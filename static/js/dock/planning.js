@@ -47,3 +47,43 @@ export class Planning extends EventTarget {
     this.dispatchEvent(new Event("change"));
   }
 }
+
+/**
+ * Whether a quicker plan is still looked for while one is on show, as soon as that has lasted long enough to be worth a
+ * word: mostly it is over in no time.
+ */
+export class Refining extends EventTarget {
+  /** @param {import("../store.js").Store} store */
+  constructor(store) {
+    super();
+    this.store = store;
+    this.isLong = false;
+    /** @type {string|null} the plan that may be replaced */
+    this.id = null;
+    for (const name of ["document", "plan", "connection"]) store.addEventListener(name, () => this.look());
+  }
+
+  /** The plan on show, if the drawing has it and a quicker one may come. @returns {string|null} */
+  get unfinished() {
+    const { isLive, plan: message, state } = this.store;
+    const plan = message?.plan;
+    const isOfDrawing = plan && message.status === "solved" && plan.version === state?.version;
+    return isLive && isOfDrawing && !plan.is_final ? plan.id : null;
+  }
+
+  look() {
+    const id = this.unfinished;
+    if (id === this.id) return;
+    this.id = id;
+    clearTimeout(this.timer);
+    this.become(false);
+    if (id !== null) this.timer = setTimeout(() => this.become(true), LONG_MS);
+  }
+
+  /** @param {boolean} isLong */
+  become(isLong) {
+    if (isLong === this.isLong) return;
+    this.isLong = isLong;
+    this.dispatchEvent(new Event("change"));
+  }
+}

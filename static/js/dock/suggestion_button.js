@@ -83,7 +83,7 @@ const SAME_M = 1e-9;
  * @param {Added|null} added the fold that the change adds
  * @returns {Drawing|void} another drawing in place of the altered one, if there is one
  */
-function applyChange(drawing, change, added = null) {
+export function applyChange(drawing, change, added = null) {
   if (change.drawing) return structuredClone(change.drawing);
   if (change.garment?.outline) resize(drawing, change.garment.outline);
   drawing.robot = change.robot ?? drawing.robot;

@@ -4,15 +4,15 @@ import { ringOf } from "../board/curves.js";
 import { OFFLINE, openDialog, sentenceOf } from "../dialogs/dialog.js";
 import { goTo, goToNew } from "../dialogs/documents.js";
 import { showNew } from "../dialogs/new.js";
+import { askTitle, fileName } from "../dialogs/rename.js";
 import { button, element } from "../dom.js";
 import { listed } from "../garments.js";
 import { icon } from "../icons.js";
 import { inEnglish, say, translated } from "../language/say.js";
 import { Menu } from "../menu.js";
-import { edited, renamed } from "./rename_document.js";
 import { garmentTile, tile, titleOf, when } from "./tile.js";
 
-/** @import { DocumentEntry, DocumentVersion, GarmentEntry, Template } from "pleat" */
+/** @import { DocumentEntry, DocumentState, DocumentVersion, GarmentEntry, Template } from "pleat" */
 
 const DOCUMENTS = "../api/documents";
 
@@ -299,4 +299,33 @@ class Removal {
     this.onFault(say("gallery.not_deleted"));
     this.onBack();
   }
+}
+
+/** @param {DocumentEntry} entry @returns {Promise<Response|null|undefined>} the server's answer; undefined if it was not wanted */
+async function renamed(entry) {
+  const title = await askTitle(titleOf(entry));
+  if (!title) return undefined;
+  return edited(entry.id, inEnglish("step.rename_garment"), (drawing) => ({
+    ...drawing,
+    title,
+    name: fileName(title),
+  }));
+}
+
+/**
+ * Change the drawing of any document as one step.
+ * @param {string} id
+ * @param {string} label
+ * @param {(drawing: DocumentState["drawing"]) => DocumentState["drawing"]} change
+ * @returns {Promise<Response|null>}
+ */
+async function edited(id, label, change) {
+  const address = `../api/documents/${id}`;
+  const found = await fetch(address).catch(() => null);
+  if (!found?.ok) return found;
+  /** @type {DocumentState} */
+  const { version, drawing } = await found.json();
+  const body = JSON.stringify({ base_version: version, label, drawing: change(drawing) });
+  const headers = { "content-type": "application/json" };
+  return fetch(`${address}/drawing`, { method: "PUT", headers, body }).catch(() => null);
 }

@@ -3,7 +3,7 @@
  * The job is kept in the browser's session, so that the page finds it again when it is loaded anew.
  */
 
-import { fetched } from "../dialogs/fetched.js";
+import { fetched } from "../dialogs/documents.js";
 import { capital } from "../dock/words.js";
 import { sayable } from "../dom.js";
 import { say } from "../language/say.js";
