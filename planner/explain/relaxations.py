@@ -30,7 +30,7 @@ from planner.explain.changes import (
 from planner.explain.reason_grips import radius_for
 from planner.explain.reason_out_of_reach import reached_with_comfort, reached_with_cone
 from planner.explain.relaxation_trials import Relaxation
-from planner.explain.suggestion_grid import Room
+from planner.explain.room import Room
 from planner.geometry.pose import Point3
 from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M
 from planner.primitives.context import Context

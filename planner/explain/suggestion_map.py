@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from planner.errors import RequestError
+from planner.explain.room import Room
 from planner.explain.suggestion_budget import TrialBudget
-from planner.explain.suggestion_grid import Room
 from planner.geometry.pose import Pose2
 from planner.planning.budget import Budget
 from planner.planning.warm_up import compile_kernels

@@ -14,8 +14,8 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 from planner.explain.change import SpentError
+from planner.explain.room import Room, turned_in_place
 from planner.explain.suggestion import AS_QUICK_S, Search, Suggestion, SuggestionTrial, proven, smallest
-from planner.explain.suggestion_grid import Room, turned_in_place
 from planner.geometry.pose import Pose2
 from planner.message import Message
 from planner.robots.load_robot import load_robot

@@ -25,6 +25,7 @@ from planner.explain.relaxed_problem import RelaxedProblem
 from planner.explain.suggestion import SuggestionTrial
 from planner.geometry.pose import Pose2
 from planner.planning.problem import Problem
+from planner.planning.robot_task import task_for
 from tests.builders import fold, garment, rectangle_points
 from tests.planning.provoked import requested
 
@@ -76,6 +77,14 @@ def test_a_relaxed_problem_is_that_of_the_changed_task(name: str) -> None:
     assert relaxed.context.placement == afresh.context.placement
     assert relaxed.context.reach.comfort_m == afresh.context.reach.comfort_m
     assert relaxed.change_from(base) == request_fields(TASK, afresh.task)
+
+
+def test_a_changed_scene_keeps_the_stations_of_a_base_that_never_drives() -> None:
+    task = task_for(garment(rectangle_points(0.2, 0.2), fold((0.2, 0.1), (0.0, 0.1))), robot="so101-pair")
+    base = RelaxedProblem.of(Problem.of(task))
+    fields = base.changed(FRICTION, 0.1).change_from(base)
+    assert fields is not None
+    assert Scene.from_dict(fields["scene"]).stations == task.scene.stations
 
 
 def test_a_grip_radius_is_widened_from_the_least_and_none_gets_narrower() -> None:

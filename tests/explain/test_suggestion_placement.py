@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from planner import Scene, Task, make_plan
+from planner.explain.room import Room, turned_in_place
 from planner.explain.suggestion import SuggestionTrial
-from planner.explain.suggestion_grid import Room, turned_in_place
 from planner.explain.suggestion_map import placement_map
 from planner.explain.suggestion_placement import FINE_STEP_M, STEP_M, placements
 from planner.geometry.pose import Pose2
