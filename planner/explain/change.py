@@ -87,7 +87,7 @@ def request_fields(before: Task, after: Task) -> dict[str, Any]:
 
 
 class SpentError(Exception):
-    """The trials, or the work or the time for them, are used up."""
+    """The work or the time for trials is used up."""
 
 
 @dataclass(slots=True)

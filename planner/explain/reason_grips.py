@@ -18,6 +18,10 @@ from planner.geometry.segment import Segment
 from planner.geometry.smallest_circle import pair_centres
 from planner.geometry.tolerance import LENGTH_M
 from planner.primitives.context import Context
+from planner.task.reason import Code
+
+GRIP_CODES = (Code.TOO_MANY_GRIPS, Code.GRIPS_TOO_CLOSE, Code.RED_NEEDS_HOLD)
+"""Codes of obstacles to how the hands hold the cloth."""
 
 # Beyond that only grips at the vertices are tried. The planner tries all of these too, so it can plan with the radius
 # found.

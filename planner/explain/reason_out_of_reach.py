@@ -103,8 +103,12 @@ def removed_by(reason: Reason, context: Context, kinds: tuple[str, ...]) -> Reas
 
 
 def reached_with_comfort(reason: Reason, context: Context, comfort_m: float) -> Reason:
-    """Return a reason with the smaller comfort radius that was tried and brings the point into reach."""
-    return _advised(reason, context, {"enough_comfort_m": comfort_m}, comfort_m=comfort_m, shift_m=None)
+    """Return a reason with the smaller comfort radius that was tried and brings the point into reach.
+
+    Its message still says how much comfort the point has.
+    """
+    advised = _advised(reason, context, {"enough_comfort_m": comfort_m}, shift_m=None)
+    return replace(advised, comfort_m=comfort_m)
 
 
 def reached_with_cone(reason: Reason, context: Context, cone_rad: float) -> Reason:

@@ -22,6 +22,7 @@ from itertools import islice
 
 from planner.cloth.g_state import Unrest
 from planner.explain.reason_attempt import Miss
+from planner.explain.reason_grips import GRIP_CODES
 from planner.explain.reason_obstacle import collisions, lacking, of_obstacle
 from planner.explain.reason_out_of_reach import out_of_reach
 from planner.explain.reason_reach import Places, from_every_station, miss_in, nearest_miss
@@ -38,9 +39,6 @@ from planner.words.catalogue import worded
 
 _GEOMETRY = (Code.LINE_OFF_TABLE, Code.NOT_A_G_STATE, Code.SLIPS)
 """Codes of obstacles to how the cloth lies."""
-
-_GRIPS = (Code.TOO_MANY_GRIPS, Code.GRIPS_TOO_CLOSE, Code.RED_NEEDS_HOLD)
-"""Codes of obstacles to how the hands hold the cloth."""
 
 _LOOKED_AT_MAX, _EXAMINED_MAX = 60, 3
 """Mildest obstacles of a kind for which it is checked whether the cloth can be brought there, and how many of those
@@ -198,7 +196,7 @@ class _Causes:
 
     def _hands(self, met: list[Obstacle]) -> Iterator[Reason]:
         """Yield that the hands do not suffice, where nothing else is known to be wrong."""
-        lacks = [of_obstacle(self.context, o) for o in met if o.code in _GRIPS and self._is_only_held_up_by(o)]
+        lacks = [of_obstacle(self.context, o) for o in met if o.code in GRIP_CODES and self._is_only_held_up_by(o)]
         if lacks:
             yield min(lacks, key=lambda reason: lacking(reason, self.context))
 

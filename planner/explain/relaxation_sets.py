@@ -18,7 +18,7 @@ from planner.explain.change import SpentError
 from planner.explain.changes import COLLISIONS_IGNORED
 from planner.explain.reason_obstacle import lacking
 from planner.explain.reason_out_of_reach import enough_with_others, removed_by
-from planner.explain.relaxation_trials import Relaxation, TrialLimit, Trials, changed_or_none
+from planner.explain.relaxation_trials import Relaxation, Trials, changed_or_none
 from planner.explain.relaxations import candidates
 from planner.explain.relaxed_problem import Ask, RelaxedProblem
 from planner.planning.trial import Trial
@@ -49,14 +49,13 @@ def confirmed_reasons(
         ask: tries relaxed problems.
         is_enough: polled before each trial; true ends them.
     """
-    limit = TrialLimit(is_enough)
     found: list[Reason] = []
     for fold in dict.fromkeys(reason.fold for reason in measured):
         mine = tuple(reason for reason in measured if reason.fold == fold)
         if any(reason.code is Code.WAITS_FOR_FOLD for reason in mine):
             found += mine
             continue
-        search = _RelaxationSets(base, fold, ask, limit)
+        search = _RelaxationSets(base, fold, ask, is_enough)
         sets = search.sets(met, mine)
         number = 1 + max((-1 if reason.set is None else reason.set for reason in found), default=-1)
         found += [replace(reason, set=number + n) for n, members in enumerate(sets) for reason in members]
@@ -106,12 +105,12 @@ class _RelaxationSets:
         is_cut_short: whether the trials ended before all causes were tried.
     """
 
-    def __init__(self, base: RelaxedProblem, fold: int | None, ask: Ask, limit: TrialLimit) -> None:
+    def __init__(self, base: RelaxedProblem, fold: int | None, ask: Ask, is_enough: Callable[[], bool]) -> None:
         self._base = base
         self._fold = fold
         dag, everything = base.context.sequence.dag, range(len(base.context.sequence.folds))
         wanted = everything if fold is None else (fold, *dag.before(fold))
-        self._trials = Trials(ask, limit, sum(1 << index for index in wanted))
+        self._trials = Trials(ask, is_enough, sum(1 << index for index in wanted))
         self._joint = _JointSets(base, fold, self._trials)
         self.is_but_touching = False
         self.is_cut_short = False

@@ -12,9 +12,6 @@ from planner.explain.relaxed_problem import Ask, RelaxedProblem
 from planner.planning.trial import Trial
 from planner.task.reason import Code, Reason
 
-ASKS_MAX = 80
-"""Trials that are made to find the reasons of one problem."""
-
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Relaxation:
@@ -49,45 +46,24 @@ class Relaxation:
         return self.told(self.reason, amount)
 
 
-class TrialLimit:
-    """The limit of all trials that are made to find the reasons of one problem."""
-
-    def __init__(self, is_enough: Callable[[], bool]) -> None:
-        """Take what is polled before each trial; true ends them."""
-        self._is_enough = is_enough
-        self._left = ASKS_MAX
-
-    def require_trial(self) -> None:
-        """Count a trial; raise `SpentError` if the trials, or the time for them, are used up."""
-        if not self._left:
-            raise SpentError
-        self.require_time()
-        self._left -= 1
-
-    def require_time(self) -> None:
-        """Raise `SpentError` if the time is used up."""
-        if self._is_enough():
-            raise SpentError
-
-
 class Trials:
     """Trials whether some folds can be done; a change that gives no valid problem counts as no help."""
 
-    def __init__(self, ask: Ask, limit: TrialLimit, folds: int) -> None:
-        """Take what tries a problem, the limit, and the folds that must become possible, as a bit mask."""
+    def __init__(self, ask: Ask, is_enough: Callable[[], bool], folds: int) -> None:
+        """Take what tries a problem, what is polled before, and the folds that must become possible, as a bit mask."""
         self._ask = ask
-        self._limit = limit
+        self._is_enough = is_enough
         self._folds = folds
         self._known: dict[tuple[Change, RelaxedProblem, float, bool], tuple[RelaxedProblem, Trial] | None] = {}
 
     def trial(self, relaxed: RelaxedProblem, *, with_arms: bool) -> Trial:
         """Return the trial of a problem; without arms it is enough that all places are in reach."""
-        self._limit.require_trial()
+        self._require_time()
         return self._ask(relaxed if with_arms else relaxed.changed(COLLISIONS_IGNORED), self._folds)
 
     def measured(self, trial: Trial) -> tuple[Reason, ...]:
         """Return the reasons that a trial met."""
-        self._limit.require_time()
+        self._require_time()
         return reasons_met(trial.obstacles)
 
     def touched(self, trial: Trial) -> Reason | None:
@@ -130,6 +106,10 @@ class Trials:
                 search.note(amount, self._needed(relaxation, base, amount, with_arms=with_arms))
                 search.is_near = relaxation.needed is not None and search.fails < 0.5 * search.works
         return search.works
+
+    def _require_time(self) -> None:
+        if self._is_enough():
+            raise SpentError
 
     def _needed(self, relaxation: Relaxation, base: RelaxedProblem, amount: float, *, with_arms: bool) -> float | None:
         """Return how much of an amount the path found with it really needs; None if it is not sufficient."""

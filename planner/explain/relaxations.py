@@ -27,7 +27,7 @@ from planner.explain.changes import (
     table_lifted,
     torso_lifted,
 )
-from planner.explain.reason_grips import radius_for
+from planner.explain.reason_grips import GRIP_CODES, radius_for
 from planner.explain.reason_out_of_reach import reached_with_comfort, reached_with_cone
 from planner.explain.relaxation_trials import Relaxation
 from planner.explain.room import Room
@@ -50,9 +50,6 @@ _UPRIGHT = 0.5
 
 _THIRD_HAND_CORNERS_MAX = 12
 """Corners of the cloth above which the ways for three hands to hold it are too many."""
-
-_GRIPS = (Code.TOO_MANY_GRIPS, Code.GRIPS_TOO_CLOSE, Code.RED_NEEDS_HOLD)
-"""Codes of reasons that the hands cannot hold what a fold needs."""
 
 
 def candidates(context: Context, measured: tuple[Reason, ...], fold: int | None) -> Iterator[tuple[Relaxation, ...]]:
@@ -80,7 +77,7 @@ def candidates(context: Context, measured: tuple[Reason, ...], fold: int | None)
 
 
 def _relaxations(context: Context, reason: Reason) -> Iterator[Relaxation]:
-    if reason.code in _GRIPS and reason.fold is not None:
+    if reason.code in GRIP_CODES and reason.fold is not None:
         yield from _of_hands(context, reason, reason.fold)
     elif reason.code in (Code.LINE_OFF_TABLE, Code.NOT_A_G_STATE):
         yield from _of_place(context, reason)

@@ -110,21 +110,22 @@ def _searched(
             stations(task),
         )
         assumptions = _lanes(comforts(task), frictions(task, known.reasons), grip_radii(task, folds, known.reasons))
+    turns = partial(_by_turns, budget, on_trial)
     own = _OWN_SHARE if names else 1.0
-    yield from _by_turns(changes, budget, on_trial, _CHANGES_SHARE if assumptions else own)
+    yield from turns(changes, _CHANGES_SHARE if assumptions else own)
     if not known.is_solved and not any(lane.has_found for lane in changes):
         changes += _lanes(sizes(task))
-        yield from _by_turns(changes[-1:], budget, on_trial, _SIZES_SHARE)
-    yield from _by_turns(assumptions, budget, on_trial, own)
+        yield from turns(changes[-1:], _SIZES_SHARE)
+    yield from turns(assumptions, own)
     if assumptions and not any(lane.has_found for lane in assumptions):
         assumptions += _lanes(together(task, folds))
-        yield from _by_turns(assumptions, budget, on_trial, own)
-    yield from _by_turns(changes, budget, on_trial, own)
+        yield from turns(assumptions, own)
+    yield from turns(changes, own)
     if sum(lane.has_found for lane in (*changes, *assumptions)) < ENOUGH_KINDS:
         changes += _lanes(robots(task, budget.while_left(names, _ROBOT_S), budget.require_time))
-        yield from _by_turns(changes[-1:], budget, on_trial, 1.0)
-    yield from _by_turns(assumptions, budget, on_trial, 1.0)
-    yield from _by_turns(changes, budget, on_trial, 1.0)
+        yield from turns(changes[-1:], 1.0)
+    yield from turns(assumptions, 1.0)
+    yield from turns(changes, 1.0)
     lanes = (*changes, *assumptions)
     is_complete = all(lane.is_done for lane in lanes) and not budget.has_unknown
     for lane in () if budget.is_stopped else lanes:
@@ -149,7 +150,7 @@ def _ignore(_: SuggestionTrial) -> None:
 
 
 def _by_turns(
-    lanes: Sequence["_Lane"], budget: TrialBudget, on_trial: Callable[[SuggestionTrial], None], share: float
+    budget: TrialBudget, on_trial: Callable[[SuggestionTrial], None], lanes: Sequence["_Lane"], share: float
 ) -> Iterator[Suggestion]:
     """Continue the lane that has done the least work, until this share of the budget is spent."""
     while not budget.has_spent(share):

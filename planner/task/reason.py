@@ -49,7 +49,8 @@ class Reason:
         shift_m: how far the cloth must be moved, or for a point out of reach the station or the table the other way,
             to fix the set (m); None if no shift fixes it.
         shift_towards: the unit direction of that shift, table frame.
-        comfort_m: with "comfort_only" the comfort radius with which the point can be reached (m).
+        comfort_m: with "comfort_only" the comfort radius with which the point can be reached; where a smaller one was
+            tried and fixes the set, that one (m).
         needed_friction: the friction with which the cloth would not slip.
         needed_grip_radius_m: the grip radius with which the hands would hold all they must (m).
         set: the index of the correction set: reasons with one index must all be fixed together; fixing one set is

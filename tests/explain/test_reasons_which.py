@@ -157,7 +157,6 @@ NAMED_ALIKE = {
     "arm",
     "back_off_m",
     "cause",
-    "comfort_m",
     "is_at_least",
     "joint",
     "needed_friction",
@@ -185,6 +184,8 @@ def test_what_a_reason_and_its_message_both_say_is_the_same(cloth: Garment, scen
         told = {**reason.says.values, **reason.says.values.get("what", {})}
         both = NAMED_ALIKE & told.keys()
         assert {name: getattr(reason, name) for name in both} == {name: told[name] for name in both}
+        comfort_m = told.get("enough_comfort_m")
+        assert comfort_m is None or comfort_m == reason.comfort_m
 
 
 def test_every_reason_is_json_with_plain_numbers() -> None:

@@ -10,7 +10,11 @@ import pytest
 
 from planner import Scene, Task, find_plan, load_garment, make_plan
 from planner.errors import FoldError, RequestError
+from planner.explain.change import SpentError
 from planner.explain.suggestion import Suggestion, SuggestionTrial, narrowed
+from planner.explain.suggestion_assumption import comforts
+from planner.explain.suggestion_placement import placements
+from planner.explain.suggestion_robot import stations
 from planner.explain.suggestions import Suggestions, suggestions
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
@@ -89,6 +93,21 @@ def test_the_smallest_change_with_a_plan_is_suggested_and_the_smallest_with_one_
             sent = plan_of(wish.size) if isinstance(wish, SuggestionTrial) else None
             told += [] if isinstance(wish, SuggestionTrial) else [(wish.size, wish.cost_s)]
     assert told == [(2, 30.0), (3, 20.0)]
+
+
+def test_a_search_out_of_time_suggests_what_it_has_seen_to_work_and_nothing_else() -> None:
+    task = asked(towel())
+    trial = SuggestionTrial("size", Message.plain("by"), 4.0, task, task)
+    proof = Suggestion(trial, make_plan(towel()), 20.0)
+    search = narrowed(lambda amount: replace(trial, size=amount), 0.0, 4.0, proof, 1.0)
+    assert next(search) == replace(trial, size=2.0)
+    assert search.throw(SpentError()) is proof
+    with pytest.raises(StopIteration):
+        next(search)
+    for unproven in (stations(task), placements(task, None), comforts(task)):
+        assert isinstance(next(unproven), SuggestionTrial)
+        with pytest.raises((StopIteration, SpentError)):
+            unproven.throw(SpentError())
 
 
 @pytest.mark.long

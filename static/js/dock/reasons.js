@@ -146,10 +146,11 @@ function resting({ code, edge, beyond_m: beyond, off_m: off }) {
 
 /** @param {Reason} reason */
 function outOfReach(reason) {
-  const { arm, station, short_by_m: short, is_at_least: isAtLeast, comfort_m: comfort } = reason;
+  const { arm, station, short_by_m: short, is_at_least: isAtLeast } = reason;
   const from = station ? say("why.best_from", { station: place(station) }) : "";
   if (reason.cause === "comfort_only") {
     const why = limit(reason) || say("cause.too_far");
+    const { comfort_m: comfort } = /** @type {Says} */ (reason.says);
     return say("why.comfort_only", { from, comfort: length(comfort ?? 0), why });
   }
   const causes = [cause(reason), limit(reason)].filter(Boolean).join(", ");
