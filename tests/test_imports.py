@@ -11,13 +11,16 @@ import pytest
 ROOT = Path(__file__).parent.parent
 
 # Modules of planner that stand outside the rooms and that every room but search may use.
-GROUND = frozenset({"planner.errors", "planner.message", "planner.strict_model", "planner.json_form"})
+GROUND = frozenset(
+    {"planner.errors", "planner.deadline", "planner.message", "planner.strict_model", "planner.json_form"}
+)
 
 _ROOMS_BELOW_MOTION = ("geometry", "words", "cloth", "folds", "task", "primitives", "robots")
 BELOW_MOTION = GROUND | {f"planner.{room}" for room in _ROOMS_BELOW_MOTION}
 
 # The ladder: what each room may see besides itself.
 MAY_SEE: Mapping[str, frozenset[str]] = {
+    "planner.deadline": frozenset(),
     "planner.message": frozenset(),
     "planner.user_cache": frozenset(),
     "planner.kernel_cache": frozenset({"planner.user_cache"}),

@@ -80,8 +80,8 @@ class _Shifted:
     def least(self, towards: Point3, limit: float) -> float | None:
         """Return the least sufficient shift along a direction, up to a limit; None if there is none."""
         outer = np.array(towards) @ self._axes
-        near, far, is_over = 0.0, _STEP_M, self._context.patience.is_over
-        while far <= limit + _FINEST_M and not is_over():
+        near, far, deadline = 0.0, _STEP_M, self._context.deadline
+        while far <= limit + _FINEST_M and not deadline.is_over:
             short = self._at_least_short(far * outer)
             if short > 0.0:
                 near, far = far + short, far + max(_STEP_M, _STEP_M * math.ceil(short / _STEP_M))

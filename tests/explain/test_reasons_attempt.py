@@ -1,15 +1,16 @@
 """The shortfall of an attempt, for a robot whose arms reach only certain bands ahead of its base."""
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import pytest
 
+from planner.deadline import ENDLESS, Deadline
 from planner.explain.reason_attempt import miss_of
 from planner.explain.reason_miss import Demand, Miss
 from planner.geometry.pose import FloatArray, Point3
-from planner.geometry.shortfall import Shortfall, never
+from planner.geometry.shortfall import Shortfall
 from planner.primitives.fold_trial import FoldTrial, fold_trials
 from planner.primitives.state import State
 from tests.builders import WideReach, context, fold, garment, rectangle_points
@@ -39,7 +40,7 @@ class BandReach(WideReach):
         points: FloatArray,
         approaches: FloatArray,
         at_most_m: float = math.inf,
-        is_over: Callable[[], bool] = never,
+        deadline: Deadline = ENDLESS,
     ) -> Shortfall | None:
         lacks = [self._lacks(arm, x) for x, _, _ in points]
         nearest = int(np.argmin(lacks))
@@ -53,7 +54,7 @@ class BandReach(WideReach):
         places: FloatArray,
         approaches: FloatArray,
         at_most_m: float = math.inf,
-        is_over: Callable[[], bool] = never,
+        deadline: Deadline = ENDLESS,
     ) -> tuple[int, Shortfall] | None:
         each = [(n, self.shortfall(arm, place, approaches)) for n, place in enumerate(places)]
         found = [(n, one) for n, one in each if one is not None]
