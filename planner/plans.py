@@ -93,16 +93,25 @@ def plan(
         RequestError: the folds do not allow the task's start, or the robot is unknown.
     """
     compile_kernels(task.robot)
-    problem, given = Problem.of(task), hints or Hints()
     budget = Budget.of(task.limits.work_limit_s, task.limits.time_limit_s, should_stop)
-    is_known_firm = given.known is not None and given.known.context.is_firm
-    for event in _planned(problem.firm(), budget, given if is_known_firm else replace(given, known=None)):
-        if _is_solved(event):
+    try:
+        yield from _firmly_or_not(task, budget, hints or Hints(), with_reasons=with_reasons)
+    finally:
+        budget.deadline.forget()  # the plan keeps its context, which has it
+
+
+def _firmly_or_not(task: Task, budget: Budget, hints: Hints, *, with_reasons: bool) -> Iterator[Event]:
+    """Plan a task for hands that hold firmly; where there is no such plan, for hands that hold in any way."""
+    is_known_firm = hints.known is not None and hints.known.context.is_firm
+    firm = Problem.of(task, budget.deadline).firm()
+    for event in _planned(firm, budget, hints if is_known_firm else replace(hints, known=None)):
+        if event.found.plan.is_solved:
             yield event
             if isinstance(event, Done):
                 return
-    # It knows where the arms reach as far as has been asked.
-    yield from _explained(_planned(Problem.of(task), budget, given), with_reasons=with_reasons)
+    # This problem knows where the arms reach as far as has been asked.
+    events = _planned(Problem.of(task, budget.deadline), budget, hints)
+    yield from _explained(events) if with_reasons else events
 
 
 def _planned(problem: Problem, budget: Budget, hints: Hints) -> Iterator[Event]:
@@ -110,7 +119,7 @@ def _planned(problem: Problem, budget: Budget, hints: Hints) -> Iterator[Event]:
     if problem.context.is_fixed and hints.known is None and not problem.may_let_go:
         # Drags by the arms cost two motions and save none: where folds alone give a plan, drags are not looked for.
         for event in quickest(problem.without_arm_drags(), budget, hints):
-            if _is_solved(event):
+            if event.found.plan.is_solved:
                 yield event
                 if isinstance(event, Done):
                     return
@@ -125,15 +134,15 @@ def _planned(problem: Problem, budget: Budget, hints: Hints) -> Iterator[Event]:
     for event in quickest(problem.let_go(), budget, Hints()):
         if isinstance(event, Done):
             yield Done(held.or_quicker(event.found))
-        elif isinstance(event, Blocked):
+        elif isinstance(event, Blocked) and not held.plan.is_solved:
             yield event
 
 
-def _explained(events: Iterator[Event], *, with_reasons: bool) -> Iterator[Event]:
+def _explained(events: Iterator[Event]) -> Iterator[Event]:
     """Add to a search's events the reasons why there is no plan: those met at once, and those that prove true."""
     reasons: tuple[Reason, ...] = ()
     for event in events:
-        if isinstance(event, Blocked) and with_reasons:
+        if isinstance(event, Blocked):
             found = explained(event.obstacles)
             yield replace(event, found=event.found.with_reasons(next(found)))
             (reasons,) = found
@@ -141,11 +150,6 @@ def _explained(events: Iterator[Event], *, with_reasons: bool) -> Iterator[Event
             yield Done(event.found.with_reasons(reasons))
         else:
             yield event
-
-
-def _is_solved(event: Event) -> bool:
-    """Return whether an event brings a plan."""
-    return event.found.plan.is_solved
 
 
 def find_plan(
@@ -156,19 +160,10 @@ def find_plan(
     like: Sequence[FoundPlan] = (),
     with_reasons: bool = True,
 ) -> FoundPlan:
-    """Return the plan that ends the stream of `plan`, with the data that it was found with.
+    """Return the answer that ends the stream of `plan`, with the data that it was found with; see there.
 
-    Args:
-        task: the task to plan.
-        should_stop: polled during the search; the search ends as out of budget when it returns true.
-        known: a solved plan for the same task, as `quick_plan` returns it; it is the answer unless a quicker one is
-            found.
-        like: solved plans for similar garments, used as a fallback if the search takes long.
-        with_reasons: whether to find out why there is no plan, if there is none.
-
-    Raises:
-        FoldError: a fold is not legal on the cloth as the folds before it leave it.
-        RequestError: the folds do not allow the task's start, or the robot is unknown.
+    A plan that is known, as `quick_plan` returns it, is the answer unless a quicker one is found; those for similar
+    garments are used as a fallback if the search takes long.
     """
     *_, end = plan(task, Hints(known, like), should_stop=should_stop, with_reasons=with_reasons)
     return end.found

@@ -13,6 +13,7 @@ ROOT = Path(__file__).parent.parent
 # Modules of planner that stand outside the rooms and that every room but search may use.
 GROUND = frozenset(
     {
+        "planner.deadline",
         "planner.errors",
         "planner.message",
         "planner.strict_model",
@@ -26,6 +27,7 @@ BELOW_MOTION = GROUND | {f"planner.{room}" for room in _ROOMS_BELOW_MOTION}
 
 # The ladder: what each room may see besides itself.
 MAY_SEE: Mapping[str, frozenset[str]] = {
+    "planner.deadline": frozenset(),
     "planner.message": frozenset(),
     "planner.kernels": frozenset(),
     "planner.user_cache": frozenset(),

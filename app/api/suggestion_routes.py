@@ -28,8 +28,8 @@ from app.store.plan_store import UnknownPlanError
 from app.worker.process import ignore
 from app.worker.stop import LimitedStop, Stop, StoppedError
 from app.workspace import Workspace
+from planner.deadline import longest_wait_s
 from planner.geometry.pose import Pose2
-from planner.planning.budget import longest_wait_s
 from planner.task.plan import Plan
 
 router = APIRouter(prefix="/api", tags=["suggestions"], route_class=DescribedRoute)

@@ -10,7 +10,7 @@ from app.studies.workers import planner
 from app.worker.process import Caller
 from app.worker.stop import LimitedStop, Stop, StoppedError
 from app.worker.workers import Workers
-from planner.planning.budget import longest_wait_s
+from planner.deadline import longest_wait_s
 
 TRIES = 2
 """Times that a cell is begun before the death of its worker is its answer."""

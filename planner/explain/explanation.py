@@ -32,4 +32,4 @@ def explained(obstacles: Obstacles) -> Iterator[tuple[Reason, ...]]:
         yield confirmed_reasons(base, Trial.failed(obstacles), met, ask, lambda: budget.is_over)
     finally:
         for problem in tried:
-            problem.forget()
+            problem.context.forget()

@@ -131,7 +131,7 @@ def explained(context: Context, miss: Miss) -> Miss:
     stands = _bits(miss.stands) if miss.waypoint == 0 else range(context.standoffs)
     seen = _seen(context, miss.state, miss.trial.tools[miss.grip, miss.waypoint], stands)
     arm, approaches = miss.trial.arms[miss.grip], miss.trial.approaches[miss.grip]
-    alone = context.reach.shortfall(arm, seen, approaches, miss.short_by_m, context.patience.is_long_over)
+    alone = context.reach.shortfall(arm, seen, approaches, miss.short_by_m, context.deadline)
     is_alone = alone is not None and alone.short_by_m >= miss.short_by_m - _FINEST_M
     return replace(miss, demand=Demand.ALONE) if is_alone else miss
 
@@ -175,7 +175,7 @@ class _Attempt:
             [_seen(context, self._state, trial.tools[hand, w], s) for w, s in zip(waypoints, stands, strict=True)]
         )
         found = context.reach.shortfall_together(
-            trial.arms[hand], seen, trial.approaches[hand], self._at_most_m, context.patience.is_long_over
+            trial.arms[hand], seen, trial.approaches[hand], self._at_most_m, context.deadline
         )
         if found is None:
             return None
@@ -233,9 +233,7 @@ class _Attempt:
         stands = _bits(standoffs)
         seen = _seen(context, self._state, trial.tools[hand, waypoint], stands)
         approach = trial.approaches[hand][orientation : orientation + 1]
-        found = context.reach.shortfall(
-            trial.arms[hand], seen, approach, self._at_most_m, context.patience.is_long_over
-        )
+        found = context.reach.shortfall(trial.arms[hand], seen, approach, self._at_most_m, context.deadline)
         if found is None:
             return None
         return self._miss(hand, waypoint, stands[found.seen_from], found, demand)
@@ -316,8 +314,8 @@ class _Shifted:
     def least(self, towards: Point3, limit: float) -> float | None:
         """Return the least sufficient shift along a direction, up to a limit; None if there is none."""
         outer = np.array(towards) @ self._axes
-        near, far, is_over = 0.0, _SHIFT_STEP_M, self._context.patience.is_over
-        while far <= limit + _SHIFT_FINEST_M and not is_over():
+        near, far, deadline = 0.0, _SHIFT_STEP_M, self._context.deadline
+        while far <= limit + _SHIFT_FINEST_M and not deadline.is_over:
             short = self._at_least_short(far * outer)
             if short > 0.0:
                 near, far = far + short, far + max(_SHIFT_STEP_M, _SHIFT_STEP_M * math.ceil(short / _SHIFT_STEP_M))

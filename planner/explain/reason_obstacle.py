@@ -100,7 +100,7 @@ def _least_move(context: Context, obstacle: Obstacle, fold: int, state: State) -
     steps = _MOVE_STEP_M * np.arange(1, _MOVES + 1)
     known = [obstacle.severity] if obstacle.severity < _UNKNOWN_M else []
     for step in (*known, *steps[steps > max(known, default=0.0)]):
-        if context.patience.is_over():
+        if context.deadline.is_over:
             break
         for x, y in ((1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)):
             if _is_gone(context, obstacle, fold, state, (x * step, y * step)):

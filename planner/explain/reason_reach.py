@@ -197,7 +197,7 @@ def nearest_miss(context: Context, fold: int, dones: Collection[int], places: Pl
     examined = 0
     for number, candidate in enumerate(sorted(candidates, key=lambda c: c.bound_m)):
         at_most_m = math.inf if best is None else best.short_by_m
-        is_enough = examined >= EXAMINED_MAX or context.patience.is_over()
+        is_enough = examined >= EXAMINED_MAX or context.deadline.is_over
         if candidate.bound_m >= at_most_m or (is_enough and best is not None):
             break
         state = candidate.state

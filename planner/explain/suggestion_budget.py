@@ -43,12 +43,12 @@ class TrialBudget:
     @property
     def is_late(self) -> bool:
         """Whether the time is up, whatever work is left, or the search was told to stop."""
-        return self._whole.is_late
+        return self._whole.deadline.is_over
 
     @property
     def is_stopped(self) -> bool:
         """Whether the search was told to stop."""
-        return self._whole.should_stop()
+        return self._whole.deadline.is_stopped
 
     def while_left(self, things: Iterable[T], needed_s: float) -> Iterator[T]:
         """Yield things as long as there is time for one more (s); what is left then counts as unknown."""
@@ -81,7 +81,11 @@ class TrialBudget:
         this is asked second, since most trials have no plan at all.
         """
         self.spent_s += _SETTING_UP_S
-        problem = Problem.of(task).without_arm_drags() if by_folds_alone else Problem.of(task)
+        problem = (
+            Problem.of(task, self._whole.deadline).without_arm_drags()
+            if by_folds_alone
+            else Problem.of(task, self._whole.deadline)
+        )
         plan = self._searched(problem, work_s, with_reasons=with_reasons, is_patient=with_reasons)
         if not plan.is_solved:
             return plan

@@ -49,8 +49,3 @@ class Shortfall:
             raise ValueError(f"{self.towards} is no unit direction")
         if (self.comfort_m is None) == (self.cause == "comfort_only"):
             raise ValueError(f"a place with cause {self.cause} has no comfort of {self.comfort_m} m")
-
-
-def never() -> bool:
-    """Return false: nobody waits for the answer."""
-    return False

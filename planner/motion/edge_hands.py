@@ -4,10 +4,11 @@ The search asks where hands may be, whatever they are like. Which of equally qui
 cloth and table is looked for when the search validates a path, and once more in the plan that it has found.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from functools import cached_property
 from itertools import chain, islice, product, takewhile
 
+from planner.deadline import Deadline
 from planner.folds.fold_path import REST_HEIGHT_M
 from planner.geometry.tolerance import TIME_S
 from planner.motion.plan_segment import PlanSegment, duration_s, linked
@@ -44,15 +45,15 @@ class EdgeHands:
             if transfer is not None:
                 yield transfer
 
-    def held(self, plan_segments: Sequence[PlanSegment], is_over: Callable[[], bool]) -> tuple[PlanSegment, ...]:
+    def held(self, plan_segments: Sequence[PlanSegment], deadline: Deadline) -> tuple[PlanSegment, ...]:
         """Return segments that follow one another, with more hands that hold edges where these take no longer.
 
         Args:
             plan_segments: the segments of a validated plan.
-            is_over: polled before each segment; true means that there is no time left.
+            deadline: polled before each segment; once it is over the segments are returned as they are by then.
         """
         ways = [self._others(plan_segment) for plan_segment in plan_segments]
-        firsts = [None if is_over() else next(way, None) for way in ways]
+        firsts = [None if deadline.is_over else next(way, None) for way in ways]
         if not any(firsts):
             return tuple(plan_segments)
         limit_s = duration_s(plan_segments) + TIME_S
@@ -73,7 +74,7 @@ class EdgeHands:
         if duration_s(best) > limit_s:
             best, are_late = tuple(plan_segments), [True] * len(plan_segments)
         for number, (first, others, is_late) in enumerate(zip(firsts, ways, are_late, strict=True)):
-            for other in chain([first], others) if is_late and first is not None and not is_over() else ():
+            for other in chain([first], others) if is_late and first is not None and not deadline.is_over else ():
                 tried = linked((*best[:number], other, *best[number + 1 :]), self._maker)
                 if duration_s(tried) <= limit_s:
                     best = tried

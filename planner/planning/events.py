@@ -44,7 +44,7 @@ class Obstacles:
     def contacts(self) -> Iterator[tuple[Step, BlockingContact | None]]:
         """Yield steps that the arms could not follow, each with its blocking contact, while there is time."""
         for number, steps in enumerate(self.rejected):
-            if number and self.budget.is_late:
+            if number and self.budget.deadline.is_over:
                 break
             yield steps[-1], self.problem.maker.contact(steps)
 

@@ -9,8 +9,9 @@ taking no more from it.
 
 import math
 from collections.abc import Iterable, Iterator
+from enum import Enum
 from itertools import islice, zip_longest
-from typing import Any, NamedTuple
+from typing import Any
 
 from planner.geometry.tolerance import TIME_S
 from planner.motion.edge_hands import EdgeHands
@@ -43,21 +44,13 @@ _COLLISIONS_MAX = 12
 """Motions that the arms could not follow for which the blocking contact is looked up."""
 
 
-class Pause(NamedTuple):
-    """A pause of a search.
+class Pause(Enum):
+    """Where a search pauses."""
 
-    Attributes:
-        is_round: whether a path has been validated and found wanting; else the search looks at a state next, or for
-            hands that come sooner than those at edges.
-        plan_segments: segments that can be performed, found by then; quicker ones are looked for.
-    """
-
-    is_round: bool
-    plan_segments: tuple[PlanSegment, ...] = ()
-
-
-LOOK = Pause(is_round=False)
-"""The pause before a look at a state, or at what may leave it."""
+    LOOK = "before a look at a state, or at what may leave it"
+    LATE = "hands at edges come late on a path: hands that hold in any way are looked for"
+    ROUND = "a path was rejected, or takes longer than it seemed"
+    END = "the search has ended, and may have missed something quicker"
 
 
 class _Seen:
@@ -87,6 +80,7 @@ class PathSearch:
         problem: the problem to plan.
         budget: the work and the time for the search.
         found: the segments of the quickest path found; empty without any.
+        at_edges: segments in which hands hold edges, of the path proposed last; empty without any.
         known_s: the cost of a known plan, which a path has to beat (s); infinite without one.
         bound_s: a lower bound on the cost of any plan, as long as no step was rejected or made more expensive: after
             that, a raised cost only says that the tries found nothing better, which is no proof.
@@ -122,13 +116,13 @@ class PathSearch:
         self._looks = 0
         self._is_looked_at_alone = False
         self.found: tuple[PlanSegment, ...] = ()
+        self.at_edges: tuple[PlanSegment, ...] = ()
         self.known_s = math.inf
         self.bound_s: float | None = None
         self.blocking: list[int] = []
         self.effort = Effort()
         self.result: SearchResult[Any, Step] = SearchResult(Outcome.UNFINISHED, (), math.inf, 0.0, 0, 0)
         budget.watch(problem)
-        budget.limit(problem.context.patience)
 
     def run(self) -> Iterator[Pause]:
         """Propose, validate and charge, until a path takes no longer than it seemed, or there is none.
@@ -151,12 +145,8 @@ class PathSearch:
                     if self.result.cost >= self.limit_s:
                         self.result = self.result._replace(outcome=Outcome.INFEASIBLE)
                         return
-                    path = self.path
-                    at_edges = EdgePath.of(path, validator) if self._hands else None
-                    if at_edges is not None and at_edges.is_late(validator):
-                        yield Pause(is_round=False, plan_segments=at_edges.plan_segments)
-                        at_edges = at_edges.quicker(validator)
-                    found = validator.plan_segments(path, at_edges.plan_segments if at_edges else ())
+                    yield from self._hold_edges(validator)
+                    found = validator.plan_segments(self.path, self.at_edges)
             except OutOfTimeError:
                 self.result = self.result._replace(outcome=Outcome.BUDGET_EXCEEDED)
                 return
@@ -164,7 +154,15 @@ class PathSearch:
             if found is not None:
                 return
             self._seen.states.clear()
-            yield Pause(is_round=True, plan_segments=self.found)
+            yield Pause.ROUND
+
+    def _hold_edges(self, validator: MotionValidator) -> Iterator[Pause]:
+        """Look for hands that hold edges on the path proposed."""
+        held = EdgePath.of(self.path, validator) if self._hands else None
+        self.at_edges = held.plan_segments if held else ()
+        if held and held.is_late(validator):
+            yield Pause.LATE
+            self.at_edges = held.quicker(validator).plan_segments
 
     def propose(self, bound: Heuristic, *, is_consistent: bool = True) -> Iterator[Pause]:
         """Search the path that seems to be the quickest by what is known; it is in `result` then."""
@@ -173,7 +171,7 @@ class PathSearch:
             self.result = result
             if result.outcome is Outcome.UNFINISHED:
                 self._look()
-                yield LOOK
+                yield Pause.LOOK
                 if self.blocking or self.budget.is_over:
                     self.result = result._replace(outcome=Outcome.BUDGET_EXCEEDED)
                     break
@@ -182,23 +180,15 @@ class PathSearch:
 
     def _paths(self, bound: Heuristic, *, is_consistent: bool) -> Iterator[SearchResult[Any, Step]]:
         start, costs = self.problem.start, self._seen.validator.sequence_costs
+        limits = (self._max_expanded, self.limit_s)
         if not costs:
-            return a_star(
-                start,
-                self._edges.leaving,
-                self._is_goal,
-                bound,
-                self._max_expanded,
-                self.limit_s,
-                is_consistent=is_consistent,
-            )
+            return a_star(start, self._edges.leaving, self._is_goal, bound, *limits, is_consistent=is_consistent)
         return a_star(
             Reached(start, costs.at_start),
             ChargedEdges(self._edges, costs).leaving,
             lambda node: self._is_goal(node.state),
             lambda node: bound(node.state),
-            self._max_expanded,
-            self.limit_s,
+            *limits,
             is_consistent=is_consistent,
         )
 

@@ -12,7 +12,7 @@ from planner.motion.search_limits import MORE_TRANSFERS, THOROUGH
 from planner.planning.budget import Budget
 from planner.planning.events import Blocked, Done, Event, Improved
 from planner.planning.found_plan import FoundPlan
-from planner.planning.path_search import LOOK, PathSearch, Pause
+from planner.planning.path_search import PathSearch, Pause
 from planner.planning.problem import Problem
 from planner.planning.quick_plan import quickly_planned
 from planner.planning.restricted_tasks import with_arms_apart, with_more_comfort, with_narrower_cones
@@ -91,25 +91,24 @@ class _PlanSearch:
     def forget(self) -> None:
         """Drop what the problems' contexts have cached: a plan's steps keep them."""
         for problem in (self.problem, *self._others):
-            problem.forget()
+            problem.context.forget()
 
     def events(self) -> Iterator[Event]:
         """Search, and yield what is found meanwhile, and the answer."""
         exact = self.exact
-        is_cut_short = has_no_answer = False
+        status: _Status = "infeasible"
+        is_cut_short = False
         if self.problem.unrest is None:
             yield from self.run(exact.run())
-            is_cut_short = exact.result.outcome is Outcome.BUDGET_EXCEEDED and not exact.blocking
-            has_no_answer = is_cut_short
-            is_worth_more = self._is_patient or bool(exact.found)
-            if not is_cut_short and not exact.blocking and self._is_in_doubt and is_worth_more:
-                yield from self._tried(None)
+            if exact.result.outcome is Outcome.BUDGET_EXCEEDED and not exact.blocking:
+                status, is_cut_short = "budget_exceeded", True
+            elif not exact.blocking and self._is_in_doubt and (self._is_patient or exact.found):
+                yield from self._tried(Pause.END)
                 is_cut_short = self.budget.is_over
         if exact.has_plan:
             plan_segments = exact.found or (self._known.plan_segments if self._known else ())
             yield Done(self._answer("solved", plan_segments, is_cut_short=is_cut_short, is_last=True))
             return
-        status: _Status = "budget_exceeded" if has_no_answer else "infeasible"
         if status == "infeasible":
             yield Blocked(self._answer(status, (), is_cut_short=is_cut_short), exact.obstacles)
         # It is made anew, since it counts what was asked meanwhile to find out why.
@@ -120,16 +119,16 @@ class _PlanSearch:
         for pause in pauses:
             yield from self._tried(pause)
 
-    def _tried(self, pause: Pause | None) -> Iterator[Event]:
-        """Try each strategy that is due and was not tried before, and show what is found; None: at the end."""
-        if pause is not None and pause.plan_segments and not pause.is_round:
-            yield from self.shown(pause.plan_segments)
+    def _tried(self, pause: Pause) -> Iterator[Event]:
+        """Try each strategy that is due and was not tried before, and show what is found."""
+        if pause is Pause.LATE:
+            yield from self.shown(self.exact.at_edges)
         for strategy in tuple(self._waiting):
             events = strategy(self, pause)
             if events is not None:
                 self._waiting.remove(strategy)
                 yield from events
-        if pause is not None and pause.is_round:
+        if pause is Pause.ROUND:
             yield from self.shown(self.exact.found)
 
     def shown(self, plan_segments: tuple[PlanSegment, ...]) -> Iterator[Event]:
@@ -199,39 +198,39 @@ class _PlanSearch:
             statistics = statistics.after(known.plan.statistics)
         is_exhaustive = not is_cut_short and (bool(exact.blocking) or not exact.has_doubts)
         if is_last:
-            plan_segments = self._hands.held(plan_segments, lambda: self.budget.is_late)
+            plan_segments = self._hands.held(plan_segments, self.budget.deadline)
         if known is not None and plan_segments == known.plan_segments:
             return known.told_again(self.problem.task, statistics, is_exhaustive=is_exhaustive)
         return FoundPlan.of(self.problem, status, plan_segments, (), statistics, is_exhaustive=is_exhaustive)
 
 
-Strategy: TypeAlias = Callable[[_PlanSearch, Pause | None], Iterator[Event] | None]
+Strategy: TypeAlias = Callable[[_PlanSearch, Pause], Iterator[Event] | None]
 """A way to a plan, or to a quicker one, tried once: its events, or None while it is not due.
 
-It is asked at each pause of the exact search, and with None at its end, where something quicker may have been missed.
+It is called at each pause of the exact search until it is due.
 """
 
 
-def _fall_back(search: _PlanSearch, pause: Pause | None) -> Iterator[Event] | None:
+def _fall_back(search: _PlanSearch, pause: Pause) -> Iterator[Event] | None:
     return search.fall_back(is_patient=False) if _lacks_plan(search, pause, GREEDY_AFTER_S) else None
 
 
-def _fall_back_patiently(search: _PlanSearch, pause: Pause | None) -> Iterator[Event] | None:
+def _fall_back_patiently(search: _PlanSearch, pause: Pause) -> Iterator[Event] | None:
     return search.fall_back(is_patient=True) if _lacks_plan(search, pause, PATIENT_GREEDY_AFTER_S) else None
 
 
-def _lacks_plan(search: _PlanSearch, pause: Pause | None, after_s: float) -> bool:
+def _lacks_plan(search: _PlanSearch, pause: Pause, after_s: float) -> bool:
     """Return whether a search looks on without a plan after some work (s)."""
-    return pause is LOOK and not search.exact.is_settled and search.budget.spent_s >= after_s
+    return pause is Pause.LOOK and not search.exact.is_settled and search.budget.spent_s >= after_s
 
 
-def _keep_arms_apart(search: _PlanSearch, pause: Pause | None) -> Iterator[Event] | None:
+def _keep_arms_apart(search: _PlanSearch, pause: Pause) -> Iterator[Event] | None:
     """Allow hands only where there is room beside the other arm at home, with limited work.
 
     Where a way was rejected, mostly the arms were in each other's way. Such a plan is found soon and limits what else
     is worth a try.
     """
-    if pause is None or not pause.is_round or not search.exact.has_rejected:
+    if pause is not Pause.ROUND or not search.exact.has_rejected:
         return None
     for problem in with_arms_apart(search.problem):
         work_s = max(APART_LEAST_S, APART_SHARE * search.budget.spent_s)
@@ -239,24 +238,24 @@ def _keep_arms_apart(search: _PlanSearch, pause: Pause | None) -> Iterator[Event
     return iter(())
 
 
-def _restrict(search: _PlanSearch, pause: Pause | None) -> Iterator[Event] | None:
+def _restrict(search: _PlanSearch, pause: Pause) -> Iterator[Event] | None:
     """Search restricted tasks: with more room, the first few ways tried may all be worse.
 
     A plan for a restricted task is also a plan for this one.
     """
-    if pause is None:
+    if pause is Pause.END:
         return search.restricted()
-    is_due = pause.is_round and bool(search.exact.found) and search.budget.spent_s > LESS_ROOM_AFTER_S
+    is_due = pause is Pause.ROUND and bool(search.exact.found) and search.budget.spent_s > LESS_ROOM_AFTER_S
     return chain(search.shown(search.exact.found), search.restricted()) if is_due else None
 
 
-def _try_thoroughly(search: _PlanSearch, pause: Pause | None) -> Iterator[Event] | None:
+def _try_thoroughly(search: _PlanSearch, pause: Pause) -> Iterator[Event] | None:
     """Search again with more tries, if that is worth it.
 
     A few failures rule a step out, so that a plan that drives round the table is found soon. Ways that were left
     untried may still do without.
     """
-    if pause is not None or not search.is_worth_thorough:
+    if pause is not Pause.END or not search.is_worth_thorough:
         return None
     return search.run(search.exact.run_again(THOROUGH, MORE_TRANSFERS))
 

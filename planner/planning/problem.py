@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 from planner.cloth.cloth_state import spread_out
 from planner.cloth.g_state import Unrest
 from planner.cloth.garment import Garment
+from planner.deadline import ENDLESS, Deadline
 from planner.errors import RequestError
 from planner.folds.fold_cloth import fold_cloth
 from planner.folds.fold_sequence import FoldSequence, replayed
@@ -73,11 +74,6 @@ class Problem:
             nearest_whole(world.dragged_m * DRAGS_PER_M),
         )
 
-    def forget(self) -> None:
-        """Drop what the context has cached, and who waits for the answer; a plan's steps keep their contexts."""
-        self.context.forget()
-        self.context.patience.end()
-
     def is_goal(self, state: State) -> bool:
         """Return whether all folds are done."""
         return state.done == (1 << len(self.context.sequence.folds)) - 1
@@ -118,6 +114,7 @@ class Problem:
             is_fixed=context.is_fixed,
             is_firm=context.is_firm,
             base_acceleration_m_s2=context.base_acceleration_m_s2,
+            deadline=context.deadline,
         )
         known = KnownTransfers(sampling=self.maker.known.sampling)
         return Problem(changed, fresh, machine, TransferPlanner(fresh, machine, known))
@@ -173,12 +170,13 @@ class Problem:
             is_fixed=context.is_fixed,
             is_firm=context.is_firm,
             base_acceleration_m_s2=context.base_acceleration_m_s2,
+            deadline=context.deadline,
         )
         return Problem(self.task, fresh, self.robot, TransferPlanner(fresh, self.robot))
 
     @staticmethod
-    def of(task: Task) -> "Problem":
-        """Make a task ready for planning.
+    def of(task: Task, deadline: Deadline = ENDLESS) -> "Problem":
+        """Make a task ready for planning until some deadline.
 
         Raises:
             FoldError: a fold is not legal on the cloth as the folds before it leave it.
@@ -197,6 +195,7 @@ class Problem:
             start=start,
             is_fixed=card.is_fixed,
             base_acceleration_m_s2=card.base_acceleration_m_s2,
+            deadline=deadline,
         )
         return Problem(task, context, machine, TransferPlanner(context, machine))
 

@@ -14,9 +14,9 @@ import numpy as np
 
 from planner.cloth.g_state import TableInArticle, Unrest, unrest
 from planner.cloth.grips import Cover, GripCovers
+from planner.deadline import ENDLESS, Deadline
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.pose import FloatArray, Point2, Pose2
-from planner.geometry.shortfall import never
 from planner.geometry.tolerance import LENGTH_M, grid_key
 from planner.primitives.cloth_memory import ClothMemory, cloth_memory
 from planner.primitives.drive_time import ACCELERATION_M_S2, DriveTime
@@ -47,24 +47,6 @@ _START = State(0, (0.0, 0.0), 0, 0)
 """The usual start: no fold done, nothing dragged, the base at the first station."""
 
 
-@dataclass(slots=True)
-class Patience:
-    """The limit of the time that somebody waits for an answer.
-
-    Attributes:
-        is_over: called in long loops; when it returns true, they return what is known by then.
-        is_long_over: called within single steps of such loops; true a moment after `is_over`, so that a step that was
-            begun in time mostly ends.
-    """
-
-    is_over: Callable[[], bool] = never
-    is_long_over: Callable[[], bool] = never
-
-    def end(self) -> None:
-        """Limit nothing any more, and know nothing of who waited."""
-        self.is_over = self.is_long_over = never
-
-
 @dataclass(frozen=True)
 class Context:
     """The data that all primitives of one task share.
@@ -79,7 +61,7 @@ class Context:
         grips_apart_m: the smallest distance between two grips that two hands can take (m).
         start: the state before the first primitive.
         obstacles: why primitives were not possible, collected for the reasons.
-        patience: the limit of the time that somebody waits for the answer.
+        deadline: when the time for the answer is up.
         is_fixed: whether the base cannot drive at all: then there is one station and no standoff.
         is_firm: whether hands hold firmly wherever they can.
         base_acceleration_m_s2: the base's top acceleration.
@@ -94,7 +76,7 @@ class Context:
     grips_apart_m: float = GRIPS_APART_M
     start: State = _START
     obstacles: Obstacles = field(default_factory=Obstacles)
-    patience: Patience = field(default_factory=Patience)
+    deadline: Deadline = ENDLESS
     is_fixed: bool = False
     is_firm: bool = False
     base_acceleration_m_s2: float = ACCELERATION_M_S2

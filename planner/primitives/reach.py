@@ -1,15 +1,15 @@
 """The protocol for queries about a robot's reach. The primitives own it; `planner.robots` implements it."""
 
 import math
-from collections.abc import Callable
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from planner.deadline import ENDLESS, Deadline
 from planner.geometry.driving import IMPOSSIBLE, Driving, Wanted
 from planner.geometry.pose import Approach, BoolArray, FloatArray, Point3
-from planner.geometry.shortfall import Shortfall, never
+from planner.geometry.shortfall import Shortfall
 
 
 class Following(Protocol):
@@ -68,7 +68,7 @@ class Shortfalls(Protocol):
         points: FloatArray,
         approaches: NDArray[np.int64],
         at_most_m: float = math.inf,
-        is_over: Callable[[], bool] = never,
+        deadline: Deadline = ENDLESS,
     ) -> Shortfall | None:
         """Return by how much and why a place is not within the comfort radius, in the best of some approaches.
 
@@ -78,7 +78,7 @@ class Shortfalls(Protocol):
                 base may stand, shape (n, 3).
             approaches: indices into `approaches`, shape (k,), at least one.
             at_most_m: the longest displacement to look for (m).
-            is_over: once it returns true, a lower bound will do.
+            deadline: once it is long over, a lower bound will do.
 
         Returns:
             The smallest shortfall; None where the place is within the comfort radius from somewhere in one of the
@@ -92,7 +92,7 @@ class Shortfalls(Protocol):
         places: FloatArray,
         approaches: NDArray[np.int64],
         at_most_m: float = math.inf,
-        is_over: Callable[[], bool] = never,
+        deadline: Deadline = ENDLESS,
     ) -> tuple[int, Shortfall] | None:
         """Return the worst of places that one approach must reach, in the approach in which that is mildest.
 
@@ -102,7 +102,7 @@ class Shortfalls(Protocol):
                 above the floor (m), shape (p, n, 3).
             approaches: indices into `approaches`, shape (k,), at least one.
             at_most_m: the longest displacement to look for (m).
-            is_over: once it returns true, the best of the approaches examined by then, or a lower bound, will do.
+            deadline: once it is long over, the best of the approaches examined by then, or a lower bound, will do.
 
         Returns:
             The index of the place, and its shortfall in that approach; None where some approach has all places within

@@ -3,14 +3,13 @@
 No robot has them. They show whether reach is the only obstacle to a fold.
 """
 
-from collections.abc import Callable
-
 import numpy as np
 from numpy.typing import NDArray
 
+from planner.deadline import ENDLESS, Deadline
 from planner.geometry.driving import IMPOSSIBLE, Driving, Wanted
 from planner.geometry.pose import Approach, BoolArray, FloatArray, Point3
-from planner.geometry.shortfall import Shortfall, never
+from planner.geometry.shortfall import Shortfall
 from planner.primitives.reach import Following, Reach
 
 
@@ -78,7 +77,7 @@ class UnlimitedReach:
         points: FloatArray,
         approaches: NDArray[np.int64],
         at_most_m: float = np.inf,
-        is_over: Callable[[], bool] = never,
+        deadline: Deadline = ENDLESS,
     ) -> Shortfall | None:
         """Return None: nothing is lacking."""
         return None
@@ -89,7 +88,7 @@ class UnlimitedReach:
         places: FloatArray,
         approaches: NDArray[np.int64],
         at_most_m: float = np.inf,
-        is_over: Callable[[], bool] = never,
+        deadline: Deadline = ENDLESS,
     ) -> tuple[int, Shortfall] | None:
         """Return None: nothing is lacking."""
         return None

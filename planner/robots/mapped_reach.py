@@ -8,8 +8,9 @@ from typing import TypeAlias, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from planner.deadline import ENDLESS, Deadline
 from planner.geometry.pose import FloatArray
-from planner.geometry.shortfall import Cause, Shortfall, never
+from planner.geometry.shortfall import Cause, Shortfall
 from planner.robots.comfort_memories import Memories
 from planner.robots.mapped_comfort import MappedArms
 from planner.robots.mapped_shortfall import joint_at_limit, nearest_place, widest_circle
@@ -101,11 +102,11 @@ class MappedReach(ShortfallReach):
         points: FloatArray,
         approaches: NDArray[np.int64],
         at_most_m: float,
-        is_over: Callable[[], bool],
+        deadline: Deadline,
     ) -> tuple[Shortfall, int]:
         seen, labels = points - self._shoulders[arm], self._asked.labels[arm][approaches]
         furthest = min(at_most_m, FURTHEST_M)
-        most = _QUERIES_LATE_MAX if is_over() else _QUERIES_MAX
+        most = _QUERIES_LATE_MAX if deadline.is_long_over else _QUERIES_MAX
         short_by_m, seen_from, approach, direction, queries = nearest_place(
             self._arms(), labels, seen, DIRECTIONS, self._comfort_m, furthest, most
         )
@@ -133,7 +134,7 @@ class MappedReach(ShortfallReach):
         places: FloatArray,
         approaches: NDArray[np.int64],
         at_most_m: float = math.inf,
-        is_over: Callable[[], bool] = never,
+        deadline: Deadline = ENDLESS,
     ) -> tuple[int, Shortfall] | None:
         """Return the worst of places that one approach must reach, in the best approach for it (see `Shortfalls`)."""
         had = np.stack([self.from_anywhere(arm, place, approaches, 1, 0.0).any(axis=1) for place in places], axis=1)
@@ -141,12 +142,12 @@ class MappedReach(ShortfallReach):
             return None
         best: tuple[int, Shortfall] | None = None
         for row in np.argsort(-had.sum(axis=1), kind="stable"):
-            if best is not None and is_over():
+            if best is not None and deadline.is_long_over:
                 break
             limit_m = at_most_m if best is None else min(at_most_m, best[1].short_by_m)
             worst: tuple[int, Shortfall] | None = None
             for number in np.flatnonzero(~had[row]).tolist():
-                found = self.shortfall(arm, places[number], approaches[row : row + 1], limit_m, is_over)
+                found = self.shortfall(arm, places[number], approaches[row : row + 1], limit_m, deadline)
                 if found is not None and (worst is None or found.short_by_m > worst[1].short_by_m):
                     worst = (number, found)
                 if worst is not None and worst[1].short_by_m >= limit_m:

@@ -5,15 +5,15 @@ explanations and to tell what is hopeless.
 """
 
 import math
-from collections.abc import Callable
 from dataclasses import replace
 from time import thread_time
 
 import numpy as np
 from numpy.typing import NDArray
 
+from planner.deadline import ENDLESS, Deadline
 from planner.geometry.pose import FloatArray
-from planner.geometry.shortfall import Shortfall, never
+from planner.geometry.shortfall import Shortfall
 from planner.geometry.tolerance import LENGTH_M, grid_keys
 from planner.robots.approaches import APPROACHES, mirror_images
 from planner.robots.arm import numbers_of
@@ -71,11 +71,11 @@ class Pr2Reach(ShortfallReach):
         points: FloatArray,
         approaches: NDArray[np.int64],
         at_most_m: float,
-        is_over: Callable[[], bool],
+        deadline: Deadline,
     ) -> tuple[Shortfall, int]:
         mirrored, seen = self._arms[arm], self._as_left_arm_sees(arm, approaches)
         on_grid = self._from_shoulder(mirrored, points)
-        found, queries = left_shortfall(mirrored.shape, self._wanted(seen), on_grid, at_most_m, is_over)
+        found, queries = left_shortfall(mirrored.shape, self._wanted(seen), on_grid, at_most_m, deadline)
         x, y, z = mirrored.mirrored_places(np.array(found.towards))
         approach = int(approaches[found.approach])
         return replace(found, towards=(float(x), float(y), float(z)), approach=approach), queries
@@ -86,7 +86,7 @@ class Pr2Reach(ShortfallReach):
         places: FloatArray,
         approaches: NDArray[np.int64],
         at_most_m: float = math.inf,
-        is_over: Callable[[], bool] = never,
+        deadline: Deadline = ENDLESS,
     ) -> tuple[int, Shortfall] | None:
         """Return the worst of places that one approach must reach, in the best approach for it (see `Shortfalls`)."""
         mirrored, seen = self._arms[arm], self._as_left_arm_sees(arm, approaches)
@@ -98,7 +98,7 @@ class Pr2Reach(ShortfallReach):
         while True:
             found = minimax(mirrored.shape, query, on_grid, DIRECTIONS, furthest, ranking, found, PIECE_QUERIES)
             is_cut_short = found.examined < len(ranking.order)
-            if not is_cut_short or is_over():
+            if not is_cut_short or deadline.is_long_over:
                 break
         self._query_time_s += thread_time() - started
         nearest = approaches[found.approach : found.approach + 1]

@@ -3,8 +3,6 @@
 import contextlib
 import os
 import tempfile
-import threading
-import time
 from collections.abc import Callable, Sequence
 from hashlib import blake2b
 from pathlib import Path
@@ -13,6 +11,7 @@ from zipfile import BadZipFile
 import numpy as np
 from platformdirs import user_cache_path
 
+from planner.deadline import left_out
 from planner.geometry.pose import Approach
 from planner.robots.chain import Chain
 from planner.robots.reach_map import Grid, ReachMap
@@ -46,7 +45,6 @@ _FORMAT = 5
 _KEPT_MAX = 64
 """Maps that stay in the cache: of all shipped robots several times, and of robots whose cards were varied."""
 
-_spent = threading.local()
 
 Progress = Callable[[float], None]
 """Is told now and then what share of the work is done, roughly (0 to 1)."""
@@ -80,19 +78,12 @@ def kept_map(chain: Chain, grid: Grid, progress: Progress | None = None, directo
         with path.open("rb") as file, np.load(file, allow_pickle=False) as arrays:
             found = ReachMap(grid, arrays["starts"], arrays["postures"])
     except (OSError, ValueError, KeyError, EOFError, BadZipFile):
-        begun = time.thread_time()
-        found = build_map(chain, grid, progress)
-        _spent.building_s = building_time_s() + time.thread_time() - begun
+        with left_out():  # a map is built once
+            found = build_map(chain, grid, progress)
         with contextlib.suppress(OSError):
             _write(path, found)
     with contextlib.suppress(OSError):
         use(path, _KEPT_MAX)
-    return found
-
-
-def building_time_s() -> float:
-    """Return the processor time that this thread spent on building maps (s); limits of searches leave it out."""
-    found: float = getattr(_spent, "building_s", 0.0)
     return found
 
 

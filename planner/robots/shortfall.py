@@ -5,10 +5,10 @@ given as it is seen from each.
 """
 
 import math
-from collections.abc import Callable
 
 import numpy as np
 
+from planner.deadline import Deadline
 from planner.geometry.pose import FloatArray, Point3
 from planner.geometry.shortfall import Cause, Shortfall
 from planner.robots.arm import ArmShape
@@ -33,7 +33,7 @@ _RING = np.array(_STRAIGHT)
 
 
 def left_shortfall(
-    shape: ArmShape, query: ReachQuery, points: FloatArray, at_most_m: float, is_over: Callable[[], bool]
+    shape: ArmShape, query: ReachQuery, points: FloatArray, at_most_m: float, deadline: Deadline
 ) -> tuple[Shortfall, int]:
     """Return the shortfall of a place that is not within the comfort radius from anywhere, and the queries made.
 
@@ -42,7 +42,7 @@ def left_shortfall(
         query: the requirements on the place, at least one approach; the shortfall's `approach` is an index into them.
         points: the tool's position as seen from each place of the base, shape (n, 3).
         at_most_m: the longest displacement tried, if less than `FURTHEST_M`.
-        is_over: ends the search after some thousand queries, with a lower bound.
+        deadline: ends the search, once it is long over, after some thousand queries, with a lower bound.
     """
     furthest = min(at_most_m, FURTHEST_M)
     lines, queries = directions_from(shape, query, points, DIRECTIONS), 0
@@ -52,7 +52,7 @@ def left_shortfall(
         )
         queries += more
         searched = float(lines.inner[0])
-        if seen_from >= 0 or searched >= furthest or is_over():
+        if seen_from >= 0 or searched >= furthest or deadline.is_long_over:
             break
     comfort, widest_from, widest_approach, more = widest_comfort(shape, query, points)
     queries += more

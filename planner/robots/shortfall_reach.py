@@ -2,14 +2,14 @@
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Callable
 from time import thread_time
 
 import numpy as np
 from numpy.typing import NDArray
 
+from planner.deadline import ENDLESS, Deadline
 from planner.geometry.pose import FloatArray
-from planner.geometry.shortfall import Shortfall, never
+from planner.geometry.shortfall import Shortfall
 from planner.robots.comfort_reach import ComfortReach
 
 
@@ -22,7 +22,7 @@ class ShortfallReach(ComfortReach, ABC):
         points: FloatArray,
         approaches: NDArray[np.int64],
         at_most_m: float = math.inf,
-        is_over: Callable[[], bool] = never,
+        deadline: Deadline = ENDLESS,
     ) -> Shortfall | None:
         """Return by how much and why a place is not within the comfort radius (see `Shortfalls`).
 
@@ -35,7 +35,7 @@ class ShortfallReach(ComfortReach, ABC):
         if self.from_anywhere(arm, points, approaches, 1, 0.0).any():
             return None
         started = thread_time()
-        found, queries = self._least_shortfall(arm, points, approaches, at_most_m, is_over)
+        found, queries = self._least_shortfall(arm, points, approaches, at_most_m, deadline)
         self._shortfall_queries += queries
         self._query_time_s += thread_time() - started
         return found
@@ -47,6 +47,6 @@ class ShortfallReach(ComfortReach, ABC):
         points: FloatArray,
         approaches: NDArray[np.int64],
         at_most_m: float,
-        is_over: Callable[[], bool],
+        deadline: Deadline,
     ) -> tuple[Shortfall, int]:
         """Return the least shortfall of a place that is not within the comfort radius, and the queries it took."""

@@ -18,8 +18,8 @@ from app.replanner import Replanner
 from app.store.database import Database
 from app.store.plan_store import PlanStore
 from bench.in_thread import InThread
-from planner import find_plan
 from planner.cloth.garment import Garment
+from planner.plans import plan
 from tests.app.drawing.drawings import pulled
 from tests.app.samples import towel
 from tests.patience import PATIENCE_S
@@ -89,7 +89,7 @@ class Endless:
             while not should_stop():
                 time.sleep(0.001)
             self.stopped.set()
-        return find_plan(*arguments, should_stop=should_stop, **options)  # type: ignore[arg-type]
+        return plan(*arguments, should_stop=should_stop, **options)  # type: ignore[arg-type]
 
 
 def nothing(*_: object, **__: object) -> None:

@@ -10,9 +10,10 @@ from app import replanner
 from app.document_state import VersionPlan
 from app.drawing.edit import Edit
 from app.drawing.solve import solve
-from planner import Task, find_plan
+from planner import Task
 from planner.planning import plan_search
-from planner.planning.found_plan import FoundPlan
+from planner.planning.events import Done, Event
+from planner.plans import plan
 from tests.app.drawing.drawings import crease
 from tests.app.replan_desk import TOWEL, Desk, Endless, moved, replanning
 from tests.patience import PATIENCE_S
@@ -35,9 +36,9 @@ def test_the_plan_before_is_shown_as_it_is_for_the_drawing_now_while_a_quicker_o
 
     def waiting(*arguments: object, **options: object) -> object:
         assert may_end.wait(PATIENCE_S)
-        return find_plan(*arguments, **options)  # type: ignore[arg-type]
+        return plan(*arguments, **options)  # type: ignore[arg-type]
 
-    monkeypatch.setattr("app.live_planning.find_plan", waiting)
+    monkeypatch.setattr("app.live_planning.plan", waiting)
     desk.document.edit(Edit("Move", moved(20)))
     desk.until(lambda: desk.is_answered and desk.has_film)
     first = desk.document.state.answer
@@ -55,7 +56,7 @@ def test_who_stops_the_search_for_a_quicker_plan_keeps_the_one_shown(
 ) -> None:
     desk.rest()
     endless = Endless(is_once=False)
-    monkeypatch.setattr("app.live_planning.find_plan", endless)
+    monkeypatch.setattr("app.live_planning.plan", endless)
     desk.document.edit(Edit("Move", moved(20)))
     assert endless.begun.wait(PATIENCE_S)
     shown = desk.document.state.answer
@@ -138,14 +139,16 @@ def test_what_was_not_found_with_little_work_is_found_by_who_looks_longer(monkey
 def test_who_looks_longer_keeps_the_plan_on_show_until_a_quicker_one_is_found(
     desk: Desk, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def unproven(task: Task, **options: object) -> FoundPlan:
-        found = find_plan(task, **options)  # type: ignore[arg-type]
-        if required(task.limits.work_limit_s) > replanner.WORK_S:
-            return found
-        statistics = replace(found.plan.statistics, bound_s=1.0, is_cut_short=True)
-        return replace(found, plan=replace(found.plan, statistics=statistics))
+    def unproven(task: Task, *given: object, **options: object) -> Iterator[Event]:
+        for event in plan(task, *given, **options):  # type: ignore[arg-type]
+            if isinstance(event, Done) and required(task.limits.work_limit_s) <= replanner.WORK_S:
+                found = event.found
+                statistics = replace(found.plan.statistics, bound_s=1.0, is_cut_short=True)
+                yield Done(replace(found, plan=replace(found.plan, statistics=statistics)))
+            else:
+                yield event
 
-    monkeypatch.setattr("app.live_planning.find_plan", unproven)
+    monkeypatch.setattr("app.live_planning.plan", unproven)
     desk.rest()
     desk.document.edit(Edit("Move", moved(20)))
     desk.rest()

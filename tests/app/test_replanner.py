@@ -193,7 +193,7 @@ def test_a_bug_in_the_planner_is_told_of_and_the_next_edit_is_planned(
     def fail(*_: object, **__: object) -> None:
         raise RuntimeError("a bug")
 
-    monkeypatch.setattr("app.live_planning.find_plan", fail)
+    monkeypatch.setattr("app.live_planning.plan", fail)
     desk.document.edit(Edit("Move", moved(1)))
     desk.until(lambda: desk.document.state.failure is not None)
     assert status_text(desk.document.state) == "No plan: the planner failed"
@@ -206,7 +206,7 @@ def test_a_bug_in_the_planner_is_told_of_and_the_next_edit_is_planned(
 def test_a_committed_edit_stops_the_search_for_the_one_before(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
     desk.rest()
     endless = Endless()
-    monkeypatch.setattr("app.live_planning.find_plan", endless)
+    monkeypatch.setattr("app.live_planning.plan", endless)
     desk.document.edit(Edit("Move", moved(1)))
     assert endless.begun.wait(PATIENCE_S)
     desk.document.edit(Edit("Move", moved(2)))
@@ -220,7 +220,7 @@ def test_who_stops_planning_is_told_so_and_the_next_edit_is_planned(
     desk.rest()
     endless = Endless(is_once=False)
     with monkeypatch.context() as patch:
-        patch.setattr("app.live_planning.find_plan", endless)
+        patch.setattr("app.live_planning.plan", endless)
         patch.setattr("app.live_planning.quick_plan", nothing)
         desk.document.edit(Edit("Move", moved(1)))
         assert endless.begun.wait(PATIENCE_S)
@@ -242,7 +242,7 @@ def test_who_stops_planning_is_told_so_and_the_next_edit_is_planned(
 def test_a_search_that_takes_long_gives_way_to_the_next_preview(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
     desk.rest()
     endless = Endless()
-    monkeypatch.setattr("app.live_planning.find_plan", endless)
+    monkeypatch.setattr("app.live_planning.plan", endless)
     desk.document.edit(Edit("Drag", moved(1), Phase.PREVIEW))
     assert endless.begun.wait(PATIENCE_S)
     desk.document.edit(Edit("Drag", moved(2), Phase.PREVIEW))

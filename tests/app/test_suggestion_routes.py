@@ -79,7 +79,7 @@ async def test_a_search_that_is_stuck_ends_soon_after_its_time(
     client: httpx.AsyncClient, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("app.searches.suggest", suggest_and_hang)
-    monkeypatch.setattr("planner.planning.budget.WALL_LEAST_S", 0.0)
+    monkeypatch.setattr("planner.deadline.WALL_LEAST_S", 0.0)
     monkeypatch.setattr("app.api.suggestion_routes._GRACE_S", 0.1)
     answer = await client.post("/api/suggestions", json={**STUCK, "time_limit_s": 0.5})
     (trying, _), (last, done) = events_in(answer.text)

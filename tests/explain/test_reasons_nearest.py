@@ -1,16 +1,17 @@
 """What one attempt lacks, for arms that reach only certain bands ahead of the base; and which attempt came closest."""
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import pytest
 
 from planner import Scene, load_garment
+from planner.deadline import ENDLESS, Deadline
 from planner.explain.reason_attempt import Demand, Miss, miss_of
 from planner.explain.reason_reach import Places, nearest_miss
 from planner.geometry.pose import FloatArray, Point3
-from planner.geometry.shortfall import Shortfall, never
+from planner.geometry.shortfall import Shortfall
 from planner.planning.found_plan import FoundPlan
 from planner.primitives.context import Context
 from planner.primitives.fold_obstacles import geometric_obstacle
@@ -60,7 +61,7 @@ class BandReach(WideReach):
         points: FloatArray,
         approaches: FloatArray,
         at_most_m: float = math.inf,
-        is_over: Callable[[], bool] = never,
+        deadline: Deadline = ENDLESS,
     ) -> Shortfall | None:
         lacks = [self._lacks(arm, x) for x, _, _ in points]
         nearest = int(np.argmin(lacks))
@@ -74,7 +75,7 @@ class BandReach(WideReach):
         places: FloatArray,
         approaches: FloatArray,
         at_most_m: float = math.inf,
-        is_over: Callable[[], bool] = never,
+        deadline: Deadline = ENDLESS,
     ) -> tuple[int, Shortfall] | None:
         each = [(n, self.shortfall(arm, place, approaches)) for n, place in enumerate(places)]
         found = [(n, one) for n, one in each if one is not None]

@@ -2,12 +2,12 @@
 
 import math
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 import pytest
 
 from planner import Garment, Scene, Task, find_plan, make_plan
+from planner.deadline import ENDLESS, Deadline
 from planner.explain.reasons import reasons
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
@@ -195,9 +195,9 @@ def _moved_station(cloth: Garment, reason: Reason, by_m: float) -> tuple[Garment
 
 def test_a_reason_is_told_with_what_is_known_once_nobody_waits_any_more() -> None:
     """No move that would help is looked for then."""
-    context = find_plan(Task.of(hammer(), HAMMER_SCENE), with_reasons=False).context
+    known = find_plan(Task.of(hammer(), HAMMER_SCENE), with_reasons=False).context
     shifts = []
-    for is_over in (True, False):
-        context.patience.is_over = partial(bool, is_over)
+    for deadline in (Deadline(-1.0), ENDLESS):
+        context = replace(known, deadline=deadline)
         shifts += [reason.shift_m for reason in reasons(context, (), [0]) if reason.code is Code.NOT_A_G_STATE]
     assert shifts == [None, pytest.approx(0.05)]

@@ -147,7 +147,7 @@ def test_the_building_of_maps_ends_with_the_time(monkeypatch: pytest.MonkeyPatch
             progress(0.5)
             time.sleep(0.01)
 
-    monkeypatch.setattr("planner.planning.budget.clock_s", time.monotonic)
+    monkeypatch.setattr("planner.deadline.clock_s", time.monotonic)
     monkeypatch.setattr("planner.explain.suggestion_robot.prepare_robot", for_ever)
     monkeypatch.setattr(searching, "_ROBOT_S", 0.0)
     task = task_for(LONG, robot=SHORT, work_limit_s=0.5, time_limit_s=60.0)

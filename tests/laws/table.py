@@ -8,7 +8,7 @@ import math
 from random import Random
 from time import process_time
 
-from planner.planning import budget
+from planner import deadline
 from tests.laws.plan_laws import LAWS, Differences, differences
 from tests.laws.wear import wear_task
 
@@ -20,7 +20,7 @@ def main() -> None:
     asked.add_argument("--first", type=int, default=0, help="the seed of the first one")
     asked.add_argument("--laws", nargs="*", default=list(LAWS), choices=list(LAWS), help="the laws that are tried")
     options = asked.parse_args()
-    budget.clock_s = process_time
+    deadline.clock_s = process_time
     print("seed  folds  status      cost s  bound s   gap %  cpu s  " + "  ".join(f"{law:>8}" for law in options.laws))
     found: list[Differences] = []
     for seed in range(options.first, options.first + options.count):

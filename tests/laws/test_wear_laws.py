@@ -5,7 +5,7 @@ from time import process_time
 
 import pytest
 
-from planner.planning import budget
+from planner import deadline
 from tests.laws.plan_laws import LAWS, differences
 from tests.laws.wear import wear_task
 
@@ -20,7 +20,7 @@ def seeds(count: int) -> list[object]:
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", seeds(100))
 def test_a_hood_a_poncho_and_a_jumper_keep_the_laws_of_plans(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(budget, "clock_s", process_time)  # work ends a search, however busy the machine is
+    monkeypatch.setattr(deadline, "clock_s", process_time)  # work ends a search, however busy the machine is
     found = differences(wear_task(Random(seed)), seed)
     assert not {name: broken for name, broken in found.by_law.items() if broken}
 

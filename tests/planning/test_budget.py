@@ -5,8 +5,8 @@ import time
 
 import pytest
 
-from planner import Plan, Task, load_garment, make_plan
-from planner.planning import budget, plan_search
+from planner import Plan, Task, deadline, load_garment, make_plan
+from planner.planning import plan_search
 from planner.planning.budget import Budget
 from planner.planning.problem import Problem
 from planner.plans import plan
@@ -79,8 +79,8 @@ def test_time_in_which_the_process_has_no_processor_does_not_count() -> None:
 
 
 def test_whoever_waits_gets_an_answer_from_a_search_that_stalls_for_ever(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(budget, "WALL_FACTOR", 1.0)
-    monkeypatch.setattr(budget, "WALL_LEAST_S", 0.2)
+    monkeypatch.setattr(deadline, "WALL_FACTOR", 1.0)
+    monkeypatch.setattr(deadline, "WALL_LEAST_S", 0.2)
     task = Task.of(load_garment("t-shirt"), work_limit_s=60.0, time_limit_s=10.0)
 
     def stalled() -> bool:
@@ -107,3 +107,29 @@ def test_what_is_asked_of_every_problem_watched_is_counted() -> None:
     budget.looks += 1
     assert 0.0 < tried < budget.spent_s
     assert budget.ways == 1
+
+
+def test_a_deadline_that_is_over_stays_so_and_asks_nobody_any_more() -> None:
+    answers = iter((False, True))
+    whole = Budget.endless(lambda: next(answers))
+    part = whole.part(1.0)
+    assert [part.is_over, whole.is_over, part.is_over, whole.is_over] == [False, True, True, True]
+
+
+def test_a_deadline_that_is_forgotten_limits_nothing() -> None:
+    limit = deadline.Deadline(-1.0, lambda: True)
+    assert (limit.is_over, limit.is_long_over) == (True, True)
+    limit.forget()
+    assert (limit.is_over, limit.is_long_over) == (False, False)
+
+
+def test_time_that_is_left_out_does_not_bring_a_deadline_nearer(monkeypatch: pytest.MonkeyPatch) -> None:
+    now_s = [0.0]
+    monkeypatch.setattr(deadline, "clock_s", lambda: now_s[0])
+    monkeypatch.setattr("planner.deadline.time.thread_time", lambda: now_s[0])
+    limit = deadline.Deadline(2.0)
+    with deadline.left_out():
+        now_s[0] += 10.0
+    assert limit.left_s == pytest.approx(2.0)
+    now_s[0] += 3.0
+    assert limit.is_over

@@ -41,7 +41,7 @@ def moved(name: str, ahead_m: float, left_m: float = 0.0) -> Garment:
 
 @pytest.mark.parametrize("name", EDGES)
 def test_the_search_itself_finds_hands_at_edges(monkeypatch: pytest.MonkeyPatch, name: str) -> None:
-    monkeypatch.setattr(EdgeHands, "held", lambda self, plan_segments, is_over: plan_segments)
+    monkeypatch.setattr(EdgeHands, "held", lambda self, plan_segments, deadline: plan_segments)
     found = found_plan(moved(name, AHEAD_M[name]), time_limit_s=60.0).plan
     assert found.is_proven
     assert [grip.kind for step in found.steps for grip in step.grips].count("edge") == EDGES[name]
@@ -56,7 +56,7 @@ def test_where_hands_hold_edges_no_others_are_led_along_the_path(monkeypatch: py
 
 
 def test_hands_that_come_late_to_an_edge_hold_otherwise(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(EdgeHands, "held", lambda self, plan_segments, is_over: plan_segments)
+    monkeypatch.setattr(EdgeHands, "held", lambda self, plan_segments, deadline: plan_segments)
     rounds: list[float | None] = []
     late: list[bool] = []
     validated, is_late = MotionValidator.plan_segments, EdgePath.is_late

@@ -7,10 +7,12 @@ import pytest
 
 from planner import Garment, Plan, Scene, load_garment, make_plan
 from planner.geometry.pose import Point2, Pose2
+from planner.geometry.table import Table
 from planner.planning.problem import Problem
 from planner.planning.restricted_tasks import with_arms_apart
 from planner.primitives.fold_trial import fold_trials
 from planner.primitives.fold_variants import trial_variants
+from planner.task.reason import Code
 from planner.task.scene import DEFAULT_STATIONS
 from planner.task.task import Task
 from tests.builders import fold, garment
@@ -92,6 +94,14 @@ def test_the_rest_of_a_plan_after_a_drag_that_holds_costs_what_is_left() -> None
     assert plan.is_proven and plan.state_after(0).held
     rest = make_plan(replace(plan.task, start=plan.state_after(0)))
     assert rest.cost_s == pytest.approx(required(plan.cost_s) - plan.steps[0].end_s, abs=1e-5)
+
+
+def test_where_the_rest_of_a_plan_cannot_be_done_with_what_is_held_nor_without_it_there_are_reasons() -> None:
+    task = Task.of(load_garment("big-towel"))
+    held = make_plan(task).state_after(0)
+    assert held.held
+    plan = make_plan(replace(task, start=held).in_scene(Scene(table=Table(height_m=1.15))))
+    assert plan.status == "infeasible" and plan.reasons[0].code is Code.OUT_OF_REACH
 
 
 def test_a_bound_minds_no_arm_that_may_be_elsewhere() -> None:

@@ -64,7 +64,7 @@ def test_a_search_without_a_plan_leaves_no_garbage_and_forgets_who_asked(collect
 
     found = find_plan(task, should_stop=should_stop, with_reasons=True)
     assert not found.plan.is_solved
-    assert found.context.patience.is_over() is False
+    assert found.context.deadline.is_over is False
     del task
     assert own_garbage() == {}
     assert gc.get_referrers(should_stop) == [], "what a search asked whether to stop is not kept with its plan"

@@ -13,8 +13,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from planner.deadline import ENDLESS, Deadline
 from planner.geometry.pose import BoolArray, FloatArray, Point3, Pose2
-from planner.geometry.shortfall import Shortfall, never
+from planner.geometry.shortfall import Shortfall
 from planner.geometry.table import Table
 from planner.robots.arm_paths import Together, arm_paths, arm_searches
 from planner.robots.card import ArmCard, ParallelogramGripper, RobotCard
@@ -113,9 +114,9 @@ class RemadeReach(Pr2Reach):
         points: FloatArray,
         approaches: NDArray[np.int64],
         at_most_m: float = np.inf,
-        is_over: Callable[[], bool] = never,
+        deadline: Deadline = ENDLESS,
     ) -> Shortfall | None:
-        found = super().shortfall(arm, points, approaches, at_most_m, is_over)
+        found = super().shortfall(arm, points, approaches, at_most_m, deadline)
         if found is None:
             return None
         x, y, z = found.towards

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from planner.deadline import Deadline
 from planner.geometry.shortfall import Shortfall
 from planner.robots import reach as reach_module
 from planner.robots import shortfall
@@ -123,7 +124,7 @@ def test_a_search_that_is_over_ends_with_a_lower_bound(arm: int, monkeypatch: py
     monkeypatch.setattr(shortfall, "PIECE_QUERIES", 1)
     reach, cut_short = ROBOT.reach(TORSO_M, COMFORT_M), 0
     for point, whole in _displaced(reach, arm, EVERY_APPROACH):
-        cut = required(reach.shortfall(arm, point, EVERY_APPROACH, is_over=lambda: True))
+        cut = required(reach.shortfall(arm, point, EVERY_APPROACH, deadline=Deadline(-1.0)))
         assert cut.is_at_least or cut == whole
         assert cut.short_by_m <= whole.short_by_m
         cut_short += cut.is_at_least
@@ -139,7 +140,7 @@ def test_of_places_to_be_had_together_only_the_approaches_examined_in_time_count
     rng = np.random.default_rng(41)
     for way in (_points(rng, 3)[:, None] + STANDS for _ in range(16)):
         whole = reach.shortfall_together(arm, way, EVERY_APPROACH)
-        cut = reach.shortfall_together(arm, way, EVERY_APPROACH, is_over=lambda: True)
+        cut = reach.shortfall_together(arm, way, EVERY_APPROACH, deadline=Deadline(-1.0))
         if whole is None or cut is None or cut == whole:
             continue
         cut_short += 1
