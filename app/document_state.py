@@ -12,10 +12,12 @@ from app.held_folds import Checks
 from app.language import ENGLISH, Language
 from app.playback import Playback
 from app.rehearsal.trace import RunTrace
-from planner.errors import RequestError
+from planner.errors import FieldError, RequestError
 from planner.motion.timeline import Timeline
+from planner.robots.card import RobotCard
+from planner.robots.load_robot import load_robot
 from planner.task.plan import Plan
-from planner.task.task import Task
+from planner.task.task import DEFAULT_ROBOT, Task
 from planner.task.world_state import WorldState
 
 
@@ -252,3 +254,15 @@ class DocumentState:
             return after
         is_another = self.committed is not None and self.committed.task != answer.task
         return replace(after, committed=answer, before=self.committed if is_another else self.before)
+
+
+def shown_robot(name: str) -> RobotCard:
+    """Return a robot's card, or the default robot's where there is none of this name or it is not valid.
+
+    A robot of one's own may be removed, or become invalid, while drawings name it: they stay readable and can be given
+    another robot; planning them says what is wrong.
+    """
+    try:
+        return load_robot(name).card
+    except FieldError:
+        return load_robot(DEFAULT_ROBOT).card

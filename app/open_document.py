@@ -6,11 +6,11 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 from app.document import Document
+from app.document_state import shown_robot
 from app.jobs.lanes import Lanes
 from app.jobs.limits import CLIENT
 from app.player import Player
 from app.replanner import Replanner
-from app.shown_robot import shown_robot
 from app.store.plan_store import PlanStore
 from app.ui.view_3d import View3D
 from app.ui.viewpoints.sessions import Sessions

@@ -5,8 +5,7 @@ import threading
 import time
 
 from app.document import Document
-from app.document_state import DocumentState, ShownPlan
-from app.shown_robot import shown_robot
+from app.document_state import DocumentState, ShownPlan, shown_robot
 from app.ui.lying_cloth import lying_cloth
 from app.ui.view_3d import View3D
 from app.ui.viewpoints.sessions import Sessions

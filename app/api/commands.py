@@ -88,14 +88,11 @@ def dispatch(wanted: Wanted, workspace: Workspace, document: Document) -> Docume
             document.plan_from(lambda state: state.start_in(lambda task: requested_start(task, start)))
         case Stop():
             document.stop_planning()
-        case Preview(plan=None):
-            document.preview(None)
-        case Preview(plan=str(plan_id)):
-            document.preview(workspace.plans.plan(plan_id))
-        case ShowTrace(trace=None):
-            document.show_trace(None)
-        case ShowTrace(trace=str(trace_id)):
-            document.show_trace(RunTrace.unpacked(workspace.traces.content(trace_id)))
+        case Preview(plan=plan_id):
+            document.preview(None if plan_id is None else workspace.plans.plan(plan_id))
+        case ShowTrace(trace=trace_id):
+            content = None if trace_id is None else workspace.traces.content(trace_id)
+            document.show_trace(None if content is None else RunTrace.unpacked(content))
     return document.state
 
 

@@ -5,12 +5,11 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from app.document import Document
-from app.document_state import DocumentState, VersionPlan
+from app.document_state import DocumentState, VersionPlan, shown_robot
 from app.drawing.drawing_json import drawing_to_dict
 from app.drawing.garment_json import garment_to_dict
 from app.held_folds import Checks
 from app.open_document import OpenDocument
-from app.shown_robot import shown_robot
 from app.visitors_view import VisitorsView
 from planner.geometry.pose import Point2
 from planner.robots.load_robot import robot_card_file

@@ -6,9 +6,8 @@ import numpy as np
 import viser
 
 from app.document import Document
-from app.document_state import DocumentState
+from app.document_state import DocumentState, shown_robot
 from app.drawing.ring import ring_of
-from app.shown_robot import shown_robot
 from app.ui.opening import opening as opening_of
 from app.ui.viewpoint import Viewpoint
 from app.ui.viewpoints.following import Following, work_of
