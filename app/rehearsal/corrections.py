@@ -21,11 +21,10 @@ from app.rehearsal.world import GripMotion, StepMotion, way_done
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Point2, Point3, Pose2
 
-_TRIED = ((1 / 6, 0), (1 / 3, 0), (1 / 3, 1), (1 / 3, -1), (1, 0), (1, 1), (1, -1), (1, 4))
+_TRIED = ((1 / 3, 0), (1 / 3, 1), (1 / 3, -1), (2 / 3, 0), (1, 0), (1, 1), (1, -1), (1, 4))
 """How far from the grip, as a share of the radius, and at how many eighths of a turn from inwards it is tried.
 
-Near to it at first: most fingers that miss have closed just beside an edge, and what is beyond the fingers crumples, or
-lands doubled back.
+Near to it at first: most fingers that miss have closed just beside an edge, and what is beyond the fingers crumples.
 """
 
 SHORT_M = 0.008
@@ -98,7 +97,7 @@ def beside_grips(motion: StepMotion, seen: StepSeen) -> StepMotion:
 
 WITHOUT_LOOKING: tuple[Correction, ...] = (over_edge,)
 BY_WHAT_IS_SEEN: tuple[Correction, ...] = (carried_along, kept_taut, laid_short, beside_grips, trailing, over_edge)
-"""The corrections, in their order."""
+"""The corrections without and with feedback, in their order."""
 
 
 def aimed(motion: StepMotion, hands: Mapping[str, Point2]) -> StepMotion:

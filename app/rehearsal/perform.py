@@ -24,9 +24,7 @@ from app.rehearsal.corrections import (
 from app.rehearsal.eyes import Picture
 from app.rehearsal.finger_ends import round_finger_ends
 from app.rehearsal.grasp_points import taken_at
-from app.rehearsal.hand_reach import HandReach
 from app.rehearsal.judge import Gate, StepVerdict, carried_pose, carry, judged
-from app.rehearsal.physics.fingers import FingerSize
 from app.rehearsal.result import Decision
 from app.rehearsal.step_motions import posture_at, step_motions
 from app.rehearsal.step_seen import StepSeen
@@ -106,11 +104,11 @@ class Performer:
 
     def _begin(self) -> None:
         """Begin the plan: all its steps are to be made, and the stack is believed to lie where it should."""
-        path, task = self.plan.trajectory, self.plan.task
+        path, radius_m = self.plan.trajectory, self.plan.task.limits.comfort_radius_m
         self._watch.posture = None if path is None else posture_at(path, 0.0)
-        fingers = {arm.name: FingerSize.of(arm.gripper) for arm in robot_card_file(task.robot).arms}
-        motions, reaches = step_motions(self.plan), HandReach(self.plan)
-        self._motions = tuple(round_finger_ends(motions, fingers, task.limits.comfort_radius_m, reaches))
+        arms = robot_card_file(self.plan.task.robot).arms
+        thickness_m = {arm.name: arm.gripper.finger_thickness_m for arm in arms}
+        self._motions = tuple(round_finger_ends(step_motions(self.plan), thickness_m, radius_m))
         self._number, self._carried = 0, Isometry()
 
     def _seen(self, step: PlanStep, motion: StepMotion) -> tuple[StepSeen, str]:

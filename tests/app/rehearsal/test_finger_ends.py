@@ -8,13 +8,12 @@ import pytest
 
 from app.rehearsal.finger_ends import round_finger_ends
 from app.rehearsal.physics.fabric import Fabric, Resolution
-from app.rehearsal.physics.fingers import FingerSize
 from app.rehearsal.physics.physics_world import PhysicsWorld
 from app.rehearsal.physics.pinch import PAD_M
 from app.rehearsal.world import GripMotion, StepMotion
 from planner import Task
 from planner.folds.fold_path import REST_HEIGHT_M
-from planner.geometry.pose import BoolArray, FloatArray, Pose2
+from planner.geometry.pose import Pose2
 from planner.robots.load_robot import robot_card_file
 from tests.builders import garment, rectangle_points
 
@@ -32,26 +31,8 @@ def over_the_line(heading_rad: float | None, *, opens: bool = True, rolls: bool 
     return GripMotion("left", times_s, tuple(points), opens=opens, turned_rad=turned_rad, heading_rad=heading_rad)
 
 
-SIZE = FingerSize(0.06, 0.022, THICKNESS_M, 0.09)
-
-
-class ReachedFrom:
-    """A robot that reaches what is at least that far along x, and notes what it is asked."""
-
-    def __init__(self, least_x_m: float = 0.0) -> None:
-        self._least_x_m = least_x_m
-        self.asked: list[tuple[int, str]] = []
-
-    def ends_in(self, step: int, arm: str, points: FloatArray) -> BoolArray:
-        self.asked.append((step, arm))
-        return np.asarray(points[:, 0] >= self._least_x_m)
-
-
-def rounded(
-    grip: GripMotion, most_m: float = 1.0, kind: str = "fold", reaches: ReachedFrom | None = None
-) -> GripMotion:
-    step = StepMotion(0, kind, 2.0, (grip,))
-    (motion,) = round_finger_ends([step], {"left": SIZE}, most_m, reaches or ReachedFrom())
+def rounded(grip: GripMotion, most_m: float = 1.0, kind: str = "fold") -> GripMotion:
+    (motion,) = round_finger_ends([StepMotion(0, kind, 2.0, (grip,))], {"left": THICKNESS_M}, most_m)
     return motion.grips[0]
 
 
@@ -64,20 +45,13 @@ def test_the_ends_of_fingers_that_point_along_the_way_turn_about_the_line() -> N
     assert made.at(2.0) == pytest.approx([2.0 * (LINE_M - PAD_M) - THICKNESS_M, 0.12, REST_HEIGHT_M], abs=1e-6)
 
 
-@pytest.mark.parametrize("aslant_rad", [math.pi / 3.0, -math.pi / 4.0])
-def test_cloth_turns_round_the_corner_of_fingers_that_point_aslant(aslant_rad: float) -> None:
-    short_m = 2.0 * LINE_M - rounded(over_the_line(aslant_rad)).points[-1][0]
-    corner_m = PAD_M * math.cos(aslant_rad) + SIZE.width_m / 2.0 * abs(math.sin(aslant_rad))
-    assert short_m == pytest.approx(2.0 * corner_m + THICKNESS_M)
+def test_the_less_fingers_point_along_the_way_the_less_hands_land_short() -> None:
+    short_m = 2.0 * LINE_M - rounded(over_the_line(math.radians(60.0))).points[-1][0]
+    assert short_m == pytest.approx(PAD_M + THICKNESS_M)
 
 
-def test_hands_land_further_short_than_they_may_only_where_the_robot_reaches() -> None:
-    wanted_m, most_m = 2.0 * PAD_M + THICKNESS_M, 0.01
-    for reached_m, short_m in ((0.05, wanted_m), (wanted_m, wanted_m), (0.02, 0.019), (0.005, most_m)):
-        reaches = ReachedFrom(2.0 * LINE_M - reached_m - 1e-9)
-        ends = rounded(over_the_line(0.0), most_m, reaches=reaches).points[-1]
-        assert ends[0] == pytest.approx(2.0 * LINE_M - short_m)
-        assert reaches.asked == [(0, "left")]
+def test_hands_land_no_further_short_than_they_may() -> None:
+    assert rounded(over_the_line(0.0), 0.01).points[-1][0] == pytest.approx(2.0 * LINE_M - 0.01)
 
 
 def test_hands_that_roll_or_hold_on_or_point_down_or_across_or_drag_keep_their_paths() -> None:
@@ -95,7 +69,7 @@ def test_hands_that_roll_or_hold_on_or_point_down_or_across_or_drag_keep_their_p
 def test_a_hand_that_holds_on_from_a_drag_lands_short_and_one_that_does_so_from_a_fold_keeps_to_it(kind: str) -> None:
     holds, after = over_the_line(0.0, opens=False), replace(over_the_line(0.0), closes=False)
     steps = [StepMotion(0, kind, 2.0, (holds,)), StepMotion(1, "fold", 2.0, (after,))]
-    first, second = round_finger_ends(steps, {"left": SIZE}, 1.0, ReachedFrom())
+    first, second = round_finger_ends(steps, {"left": THICKNESS_M}, 1.0)
     assert first.grips[0] == holds
     assert (second.grips[0] == after) == (kind == "fold")
 
@@ -110,9 +84,9 @@ def edge_laid_at(motion: StepMotion) -> float:
 
 
 def test_an_edge_is_laid_down_beyond_its_place_by_fingers_round_which_it_turned_and_less_if_short() -> None:
-    size = FingerSize.of(robot_card_file("pr2").arms[0].gripper)
+    fingers = robot_card_file("pr2").arms[0].gripper
     planned = StepMotion(0, "fold", 2.0, (over_the_line(0.0),))
     beyond_m = edge_laid_at(planned) - 2.0 * LINE_M
-    assert beyond_m == pytest.approx(2.0 * PAD_M + size.thickness_m, abs=0.01)
-    (made,) = round_finger_ends([planned], {"left": size}, 0.03, ReachedFrom())
+    assert beyond_m == pytest.approx(2.0 * PAD_M + fingers.finger_thickness_m, abs=0.01)
+    (made,) = round_finger_ends([planned], {"left": fingers.finger_thickness_m}, 0.03)
     assert abs(edge_laid_at(made) - 2.0 * LINE_M) < 0.6 * beyond_m
