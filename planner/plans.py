@@ -104,11 +104,8 @@ def _firmly_or_not(task: Task, budget: Budget, hints: Hints, *, with_reasons: bo
     """Plan a task for hands that hold firmly; where there is no such plan, for hands that hold in any way."""
     is_known_firm = hints.known is not None and hints.known.context.is_firm
     firm = Problem.of(task, budget.deadline).firm()
-    for event in _planned(firm, budget, hints if is_known_firm else replace(hints, known=None)):
-        if event.found.plan.is_solved:
-            yield event
-            if isinstance(event, Done):
-                return
+    if (yield from _solved(_planned(firm, budget, hints if is_known_firm else replace(hints, known=None)))):
+        return
     # This problem knows where the arms reach as far as has been asked.
     events = _planned(Problem.of(task, budget.deadline), budget, hints)
     yield from _explained(events) if with_reasons else events
@@ -118,11 +115,8 @@ def _planned(problem: Problem, budget: Budget, hints: Hints) -> Iterator[Event]:
     """Plan a problem, with drags by the arms and hands that let go where these help."""
     if problem.context.is_fixed and hints.known is None and not problem.may_let_go:
         # Drags by the arms cost two motions and save none: where folds alone give a plan, drags are not looked for.
-        for event in quickest(problem.without_arm_drags(), budget, hints):
-            if event.found.plan.is_solved:
-                yield event
-                if isinstance(event, Done):
-                    return
+        if (yield from _solved(quickest(problem.without_arm_drags(), budget, hints))):
+            return
         problem = problem.anew()
     if not problem.may_let_go:
         yield from quickest(problem, budget, hints)
@@ -136,6 +130,14 @@ def _planned(problem: Problem, budget: Budget, hints: Hints) -> Iterator[Event]:
             yield Done(held.or_quicker(event.found))
         elif isinstance(event, Blocked) and not held.plan.is_solved:
             yield event
+
+
+def _solved(events: Iterator[Event]) -> Generator[Event, None, bool]:
+    """Yield the plans that a search finds, and return whether it ends with one."""
+    for event in events:
+        if event.found.plan.is_solved:
+            yield event
+    return event.found.plan.is_solved
 
 
 def _explained(events: Iterator[Event]) -> Iterator[Event]:

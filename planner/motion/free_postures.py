@@ -7,10 +7,10 @@ from typing import TypeAlias
 import numpy as np
 
 from planner.geometry.pose import FloatArray
+from planner.motion.answer_memory import RecentAnswers
 from planner.motion.hand_holds import HandHold, Holds, opening_of, wide_holds
 from planner.motion.lying_cloth import LyingCloth
 from planner.motion.opened_collisions import OpenedCollisions
-from planner.motion.recent_answers import RecentAnswers
 from planner.motion.robot_port import Collisions, RobotPort
 from planner.motion.transfer_tool_paths import rolled
 from planner.motion.waypoints import Waypoints

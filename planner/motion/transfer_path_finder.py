@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.geometry.tolerance import ANGLE_RAD
+from planner.motion.answer_memory import RecentAnswers
 from planner.motion.free_postures import FreePostures
 from planner.motion.hand_holds import Holds, edge_holds, opening_of, settles, wide_holds
 from planner.motion.opened_collisions import OpenedCollisions
-from planner.motion.recent_answers import RecentAnswers
 from planner.motion.robot_port import RobotPort
 from planner.motion.transfer_path import TransferPath
 from planner.motion.transfer_tool_paths import FAR, NEAR, UP, ApproachLines, Cloths, TransferToolPath, TransferToolPaths

@@ -14,13 +14,12 @@ import numpy as np
 from planner.geometry.pose import BoolArray, FloatArray, Pose2
 from planner.geometry.ramps import ramps
 from planner.geometry.tolerance import EDGE_RAD
-from planner.motion.answer_memory import AnswerMemory
+from planner.motion.answer_memory import AnswerMemory, RecentAnswers
 from planner.motion.line import Keyframes, Line
 from planner.motion.lying_cloth import NEAR_GRIP_M, LyingCloth
 from planner.motion.opened_collisions import OpenedCollisions
 from planner.motion.pacing import needed_s
 from planner.motion.path_timing import quickest
-from planner.motion.recent_answers import RecentAnswers
 from planner.motion.robot_port import Collisions, RobotPort
 from planner.motion.sampled_paths import SampledPaths, sampled
 from planner.robots.joint_layout import JointLayout

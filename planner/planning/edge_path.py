@@ -35,8 +35,7 @@ class EdgePath:
         A part that has no transfer ends the look at once: the path will be rejected, and what its other parts could
         hold is of no use.
 
-        Raises:
-            OutOfTimeError: there was no time to find out.
+        Raises `OutOfTimeError` where there is no time to find out.
         """
         parts = tuple(transfers_of(steps))
         held: list[Transfer | None] = []
@@ -53,8 +52,7 @@ class EdgePath:
     def quicker(self, validator: MotionValidator) -> "EdgePath":
         """Return this path with other transfers in place of those that take longer than is known of their steps.
 
-        Raises:
-            OutOfTimeError: there was no time to find out.
+        Raises `OutOfTimeError` where there is no time to find out.
         """
         best = self
         for number, (_, part) in enumerate(self.parts):

@@ -63,30 +63,8 @@ def greedy(
     return _Greedy(problem, effort, budget, wanted, is_patient=is_patient).plan_segments(start)
 
 
-class _Failures:
-    """The transfers that failed in a greedy search, a `Judge` of its edges."""
-
-    def __init__(self) -> None:
-        self._struck: set[tuple[StateKey, StateKey]] = set()
-        self._doubted: set[tuple[object, ...]] = set()
-
-    def __len__(self) -> int:
-        return len(self._struck)
-
-    def note(self, steps: Sequence[Step]) -> None:
-        """Strike out the last step of a transfer that failed."""
-        self._struck.add(_ends(steps[-1]))
-        self._doubted.update(step.after.grasp for step in steps if step.after.held)
-
-    def possible(self, _state: State, steps: Iterable[Step]) -> Iterator[tuple[Step, float]]:
-        return ((step, step.duration_s) for step in steps if _ends(step) not in self._struck)
-
-    def is_in_doubt(self, held: State) -> bool:
-        return held.grasp in self._doubted
-
-
 class _Greedy:
-    """A greedy search in one planning problem."""
+    """A greedy search in one planning problem, and the `Judge` of its edges, which it does not keep."""
 
     def __init__(
         self, problem: Problem, effort: Effort, budget: Budget, wanted: int | None, *, is_patient: bool
@@ -100,13 +78,14 @@ class _Greedy:
         self._looks_left = _LOOKS_PER_STATE * self._expanded_max + 1
         self._wanted = (1 << len(problem.context.sequence.folds)) - 1 if wanted is None else wanted
         self._remaining = arm_time(problem.context, self._wanted)
-        self._failures = _Failures()
-        self._edges = Edges(problem.context, self._failures)
+        self._struck: set[tuple[StateKey, StateKey]] = set()
+        self._doubted: set[tuple[object, ...]] = set()
         self._made: dict[tuple[StateKey, ...], Transfer | None] = {}
 
     def plan_segments(self, start: State) -> tuple[PlanSegment, ...] | None:
-        while len(self._failures) < self._failures_max and not self._budget.is_over:
-            path = self._path(start)
+        edges = Edges(self._problem.context, self)
+        while len(self._struck) < self._failures_max and not self._budget.is_over:
+            path = self._path(start, edges)
             if not path:
                 return None
             with self._effort.on_joints():
@@ -115,12 +94,18 @@ class _Greedy:
                 return found
         return None
 
-    def _path(self, start: State) -> list[Step]:
+    def possible(self, _state: State, steps: Iterable[Step]) -> Iterator[tuple[Step, float]]:
+        return ((step, step.duration_s) for step in steps if _ends(step) not in self._struck)
+
+    def is_in_doubt(self, held: State) -> bool:
+        return held.grasp in self._doubted
+
+    def _path(self, start: State, edges: Edges) -> list[Step]:
         """Return the steps of a path to the goal; empty where none is found soon."""
-        self._edges.begin()
+        edges.begin()
         for result in a_star(
             start,
-            self._edges.leaving,
+            edges.leaving,
             lambda state: state.done & self._wanted == self._wanted,
             lambda state: WEIGHT * self._remaining(state),
             self._expanded_max,
@@ -140,7 +125,8 @@ class _Greedy:
         for first, part in transfers_of(steps):
             plan_segment = None if self._budget.is_over else self._act(first, part)
             if plan_segment is None:
-                self._failures.note(part)
+                self._struck.add(_ends(part[-1]))
+                self._doubted.update(step.after.grasp for step in part if step.after.held)
                 return None
             plan_segments.append(plan_segment)
         return tuple(plan_segments)

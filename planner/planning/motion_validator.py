@@ -197,8 +197,7 @@ class MotionValidator:
     def real(self, steps: tuple[Step, ...]) -> Transfer | None:
         """Return a transfer that does as some steps do, whose hands hold in any way; None if none is found.
 
-        Raises:
-            OutOfTimeError: there was no time to find out.
+        Raises `OutOfTimeError` where there is no time to find out.
         """
         key = tuple(step_key(step) for step in steps)
         if key not in self._made:
@@ -210,8 +209,7 @@ class MotionValidator:
     def at_edges(self, steps: tuple[Step, ...]) -> Transfer | None:
         """Return a transfer that does as some steps do and in which hands hold edges; None if none is soon found.
 
-        Raises:
-            OutOfTimeError: there was no time to find out.
+        Raises `OutOfTimeError` where there is no time to find out.
         """
         if self._hands is None:
             return None
@@ -283,8 +281,7 @@ class MotionValidator:
         No way to do a rejected step makes a path quicker than the one on which it was rejected seemed to be: as long as
         the search finds paths no slower than that, these ways are not needed.
 
-        Raises:
-            OutOfTimeError: there was no time to find out.
+        Raises `OutOfTimeError` where there is no time to find out.
         """
         due = [rejection for rejection in self._postponed if rejection.path_s < path_s - TIME_S]
         for rejection in due:

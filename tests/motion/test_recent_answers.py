@@ -3,7 +3,7 @@
 import gc
 import weakref
 
-from planner.motion.recent_answers import RecentAnswers
+from planner.motion.answer_memory import RecentAnswers
 
 
 class Asked:
