@@ -79,7 +79,7 @@ class PathSearch:
     Attributes:
         problem: the problem to plan.
         budget: the work and the time for the search.
-        found: the segments of the quickest path found; empty without any.
+        found: the segments of the quickest path found; None without any. Where no fold is left, there are none.
         at_edges: segments in which hands hold edges, of the path proposed last; empty without any.
         known_s: the cost of a known plan, which a path has to beat (s); infinite without one.
         bound_s: a lower bound on the cost of any plan, as long as no step was rejected or made more expensive: after
@@ -115,7 +115,7 @@ class PathSearch:
         self._edges = Edges(problem.context, self._seen)
         self._looks = 0
         self._is_looked_at_alone = False
-        self.found: tuple[PlanSegment, ...] = ()
+        self.found: tuple[PlanSegment, ...] | None = None
         self.at_edges: tuple[PlanSegment, ...] = ()
         self.known_s = math.inf
         self.bound_s: float | None = None
@@ -150,7 +150,7 @@ class PathSearch:
             except OutOfTimeError:
                 self.result = self.result._replace(outcome=Outcome.BUDGET_EXCEEDED)
                 return
-            self.keep(found or validator.slower)
+            self.keep(validator.slower or None if found is None else found)
             if found is not None:
                 return
             self._seen.states.clear()
@@ -192,9 +192,9 @@ class PathSearch:
             is_consistent=is_consistent,
         )
 
-    def keep(self, plan_segments: tuple[PlanSegment, ...]) -> None:
-        """Keep segments that can be performed if they are quicker than those kept."""
-        if plan_segments and (not self.found or duration_s(plan_segments) < duration_s(self.found)):
+    def keep(self, plan_segments: tuple[PlanSegment, ...] | None) -> None:
+        """Keep segments that can be performed, if any, if they are quicker than those kept."""
+        if plan_segments is not None and (self.found is None or duration_s(plan_segments) < duration_s(self.found)):
             self.found = plan_segments
 
     def run_again(self, search_limits: SearchLimits, transfers_max: float) -> Iterator[Pause]:
@@ -215,12 +215,12 @@ class PathSearch:
     @property
     def limit_s(self) -> float:
         """The cost from which on a plan is no quicker than the known one (s)."""
-        return min(self.known_s, duration_s(self.found) if self.found else math.inf) - TIME_S
+        return min(self.known_s, math.inf if self.found is None else duration_s(self.found)) - TIME_S
 
     @property
     def has_plan(self) -> bool:
         """Whether some plan is known or was found."""
-        return self.known_s < math.inf or bool(self.found)
+        return self.known_s < math.inf or self.found is not None
 
     @property
     def is_settled(self) -> bool:

@@ -102,11 +102,11 @@ class _PlanSearch:
             yield from self.run(exact.run())
             if exact.result.outcome is Outcome.BUDGET_EXCEEDED and not exact.blocking:
                 status, is_cut_short = "budget_exceeded", True
-            elif not exact.blocking and self._is_in_doubt and (self._is_patient or exact.found):
+            elif not exact.blocking and self._is_in_doubt and (self._is_patient or exact.found is not None):
                 yield from self._tried(Pause.END)
                 is_cut_short = self.budget.is_over
-        if exact.has_plan:
-            plan_segments = exact.found or (self._known.plan_segments if self._known else ())
+        plan_segments = self._known.plan_segments if exact.found is None and self._known else exact.found
+        if plan_segments is not None:
             yield Done(self._answer("solved", plan_segments, is_cut_short=is_cut_short, is_last=True))
             return
         if status == "infeasible":
@@ -129,7 +129,7 @@ class _PlanSearch:
                 self._waiting.remove(strategy)
                 yield from events
         if pause is Pause.ROUND:
-            yield from self.shown(self.exact.found)
+            yield from self.shown(self.exact.found or ())
 
     def shown(self, plan_segments: tuple[PlanSegment, ...]) -> Iterator[Event]:
         """Show segments, if any, while the search for quicker ones continues, unless a plan as quick was shown."""
@@ -246,7 +246,7 @@ def _restrict(search: _PlanSearch, pause: Pause) -> Iterator[Event] | None:
     if pause is Pause.END:
         return search.restricted()
     is_due = pause is Pause.ROUND and bool(search.exact.found) and search.budget.spent_s > LESS_ROOM_AFTER_S
-    return chain(search.shown(search.exact.found), search.restricted()) if is_due else None
+    return chain(search.shown(search.exact.found or ()), search.restricted()) if is_due else None
 
 
 def _try_thoroughly(search: _PlanSearch, pause: Pause) -> Iterator[Event] | None:
