@@ -112,8 +112,8 @@ $(BIN)/python:
 	echo "Pleat needs Python 3.11 or newer; if it has another name: make PYTHON=/path/to/python" >&2; exit 1
 
 $(READY): requirements.txt pyproject.toml | $(BIN)/python
-	@echo "Setting up $(VENV): a minute or two, once"
-	@$(INSTALL) --require-hashes -r requirements.txt --progress-bar on
+	@echo "Installing what Pleat needs into $(VENV) (once, about a minute)"
+	@$(BIN)/python -m pip --disable-pip-version-check install --no-compile --require-hashes -r requirements.txt
 	@$(INSTALL) --no-deps --no-build-isolation -e .
 	@touch $@
 
@@ -121,7 +121,7 @@ $(READY): requirements.txt pyproject.toml | $(BIN)/python
 # where it has been done. The arms of one robot are in closed form, those of the other are mapped: few kernels are both's.
 # Two processes share the work, each from its own end. The server compiles what is missing behind its first page.
 $(KERNELS): $(VENV)/.kernels-%: $(READY) $(shell find planner -name '*.py')
-	@echo "Compiling the kernels for $*"
+	@echo "Compiling what plans for $* (once, a minute)"
 	@$(BIN)/python -m planner.planning.warm_up $* backwards & $(BIN)/python -m planner.planning.warm_up $* && wait $$!
 	@touch $@
 

@@ -22,6 +22,8 @@ def compiled(**options: Any) -> Callable[[Function], Function]:  # noqa: ANN401
 
     def compiled_with(function: Function) -> Function:
         found: Any = njit(cache=True, nogil=True, **options)(function)
+        if not hasattr(found, "get_call_template"):  # Numba is told not to compile (NUMBA_DISABLE_JIT)
+            return function
         exact, number = found.get_call_template, cast(Any, types.unliteral)
 
         @wraps(exact)

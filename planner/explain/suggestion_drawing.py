@@ -13,10 +13,9 @@
   may be. The garment keeps its edge nearest to the robot's side of the table, where arms reach best.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
-from typing import Any
 
 import numpy as np
 
@@ -272,8 +271,8 @@ def splits(task: Task, folds: Sequence[int]) -> Iterator[SuggestionTrial]:
         distances = line.left_distances(sequence.moving(fold).coordinates)
         deep_m = float(distances.max())
         for depth_m in _depths(distances, deep_m):
-            values = {"fold": fold, "depth_m": deep_m - depth_m}
-            yield from _with_fold_before(task, fold, _beside(line, depth_m), "split", "split_fold", values)
+            says = worded("split_fold", {"fold": fold, "depth_m": deep_m - depth_m}, task.garment.folds)
+            yield from _with_fold_before(task, fold, _beside(line, depth_m), "split", says)
 
 
 def _depths(distances: FloatArray, deep_m: float) -> list[float]:
@@ -304,7 +303,8 @@ def halvings(task: Task, folds: Sequence[int]) -> Iterator[SuggestionTrial]:
         for sign in (1, -1):
             dx, dy = sign * left
             across = Segment((x - dx, y - dy), (x + dx, y + dy))
-            yield from _with_fold_before(task, fold, across, "halve", "halve_first", {"fold": fold})
+            says = worded("halve_first", {"fold": fold}, task.garment.folds)
+            yield from _with_fold_before(task, fold, across, "halve", says)
 
 
 def _blue_ones(garment: Garment, folds: Sequence[int]) -> Iterator[tuple[int, FoldSequence]]:
@@ -312,12 +312,9 @@ def _blue_ones(garment: Garment, folds: Sequence[int]) -> Iterator[tuple[int, Fo
     yield from ((fold, sequence) for fold in folds if not garment.folds[fold].is_red)
 
 
-def _with_fold_before(
-    task: Task, fold: int, line: Segment, kind: str, code: str, values: Mapping[str, Any]
-) -> Iterator[SuggestionTrial]:
+def _with_fold_before(task: Task, fold: int, line: Segment, kind: str, says: Message) -> Iterator[SuggestionTrial]:
     garment = with_fold_before(task.garment, fold, line)
     if garment is not None:
-        says = worded(code, values, task.garment.folds)
         yield SuggestionTrial(kind, says, 1.0, task, replace(task, garment=garment))
 
 
