@@ -1,21 +1,18 @@
 """One small plan for all tests of what is made of plans: both arms, a blue fold with a drive, a red one."""
 
 from dataclasses import replace
-from functools import cache
 
-from planner import Plan, load_garment, make_plan
+from planner import Plan
 from planner.robots.card import RobotCard
 from planner.robots.load_robot import load_robot
+from tests.replay.planned import shipped_plan
 
 CARD = load_robot("pr2").card
 
 
-@cache
 def small_plan() -> Plan:
     """Return the plan, made once in a process."""
-    plan = make_plan(load_garment("letter-towel"), time_limit_s=60.0)
-    assert plan.is_solved
-    return plan
+    return shipped_plan("letter-towel")
 
 
 def one_armed() -> tuple[Plan, RobotCard]:

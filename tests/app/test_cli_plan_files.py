@@ -29,24 +29,29 @@ def test_a_plan_file_is_shown_as_it_was_planned(file: Path) -> None:
     assert shown.stdout == pleat("plan", "hand-towel").stdout
 
 
-def test_a_plan_file_without_a_plan_says_why(tmp_path: Path) -> None:
-    path = tmp_path / "no.plan.json"
+@pytest.fixture(scope="module")
+def refused_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return the plan file of a garment that cannot be folded."""
+    path = tmp_path_factory.mktemp("refused") / "no.plan.json"
     assert pleat("plan", "scarf-halved", "--out", str(path)).exit_code == 3
-    shown = pleat("show", str(path))
+    return path
+
+
+def test_a_plan_file_without_a_plan_says_why(refused_file: Path) -> None:
+    shown = pleat("show", str(refused_file))
     assert shown.exit_code == 3 and shown.stderr
-    timeline = pleat("timeline", str(path))
+    timeline = pleat("timeline", str(refused_file))
     assert timeline.exit_code == 2 and "infeasible" in timeline.stderr
 
 
-def test_the_reasons_of_a_plan_file_are_told_from_their_numbers(tmp_path: Path) -> None:
-    path, spoilt = tmp_path / "no.plan.json", tmp_path / "spoilt.plan.json"
-    assert pleat("plan", "scarf-halved", "--out", str(path)).exit_code == 3
-    data = json.loads(path.read_text(encoding="utf-8"))
+def test_the_reasons_of_a_plan_file_are_told_from_their_numbers(refused_file: Path, tmp_path: Path) -> None:
+    spoilt = tmp_path / "spoilt.plan.json"
+    data = json.loads(refused_file.read_text(encoding="utf-8"))
     assert data["reasons"]
     for reason in data["reasons"]:
         reason["message"] = "RUBBISH"
     spoilt.write_text(json.dumps(data), encoding="utf-8")
-    assert pleat("show", str(spoilt)).stderr == pleat("show", str(path)).stderr != ""
+    assert pleat("show", str(spoilt)).stderr == pleat("show", str(refused_file)).stderr != ""
 
 
 def test_the_timeline_is_that_of_rest(file: Path) -> None:

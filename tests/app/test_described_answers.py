@@ -28,7 +28,7 @@ from tests.app.document_requests import created, put
 from tests.app.samples import towel
 from tests.app.test_live import listening
 from tests.app.test_suggestion_routes import STUCK, events_in
-from tests.replay.planned import planned
+from tests.replay.planned import shipped_plan
 
 pytestmark = pytest.mark.anyio
 
@@ -111,7 +111,7 @@ async def test_every_message_of_the_websocket_is_as_described(client: httpx.Asyn
 
 @pytest.mark.parametrize("name", ["letter-towel", pytest.param("tie-halved", marks=pytest.mark.long), "big-towel"])
 def test_plans_and_the_reasons_why_there_is_none_are_as_described(name: str) -> None:
-    plan = planned(name).answer
+    plan = shipped_plan(name)
     assert_described({"id": "p", **plan.answer()}, PlanAnswer)
 
 

@@ -41,6 +41,7 @@ async def test_whatever_the_description_refers_to_is_in_it(client: httpx.AsyncCl
             here = here[name]
 
 
+@pytest.mark.usefixtures("own_robot")
 async def test_every_example_of_a_body_is_answered(client: httpx.AsyncClient) -> None:
     description = (await client.get("/openapi.json")).json()
     bodies = [

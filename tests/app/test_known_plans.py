@@ -5,6 +5,7 @@ import pytest
 from app.known_plans import KnownPlans
 from planner import load_garment
 from tests.planning.found import found_plan
+from tests.replay.planned import planned
 from tests.required import required
 
 
@@ -25,12 +26,12 @@ def test_the_latest_plan_of_each_way_is_known_and_the_quickest_comes_first() -> 
 @pytest.mark.long
 def test_what_is_no_plan_is_not_known() -> None:
     known = KnownPlans()
-    known.add("none", found_plan(load_garment("scarf-halved")))
+    known.add("none", planned("scarf-halved").found)
     assert known.by_cost() == []
 
 
 def test_ways_not_met_for_long_are_forgotten() -> None:
-    plans = [found_plan(load_garment(name)) for name in ("hand-towel", "vest", "jeans", "skirt", "letter-towel")]
+    plans = [planned(name).found for name in ("hand-towel", "vest", "jeans", "skirt", "letter-towel")]
     known = KnownPlans()
     for number, found in enumerate((*plans[:4], plans[0], plans[4])):
         known.add(str(number), found)

@@ -11,7 +11,7 @@ from app.document_state import DocumentState
 from app.drawing.draft import draft_of
 from app.drawing.garment_drawing import drawing_of
 from planner import Plan, load_garment, make_plan
-from tests.replay.planned import planned
+from tests.replay.planned import planned, shipped_plan
 from tests.required import required
 
 T_SHIRT = load_garment("t-shirt")
@@ -36,7 +36,7 @@ def test_when_a_search_is_cut_short_it_is_said_how_far_the_search_came_and_what_
     )
     message = plan_message(state)
     assert (message["status"], message["plan"]["reasons"]) == ("budget_exceeded", [])
-    assert message["may_look_longer"] and not plan_message(answered(planned("t-shirt").answer))["may_look_longer"]
+    assert message["may_look_longer"] and not plan_message(answered(shipped_plan("t-shirt")))["may_look_longer"]
 
 
 def test_many_ways_are_told_with_a_comma_and_a_bound_only_where_there_is_one() -> None:
@@ -46,7 +46,7 @@ def test_many_ways_are_told_with_a_comma_and_a_bound_only_where_there_is_one() -
 
 
 def test_what_any_plan_takes_is_told_until_that_is_known_to_be_the_plans_cost() -> None:
-    plan = planned("t-shirt").answer
+    plan = shipped_plan("t-shirt")
     open_s = replace(plan, statistics=replace(plan.statistics, bound_s=required(plan.cost_s) - 2.0))
     told = [plan_message(answered(one))["plan"]["at_least_s"] for one in (plan, open_s)]
     assert told == [None, required(plan.cost_s) - 2.0]
@@ -59,7 +59,7 @@ def test_of_a_garment_without_folds_it_is_said_what_is_missing() -> None:
 
 
 def test_whether_a_quicker_plan_is_looked_for_is_told_beside_the_same_words() -> None:
-    plan = planned("t-shirt").answer
+    plan = shipped_plan("t-shirt")
     states = [answered(plan, is_final=is_final) for is_final in (False, True)]
     assert [plan_message(state)["plan"]["is_final"] for state in states] == [False, True]
     told = f"Planned: {len(plan.primitives)} steps, {plan.cost_s:.1f} s"

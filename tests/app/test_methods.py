@@ -55,7 +55,8 @@ async def test_a_body_is_described_as_required_only_where_it_is(client: httpx.As
         for method, operation in operations.items()
         if "requestBody" in operation
     }
-    document = (await client.post("/api/documents", json={"garment": towel()})).json()["id"]
+    # Without folds the map of its places, which has a body by default, is there at once.
+    document = (await client.post("/api/documents", json={"garment": towel(folds=[])})).json()["id"]
     for (method, path), wanted in is_required.items():
         filled = path.replace("{document_id}", document).replace("{name}", "towel")
         answer = await client.request(method, filled, params={"filename": "a.svg"})

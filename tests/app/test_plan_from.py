@@ -22,6 +22,7 @@ from planner.errors import RequestError
 from tests.app.document_requests import moved, put
 from tests.app.test_live import listening
 from tests.app.websocket import Listener
+from tests.replay.planned import shipped_plan
 
 T_SHIRT = load_garment("t-shirt")
 
@@ -208,7 +209,7 @@ async def test_a_drawing_with_problems_cannot_be_planned_from_what_is_seen(clien
 
 @pytest.fixture(scope="module")
 def plan() -> Plan:
-    return make_plan(T_SHIRT)
+    return shipped_plan("t-shirt")
 
 
 def answered(plan: Plan) -> Document:

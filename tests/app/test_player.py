@@ -12,12 +12,13 @@ from app.drawing.edit import Edit, Phase
 from app.drawing.garment_drawing import drawing_of
 from app.player import UPDATES_PER_S, Player
 from app.rehearsal.trace import RunTrace
-from planner import Plan, Scene, load_garment, make_plan
+from planner import Plan, Scene, load_garment
 from planner.geometry.pose import Point2, Pose2
 from planner.geometry.table import Table
 from planner.motion.sample import Sample
 from planner.robots.card import RobotCard
 from tests.app.drawing.drawings import outlined, pulled
+from tests.replay.planned import shipped_plan
 
 
 class CountingView3D:
@@ -60,7 +61,7 @@ class CountingView3D:
 
 @pytest.fixture(scope="module")
 def plan() -> Plan:
-    return make_plan(load_garment("hand-towel"))
+    return shipped_plan("hand-towel")
 
 
 def towel_document() -> Document:

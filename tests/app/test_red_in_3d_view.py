@@ -10,10 +10,11 @@ from numpy.typing import NDArray
 from app.ui.colours import DARK, LIGHT
 from app.ui.lighting import ink
 from app.ui.view_3d import View3D
-from planner import Plan, Scene, load_garment, make_plan
+from planner import Plan, Scene
 from planner.motion.timeline import Timeline
 from planner.robots.load_robot import load_robot
 from planner.task.plan_step import PlanStep
+from tests.replay.planned import shipped_plan
 
 CARD = load_robot("pr2").card
 ABOVE_M = 0.003
@@ -25,7 +26,7 @@ BLUE, RED = 0, 1
 @pytest.fixture(scope="module")
 def letter() -> Plan:
     """Return a towel 0.4 x 0.5 m: its near half goes over y = 0.25, then the free edge back over y = 0.39."""
-    return make_plan(load_garment("letter-towel"), time_limit_s=60.0)
+    return shipped_plan("letter-towel")
 
 
 @pytest.fixture

@@ -17,6 +17,7 @@ from planner import Plan, Scene, load_garment, make_plan
 from planner.geometry.woven_mesh import woven_mesh
 from planner.motion.timeline import Timeline
 from planner.robots.load_robot import load_robot
+from tests.replay.planned import shipped_plan
 
 SLID_M = 0.03
 
@@ -30,7 +31,7 @@ def view() -> Iterator[View3D]:
 
 @pytest.fixture(scope="module")
 def plan() -> Plan:
-    return make_plan(load_garment("t-shirt"))
+    return shipped_plan("t-shirt")
 
 
 @pytest.fixture(scope="module")

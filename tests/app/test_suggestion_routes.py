@@ -1,6 +1,7 @@
 import asyncio
 import json
 import time
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,7 @@ from typer.testing import CliRunner
 from app.cli import cli
 from planner import Task
 from planner.explain.suggestion import Suggestion
+from planner.robots.known_robots import robot_names
 from tests.app.conftest import Served
 from tests.app.job_works import suggest_and_hang
 from tests.app.processes import cpu_s
@@ -173,7 +175,8 @@ async def test_placements_of_an_unknown_garment_are_not_found(client: httpx.Asyn
     assert (await client.post("/api/placements", json={"garment": "nothing"})).status_code == 404
 
 
-def test_the_command_line_prints_suggestions_after_the_reasons(tmp_path: Path) -> None:
+def test_the_command_line_prints_suggestions_after_the_reasons(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("app.cli.plan.robot_names", lambda: ())  # to load another robot takes many seconds
     garment, scene = tmp_path / "towel.json", tmp_path / "scene.json"
     garment.write_text(json.dumps(STUCK["garment"]))
     scene.write_text(json.dumps(FRONT_ONLY))
@@ -190,7 +193,8 @@ def test_the_command_line_limits_the_work_of_its_suggestions_and_leaves_a_slow_m
 ) -> None:
     asked: list[Task] = []
 
-    def noted(task: Task, **_: object) -> list[Suggestion]:
+    def noted(task: Task, *, other_robots: Sequence[str], **_: object) -> list[Suggestion]:
+        assert other_robots == robot_names()
         asked.append(task)
         return []
 

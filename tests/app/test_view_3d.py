@@ -21,12 +21,13 @@ from app.ui.lying_cloth import lying_cloth
 from app.ui.robot_model import load_robot_model
 from app.ui.view_3d import View3D
 from app.ui.viser_patches import LOOPBACK, SECRET_HEADER
-from planner import Plan, Scene, load_garment, make_plan
+from planner import Plan, Scene, load_garment
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
 from planner.motion.timeline import Timeline
 from planner.robots.load_robot import load_robot
 from tests.app.pose_matrix import matrix
+from tests.replay.planned import shipped_plan
 from tests.required import required
 
 CARD = load_robot("pr2").card
@@ -42,7 +43,7 @@ def view() -> Iterator[View3D]:
 
 @pytest.fixture(scope="module")
 def plan() -> Plan:
-    return make_plan(load_garment("t-shirt"))
+    return shipped_plan("t-shirt")
 
 
 def shown_pose(view: View3D, node: str) -> NDArray[np.float64]:
@@ -137,7 +138,7 @@ def test_fold_lines_lie_on_the_cloth_all_through(view: View3D, plan: Plan) -> No
 
 @pytest.mark.parametrize("name", ["t-shirt", "letter-towel", "big-towel", "vest"])
 def test_nothing_is_left_to_see_but_robot_and_cloth_at_the_end(view: View3D, name: str) -> None:
-    plan = make_plan(load_garment(name))
+    plan = shipped_plan(name)
     view.show_plan(plan)
     view.show(Timeline.of(plan).at(Timeline.of(plan).duration_s / 2))
     assert view._server.scene.get_handle_by_name("/primitive/left/path") is not None

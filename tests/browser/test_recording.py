@@ -6,8 +6,8 @@ import pytest
 from playwright.sync_api import Browser
 
 from app.files.recording import recording
-from planner import load_garment, make_plan
 from tests.browser.conftest import VIEW_PATIENCE_MS
+from tests.replay.planned import shipped_plan
 
 MESHES = """() => {
   const robot = window.__viserMutable?.nodeRefFromName["/robot"];
@@ -26,7 +26,7 @@ HAND = """() => {
 @pytest.fixture
 def saved(tmp_path: Path) -> Path:
     path = tmp_path / "hand-towel.html"
-    path.write_bytes(recording(make_plan(load_garment("hand-towel")), 5.0, lambda: False, is_dark=False))
+    path.write_bytes(recording(shipped_plan("hand-towel"), 5.0, lambda: False, is_dark=False))
     return path
 
 

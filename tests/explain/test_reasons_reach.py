@@ -33,7 +33,7 @@ from tests.planning.provoked import (
     refused,
     strip,
 )
-from tests.replay.planned import planned
+from tests.replay.planned import shipped_plan
 from tests.required import required
 
 
@@ -163,7 +163,7 @@ def test_what_is_far_away_is_short_by_at_least_its_distance() -> None:
 
 @pytest.mark.long
 def test_where_no_shift_would_do_the_reason_says_so() -> None:
-    (reason, *_) = planned("scarf-halved").answer.reasons
+    (reason, *_) = shipped_plan("scarf-halved").reasons
     assert reason.shift_m is None
     assert "make a smaller fold" in reason.message
 

@@ -17,7 +17,7 @@ from planner.task.reason import Code, Reason
 from tests.builders import fold, garment, rectangle_points
 from tests.laws.law import LONG
 from tests.planning.provoked import BACK, FRONT, planned_with, refused
-from tests.replay.planned import planned
+from tests.replay.planned import shipped_plan
 from tests.required import required
 
 A_BIT_LESS = 0.95
@@ -67,7 +67,7 @@ def test_what_moving_the_cloth_does_not_fix_is_not_told_to_be_moved_and_friction
 
 
 def test_what_no_shift_brings_into_reach_is_the_cause_all_the_same() -> None:
-    reason, *waiting = planned("scarf-halved").answer.reasons
+    reason, *waiting = shipped_plan("scarf-halved").reasons
     assert (reason.code, reason.gives, reason.change) == (Code.OUT_OF_REACH, "fold", None)
     assert {other.code for other in waiting} == {Code.WAITS_FOR_FOLD}
 

@@ -29,7 +29,7 @@ from tests.planning.provoked import (
     refused,
     strip,
 )
-from tests.replay.planned import planned
+from tests.replay.planned import shipped_plan
 from tests.required import required
 
 START = State(0, (0.0, 0.0), 0, 0)
@@ -90,7 +90,7 @@ def test_where_two_things_stand_in_every_way_both_are_named() -> None:
 
 @pytest.mark.long
 def test_folds_that_wait_come_last_and_name_what_they_wait_for() -> None:
-    found = planned("tie-halved").answer.reasons
+    found = shipped_plan("tie-halved").reasons
     assert [(r.fold, r.code) for r in found] == [
         (0, Code.OUT_OF_REACH),
         (1, Code.WAITS_FOR_FOLD),
@@ -103,9 +103,9 @@ def test_folds_that_wait_come_last_and_name_what_they_wait_for() -> None:
 
 def test_a_fold_that_waits_is_possible_once_the_other_is() -> None:
     # The scarf, begun with the quarter instead of the half, can be folded.
-    waiting = planned("scarf-halved").answer.reasons[1]
+    waiting = shipped_plan("scarf-halved").reasons[1]
     assert (waiting.fold, waiting.code) == (1, Code.WAITS_FOR_FOLD)
-    assert is_gone(waiting, planned("scarf").answer)
+    assert is_gone(waiting, shipped_plan("scarf"))
 
 
 def test_only_what_depends_on_a_blocked_fold_waits() -> None:
@@ -189,7 +189,7 @@ def test_what_a_reason_and_its_message_both_say_is_the_same(cloth: Garment, scen
 
 
 def test_every_reason_is_json_with_plain_numbers() -> None:
-    for reason in planned("scarf-halved").answer.to_dict()["reasons"]:
+    for reason in shipped_plan("scarf-halved").to_dict()["reasons"]:
         assert isinstance(reason["code"], str) and isinstance(reason["message"], str)
         numbers = [reason[name] for name in ("short_by_m", "back_off_m", "shift_m") if reason[name] is not None]
         assert all(type(number) is float and np.isfinite(number) for number in numbers)

@@ -24,14 +24,14 @@ from planner.task.task import TaskOptions
 from tests.builders import fold, garment, rectangle_points
 from tests.explain.proven_search import FAR, FRONT_ONLY, asked, towel
 from tests.planning.provoked import planned_with
-from tests.replay.planned import planned
+from tests.replay.planned import shipped_plan
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("name", ["tie-halved", "scarf-halved"])
 def test_an_article_that_cannot_be_halved_is_told_to_be_folded_nearer_its_end(name: str) -> None:
     cloth = load_garment(name)
-    known = planned(name).answer
+    known = shipped_plan(name)
     found = next(s for s in suggestions(Task.of(cloth, time_limit_s=60.0), plan=known) if s.kind == "fold_line")
     assert f"{found.cost_s:.1f} s" in found.message
     assert "towards the robot" in found.message

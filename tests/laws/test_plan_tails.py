@@ -6,7 +6,7 @@ import pytest
 
 from planner import Plan, make_plan
 from planner.task.world_state import HeldPoint
-from tests.replay.planned import each_solvable, planned
+from tests.replay.planned import each_solvable, shipped_plan
 
 
 def left_s(plan: Plan, step: int) -> float:
@@ -15,7 +15,7 @@ def left_s(plan: Plan, step: int) -> float:
 
 @each_solvable
 def test_planning_from_the_world_after_a_step_costs_what_is_left(name: str) -> None:
-    plan = planned(name).answer
+    plan = shipped_plan(name)
     for step in range(-1, len(plan.steps)):
         rest = make_plan(replace(plan.task, start=plan.state_after(step)))
         assert rest.status == "solved", f"after step {step}"
@@ -28,7 +28,7 @@ def test_planning_from_the_world_after_a_step_costs_what_is_left(name: str) -> N
 
 def test_a_plan_that_begins_with_cloth_in_the_hands_is_played_from_there() -> None:
     """A red fold goes on where the blue fold before it holds the cloth: the fingers are closed from the beginning."""
-    plan = planned("letter-towel").answer
+    plan = shipped_plan("letter-towel")
     assert plan.state_after(0).held
     rest = make_plan(replace(plan.task, start=plan.state_after(0)))
     assert rest.trajectory is not None
@@ -39,7 +39,7 @@ def test_a_plan_that_begins_with_cloth_in_the_hands_is_played_from_there() -> No
 
 def test_what_is_held_for_nothing_is_let_go() -> None:
     """A grip from a drag that no fold needs: the plan is that of free hands."""
-    plan = planned("hand-towel").answer
+    plan = shipped_plan("hand-towel")
     held = replace(plan.task.start, held=(HeldPoint("left", plan.garment.outline[0]),), dragged_m=0.1)
     rest = make_plan(replace(plan.task, start=held))
     assert rest.cost_s == pytest.approx(plan.cost_s, abs=1e-6)

@@ -20,7 +20,7 @@ from planner.task.grip import GripKind
 from tests.planning.found import found_plan
 from tests.replay import hulls
 from tests.replay.hands import TOOLS, robot
-from tests.replay.planned import planned
+from tests.replay.planned import planned, shipped_plan
 from tests.required import required
 
 NAMES = ("hand-towel", "t-shirt", "skirt")
@@ -34,7 +34,7 @@ each_name = pytest.mark.parametrize("name", NAMES)
 @cache
 def grips(name: str) -> list[tuple[str, GripKind, float, float]]:
     """Return the arm, the kind, and when fingers have closed and begin to open (s), of each grip that is new."""
-    plan = planned(name).answer
+    plan = shipped_plan(name)
     assert plan.trajectory is not None
     found = []
     for step in plan.steps:
@@ -75,14 +75,14 @@ def lowest_m(plan: Plan, arm: str, t_s: float) -> float:
 
 @each_name
 def test_every_grip_of_a_plan_has_a_kind_and_some_hold_an_edge(name: str) -> None:
-    kinds = [grip.kind for step in planned(name).answer.steps for grip in step.grips]
+    kinds = [grip.kind for step in shipped_plan(name).steps for grip in step.grips]
     assert set(kinds) <= {"edge", "top"} and "edge" in kinds
     assert [grip["kind"] for one in planned(name).plan["primitives"] for grip in one["grips"]] == kinds
 
 
 @each_name
 def test_at_an_edge_one_finger_is_above_the_other_and_else_they_are_side_by_side(name: str) -> None:
-    plan = planned(name).answer
+    plan = shipped_plan(name)
     for arm, kind, held_s, _ in grips(name):
         approach, closing = closing_axis(plan, arm, held_s)
         across = abs(closing[1] * approach[0] - closing[0] * approach[1])
@@ -95,7 +95,7 @@ def test_at_an_edge_one_finger_is_above_the_other_and_else_they_are_side_by_side
 
 @each_name
 def test_the_lower_finger_slides_on_the_table_as_the_fingers_close_and_open(name: str) -> None:
-    plan, looked = planned(name).answer, 0
+    plan, looked = shipped_plan(name), 0
     dwell_s = plan.scene.grip_dwell_s
     for arm, kind, held_s, opens_s in grips(name):
         if kind == "edge":
@@ -109,7 +109,7 @@ def test_the_lower_finger_slides_on_the_table_as_the_fingers_close_and_open(name
 
 @each_name
 def test_hands_rest_while_fingers_close_and_open_and_open_as_far_as_there_is_room(name: str) -> None:
-    plan = planned(name).answer
+    plan = shipped_plan(name)
     assert plan.trajectory is not None
     for arm, kind, held_s, opens_s in grips(name):
         (track,) = (one for one in plan.trajectory.grippers if one.arm == arm)
@@ -129,13 +129,13 @@ def test_hands_rest_while_fingers_close_and_open_and_open_as_far_as_there_is_roo
 
 @each_name
 def test_a_plan_with_edge_grips_can_be_replayed_and_reads_back(name: str) -> None:
-    plan = planned(name).answer
+    plan = shipped_plan(name)
     require_replay(plan)
     assert Plan.from_dict(planned(name).plan) == plan
 
 
 def test_a_plan_that_does_not_say_how_it_holds_is_read_as_it_was_written() -> None:
-    plan = planned("hand-towel").answer
+    plan = shipped_plan("hand-towel")
     steps = tuple(replace(step, grips=tuple(replace(grip, kind=None) for grip in step.grips)) for step in plan.steps)
     older = replace(plan, steps=steps)
     written = older.to_dict()
@@ -144,7 +144,7 @@ def test_a_plan_that_does_not_say_how_it_holds_is_read_as_it_was_written() -> No
 
 
 def test_exported_poses_say_how_each_hand_holds() -> None:
-    plan = planned("hand-towel").answer
+    plan = shipped_plan("hand-towel")
     told = [grip["kind"] for step in grasp_poses(plan)["steps"] for grip in step["grips"]]
     assert told and set(told) <= {"edge", "top"} and "edge" in told
 
@@ -154,4 +154,4 @@ def test_hands_at_edges_cost_no_time(monkeypatch: pytest.MonkeyPatch, name: str)
     monkeypatch.setattr(EdgeHands, "ways", lambda *_: iter(()))
     without = found_plan(load_garment(name), time_limit_s=60.0).plan
     assert {grip.kind for step in without.steps for grip in step.grips} == {"top"}
-    assert required(planned(name).answer.cost_s) <= required(without.cost_s) + 1e-6
+    assert required(shipped_plan(name).cost_s) <= required(without.cost_s) + 1e-6

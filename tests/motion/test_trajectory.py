@@ -15,7 +15,7 @@ from planner.robots.load_robot import load_robot
 from planner.robots.openings import EDGE_OPEN_M, HELD_M
 from planner.task.trajectory import Segment, Trajectory
 from tests.builders import fold, garment, rectangle_points
-from tests.replay.planned import planned
+from tests.replay.planned import shipped_plan
 from tests.required import required
 
 RATE_HZ = 25.0
@@ -27,7 +27,7 @@ each_name = pytest.mark.parametrize("name", NAMES)
 
 
 def trajectory_of(name: str) -> Trajectory:
-    found = planned(name).answer.trajectory
+    found = shipped_plan(name).trajectory
     assert found is not None
     return found
 
@@ -51,7 +51,7 @@ def test_between_some_runs_the_base_drives(name: str) -> None:
 
 @each_name
 def test_the_arms_touch_nothing_all_through(name: str) -> None:
-    plan, trajectory = planned(name).answer, trajectory_of(name)
+    plan, trajectory = shipped_plan(name), trajectory_of(name)
     collisions = OpenedCollisions(ROBOT, plan.scene.table, plan.scene.torso_m)
     for t in np.arange(0.0, plan.cost_s, 1.0 / RATE_HZ):
         base = trajectory.segment_at(t).base_at(t)
@@ -62,7 +62,7 @@ def test_the_arms_touch_nothing_all_through(name: str) -> None:
 
 @each_name
 def test_segments_follow_one_another_without_a_gap_and_last_as_long_as_the_plan(name: str) -> None:
-    plan, trajectory = planned(name).answer, trajectory_of(name)
+    plan, trajectory = shipped_plan(name), trajectory_of(name)
     assert trajectory.duration_s == plan.cost_s
     assert trajectory.segments[0].start_s == 0.0
     for segment, after in pairwise(trajectory.segments):
@@ -79,7 +79,7 @@ def test_segments_follow_one_another_without_a_gap_and_last_as_long_as_the_plan(
 
 @each_name
 def test_a_steps_segments_lead_from_the_world_before_it_to_the_world_after_it(name: str) -> None:
-    plan, trajectory = planned(name).answer, trajectory_of(name)
+    plan, trajectory = shipped_plan(name), trajectory_of(name)
     for number, step in enumerate(plan.steps):
         last = trajectory.of_step(number)[-1]
         base, cloth = last.phase.base[1], last.phase.cloth
@@ -100,7 +100,7 @@ def test_no_joint_is_faster_from_keyframe_to_keyframe_than_it_can_be(name: str) 
 
 @each_name
 def test_grippers_are_shut_while_they_hold_cloth_and_open_at_the_start_and_the_end(name: str) -> None:
-    plan, trajectory = planned(name).answer, trajectory_of(name)
+    plan, trajectory = shipped_plan(name), trajectory_of(name)
     assert [track.arm for track in trajectory.grippers] == [arm.name for arm in ROBOT.card.arms]
     for track in trajectory.grippers:
         assert track.opening_at(0.0) == pytest.approx(OPEN_M)
@@ -126,7 +126,7 @@ def test_arms_begin_at_home(name: str) -> None:
 
 @each_name
 def test_every_actuated_joint_is_told_at_every_moment_and_its_velocity(name: str) -> None:
-    plan, trajectory = planned(name).answer, trajectory_of(name)
+    plan, trajectory = shipped_plan(name), trajectory_of(name)
     assert trajectory.torso_m == plan.scene.torso_m
     frames = list(Timeline.of(plan).samples(10.0))
     assert {frozenset(frame.joints) for frame in frames} == {frozenset(frame.velocities) for frame in frames}
@@ -140,7 +140,7 @@ def test_every_actuated_joint_is_told_at_every_moment_and_its_velocity(name: str
 @each_name
 def test_velocities_are_those_with_which_the_joints_go_on(name: str) -> None:
     # A cubic is at its middle as fast as from end to end, but for a twenty-fourth of its third derivative.
-    plan, trajectory = planned(name).answer, trajectory_of(name)
+    plan, trajectory = shipped_plan(name), trajectory_of(name)
     knots = np.unique([*trajectory.arms.times_s, *(t for track in trajectory.grippers for t in track.times_s)])
     step_s = 1e-3
     for t in knots[:-1][np.diff(knots) > 2 * step_s]:
@@ -179,7 +179,7 @@ def test_fingers_close_and_open_evenly_and_when_they_are_told() -> None:
 
 def test_fingers_are_led_along_their_links_while_they_close_and_open() -> None:
     # The joint, which swings, is at each keyframe where the opening has it.
-    plan = planned("hand-towel").answer
+    plan = shipped_plan("hand-towel")
     assert plan.trajectory is not None
     for arm, track in zip(ROBOT.card.arms, plan.trajectory.grippers, strict=True):
         assert (min(track.openings_m), max(track.openings_m)) == pytest.approx((HELD_M, OPEN_M))
@@ -189,7 +189,7 @@ def test_fingers_are_led_along_their_links_while_they_close_and_open() -> None:
 
 
 def test_cloth_that_lies_still_is_one_surface_and_what_is_folded_another() -> None:
-    plan = planned("hand-towel").answer
+    plan = shipped_plan("hand-towel")
     timeline = Timeline.of(plan)
     moving = [primitive.start_s + 0.5 * primitive.duration_s for primitive in plan.primitives]
     still = timeline.at(0.0).cloth

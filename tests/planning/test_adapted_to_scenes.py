@@ -6,7 +6,7 @@ import pytest
 
 from planner import Garment, Plan, Scene, Task, find_plan, load_garment, make_plan, quick_plan
 from planner.planning.found_plan import FoundPlan
-from tests.planning.found import found_plan
+from tests.replay.planned import planned
 from tests.required import required
 
 JEANS, SHIRT = load_garment("jeans"), load_garment("t-shirt")
@@ -15,7 +15,7 @@ JEANS, SHIRT = load_garment("jeans"), load_garment("t-shirt")
 @pytest.fixture(scope="module")
 def driving() -> FoundPlan:
     """Return a plan that drives to another station."""
-    found = found_plan(JEANS, time_limit_s=60.0)
+    found = planned("jeans").found
     assert any(p.kind == "move" for p in found.plan.primitives)
     return found
 
@@ -47,7 +47,7 @@ def test_a_station_is_known_by_its_name_wherever_it_is_in_the_list(driving: Foun
 
 
 def test_where_the_base_may_not_back_off_so_far_a_plan_does_without() -> None:
-    known = found_plan(SHIRT, time_limit_s=60.0)
+    known = planned("t-shirt").found
     furthest_m = max(p.base.back_off_m for p in known.plan.primitives)
     assert furthest_m > 0.0
     enough = adapted(SHIRT, replace(Scene(), back_off_max_m=furthest_m), known)
@@ -57,7 +57,7 @@ def test_where_the_base_may_not_back_off_so_far_a_plan_does_without() -> None:
 
 
 def test_the_statistics_of_an_adapted_plan_are_those_of_what_was_looked_at() -> None:
-    known = found_plan(SHIRT)
+    known = planned("t-shirt").found
     task = Task.of(SHIRT, replace(Scene(), back_off_max_m=0.75))
     found = quick_plan(task, like=[known])
     assert found is not None

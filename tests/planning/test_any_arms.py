@@ -16,7 +16,7 @@ from planner.plans import find_plan, quick_plan
 from planner.task.reason import Code
 from planner.task.task import Task
 from tests.builders import fold, garment
-from tests.replay.planned import planned
+from tests.replay.planned import shipped_plan
 from tests.required import required
 from tests.robots.remade import BOLTED, ONE_ARM, THREE_ARMS, UNLIKE, RemadeRobot
 
@@ -65,7 +65,7 @@ def test_one_arm_is_told_that_a_towel_takes_two_hands(found_for: Planning) -> No
 
 
 def test_arms_of_eight_and_of_seven_joints_do_what_those_of_a_pr2_do(found_for: Planning) -> None:
-    usual, plan = planned("hand-towel").answer, found_for(UNLIKE, load_garment("hand-towel")).plan
+    usual, plan = shipped_plan("hand-towel"), found_for(UNLIKE, load_garment("hand-towel")).plan
     require_performed(plan, UNLIKE)
     assert len(required(plan.trajectory).arms.names) == 15
     assert plan.cost_s == pytest.approx(usual.cost_s)

@@ -26,7 +26,7 @@ from planner.primitives.state import State
 from planner.task.plan_step import PlanStep
 from planner.task.reason import Code
 from tests.builders import context, fold, garment, rectangle_points
-from tests.replay.planned import planned
+from tests.replay.planned import shipped_plan
 
 EDGE_X_M = -0.8
 NEAR_X_M = -0.75
@@ -71,7 +71,7 @@ def dragged_x_m(plan: Plan, step: PlanStep) -> float:
 
 @pytest.fixture
 def towel() -> Plan:
-    return planned("big-towel").answer
+    return shipped_plan("big-towel")
 
 
 @pytest.fixture

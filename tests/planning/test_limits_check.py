@@ -10,13 +10,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from planner import Plan, Scene, load_garment, make_plan
+from planner import Plan, Scene
 from planner.errors import RequestError
 from planner.geometry.keyframes import extremes, peaks, rate_at, value_at
 from planner.motion.motion_limits import MotionLimits
 from planner.planning.plan_check import require_replay
 from planner.planning.problem import Problem
 from planner.task.trajectory import Trajectory
+from tests.replay.planned import shipped_plan
 
 FACTOR = 3.0
 
@@ -24,7 +25,7 @@ FACTOR = 3.0
 @pytest.fixture(scope="module")
 def plan() -> Plan:
     """A plan in which arms, fingers and base move."""
-    found = make_plan(load_garment("jeans"), time_limit_s=60.0)
+    found = shipped_plan("jeans")
     assert {step.kind for step in found.steps} >= {"move", "fold"}
     return found
 

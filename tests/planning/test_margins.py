@@ -11,14 +11,14 @@ from planner.geometry.table import Table
 from planner.planning.margins import margins_of
 from planner.task.task import COMFORT_MAX_M
 from tests.builders import fold, garment, rectangle_points
-from tests.replay.planned import SOLVABLE, planned
+from tests.replay.planned import SOLVABLE, shipped_plan
 
 TO_M = 0.001
 
 
 @pytest.mark.parametrize("name", SOLVABLE)
 def test_a_plan_reaches_no_less_than_the_comfort_radius_it_was_made_for(name: str) -> None:
-    plan = planned(name).answer
+    plan = shipped_plan(name)
     margins = margins_of(plan)
     assert margins is not None and margins.reach_m is not None
     assert plan.task.limits.comfort_radius_m - TO_M <= margins.reach_m <= COMFORT_MAX_M
@@ -52,7 +52,7 @@ def test_friction_and_edge_margins_are_those_of_the_cloth_as_it_lies() -> None:
 
 
 def test_grips_are_apart_by_more_than_they_must_be() -> None:
-    plan = planned("hand-towel").answer
+    plan = shipped_plan("hand-towel")
     margins = margins_of(plan)
     pairs = [[np.array(held.point) for held in step.holdings] for step in plan.steps if len(step.holdings) == 2]
     assert margins is not None and pairs
@@ -61,6 +61,6 @@ def test_grips_are_apart_by_more_than_they_must_be() -> None:
 
 @pytest.mark.long
 def test_where_there_is_no_plan_there_are_no_margins() -> None:
-    plan = planned("tie-halved").answer
+    plan = shipped_plan("tie-halved")
     assert not plan.is_solved and margins_of(plan) is None
     assert margins_of(replace(plan, status="budget_exceeded")) is None

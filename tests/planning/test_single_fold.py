@@ -13,7 +13,7 @@ from planner.planning.single_fold import OFFSETS_MAX, SingleFold
 from planner.primitives.drag_offsets import drag_offsets
 from planner.task.reason import Code
 from tests.planning.found import found_plan
-from tests.replay.planned import planned
+from tests.replay.planned import shipped_plan
 from tests.required import required
 from tests.sweep import sweep
 
@@ -35,7 +35,7 @@ def test_a_fold_that_can_be_done_is_never_called_impossible(name: str, monkeypat
 def test_what_is_called_impossible_is_so_when_all_states_are_exhausted(
     name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    quick = planned(name).answer
+    quick = shipped_plan(name)
     monkeypatch.setattr(planning, "LOOK_ALONE_AFTER", 1_000_000_000)
     exhausted = find_plan(Task.of(load_garment(name), time_limit_s=60.0), with_reasons=False).plan
     assert quick.status == exhausted.status == "infeasible"
@@ -44,7 +44,7 @@ def test_what_is_called_impossible_is_so_when_all_states_are_exhausted(
 
 @pytest.mark.parametrize("name", HALVED)
 def test_a_no_says_which_fold_is_out_of_reach_and_by_how_much(name: str) -> None:
-    first, *others = planned(name).answer.reasons
+    first, *others = shipped_plan(name).reasons
     assert (first.fold, first.code) == (0, Code.OUT_OF_REACH)
     assert first.cause in {"too_far", "joint_limit", "comfort_only"}
     short_by_m = required(first.short_by_m)

@@ -10,7 +10,7 @@ import pytest
 
 from planner import Plan, Scene
 from planner.cloth.garment import Garment
-from planner.geometry.pose import FloatArray, Pose2
+from planner.geometry.pose import Pose2
 from planner.planning import problem
 from planner.planning.heuristic import arm_time
 from planner.planning.plan_check import require_replay
@@ -21,9 +21,10 @@ from planner.primitives.context import Context
 from planner.primitives.drag_offsets import drag_offsets
 from planner.primitives.state import Held, State
 from planner.task.task import Task
-from tests.builders import WideReach, context, fold, garment, rectangle_points
+from tests.builders import context, fold, garment, rectangle_points
 from tests.required import required
 from tests.robots.remade import BOLTED
+from tests.wide_reach import WideReach
 
 STAYS = Scene(stations=(("", Scene().stations[0][1]),), back_off_max_m=0.0)
 START = State(0, (0.0, 0.0), 0, 0)
@@ -43,15 +44,6 @@ def bolted(what: Garment, reach: WideReach | None = None) -> Context:
 
 def drags(of: Context, state: State = START) -> list[ArmDragStep]:
     return list(ArmDrag(of).successors(state))
-
-
-def reaching(to_x_m: float) -> WideReach:
-    """Return the reach of arms that go no farther than an x of the base frame."""
-
-    def allowed(arm: int, point: FloatArray, standoff: int) -> bool:
-        return bool(point[0] <= to_x_m)
-
-    return WideReach(allowed)
 
 
 def test_a_base_that_drives_drags_itself() -> None:
@@ -91,7 +83,7 @@ def test_the_hands_take_the_side_that_goes_ahead_and_end_with_the_cloth() -> Non
 
 def test_the_arms_drag_no_farther_than_they_reach() -> None:
     scene_x_m = STAYS.stations[0][1].x_m
-    case = bolted(towel(), reaching(0.2 + TOWEL[1] - 0.2 - scene_x_m + 0.05))
+    case = bolted(towel(), WideReach([(0.0, 0.2 + TOWEL[1] - 0.2 - scene_x_m + 0.05)]))
     farthest = max(step.after.offset[0] for step in drags(case))
     assert farthest == pytest.approx(0.2)
 

@@ -20,7 +20,8 @@ from planner.primitives.g_drag import GDrag
 from planner.primitives.g_fold import GFold
 from planner.primitives.state import Held, State
 from planner.task.scene import Scene
-from tests.builders import WideReach, context, fold, garment, rectangle_points
+from tests.builders import context, fold, garment, rectangle_points
+from tests.wide_reach import WideReach
 
 NEAR_HALF = fold((0.4, 0.15), (0.0, 0.15))
 BACK = -math.pi / 2
@@ -74,8 +75,9 @@ def test_a_hand_on_the_extension_of_the_fold_line_stays_as_it_is_while_the_other
 
 
 def test_the_base_drives_to_where_the_grips_are_in_reach_and_pays_for_it() -> None:
-    # In reach only from 0.15 m back: 0.15 / 0.25 = 0.6 s more.
-    far = WideReach(lambda arm, point, standoff: standoff == 3)
+    # The hands go from x = 0.2 to 0.5 m ahead of the base at 0: all their way is between 0.35 and 0.65 only from 0.15 m
+    # back. 0.15 / 0.25 = 0.6 s more.
+    far = WideReach([(0.35, 0.65)])
     (step,) = folds_of(context(towel(NEAR_HALF), reach=far))
     assert step.after.standoff == 3
     assert step.duration_s == pytest.approx(9.6)
@@ -85,7 +87,7 @@ def test_the_base_drives_to_where_the_grips_are_in_reach_and_pays_for_it() -> No
 def test_the_base_follows_its_hands_where_no_one_place_will_do() -> None:
     # The hands go from x = 0.2 to 0.5 m ahead of the base at 0. Only x + 0.05 b between 0.4 and 0.6 is in reach:
     # 0.2 needs b = 4..8, 0.5 needs b = 0..2: at least two steps forward, and from b = 0 first four back.
-    band = WideReach(lambda arm, point, standoff: 0.4 - 1e-9 <= point[0] + 0.05 * standoff <= 0.6 + 1e-9)
+    band = WideReach([(0.4, 0.6)])
     steps = folds_of(context(towel(NEAR_HALF), reach=band))
     nearest = min(steps, key=lambda s: s.duration_s)
     assert nearest.after.standoff == 2
@@ -94,7 +96,7 @@ def test_the_base_follows_its_hands_where_no_one_place_will_do() -> None:
 
 
 def test_what_no_arm_reaches_is_noted_and_not_done() -> None:
-    problem = context(towel(NEAR_HALF), reach=WideReach(lambda arm, point, standoff: False))
+    problem = context(towel(NEAR_HALF), reach=WideReach([]))
     assert folds_of(problem) == []
     assert [code.value for code in problem.obstacles.codes(0)] == ["out_of_reach"]
 

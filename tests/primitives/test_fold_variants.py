@@ -1,13 +1,11 @@
 """Variants of a fold between two states: the least travel first, and the base only where the hands can follow."""
 
 import math
-from dataclasses import replace
 from itertools import islice
 from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from planner import Scene, load_garment
 from planner.folds.fold_sequence import FoldSequence
@@ -19,7 +17,6 @@ from planner.primitives.fold_step import FoldStep, fold_step
 from planner.primitives.fold_trial import fold_trials
 from planner.primitives.fold_variants import Variant, fold_spread, fold_variants, trial_variants
 from planner.primitives.g_fold import GFold
-from planner.primitives.reach import Reach
 from planner.primitives.state import State
 from planner.robots.load_robot import load_robot
 from tests.builders import CIRCLE_M
@@ -113,30 +110,21 @@ def test_with_grips_held_the_base_begins_where_it_stands() -> None:
     assert found and {v.first for v in found} == {held.standoff}
 
 
-class Asking:
-    """A reach that notes from how many standoffs it is asked."""
-
-    def __init__(self, reach: Reach) -> None:
-        self._reach = reach
-        self.counts: list[int] = []
-
-    def __getattr__(self, name: str) -> Any:
-        return getattr(self._reach, name)
-
-    def standoffs(
-        self, arm: int, points: FloatArray, approaches: NDArray[np.int64], count: int, *rest: Any, **more: Any
-    ) -> NDArray[np.uint32]:
-        self.counts.append(count)
-        return self._reach.standoffs(arm, points, approaches, count, *rest, **more)
-
-
-def test_ways_that_need_no_driving_are_found_without_a_look_from_further_back(context: Context) -> None:
+def test_ways_that_need_no_driving_are_found_without_a_look_from_further_back(
+    context: Context, monkeypatch: pytest.MonkeyPatch
+) -> None:
     (step, *_) = GFold(context).successors(START)
     fold, end = step.way.trial.fold, step.after.standoff
-    asking = Asking(context.reach)
-    few = islice(fold_variants(replace(context, reach=asking), START, fold, end), 3)
+    standoffs, counts = context.reach.standoffs, set()
+
+    def noting(arm: int, points: FloatArray, approaches: Any, count: int, *rest: Any, **more: Any) -> Any:
+        counts.add(count)
+        return standoffs(arm, points, approaches, count, *rest, **more)
+
+    monkeypatch.setattr(context.reach, "standoffs", noting)
+    few = islice(fold_variants(context, START, fold, end), 3)
     assert [v.steps for v in few] == [end - START.standoff] * 3
-    assert set(asking.counts) == {end + 1} and end + 1 < context.standoffs
+    assert counts == {end + 1} and end + 1 < context.standoffs
 
 
 def test_all_ways_are_those_of_a_look_from_everywhere(context: Context, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -8,25 +8,25 @@ import pytest
 from planner.geometry.pose import Approach, Point2, Pose2
 from planner.primitives.grasping import approaches_from_outside, assignments, nearest_pair_m
 from planner.task.scene import Scene
-from tests.builders import WideReach, context, garment, rectangle_points
+from tests.builders import context, garment, rectangle_points
+from tests.wide_reach import WideReach
 
 TOWEL = garment(rectangle_points(0.4, 0.3))
 
-
-class Fan(WideReach):
-    """Approaches that pinch at 30 degrees from nine headings, and straight down."""
-
-    approaches = (
+FAN = WideReach(
+    approaches=(
         *(Approach(math.radians(h), math.radians(30)) for h in range(-120, 121, 30)),
         Approach(0.0, math.pi / 2),
     )
+)
+"""Arms that pinch at 30 degrees from nine headings, and straight down."""
 
 
 def headings(grip: Point2, cone_deg: float, turn_deg: float = 0.0) -> list[float]:
     """Return the headings from which a grip of the towel may be taken, in degrees; straight down is 999."""
-    problem = context(TOWEL, Scene(approach_cone_rad=math.radians(cone_deg)), Fan())
+    problem = context(TOWEL, Scene(approach_cone_rad=math.radians(cone_deg)), FAN)
     found = approaches_from_outside(problem, 0, math.radians(turn_deg), grip, 0)
-    chosen = [Fan.approaches[i] for i in found]
+    chosen = [FAN.approaches[i] for i in found]
     return sorted(999.0 if a.is_vertical else round(math.degrees(a.heading_rad)) for a in chosen)
 
 
@@ -50,7 +50,7 @@ def test_a_corner_a_micrometre_askew_is_pinched_from_the_cones_rim_as_a_true_one
     # Its lower edge falls by 1 um on 0.4 m, so the bisector by 1.25e-6 rad; 90 degrees is just within 45 of 45.
     assert headings((0.0, 0.0), 45.0) == [0, 30, 60, 90, 999]
     askew = garment([(0.0, 0.0), (0.4, -1e-6), (0.4, 0.3), (0.0, 0.3)])
-    problem = context(askew, Scene(approach_cone_rad=math.radians(45.0)), Fan())
+    problem = context(askew, Scene(approach_cone_rad=math.radians(45.0)), FAN)
     assert len(approaches_from_outside(problem, 0, 0.0, (0.0, 0.0), 0)) == 5
 
 

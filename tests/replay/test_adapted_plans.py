@@ -18,7 +18,7 @@ from tests.builders import fold, garment, rectangle_points
 from tests.planning.found import found_plan
 from tests.replay.checker import check
 from tests.replay.joints import require_clear, require_speeds
-from tests.replay.planned import IMPOSSIBLE, SOLVABLE, each_solvable, planned
+from tests.replay.planned import IMPOSSIBLE, SOLVABLE, each_solvable, planned, shipped_plan
 from tests.required import required
 from tests.sweep import sweep
 
@@ -75,9 +75,9 @@ def way(found: FoundPlan) -> list[tuple[object, ...]]:
 def test_adapted_to_the_garment_it_is_for_a_plan_is_what_it_was(name: str) -> None:
     before = planned(name)
     after = soon(load_garment(name), before.found)
-    assert after is not None and after.plan.cost_s == pytest.approx(before.answer.cost_s, abs=1e-9)
-    assert after.plan.to_dict()["primitives"] == before.answer.to_dict()["primitives"]
-    assert after.plan.steps == before.answer.steps
+    assert after is not None and after.plan.cost_s == pytest.approx(before.found.plan.cost_s, abs=1e-9)
+    assert after.plan.to_dict()["primitives"] == before.found.plan.to_dict()["primitives"]
+    assert after.plan.steps == before.found.plan.steps
 
 
 @each_solvable
@@ -101,7 +101,7 @@ def test_the_arms_can_follow_what_is_adapted_again_and_again(name: str) -> None:
     vertex = free_vertices(found.plan.garment)[-1]
     for number in range(1, 11):
         found = soon(moved(name, vertex, (0.0, 0.001 * number)), found) or found
-    assert found.plan.garment.outline != planned(name).answer.garment.outline
+    assert found.plan.garment.outline != shipped_plan(name).garment.outline
     timeline = Timeline.of(found.plan)
     require_speeds(timeline)
     require_clear(timeline, Table(), every_s=1.7)
@@ -168,5 +168,5 @@ def test_a_slower_plan_that_is_known_gives_way_to_the_quickest() -> None:
     towel = load_garment("hand-towel")
     slow = found_plan(towel, start_station="left")
     assert find_plan(Task.of(towel), known=slow).plan.cost_s == pytest.approx(
-        planned("hand-towel").answer.cost_s, abs=1e-9
+        shipped_plan("hand-towel").cost_s, abs=1e-9
     )

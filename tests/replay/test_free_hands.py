@@ -12,7 +12,7 @@ from tests.laws.law import LONG
 from tests.replay.free_hands import Look, in_table, looks, too_low
 from tests.replay.hands import CLOSED_M
 from tests.replay.joints import speed_limits
-from tests.replay.planned import SOLVABLE, each_solvable, planned
+from tests.replay.planned import SOLVABLE, each_solvable, shipped_plan
 from tests.sweep import sweep
 
 IS_LONG = settings.get_current_profile_name() == LONG
@@ -25,13 +25,13 @@ each_looked_at = sweep("name", SOLVABLE, ("vest", "hand-towel"))
 
 @cache
 def looks_at(name: str) -> list[Look]:
-    return looks(planned(name).answer, RATE_HZ)
+    return looks(shipped_plan(name), RATE_HZ)
 
 
 @cache
 def sampled(name: str, rate_hz: float) -> tuple[np.ndarray, dict[str, np.ndarray]]:
     """Return the times of the samples (s), and the fingers' angles at them."""
-    frames = list(Timeline.of(planned(name).answer).samples(rate_hz))
+    frames = list(Timeline.of(shipped_plan(name)).samples(rate_hz))
     angles = {joint: np.array([frame.joints[joint] for frame in frames]) for joint in FINGERS.values()}
     return np.array([frame.t_s for frame in frames]), angles
 
@@ -52,7 +52,7 @@ def test_no_part_of_a_free_arm_is_low_over_cloth_but_near_its_grip(name: str) ->
 
 @each_solvable
 def test_no_finger_opens_before_the_cloth_lies(name: str) -> None:
-    plan = planned(name).answer
+    plan = shipped_plan(name)
     timeline, opened = Timeline.of(plan), 0
     for primitive in plan.primitives:
         end = primitive.start_s + primitive.duration_s
@@ -79,7 +79,7 @@ def test_fingers_are_no_faster_than_the_urdf_allows(name: str) -> None:
 @pytest.mark.parametrize("rate_hz", [1.0, 10.0, 30.0, 50.0])
 @each_solvable
 def test_sample_times_strictly_grow_by_whole_steps_to_exactly_the_end(name: str, rate_hz: float) -> None:
-    plan = planned(name).answer
+    plan = shipped_plan(name)
     times, _ = sampled(name, rate_hz)
     assert times[-1] == plan.cost_s
     steps = np.diff(times)

@@ -11,7 +11,7 @@ from planner.motion.timeline import Timeline
 from tests.laws.law import LONG
 from tests.replay.checker import check
 from tests.replay.hands import Moment, distance_to_way, require_joint_limits, seen
-from tests.replay.planned import each_solvable, planned
+from tests.replay.planned import each_solvable, planned, shipped_plan
 from tests.replay.world import Way
 
 NEAR_M = 0.005
@@ -26,7 +26,7 @@ def ways(name: str) -> list[dict[str, Way]]:
 
 @cache
 def samples(name: str) -> list[dict[str, Any]]:
-    return [frame.to_dict() for frame in Timeline.of(planned(name).answer).samples(RATE_HZ)]
+    return [frame.to_dict() for frame in Timeline.of(shipped_plan(name)).samples(RATE_HZ)]
 
 
 @cache
@@ -37,7 +37,7 @@ def moments(name: str) -> list[Moment]:
 
 def moment(name: str, t_s: float) -> Moment:
     case = planned(name)
-    return seen(Timeline.of(case.answer).at(t_s).to_dict(), case.scene["table"]["height_m"])
+    return seen(Timeline.of(case.found.plan).at(t_s).to_dict(), case.scene["table"]["height_m"])
 
 
 def holding(name: str, number: int, arm: str) -> list[Moment]:

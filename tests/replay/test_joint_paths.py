@@ -12,7 +12,7 @@ from planner.motion.timeline import Timeline
 from tests.laws.law import LONG
 from tests.replay.hands import robot
 from tests.replay.joints import RATE_HZ, arm_joints, require_clear, require_speeds, speed_limits
-from tests.replay.planned import each_solvable, planned
+from tests.replay.planned import each_solvable, planned, shipped_plan
 
 CHECKED_S = 1.0 / RATE_HZ if settings.get_current_profile_name() == LONG else 0.9
 """The time between two checks of the hulls (s): a check takes 1.3 ms, and a plan half a minute."""
@@ -22,12 +22,12 @@ TURNS = ("forearm_roll", "wrist_roll")
 
 @each_solvable
 def test_no_joint_of_an_arm_is_faster_than_the_urdf_allows(name: str) -> None:
-    require_speeds(Timeline.of(planned(name).answer))
+    require_speeds(Timeline.of(shipped_plan(name)))
 
 
 @each_solvable
 def test_rolls_are_unwound_so_that_they_never_jump_by_a_turn(name: str) -> None:
-    joints, values, _ = arm_joints(Timeline.of(planned(name).answer))
+    joints, values, _ = arm_joints(Timeline.of(shipped_plan(name)))
     rolls = [i for i, joint in enumerate(joints) if any(turn in joint for turn in TURNS)]
     assert max(np.abs(b - a).max() for a, b in pairwise(values[:, rolls])) < np.pi / 8
 
@@ -35,7 +35,7 @@ def test_rolls_are_unwound_so_that_they_never_jump_by_a_turn(name: str) -> None:
 @each_solvable
 def test_nothing_touches_anything_but_the_cloth(name: str) -> None:
     case = planned(name)
-    require_clear(Timeline.of(case.answer), Table(**case.scene["table"]), CHECKED_S)
+    require_clear(Timeline.of(case.found.plan), Table(**case.scene["table"]), CHECKED_S)
 
 
 def test_the_speed_limits_are_read_from_the_urdf() -> None:

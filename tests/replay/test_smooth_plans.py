@@ -9,19 +9,19 @@ from planner import Plan
 from planner.motion.motion_limits import MotionLimits
 from planner.motion.motion_values import accelerations_at, positions_at, velocities_at
 from planner.task.trajectory import ArmTrack, GripperTrack
-from tests.replay.planned import each_solvable, planned
+from tests.replay.planned import each_solvable, shipped_plan
 from tests.replay.smooth import require_smooth
 from tests.small_plan import CARD, small_plan
 
 
 @each_solvable
 def test_speeds_and_accelerations_keep_their_limits_and_all_rests_between_the_steps(name: str) -> None:
-    require_smooth(planned(name).answer, CARD)
+    require_smooth(shipped_plan(name), CARD)
 
 
 @each_solvable
 def test_steps_last_as_long_as_their_motions(name: str) -> None:
-    plan = planned(name).answer
+    plan = shipped_plan(name)
     assert plan.trajectory is not None
     for number, step in enumerate(plan.steps):
         segments = plan.trajectory.of_step(number)
@@ -31,7 +31,7 @@ def test_steps_last_as_long_as_their_motions(name: str) -> None:
 
 @each_solvable
 def test_a_plan_takes_little_longer_than_the_model_says_and_never_less(name: str) -> None:
-    plan = planned(name).answer
+    plan = shipped_plan(name)
     assert plan.cost_s is not None and plan.bound_s is not None
     assert plan.bound_s - 1e-9 <= plan.cost_s <= 1.04 * plan.bound_s
 

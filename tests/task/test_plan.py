@@ -19,7 +19,7 @@ from planner.errors import FieldError
 from planner.motion.timeline import Timeline
 from planner.task.plan import VERSION
 from tests.planning.found import found_plan
-from tests.replay.planned import planned
+from tests.replay.planned import planned, shipped_plan
 from tests.required import required
 
 NAMES = ("t-shirt", "vest", "tie", "hand-towel", "tie-halved")
@@ -49,7 +49,7 @@ each_name = pytest.mark.parametrize("name", NAMES)
 
 
 def plan_of(name: str) -> Plan:
-    return planned(name).answer
+    return shipped_plan(name)
 
 
 @cache
@@ -297,7 +297,7 @@ def test_a_plan_from_before_velocities_were_kept_goes_straight_from_keyframe_to_
     ):
         for name in names:
             del owner[name]
-    plan, now = Plan.from_dict(data), planned("hand-towel").answer
+    plan, now = Plan.from_dict(data), shipped_plan("hand-towel")
     assert plan.trajectory is not None and now.trajectory is not None and plan != now
     assert Plan.from_dict(json.loads(json.dumps(plan.to_dict()))) == plan
     arms = plan.trajectory.arms

@@ -14,13 +14,14 @@ from app.files.sheet_pdf import page_pdf
 from app.files.sheet_svg import page_svg
 from planner import Plan, load_garment, make_plan
 from planner.errors import UnsolvedPlanError
+from tests.replay.planned import shipped_plan
 
 SVG = "{http://www.w3.org/2000/svg}"
 
 
 @pytest.fixture(scope="module", params=["hand-towel", "letter-towel"])
 def plan(request: pytest.FixtureRequest) -> Plan:
-    return make_plan(load_garment(request.param), time_limit_s=60.0)
+    return shipped_plan(request.param)
 
 
 @pytest.fixture(scope="module")

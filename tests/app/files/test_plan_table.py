@@ -10,6 +10,7 @@ from app.files.plan_table import plan_table
 from planner import Scene, load_garment, make_plan
 from planner.task.plan import Plan
 from planner.task.scene import DEFAULT_STATIONS
+from tests.replay.planned import shipped_plan
 
 HEIGHT_M = 0.79
 
@@ -24,13 +25,13 @@ def point(row: dict[str, str], arm: str, moment: str, frame: str) -> list[float]
 
 @pytest.fixture(scope="module")
 def hand_towel() -> Plan:
-    return make_plan(load_garment("hand-towel"))
+    return shipped_plan("hand-towel")
 
 
 @pytest.fixture(scope="module")
 def big_towel() -> Plan:
     """Plan the big towel, which drags, drives while it folds, and folds while held."""
-    return make_plan(load_garment("big-towel"))
+    return shipped_plan("big-towel")
 
 
 def test_there_is_one_row_for_each_primitive_and_they_follow_one_another(big_towel: Plan) -> None:
@@ -82,7 +83,7 @@ def test_during_a_drag_the_hands_stay_where_they_are_as_the_base_sees_them(big_t
 
 
 def test_the_base_of_a_move_is_where_it_leaves_it_and_there_are_no_hands() -> None:
-    plan = make_plan(load_garment("jeans"))
+    plan = shipped_plan("jeans")
     move = next(row for row in rows_of(plan) if row["kind"] == "move")
     end = DEFAULT_STATIONS[move["station"]]
     assert [float(move[f"base_{name}"]) for name in ("x_m", "y_m")] == pytest.approx([end.x_m, end.y_m])
@@ -104,7 +105,7 @@ def test_a_fold_whose_name_looks_like_a_formula_is_no_formula(hand_towel: Plan) 
 
 @pytest.mark.parametrize("name", ["t-shirt", "jeans", "vest"])
 def test_no_number_ends_in_the_noise_of_the_computation(name: str) -> None:
-    plan = make_plan(load_garment(name))
+    plan = shipped_plan(name)
     for row, primitive in zip(rows_of(plan), plan.primitives, strict=True):
         numbers = {name: text for name, text in row.items() if name.endswith(("_m", "_s", "_rad")) and text}
         assert all(len(text.partition(".")[2]) <= 9 and "e" not in text and text != "-0.0" for text in numbers.values())

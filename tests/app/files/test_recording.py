@@ -8,8 +8,8 @@ import pytest
 import zstandard
 
 from app.files.recording import HOLD_S, recording
-from planner import load_garment, make_plan
 from planner.task.plan import Plan
+from tests.replay.planned import shipped_plan
 from tests.required import required
 
 DATA = re.compile(r'__VISER_EMBED_DATA__="([A-Za-z0-9+/=]+)"')
@@ -17,7 +17,7 @@ DATA = re.compile(r'__VISER_EMBED_DATA__="([A-Za-z0-9+/=]+)"')
 
 @pytest.fixture(scope="module")
 def plan() -> Plan:
-    return make_plan(load_garment("hand-towel"))
+    return shipped_plan("hand-towel")
 
 
 @pytest.fixture(scope="module")

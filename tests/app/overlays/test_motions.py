@@ -10,9 +10,10 @@ from app.overlays.moment import Moment, moment_as_drawn, moment_of_plan
 from app.overlays.motions import base_overlay, paths_overlay
 from app.overlays.overlays import OVERLAYS, overlays
 from app.overlays.reach_region import reach_regions
-from planner import load_garment, make_plan
+from planner import load_garment
 from planner.errors import RequestError
 from planner.task.plan import Plan
+from tests.replay.planned import shipped_plan
 from tests.required import required
 
 
@@ -20,7 +21,7 @@ def planned(name: str) -> tuple[Document, Plan]:
     """Return a document with its plan and trajectory, without a planner of its own."""
     document = Document(draft_of(drawing_of(load_garment(name))))
     state = document.state
-    plan = make_plan(load_garment(name))
+    plan = shipped_plan(name)
     document.settle(state.version, required(state.task), plan, "p")
     return document, plan
 

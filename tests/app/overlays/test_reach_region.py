@@ -5,13 +5,13 @@ import numpy as np
 import pytest
 
 from app.overlays.reach_region import Grid, reach_regions, region_where, takeable, takeable_region
-from planner import load_garment, make_plan
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 from planner.robots.load_robot import load_robot
 from planner.robots.pr2 import Pr2
+from tests.replay.planned import shipped_plan
 from tests.required import required
 
 TORSO_M, HEIGHT_M = 0.29, 0.79
@@ -102,7 +102,7 @@ def test_what_is_well_inside_can_be_reached_by_the_arms_joints_and_what_is_far_o
 
 
 def test_whatever_a_plan_picks_up_with_free_hands_lies_in_the_region(comfortable: tuple[Region, ...]) -> None:
-    plan = make_plan(load_garment("t-shirt"))
+    plan = shipped_plan("t-shirt")
     arms = {arm.name: number for number, arm in enumerate(load_robot(plan.task.robot).card.arms)}
     picked = 0
     for number, step in enumerate(plan.steps):

@@ -11,12 +11,13 @@ from app.rehearsal.vision.look_at_stack import Sight
 from app.rehearsal.vision.stack_fit import StackFit
 from app.rehearsal.watch import FOLDED_OVERLAP, Watch
 from app.rehearsal.world import WITHDRAW, Observation, Performed, StepMotion, Truth
-from planner import Plan, Task, load_garment, make_plan
+from planner import Plan
 from planner.geometry.pose import FloatArray
 from planner.geometry.ring import evenly_along
 from planner.geometry.woven_mesh import woven_mesh
 from tests.app.rehearsal.flat_cloth import FlatCloth, home, no_plan
 from tests.app.rehearsal.towel import towel_plan
+from tests.replay.planned import shipped_plan
 
 
 class FoldedCloth(FlatCloth):
@@ -87,7 +88,7 @@ def outlines(plan: Plan, after: int) -> tuple[FloatArray, FloatArray]:
 
 @pytest.mark.parametrize("is_failed", [True, False])
 def test_no_step_is_made_after_a_fold_that_is_seen_to_have_failed(*, is_failed: bool) -> None:
-    plan = make_plan(Task.of(load_garment("jeans")))
+    plan = shipped_plan("jeans")
     first = next(number for number, step in enumerate(plan.steps) if step.fold is not None)
     flat, folded = outlines(plan, first)
     world = OutlineWorld((flat, flat if is_failed else folded))

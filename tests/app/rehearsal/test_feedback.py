@@ -15,7 +15,7 @@ from app.rehearsal.perform import FAILURES_MAX, Performer, rest_task
 from app.rehearsal.step_motions import step_motions
 from app.rehearsal.step_seen import StepSeen
 from app.rehearsal.world import WITHDRAW, Observation, Performed, StepMotion
-from planner import Plan, Task, load_garment, make_plan
+from planner import Plan, Task, make_plan
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.region import Region
@@ -24,6 +24,7 @@ from planner.robots.load_robot import load_robot, robot_card_file
 from planner.task.task import TIME_LIMIT_S
 from tests.app.rehearsal.flat_cloth import home
 from tests.app.rehearsal.towel import towel_plan
+from tests.replay.planned import shipped_plan
 
 
 class NotedWorld:
@@ -71,7 +72,7 @@ def test_grips_follow_cloth_that_lies_two_centimetres_away() -> None:
 
 def test_a_fold_by_hands_that_hold_on_from_a_drag_is_not_carried_along_again() -> None:
     # Cloth 2 cm aside is taken there and dragged to where it should be: the fold after it is the planned one.
-    plan = make_plan(Task.of(load_garment("skirt")))
+    plan = shipped_plan("skirt")
     lies = plan.task.start.placement
     moved = Pose2(lies.x_m + 0.012, lies.y_m - 0.016, lies.yaw_rad)
     world = NotedWorld(evenly_along(moved.to_outer(plan.garment.pattern.ring), 0.01))
@@ -106,7 +107,7 @@ class SwingingWorld(NotedWorld):
 def test_the_fold_after_a_drag_goes_over_the_line_as_the_cloth_lies_then() -> None:
     # A tie swings behind the one hand that drags it. The hand stays where it is, and lands where the fold brings that,
     # short by what its fingers reach ahead, twice, and their thickness: cloth turns over round their ends.
-    plan = make_plan(Task.of(load_garment("tie")))
+    plan = shipped_plan("tie")
     world = SwingingWorld(plan, 0.02)
     Performer(plan, world, Gate(), lambda _: plan).performed()
     drag, fold = world.asked[:2]
@@ -143,7 +144,7 @@ def test_a_hand_that_misses_tries_again_within_the_comfort_radius() -> None:
 @pytest.mark.parametrize("name", ["tie", "scarf", "skirt"])
 def test_a_hand_that_misses_the_edge_of_cloth_that_it_pulls_behind_it_tries_again_inside_it(name: str) -> None:
     # Ahead of that hand there is no cloth.
-    plan = make_plan(Task.of(load_garment(name)))
+    plan = shipped_plan(name)
     lies = plan.task.start.placement
     turned = replace(lies, yaw_rad=lies.yaw_rad + 0.01)
     world = NotedWorld(evenly_along(turned.to_outer(plan.garment.pattern.ring), 0.01), misses=1)
@@ -193,7 +194,7 @@ def test_the_rest_is_planned_again_with_as_much_work_as_the_plan_had_time_howeve
 
 def test_a_scarf_that_lies_closer_than_planned_is_still_taken_by_both_corners() -> None:
     # Its edge is 25.4 cm wide, and one hand in the middle would be quicker by half a second.
-    plan = make_plan(Task.of(load_garment("scarf")))
+    plan = shipped_plan("scarf")
     last = plan.steps[2]
     lies = Pose2(-1.139, 0.326, last.before.placement.yaw_rad + 0.0067)
     rest = rest_task(plan.task, replace(last.before, placement=lies))
@@ -227,7 +228,7 @@ def test_a_hand_that_missed_where_the_cloth_was_seen_tries_again_round_there_wit
 
 
 def test_a_hand_that_took_the_cloth_beside_its_grip_holds_it_there_in_the_red_fold_after_it() -> None:
-    plan = make_plan(Task.of(load_garment("letter-towel")))
+    plan = shipped_plan("letter-towel")
     world = NotedWorld(evenly_along(plan.task.start.placement.to_outer(plan.garment.pattern.ring), 0.01), misses=1)
     Performer(plan, world, Gate(), no_plan).performed()
     planned = step_motions(plan)
@@ -281,7 +282,7 @@ def test_a_robot_stands_where_its_base_and_its_tools_really_are() -> None:
 
 def test_hands_that_hold_on_go_on_from_where_a_drag_has_stopped_short() -> None:
     # Else the cloth in them would jump by as much within one time step.
-    plan = make_plan(Task.of(load_garment("skirt")))
+    plan = shipped_plan("skirt")
     world = NotedWorld(np.empty((0, 2)))
     noisy = NoisyWorld(world, Noise(undershoot=0.2, arm_m=0.003, base_rad=0.01), 3, plan.task)
     planned = step_motions(plan)
@@ -299,7 +300,7 @@ def test_hands_that_hold_on_go_on_from_where_a_drag_has_stopped_short() -> None:
 
 
 def test_what_is_seen_while_a_drag_has_stopped_short_is_seen_from_where_the_base_really_stands() -> None:
-    plan = make_plan(Task.of(load_garment("tie")))
+    plan = shipped_plan("tie")
     lies = np.array([[0.0, 0.0], [0.3, 0.1]])
     world = NotedWorld(lies, shows_folded=True)
     noisy = NoisyWorld(world, Noise(undershoot=0.2), 3, plan.task)

@@ -14,12 +14,13 @@ from app.rehearsal.vision.fit_fold import FoldedOutline
 from app.rehearsal.vision.seen_stack import SeenStack
 from app.rehearsal.vision.stack_figure import Figure
 from app.rehearsal.world import StepMotion
-from planner import Plan, Task, load_garment, make_plan
+from planner import Plan
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Point2
 from planner.geometry.ring import evenly_along
 from planner.task.grip import Holding
 from planner.task.plan_step import PlanStep
+from tests.replay.planned import shipped_plan
 
 
 def seen_before(plan: Plan, step: PlanStep, stack: SeenStack | None, carried_m: float = 0.0) -> StepSeen:
@@ -30,7 +31,7 @@ def seen_before(plan: Plan, step: PlanStep, stack: SeenStack | None, carried_m: 
 def test_a_part_that_moved_last_is_taken_where_it_was_seen() -> None:
     # The near half was folded up at y = .25 m. With its crease 4 mm to the left of the line, towards y = 0, its edge is
     # 8 mm short. The article is turned by -90 degrees: its -y is -x of the table.
-    plan = make_plan(Task.of(load_garment("letter-towel")))
+    plan = shipped_plan("letter-towel")
     folded = FoldedOutline(plan.sequence, 0, 0)
     seen = SeenStack(Figure.of(plan.sequence.cloth(1)), folded, np.array([0, 0, 0, 0.004, 0, 0.0]), np.eye(6))
     step = replace(plan.steps[0], holdings=(Holding("left", (0.4, 0.5), ()), Holding("right", (0.1, 0.1), ())))
@@ -44,7 +45,7 @@ def test_a_part_that_moved_last_is_taken_where_it_was_seen() -> None:
 
 def test_a_hand_takes_an_edge_where_it_is_seen() -> None:
     # The crease, at y = .25 m, is seen 9 mm inside of its line, 4 mm at the other end; the rest is where it should be.
-    plan = make_plan(Task.of(load_garment("letter-towel")))
+    plan = shipped_plan("letter-towel")
     ring = plan.sequence.cloth(1).silhouette.ring
     (left, crease_y), (right, far_y) = ring.min(axis=0).tolist(), ring.max(axis=0).tolist()
     outline = evenly_along(ring, 0.003)
@@ -72,7 +73,7 @@ def test_a_hand_takes_an_edge_where_it_is_seen() -> None:
 
 
 def test_hands_take_corners_of_several_layers_inside_of_where_they_are_seen_as_far_as_that_is_in_reach() -> None:
-    plan = make_plan(Task.of(load_garment("letter-towel")))
+    plan = shipped_plan("letter-towel")
     step, turned = plan.steps[0], Isometry.rotation(0.1)
     inwards = inwards_at(StepSeen(plan, step, step_motions(plan)[0], turned))
     middle, lies = plan.garment.pattern.ring.mean(axis=0), step.before.placement
@@ -82,13 +83,13 @@ def test_hands_take_corners_of_several_layers_inside_of_where_they_are_seen_as_f
         assert math.hypot(*inwards[one.arm]) == pytest.approx(1.0)
     assert at_layered_corners(step, plan.sequence) == frozenset()  # one layer
     assert at_layered_corners(replace(step, holdings=()), plan.sequence) == frozenset()
-    skirt = make_plan(Task.of(load_garment("skirt")))
+    skirt = shipped_plan("skirt")
     taken = [sorted(at_layered_corners(one, skirt.sequence)) for one in skirt.steps]
     assert taken == [[], [], ["right"], ["left"]]  # tips, then a corner
     (tip,) = skirt.steps[2].holdings
     along = replace(tip, point=(tip.point[0], tip.point[1] - 0.05))  # 5 cm from the tips, along the waist or the hem
     assert at_layered_corners(replace(skirt.steps[2], holdings=(along,)), skirt.sequence) == frozenset()
-    vest = make_plan(Task.of(load_garment("vest")))  # folded in half, then both layers by their corners
+    vest = shipped_plan("vest")  # folded in half, then both layers by their corners
     assert [sorted(at_layered_corners(one, vest.sequence)) for one in vest.steps] == [[], ["left", "right"]]
     pulled = replace(vest.steps[1], holdings=(Holding("left", vest.steps[1].holdings[0].point, ()),))
     assert at_layered_corners(pulled, vest.sequence) == frozenset()  # it holds no corner
@@ -102,7 +103,7 @@ def test_hands_take_corners_of_several_layers_inside_of_where_they_are_seen_as_f
 
 def test_an_edge_of_which_nothing_was_seen_is_hidden() -> None:
     # An arm hides what is within 8 cm of the middle of the crease.
-    plan = make_plan(Task.of(load_garment("letter-towel")))
+    plan = shipped_plan("letter-towel")
     ring = plan.sequence.cloth(1).silhouette.ring
     (left, crease_y), (right, _) = ring.min(axis=0).tolist(), ring.max(axis=0).tolist()
     middle, inside = ((left + right) / 2.0, crease_y), ((left + right) / 2.0, crease_y + 0.1)
@@ -124,7 +125,7 @@ def test_an_edge_of_which_nothing_was_seen_is_hidden() -> None:
 
 
 def test_an_edge_that_the_same_hands_lift_again_lands_short_and_others_where_they_should() -> None:
-    plan = make_plan(Task.of(load_garment("letter-towel")))
+    plan = shipped_plan("letter-towel")
     blue, red = plan.steps
     motion = step_motions(plan)[1]
 
@@ -133,7 +134,7 @@ def test_an_edge_that_the_same_hands_lift_again_lands_short_and_others_where_the
 
     assert made(replace(blue, details={"fold": 0})) == motion
     assert made(red) == motion  # it goes on from there
-    scarf = make_plan(Task.of(load_garment("scarf")))  # in quarters, so that edges lie upon the stack
+    scarf = shipped_plan("scarf")  # in quarters, so that edges lie upon the stack
     assert all(made(step, scarf) == motion for step in scarf.steps)
     one_hand = replace(blue, holdings=tuple(one for one in blue.holdings if one.arm == "left"))
     for grip, former in zip(made(one_hand).grips, motion.grips, strict=True):

@@ -13,16 +13,17 @@ from app.rehearsal.rehearse import RehearsalOptions, rehearse
 from app.rehearsal.step_motions import step_motions
 from app.rehearsal.trace import UNIT_M, ClothAfter, RunTrace, counterpart, looked_before, rounded, traced
 from app.rehearsal.world import Observation, Performed, StepMotion, Truth
-from planner import Plan, Task, load_garment, make_plan
+from planner import Plan, make_plan
 from planner.geometry.woven_mesh import woven_mesh
 from tests.app.rehearsal.towel import COARSE, towel_plan
+from tests.replay.planned import shipped_plan
 from tests.required import required
 
 
 @pytest.fixture(scope="module")
 def letter() -> Plan:
     """Return the plan of two folds: by hands that hold on, and by those."""
-    return make_plan(Task.of(load_garment("letter-towel")))
+    return shipped_plan("letter-towel")
 
 
 class Lifted:

@@ -14,14 +14,15 @@ from app.store.database import Database
 from app.store.packed_plan import PackedPlan
 from app.store.plan_store import LIVE_MAX, PASSING_MAX, PlanStore, UnknownPlanError
 from app.store.schema import PlanRow
-from planner import Plan, load_garment, make_plan
+from planner import Plan
 from planner.motion.timeline import Timeline
 from tests.app.refused import refused
+from tests.replay.planned import shipped_plan
 
 
 @pytest.fixture(scope="module")
 def plan() -> Plan:
-    return make_plan(load_garment("hand-towel"))
+    return shipped_plan("hand-towel")
 
 
 @pytest.fixture
@@ -42,7 +43,7 @@ def row_count(database: Database) -> int:
 
 def test_after_a_restart_a_plan_is_told_and_played_as_it_was(plan: Plan, database: Database) -> None:
     store = PlanStore(database)
-    first, no_plan = store.add(plan), store.add(make_plan(load_garment("scarf-halved")))
+    first, no_plan = store.add(plan), store.add(shipped_plan("scarf-halved"))
     again = PlanStore(database)
     kept = again.plan(first)
     assert kept is not plan

@@ -8,8 +8,9 @@ import pytest
 from app.document_state import ShownPlan
 from app.ui.viewpoints.following import Following, work_of
 from app.ui.viewpoints.presets import Lens
-from planner import Plan, Timeline, load_garment, make_plan
+from planner import Plan, Timeline
 from planner.geometry.pose import Point2, Point3, Pose2, wrapped_angle
+from tests.replay.planned import shipped_plan
 
 LENS = Lens(1.5)
 WORK = [(0.0, 0.0), (-0.6, 0.2), (0.3, -0.4)]
@@ -38,7 +39,7 @@ def test_the_camera_goes_after_the_work_without_a_jump() -> None:
 
 
 def test_the_work_is_where_the_hands_are_and_at_the_end_still_there() -> None:
-    plan: Plan = make_plan(load_garment("hand-towel"))
+    plan: Plan = shipped_plan("hand-towel")
     shown = ShownPlan(1, plan, Timeline.of(plan))
     for step in plan.steps:
         if step.grips:

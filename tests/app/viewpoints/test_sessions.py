@@ -20,7 +20,7 @@ from planner import Scene
 from planner.robots.load_robot import load_robot
 from tests.app.drawing.drawings import towel_drawing
 from tests.app.viewpoints.viewer import EYE, Viewer
-from tests.replay.planned import planned
+from tests.replay.planned import shipped_plan
 
 CARD = load_robot("pr2").card
 Opened = tuple[Document, View3D]
@@ -103,7 +103,7 @@ def test_what_goes_wrong_for_one_session_does_not_stop_the_others(caplog: pytest
 @pytest.fixture(scope="module")
 def driven() -> Iterator[tuple[Document, View3D]]:
     """Open a document with a plan that drives to the table's left, and its view."""
-    plan = planned("jeans").answer
+    plan = shipped_plan("jeans")
     document, view = Document(draft_of(drawing_of(plan.garment))), View3D(CARD, Scene())
     task = document.state.task
     assert task is not None

@@ -70,8 +70,9 @@ def test_a_second_window_follows_the_drag_of_the_first(page: Page, cloth: Desk) 
 def test_the_view_stays_where_it_is_when_the_drawing_changes(page: Page, cloth: Desk) -> None:
     hand = Hand(page)
     page.mouse.move(*hand.px((0.2, 0.3)))
+    unzoomed = str(hand.board.get_attribute("data-px-per-m"))
     page.mouse.wheel(0, -240)
-    page.wait_for_timeout(100)
+    expect(hand.board).not_to_have_attribute("data-px-per-m", unzoomed)
     before = [hand.board.get_attribute(name) for name in ("data-origin-px", "data-px-per-m")]
     cloth.edit(lambda drawing: drawing["outline"][6].update(point=[0.9, 0.6]))
     expect(page.locator(".corner").nth(6)).to_have_attribute("aria-label", "Vertex 7: 90.0, 60.0 cm")

@@ -8,6 +8,7 @@ from playwright.sync_api import Locator, Page, expect
 
 from tests.browser.board_desk import Desk
 from tests.browser.board_hand import Hand
+from tests.browser.board_window import DRAWN
 from tests.browser.channel import Message, listened_to
 from tests.browser.status_pill import expect_planned
 
@@ -128,7 +129,7 @@ def test_all_of_the_legend_is_on_the_board_also_in_large_letters(
         page.set_viewport_size({"width": width, "height": height})
         page.evaluate("(size) => document.documentElement.style.setProperty('font-size', size)", text)
         expect(legend.get_by_role("listitem")).to_have_count(3)
-        page.wait_for_timeout(200)  # the board is measured anew a frame later
+        page.evaluate(f"{DRAWN}.then(() => {DRAWN})")  # the board is measured anew a frame later
         box, board = legend.bounding_box(), Hand(page).board.bounding_box()
     finally:
         page.evaluate("document.documentElement.style.removeProperty('font-size')")

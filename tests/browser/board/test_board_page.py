@@ -23,6 +23,18 @@ def chunk(kind: bytes, content: bytes) -> bytes:
 HEADER = chunk(b"IHDR", struct.pack(">IIBBBBB", 2, 1, 8, 0, 0, 0, 0))
 PNG = b"\x89PNG\r\n\x1a\n" + HEADER + chunk(b"IDAT", zlib.compress(b"\x00\x40\x80")) + chunk(b"IEND", b"")
 
+UNTIL_KEPT_SCALED = """async () => {
+  const photos = () => new Promise((resolve) => {
+    const opening = indexedDB.open("pleat", 1);
+    opening.onsuccess = () => {
+      const all = opening.result.transaction("photos").objectStore("photos").getAll();
+      all.onsuccess = () => { opening.result.close(); resolve(all.result); };
+    };
+  });
+  while (!(await photos()).some(({ scale }) => scale < 0.3)) await new Promise((resolve) => setTimeout(resolve, 20));
+}"""
+"""Waits until the browser has kept a photo at less than 0.3 m per pixel; one 2 pixels wide has 0.4 at first."""
+
 
 def width(page: Page) -> float:
     box = page.get_by_role("application", name="Drafting board").bounding_box()
@@ -77,7 +89,7 @@ def test_a_photo_lies_under_the_board_and_is_scaled_by_two_points(page: Page, to
     page.keyboard.press("Enter")
     # Two points 20 cm apart are said to be 10 cm apart, so the photo is half as wide.
     page.wait_for_function(f"Math.abs(document.querySelector('image.photo').width.baseVal.value - {0.4 * scale}) < 3")
-    page.wait_for_timeout(400)  # it is kept a little later
+    page.evaluate(UNTIL_KEPT_SCALED)
     page.reload()
     expect(photo).to_have_count(1)
     hand.tool("Photo")
