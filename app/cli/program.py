@@ -102,13 +102,13 @@ def refusing(target: object) -> Iterator[None]:
         raise failure(f"{target}: {error.strerror}") from None
 
 
-def tell_of_compiling(*robots: str) -> None:
-    """Say on standard error that the planner is compiled first, where it is: nothing else is seen for a minute."""
+def tell_of_compiling(*robots: str, on: Console = errors) -> None:
+    """Say that the planner is compiled first, where it is: nothing else is seen for a minute."""
     from planner.planning.warm_up import must_compile
     from planner.task.task import DEFAULT_ROBOT
 
     if any(must_compile(robot) for robot in robots or (DEFAULT_ROBOT,)):
-        errors.print("Compiling the planner (first use): about a minute...")
+        on.print("Compiling the planner (first use): about a minute...")
 
 
 @contextmanager

@@ -66,8 +66,7 @@ def _announce(url: str, token: str | None) -> None:
     """Print where the server is, and whether the planner is compiled first; a new token is printed this one time."""
     if token is None:
         output.print(f"Pleat is on {url} (Ctrl-C stops it)")
-        tell_of_compiling()
-        return
-    output.print(f"Pleat is on {url}/?token={token} (Ctrl-C stops it)", soft_wrap=True)
-    output.print("It asks for this token, which is not shown again; --new-token makes another.")
-    tell_of_compiling()
+    else:
+        output.print(f"Pleat is on {url}/?token={token} (Ctrl-C stops it)", soft_wrap=True)
+        output.print("It asks for this token, which is not shown again; --new-token makes another.")
+    tell_of_compiling(on=output)  # standard error is the log
