@@ -13,11 +13,11 @@ import numpy as np
 
 from planner.cloth.cloth_state import ClothState
 from planner.cloth.garment import DrawnFold
-from planner.errors import FoldError
+from planner.errors import FieldError
 from planner.folds.fold import snapped_line
 from planner.folds.fold_cloth import fold_cloth
 from planner.geometry.chord import chords
-from planner.geometry.pose import Point2
+from planner.geometry.pose import FloatArray, Point2
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 from planner.geometry.tolerance import LENGTH_M, SNAP_M
@@ -101,9 +101,7 @@ def inward_moves(bounds: Bounds, sides_m: Iterable[float]) -> Iterator[Move]:
 
 def flap_moves(silhouette: Region) -> Iterator[Move]:
     """Yield the moves that fold flaps in: along lines through corners that point inwards, as pairs where they are."""
-    ring = silhouette.ring
-    before, after = ring - np.roll(ring, 1, axis=0), np.roll(ring, -1, axis=0) - ring
-    inward = ring[before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0] < 0.0]
+    inward = np.concatenate([_inward_corners(ring) for ring in silhouette.shapes])
     for axis in (0, 1):
         low, high = silhouette.bounds[axis], silhouette.bounds[axis + 2]
         middle = (low + high) / 2
@@ -120,8 +118,14 @@ def flap_moves(silhouette: Region) -> Iterator[Move]:
                 yield Move("flaps", 0.5, "flap", axis, ((place, True), (other[0], False)))
 
 
+def _inward_corners(ring: FloatArray) -> FloatArray:
+    """Return the corners of a counter-clockwise ring that point inwards, shape (n, 2), m."""
+    before, after = ring - np.roll(ring, 1, axis=0), np.roll(ring, -1, axis=0) - ring
+    return np.asarray(ring[before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0] < 0.0])
+
+
 def carried_out(cloth: ClothState, move: Move, grip_radius_m: float) -> tuple[ClothState, tuple[DrawnFold, ...]] | None:
-    """Return the stack after a move and the folds that it takes; None if one of them is not legal.
+    """Return the stack after a move and the folds that it takes; None if one is not legal or hardly a line.
 
     Where a line crosses the silhouette several times, each stretch is a fold of its own.
     """
@@ -132,7 +136,7 @@ def carried_out(cloth: ClothState, move: Move, grip_radius_m: float) -> tuple[Cl
             try:
                 fold = DrawnFold(name, "blue", _rounded(chord.start), _rounded(chord.end), grip_radius_m)
                 cloth = fold_cloth(cloth, snapped_line(fold, cloth.silhouette), fold.kind).cloth
-            except FoldError:
+            except FieldError:
                 return None
             folds.append(fold)
     return (cloth, tuple(folds)) if folds else None
@@ -160,7 +164,7 @@ def turned_over(cloth: ClothState, grip_radius_m: float) -> tuple[ClothState, tu
             line = snapped_line(drawn, cloth.silhouette)
             fold = DrawnFold("turn over", "turn", _rounded(line.start), _rounded(line.end), grip_radius_m)
             return fold_cloth(cloth, snapped_line(fold, cloth.silhouette), "turn").cloth, (fold,)
-        except FoldError:
+        except FieldError:
             continue
     return None
 

@@ -15,6 +15,7 @@ from typing import Any, TypedDict, Unpack
 from planner.cloth.garment import FOLDS_MAX, Garment
 from planner.errors import RequestError
 from planner.geometry.pose import Pose2
+from planner.geometry.tolerance import DECIMALS
 from planner.planning.robot_task import task_for
 from planner.plans import find_plan
 from planner.proposals.packet import Packet, Way
@@ -85,7 +86,7 @@ class Proposal:
         return {
             "folds": garment["folds"],
             "garment": garment,
-            "size_m": list(self.size_m),
+            "size_m": [round(side_m, DECIMALS) for side_m in self.size_m],
             "layers": self.layers,
             "face": self.face,
             "status": self.status,
@@ -183,12 +184,14 @@ def _planned(
     failed: dict[Way, Proposal] = {}
     tried = Counter[Way]()
     for packet in search.packets():
-        if len(solved) == count or tried.total() == _PLANNED * count or should_stop():
+        if len(solved) == count or tried.total() == _PLANNED * count:
             break
         if packet.way in solved or tried[packet.way] == _VARIANTS:
             continue
         tried[packet.way] += 1
         proposal = _proposal(task, packet, should_stop)
+        if should_stop():
+            return search.enumerated
         if not proposal.plan.is_solved:
             failed.setdefault(packet.way, proposal)
         else:
