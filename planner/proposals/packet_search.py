@@ -28,6 +28,9 @@ _LAYERS_MAX = 64
 _VARIANTS = 3
 """The most variants that are folded: packets of one way that fit, and states of one way and size."""
 
+_OBLONG_M = 0.001
+"""What makes the squarer of rectangles of one area the smaller one, when added for each side (m)."""
+
 _LAST = 1000.0
 """What puts a packet after all others, as an effort."""
 
@@ -64,9 +67,9 @@ class PacketSearch:
             best: dict[int, Packet] = {}
             for packet in self._found():
                 known = best.setdefault(len(packet.folds), packet)
-                if packet.box_m2 < known.box_m2:
+                if _bulk_m2(packet.size_m) < _bulk_m2(known.size_m):
                     best[len(packet.folds)] = packet
-            yield from sorted(best.values(), key=lambda packet: packet.box_m2)
+            yield from sorted(best.values(), key=lambda packet: _bulk_m2(packet.size_m))
         else:
             yield from self._found()
 
@@ -117,21 +120,26 @@ class PacketSearch:
     def _rank(self, packet: Packet) -> float:
         """Return where a packet that fits comes in the queue."""
         if self._is_for_smallest:
-            return packet.box_m2
+            return _bulk_m2(packet.size_m)
         return packet.taste if is_filling(packet.size_m, self._full_m) else packet.taste + _LAST
 
     def _promise(self, packet: Packet, move: Move) -> float:
         """Return where a state with a move comes in the queue: the least effort of the packets that it may lead to.
 
-        For the smallest packet it is the area of the rectangle (m^2).
+        For the smallest packet it is the size of the rectangle.
         """
         bounds = packet.cloth.silhouette.bounds
         size_m = move.size_after(bounds)
         if self._is_for_smallest:
-            return size_m[0] * size_m[1]
+            return _bulk_m2(size_m)
         folds = len(packet.folds) + len(move.lines)
         left = _moves_left(size_m, self._target_m)
         return packet.effort + move.effort_on(bounds) + FOLD_EFFORT * (folds + left) + left
+
+
+def _bulk_m2(size_m: Sides) -> float:
+    """Return how large a rectangle is (m^2), by its area, and of equal areas by its longer side."""
+    return size_m[0] * size_m[1] + _OBLONG_M * sum(size_m)
 
 
 def _moves_left(size_m: Sides, target_m: Sides) -> int:

@@ -119,6 +119,7 @@ def test_packets_much_smaller_than_the_target_come_last() -> None:
 def test_smallest_packets_come_smallest_first_one_for_each_number_of_folds() -> None:
     found = list(packets(BLANKET, "smallest", max_folds=4))
     assert [len(packet.folds) for packet in found] == [4, 3, 2, 1, 0]
+    assert found[0].size_m == pytest.approx((0.15, 0.1), abs=1e-5)
     # Four halves leave a sixteenth, and no fold leaves less than half.
     assert [packet.box_m2 for packet in found] == pytest.approx([0.24 / 2**n for n in (4, 3, 2, 1, 0)], rel=1e-3)
 
