@@ -15,6 +15,7 @@ if TYPE_CHECKING:  # the tables of a command need not import what the others sho
     from planner.explain.garment_check import FoldCheck, GarmentCheck
     from planner.explain.suggestion import Suggestion
     from planner.geometry.pose import Point2
+    from planner.proposals.proposals import Proposals
     from planner.robots.card_file import CardFile
     from planner.robots.table_reach import TableReach
     from planner.task.plan import Plan
@@ -157,6 +158,33 @@ def _held_at(fold: FoldCheck, garment: Garment, index: int) -> str:
     if not fold.grips:
         return "nothing must be held"
     return f"held at {_points(fold.grips)}: a grip holds what is within {garment.folds[index].grip_radius_m:g} m"
+
+
+def proposals_table(garment: Garment, found: Proposals) -> Table:
+    """Return ways to fold a garment to a size, the quickest first."""
+    kept, number = len(garment.folds), len(found.proposals)
+    table = _table(f"{garment.title}: {number} proposal{'' if number == 1 else 's'}, of {found.enumerated} ways tried")
+    for name, is_number in (
+        ("folds", False),
+        ("size [m]", True),
+        ("layers", True),
+        ("face", False),
+        ("seconds", True),
+        ("status", False),
+    ):
+        table.add_column(name, justify="right" if is_number else "left")
+    for one in found.proposals:
+        names = [fold.name for fold in one.garment.folds[kept:]]
+        width_m, length_m = one.size_m
+        table.add_row(
+            ", ".join([*([f"{kept} kept"] if kept else []), *names]),
+            f"{width_m:.3f} x {length_m:.3f}",
+            str(one.layers),
+            one.face,
+            "" if one.cost_s is None else f"{one.cost_s:.2f}",
+            one.status,
+        )
+    return table
 
 
 def suggestion_table(garment: Garment, found: Sequence[Suggestion]) -> Table:

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from planner.folds.fold_sequence import FoldSequence, fold_dag
     from planner.motion.timeline import Timeline
     from planner.plans import find_plan, make_plan, quick_plan
+    from planner.proposals.proposals import propose_folds
     from planner.task.plan import Plan
     from planner.task.scene import Scene
     from planner.task.task import Limits, Task
@@ -40,6 +41,7 @@ __all__ = [
     "fold_dag",
     "load_garment",
     "make_plan",
+    "propose_folds",
     "quick_plan",
     "shipped_garment_names",
     "suggestions",
@@ -51,6 +53,7 @@ _HOMES = {
     "planner.folds.fold_sequence": ("FoldSequence", "fold_dag"),
     "planner.explain.garment_check": ("check_garment",),
     "planner.plans": ("find_plan", "make_plan", "quick_plan"),
+    "planner.proposals.proposals": ("propose_folds",),
     "planner.explain.suggestions": ("suggestions",),
     "planner.motion.timeline": ("Timeline",),
     "planner.task.plan": ("Plan",),

@@ -47,6 +47,7 @@ MAY_SEE: Mapping[str, frozenset[str]] = {
     "planner.planning": BELOW_MOTION | {"planner.kernel_cache", "planner.motion", "planner.search"},
     "planner.explain": BELOW_MOTION | {"planner.motion", "planner.search", "planner.planning"},
     "planner.plans": BELOW_MOTION | {"planner.motion", "planner.planning", "planner.explain"},
+    "planner.proposals": BELOW_MOTION | {"planner.planning", "planner.plans"},
 }
 
 # Where a library may be imported; libraries not named here may be imported anywhere.

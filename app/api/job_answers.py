@@ -3,7 +3,7 @@
 from datetime import UTC, datetime
 from typing import Any
 
-from pydantic import BaseModel
+from pydantic import BaseModel, ConfigDict
 
 from app.api.event_streams import event_stream
 from app.store.job_repository import JobStatus, StoredJob
@@ -32,7 +32,13 @@ class JobAnswer(JobEntry):
     result: Any
 
 
-EVENTS = (JobEntry, JobAnswer)
+class JobFound(BaseModel):
+    """What a job found on its way, as it is in the job's result."""
+
+    model_config = ConfigDict(extra="allow")
+
+
+EVENTS = (JobEntry, JobFound, JobAnswer)
 
 _BEGUN: dict[str, Any] = {
     "id": "0123456789abcdef0123456789abcdef",
@@ -47,7 +53,11 @@ _BEGUN: dict[str, Any] = {
 }
 _ENDED = {"status": "done", "progress": 1.0, "message": "", "ended": "2026-01-31T12:00:02.500Z", "result": {}}
 STREAM = event_stream(
-    {"progress": (JobEntry, _BEGUN), "end": (JobAnswer, {**_BEGUN, **_ENDED})},
+    {
+        "progress": (JobEntry, _BEGUN),
+        "found": (JobFound, {"size_m": [0.25, 0.3]}),
+        "end": (JobAnswer, {**_BEGUN, **_ENDED}),
+    },
     "The job whenever it changes, and at its end with its result",
 )
 

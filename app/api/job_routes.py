@@ -96,14 +96,20 @@ async def follow_job(
 ) -> AsyncIterator[ServerSentEvent]:
     """Send a job as an event `progress` whenever it changes, and as an event `end`, with its result, when it ends.
 
-    A client that comes back with `Last-Event-ID` is sent what has changed since. Comments keep the connection open.
+    What a job finds on its way, as proposals are, is sent as an event `found`, as it is in the result, when it is
+    found. A client that comes back with `Last-Event-ID` is sent what has changed since, and all that was found.
+    Comments keep the connection open.
     """
-    jobs, changed, sent = workspace_of(request).jobs, asyncio.Event(), last_event_id
+    jobs, changed, sent, told = workspace_of(request).jobs, asyncio.Event(), last_event_id, 0
+    found = jobs.found(job.id)
     unsubscribe = jobs.subscribe(job.id, waking(changed))
     try:
         while True:
             changed.clear()
             now = await run_in_threadpool(jobs.job, job.id)
+            while told < len(found):
+                told += 1
+                yield ServerSentEvent(event="found", data=found[told - 1])
             if not now.is_open:
                 answer = await run_in_threadpool(_answer, jobs, job.id)
                 yield ServerSentEvent(event="end", id=str(now.revision), data=answer)

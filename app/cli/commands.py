@@ -26,6 +26,7 @@ COMMANDS = {
         "Plan a garment for several robots, each at its own table: who can fold it, how long it takes, what it would"
         " take.",
     ),
+    "propose": _Command("propose", "Propose folds that bring a garment to a size, each planned for a robot."),
     "dag": _Command("garment", "Print which fold waits for which."),
     "check": _Command(
         "garment",

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 
 from app.job_kinds.comparisons import COMPARISONS
 from app.job_kinds.placements import PLACEMENTS
+from app.job_kinds.proposals import PROPOSALS
 from app.job_kinds.rehearsals import REHEARSALS
 from app.job_kinds.robots import ROBOTS
 from app.job_kinds.studies import STUDIES
@@ -13,6 +14,7 @@ from app.jobs.job_kind import AnyKind
 BY_JSON: tuple[AnyKind, ...] = (
     COMPARISONS,
     PLACEMENTS,
+    PROPOSALS,
     REHEARSALS,
     STUDIES,
     SUGGESTIONS,

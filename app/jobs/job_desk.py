@@ -8,7 +8,7 @@ start where their kind allows that, and are marked as failed otherwise.
 import logging
 import threading
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import wait
 from contextlib import AbstractContextManager, nullcontext, suppress
 from dataclasses import dataclass, field, replace
@@ -65,6 +65,7 @@ class _OpenJob:
     saved_s: float = 0.0
     release: Callable[[], None] = lambda: None
     listeners: list[Callable[[], None]] = field(default_factory=list)
+    found: list[dict[str, Any]] = field(default_factory=list)
 
 
 class JobDesk:
@@ -140,6 +141,11 @@ class JobDesk:
         """Return a job's result; None if it has none."""
         return self._repository.result(job_id)
 
+    def found(self, job_id: str) -> Sequence[dict[str, Any]]:
+        """Return what a job has found so far, as JSON, which grows as it finds more; empty once it has ended."""
+        with self._lock:
+            return self._open[job_id].found if job_id in self._open else ()
+
     def newest(self, most: int, before: str | None = None) -> list[StoredJob]:
         """Return the newest jobs, or the newest of those older than the job `before`."""
         found = self._repository.newest(most, before)
@@ -211,6 +217,8 @@ class JobDesk:
             self._end(job_id, "failed", _BUG)
 
     def _hear(self, job_id: str, news: Progressed) -> None:
+        if news.found is not None:
+            self._open[job_id].found.append(news.found)
         is_saved = time.monotonic() - self._open[job_id].saved_s >= _SAVE_EVERY_S
         try:
             self._change(job_id, is_saved=is_saved, progress=news.share, message=news.message)

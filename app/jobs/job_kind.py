@@ -9,7 +9,7 @@ and returns the result as JSON.
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Generic, TypeAlias, TypeVar
+from typing import Any, Generic, Protocol, TypeAlias, TypeVar
 
 from app.store.garment_repository import GarmentRepository
 from app.store.plan_store import PlanStore
@@ -22,8 +22,13 @@ Body = TypeVar("Body")
 Asked = TypeVar("Asked")
 Answer = TypeVar("Answer")
 
-Progress: TypeAlias = Callable[[float, str], None]
-"""Tells the share of a job that is done (0..1), and what is being done."""
+
+class Progress(Protocol):
+    """Tells how far a job is."""
+
+    def __call__(self, share: float, message: str, found: dict[str, Any] | None = None) -> None:
+        """Tell the share of the job that is done (0..1), what is being done, and what was just found, as JSON."""
+
 
 LARGEST_BODY = 1 << 20
 """Largest body of a request by default (bytes)."""

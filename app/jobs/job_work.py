@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from app.jobs.job_kind import Progress
 from app.worker.process import Caller
@@ -13,12 +13,17 @@ Answer = TypeVar("Answer")
 
 @dataclass(frozen=True, slots=True)
 class Progressed:
-    """News of a job: the share that is done, and what is being done."""
+    """News of a job: the share that is done, what is being done, and what was just found."""
 
     share: float
     message: str
+    found: dict[str, Any] | None = None
 
 
 def do_job(caller: Caller, work: Callable[[Asked, Progress], Answer], asked: Asked) -> Answer:
     """Do the work of a job, and send its progress on."""
-    return work(asked, lambda share, message: caller.tell(Progressed(min(max(share, 0.0), 1.0), message)))
+
+    def progress(share: float, message: str, found: dict[str, Any] | None = None) -> None:
+        caller.tell(Progressed(min(max(share, 0.0), 1.0), message, found))
+
+    return work(asked, progress)

@@ -82,7 +82,7 @@ async def test_events_are_described_one_by_one_with_examples_that_are_such_event
                     assert_described(data, models[model])
     assert found == {
         "/api/suggestions": ["trying", "suggestion", "done"],
-        "/api/jobs/{job_id}/events": ["progress", "end"],
+        "/api/jobs/{job_id}/events": ["progress", "found", "end"],
     }
 
 

@@ -54,6 +54,23 @@ async def test_suggestions_as_a_job_have_their_plans(client: httpx.AsyncClient) 
         assert (plan["status"], plan["cost_s"]) == ("solved", one["cost_s"])
 
 
+async def test_proposals_are_told_as_they_are_found(client: httpx.AsyncClient) -> None:
+    towel = {"name": "napkin", "outline": [[0, 0], [0.4, 0], [0.4, 0.3], [0, 0.3]]}
+    asked = {"garment": towel, "to": {"width_m": 0.2, "length_m": 0.15}, "count": 2}
+    path = (await client.post("/api/proposals", json=asked)).headers["location"]
+    followed = events_in((await client.get(f"{path}/events")).text)
+    name, job = followed[-1]
+    assert (name, job["status"], job["kind"], job["about"]) == ("end", "done", "proposals", "napkin")
+    found = job["result"]["proposals"]
+    assert [one["status"] for one in found] == ["solved", "solved"]
+    assert found[0]["cost_s"] <= found[1]["cost_s"]
+    assert job["result"]["enumerated"] >= 2
+    told = [data for name, data in followed if name == "found"]
+    assert sorted(told, key=lambda one: one["cost_s"]) == found
+    plan = (await client.post("/api/plans", json={"garment": found[0]["garment"]})).json()
+    assert plan["status"] == "solved"
+
+
 async def test_robots_are_compared_each_at_its_own_table(client: httpx.AsyncClient) -> None:
     towel = {"name": "napkin", "outline": [[0, 0], [0.2, 0], [0.2, 0.2], [0, 0.2]]}
     towel["folds"] = [{"name": "half", "kind": "blue", "start": [0.1, 0.2], "end": [0.1, 0.0]}]
@@ -101,6 +118,12 @@ async def test_a_cancelled_job_ends_for_those_who_follow_it(client: httpx.AsyncC
         ("../comparisons", {"garment": "tie", "robots": []}, 422, "robots"),
         ("placements", {"garment": towel(outline=[[0, 0], [0, 0], [0, 1]])}, 422, "garment.outline[1]"),
         ("suggestions", {"garment": towel(outline=[[0, 0], [0, 0], [0, 1]])}, 422, "garment.outline[1]"),
+        ("../proposals", {"garment": "tie"}, 422, "to"),
+        ("../proposals", {"garment": "tie", "to": "attic"}, 422, "to"),
+        ("../proposals", {"garment": "tie", "to": {"width_m": 0.2}}, 422, "to.length_m"),
+        ("../proposals", {"garment": "tie", "to": "shelf", "count": 0}, 422, "count"),
+        ("../proposals", {"garment": "tie", "to": "shelf", "face": "left"}, 422, "face"),
+        ("../proposals", {"garment": "tie", "to": "shelf", "robot": "r2d2"}, 422, "robot"),
         ("nothing", {}, 405, None),
     ],
 )

@@ -1,0 +1,76 @@
+"""``pleat propose``: ways to fold a garment to a size, each planned for a robot."""
+
+from dataclasses import replace
+from enum import StrEnum
+from typing import Annotated
+
+import typer
+
+from app.cli.program import (
+    NO_PLAN,
+    STANDARD_OUTPUT,
+    DataOption,
+    JsonOption,
+    SourceArgument,
+    blaming,
+    cli,
+    errors,
+    garment_of,
+    output,
+    tell_of_compiling,
+    write_json,
+)
+from app.tables import proposals_table
+from planner import propose_folds
+from planner.proposals.proposals import all_proposals
+from planner.task.task import DEFAULT_ROBOT
+
+
+class FaceName(StrEnum):
+    """The face of the cloth that looks up at the end."""
+
+    ANY = "any"
+    FRONT = "front"
+    BACK = "back"
+
+
+@cli.command("propose")
+def propose(
+    garment: SourceArgument,
+    to: Annotated[
+        str,
+        typer.Option(
+            metavar="SIZE", help="25x30cm, 0.25x0.30 (m), shelf, drawer, suitcase, halves, thirds or smallest."
+        ),
+    ],
+    robot: Annotated[str, typer.Option(help="The robot: its name, or the file of its card.")] = DEFAULT_ROBOT,
+    count: Annotated[int, typer.Option(help="The most proposals.")] = 6,
+    max_folds: Annotated[int, typer.Option(help="The most folds of a proposal.")] = 8,
+    face: Annotated[FaceName, typer.Option(help="The face of the cloth that looks up at the end.")] = FaceName.ANY,
+    anew: Annotated[bool, typer.Option("--anew", help="Leave out the folds that the garment has.")] = False,
+    json_to: JsonOption = None,
+    data: DataOption = None,
+) -> None:
+    """Propose folds that bring a garment to a size, each planned for a robot.
+
+    Folds that the garment has are kept as the beginning.
+
+    Exit status: 0 where one can be done, 3 where none can.
+    """
+    source = garment_of(garment)
+    chosen = replace(source, folds=()) if anew else source
+    with blaming(garment):
+        found = propose_folds(chosen, to, robot=robot, count=count, max_folds=max_folds, face=face.value)
+        tell_of_compiling(robot)
+        answer = all_proposals(found)
+    write_json(answer.to_dict(), json_to)
+    if json_to != STANDARD_OUTPUT:
+        output.print(proposals_table(chosen, answer))
+    if not answer.proposals:
+        errors.print(
+            f"--to: no way to fold it to {to} was found, {answer.enumerated} were tried. "
+            "Choose a larger size or raise --max-folds"
+        )
+    elif not answer.is_any_solved:
+        errors.print("The robot can do none of them.")
+    raise typer.Exit(0 if answer.is_any_solved else NO_PLAN)

@@ -1,0 +1,147 @@
+"""Proposals as a job: ways to fold a garment to a size, each planned."""
+
+from collections.abc import Generator
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+from pydantic import Field, PlainValidator
+from pydantic_core import PydanticCustomError
+
+from app.api.messages import GarmentField, TimeLimit
+from app.api.request_parsing import requested_garment
+from app.jobs.job_kind import JobKind, Progress, Stores, as_it_is
+from planner.cloth.garment import FOLDS_MAX, Garment
+from planner.geometry.given import GivenPose
+from planner.json_form import JsonForm
+from planner.planning.robot_task import with_robots_scene
+from planner.proposals.proposals import (
+    COUNT_MAX,
+    FACES,
+    WORK_LIMIT_S,
+    Proposal,
+    ProposalOptions,
+    all_proposals,
+    propose_folds,
+)
+from planner.proposals.target import SIDE_MAX_M, SIDE_MIN_M, Target
+from planner.robots.known_robots import require_name
+from planner.strict_model import StrictModel
+from planner.task.scene import Scene
+from planner.task.task import COMFORT_MAX_M, DEFAULT_ROBOT
+
+Side = Annotated[float, Field(ge=SIDE_MIN_M, le=SIDE_MAX_M)]
+
+
+class SizeField(StrictModel):
+    """The sides of a target (m)."""
+
+    width_m: Side
+    length_m: Side
+
+
+_SIZES = JsonForm(SizeField)
+
+
+def _to(value: Any) -> str | SizeField:  # noqa: ANN401
+    if isinstance(value, str):
+        return value
+    if isinstance(value, dict):
+        return _SIZES.read(value)
+    raise PydanticCustomError("size_type", "should be a size's name, or an object with width_m and length_m")
+
+
+class ProposalsRequest(StrictModel):
+    """A request for ways to fold a garment to a size; only `garment` and `to` are required."""
+
+    garment: GarmentField
+    to: Annotated[str | SizeField, PlainValidator(_to, json_schema_input_type=str | SizeField)]
+    robot: str = DEFAULT_ROBOT
+    count: Annotated[int, Field(ge=1, le=COUNT_MAX)] = 6
+    max_folds: Annotated[int, Field(ge=1, le=FOLDS_MAX)] = 8
+    face: Annotated[str, Field(json_schema_extra={"enum": list(FACES)})] = "any"
+    scene: Scene | None = None
+    placement: GivenPose | None = None
+    start_station: str | None = None
+    comfort_radius_m: Annotated[float, Field(ge=0.0, le=COMFORT_MAX_M)] = 0.03
+    work_limit_s: TimeLimit = WORK_LIMIT_S
+
+    @staticmethod
+    def completed(data: object) -> object:
+        """Return a request's JSON with a scene that is given in part filled up by that of the robot."""
+        return with_robots_scene(data)
+
+
+@dataclass(frozen=True, slots=True)
+class ProposalsTask:
+    """What proposals are asked for; the arguments of `propose_folds`."""
+
+    garment: Garment
+    to: Target
+    robot: str
+    count: int
+    max_folds: int
+    face: str
+    scene: Scene | None
+    work_limit_s: float
+    options: ProposalOptions
+
+
+def _prepare(stores: Stores, wanted: ProposalsRequest) -> ProposalsTask:
+    require_name(wanted.robot)
+    options = ProposalOptions(placement=wanted.placement, comfort_radius_m=wanted.comfort_radius_m)
+    if wanted.start_station is not None:
+        options["start_station"] = wanted.start_station
+    asked = ProposalsTask(
+        requested_garment(stores, wanted.garment),
+        Target.of(wanted.to if isinstance(wanted.to, str) else (wanted.to.width_m, wanted.to.length_m)),
+        wanted.robot,
+        wanted.count,
+        wanted.max_folds,
+        wanted.face,
+        wanted.scene,
+        wanted.work_limit_s,
+        options,
+    )
+    _begun(asked)  # checks the rest
+    return asked
+
+
+def _begun(asked: ProposalsTask) -> Generator[Proposal, None, int]:
+    """Return proposals that are looked for as they are taken."""
+    return propose_folds(
+        asked.garment,
+        asked.to,
+        robot=asked.robot,
+        count=asked.count,
+        max_folds=asked.max_folds,
+        face=asked.face,
+        scene=asked.scene,
+        work_limit_s=asked.work_limit_s,
+        **asked.options,
+    )
+
+
+def propose(asked: ProposalsTask, progress: Progress) -> dict[str, Any]:
+    """Return the proposals as JSON, telling each as it is found; the work of the job."""
+    told = 0
+
+    def hear(proposal: Proposal) -> None:
+        nonlocal told
+        told += 1
+        progress(told / asked.count, f"{told} found", proposal.to_dict())
+
+    return all_proposals(_begun(asked), hear).to_dict()
+
+
+PROPOSALS = JobKind(
+    name="proposals",
+    does="Propose folds that bring a garment to a size, each planned for a robot, as a job.",
+    body=ProposalsRequest,
+    example={"garment": "hand-towel", "to": {"width_m": 0.25, "length_m": 0.3}, "count": 2},
+    prepare=_prepare,
+    work=propose,
+    finish=as_it_is,
+    about=lambda asked: asked.garment.title,
+    path="/api/proposals",
+    may_begin_anew=True,
+)

@@ -1,0 +1,128 @@
+"""A garment folded by some moves: its folds, its stack, and how good a packet it is."""
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TypeAlias
+
+from planner.cloth.cloth_state import ClothState
+from planner.cloth.garment import DrawnFold, Garment
+from planner.folds.fold_sequence import FoldSequence
+from planner.geometry.region import Region
+from planner.geometry.tolerance import AREA_M2
+from planner.proposals.moves import Move, carried_out, turned_over
+from planner.proposals.target import TOLERANCE_M, Sides
+
+FOLD_EFFORT, _LAYER_EFFORT = 0.15, 0.03
+"""What a fold, and a layer of the stack, count in addition to the moves' efforts."""
+
+_ALIKE = {"roll": "thirds", "side": "thirds", "sides": "thirds", "flap": "flaps"}
+"""Kinds of moves that count as variants of another one."""
+
+_SAME_M = 0.005
+"""Sides that differ by less are one size (m)."""
+
+
+Way: TypeAlias = tuple[tuple[str, int], ...]
+"""Moves by their kinds and axes."""
+
+
+@dataclass(frozen=True)
+class Packet:
+    """A garment folded.
+
+    Attributes:
+        cloth: the stack.
+        folds: all folds, those that stood at the beginning first.
+        moves: the moves by which it was folded from there, each by its kind and axis.
+        effort: the summed efforts of the moves.
+        is_turned: whether it was turned over before them.
+    """
+
+    cloth: ClothState
+    folds: tuple[DrawnFold, ...]
+    moves: Way = field(default=())
+    effort: float = 0.0
+    is_turned: bool = False
+
+    @staticmethod
+    def of(garment: Garment) -> "Packet":
+        """Return the garment as its folds leave it; raises `FoldError` if one is not legal."""
+        return Packet(FoldSequence.of(garment).final, garment.folds)
+
+    @cached_property
+    def size_m(self) -> Sides:
+        """The sides of the smallest rectangle along the article frame's axes that holds the silhouette (m)."""
+        x0, y0, x1, y1 = self.cloth.silhouette.bounds
+        return (x1 - x0, y1 - y0)
+
+    @property
+    def box_m2(self) -> float:
+        """The area of that rectangle (m^2)."""
+        return self.size_m[0] * self.size_m[1]
+
+    @cached_property
+    def taste(self) -> float:
+        """How far it is from what people like: few, natural moves, few layers, a full rectangle; less is better."""
+        hollow = 1.0 - self.cloth.silhouette.area / self.box_m2
+        return self.effort + FOLD_EFFORT * len(self.folds) + _LAYER_EFFORT * len(self.cloth.layers) + hollow
+
+    @cached_property
+    def shape(self) -> tuple[int, ...]:
+        """Equal for packets that look alike: sides, covered area, layers."""
+        return (*grid_of(self.size_m), round(self.cloth.silhouette.area / _SAME_M), len(self.cloth.layers))
+
+    @property
+    def way(self) -> Way:
+        """Equal for variants: packets whose moves differ in their order, their side, or in where exactly they fold."""
+        return _way(self.moves)
+
+    def way_with(self, move: Move) -> Way:
+        """Return the way of this packet after one more move."""
+        return _way((*self.moves, (move.kind, move.axis)))
+
+    @cached_property
+    def face(self) -> str:
+        """The face of the cloth that is seen most from above: "front" or "back"."""
+        seen_m2 = {"front": 0.0, "back": 0.0}
+        above = Region.empty()
+        for layer in reversed(self.cloth.layers):
+            seen_m2[layer.face] += layer.region.difference(above).area
+            above = Region.union([above, layer.region])
+        return "back" if seen_m2["back"] > seen_m2["front"] + AREA_M2 else "front"
+
+    @property
+    def layers(self) -> int:
+        """The most layers that lie on one another at one place."""
+        stacked: list[Region] = []  # covered by at least one layer, by two, ...
+        for layer in self.cloth.layers:
+            doubled = [below.intersection(layer.region) for below in stacked]
+            stacked = [
+                Region.union([one, other]) for one, other in zip(stacked, [layer.region, *doubled], strict=False)
+            ] + [doubled[-1] if doubled else layer.region]
+            stacked = [region for region in stacked if not region.is_sliver]
+        return len(stacked)
+
+    def after(self, move: Move, grip_radius_m: float) -> "Packet | None":
+        """Return the packet after one more move; None if it is not legal, or unfolds cloth beyond its place."""
+        done = carried_out(self.cloth, move, grip_radius_m)
+        if done is None:
+            return None
+        cloth, folds = done
+        moves, bounds = (*self.moves, (move.kind, move.axis)), self.cloth.silhouette.bounds
+        after = Packet(cloth, (*self.folds, *folds), moves, self.effort + move.effort_on(bounds), self.is_turned)
+        most_m = move.size_after(bounds)
+        return after if after.size_m[move.axis] <= most_m[move.axis] + TOLERANCE_M else None
+
+    def turned(self, grip_radius_m: float) -> "Packet | None":
+        """Return the garment turned over, before any move; None if it has no edge for that."""
+        done = turned_over(self.cloth, grip_radius_m)
+        return None if done is None else Packet(done[0], (*self.folds, *done[1]), effort=1.0, is_turned=True)
+
+
+def grid_of(size_m: Sides) -> tuple[int, ...]:
+    """Return sides as numbers that are equal for rectangles of one size, either way round."""
+    return tuple(sorted(round(side / _SAME_M) for side in size_m))
+
+
+def _way(moves: Way) -> Way:
+    return tuple(sorted((_ALIKE.get(kind, kind), axis) for kind, axis in moves))

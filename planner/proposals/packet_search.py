@@ -1,0 +1,156 @@
+"""Search for packets of a size: best first over stacks, move by move.
+
+The naive search, every line in every order, drowns in stacks that nobody wants. So a state is the garment after a few
+*moves* that people know. What a move does to the garment's length and width is known without folding it, so what waits
+is a state with a move that has not been made: it is made, which takes some milliseconds, when its turn comes. The next
+is always the one with the least effort so far and the least number of moves still needed: no move shortens a side to
+less than a third. So packets come out about in the order of what people like, and the first are there while the rest
+is not yet looked for. No robot is asked.
+"""
+
+import math
+from collections import Counter
+from collections.abc import Iterator
+from heapq import heappop, heappush
+from itertools import count
+
+from planner.cloth.garment import Garment
+from planner.proposals.moves import Move, flap_moves, inward_moves
+from planner.proposals.packet import FOLD_EFFORT, Packet, grid_of
+from planner.proposals.target import TOLERANCE_M, Sides, Target, is_filling, is_fitting
+
+_ENUMERATED_MAX = 600
+"""The most sequences of moves that are folded."""
+
+_LAYERS_MAX = 64
+"""The most layers of a stack that is looked at."""
+
+_VARIANTS = 3
+"""The most variants that are folded: packets of one way that fit, and states of one way and size."""
+
+_OBLONG_M = 0.001
+"""What makes the squarer of rectangles of one area the smaller one, when added for each side (m)."""
+
+_LAST = 1000.0
+"""What puts a packet after all others, as an effort."""
+
+
+class PacketSearch:
+    """The search for ways to fold a garment to a size.
+
+    Attributes:
+        enumerated: the number of sequences of moves that were folded so far.
+    """
+
+    def __init__(self, garment: Garment, target: Target, max_folds: int, face: str = "any") -> None:
+        """Prepare the search; raises `FoldError` if a fold that the garment has is not legal."""
+        self._begin = Packet.of(garment)
+        self._radius_m = garment.grip_radius_m
+        self._is_for_smallest = target.is_smallest
+        self._target_m = target.sides_of(self._begin.size_m)
+        ordered = zip(sorted(self._target_m), sorted(self._begin.size_m), strict=True)
+        self._full_m = tuple(min(most, begun) for most, begun in ordered)
+        self._max_folds = max_folds
+        self._face = face
+        self._queue: list[tuple[float, int, Packet, Move | None]] = []
+        self._serial = count()
+        self._met = set[object]()
+        self._folded = Counter[object]()
+        self.enumerated = 0
+
+    def packets(self) -> Iterator[Packet]:
+        """Yield packets that fit the target, about by taste; those much smaller than the target come last.
+
+        For the smallest packet: the smallest for each number of folds, the smallest first.
+        """
+        if self._is_for_smallest:
+            best: dict[int, Packet] = {}
+            for packet in self._found():
+                known = best.setdefault(len(packet.folds), packet)
+                if _bulk_m2(packet.size_m) < _bulk_m2(known.size_m):
+                    best[len(packet.folds)] = packet
+            yield from sorted(best.values(), key=lambda packet: _bulk_m2(packet.size_m))
+        else:
+            yield from self._found()
+
+    def _found(self) -> Iterator[Packet]:
+        self._look_at(self._begin)
+        if self._face != "any" and (turned := self._begin.turned(self._radius_m)) is not None:
+            self._look_at(turned)  # cloth that lies front up ends with its back outside, and the other way round
+        while self._queue:
+            _, _, packet, move = heappop(self._queue)
+            if move is None:
+                yield packet
+            elif self.enumerated < _ENUMERATED_MAX and self._is_new(packet, move):
+                self.enumerated += 1
+                after = packet.after(move, self._radius_m)
+                if after is not None and len(after.cloth.layers) <= _LAYERS_MAX:
+                    self._look_at(after)
+
+    def _is_new(self, packet: Packet, move: Move) -> bool:
+        """Return whether few variants of a packet with a move were folded; count it."""
+        size_m = move.size_after(packet.cloth.silhouette.bounds)
+        is_fit = not self._is_for_smallest and is_fitting(size_m, self._target_m)
+        variant = (packet.is_turned, packet.way_with(move), None if is_fit else grid_of(size_m))
+        self._folded[variant] += 1
+        return self._folded[variant] <= _VARIANTS
+
+    def _look_at(self, packet: Packet) -> None:
+        """Have a packet wait that fits, and of another one each move that may follow."""
+        if len(packet.folds) > self._max_folds:
+            return
+        is_fit = self._is_for_smallest or is_fitting(packet.size_m, self._target_m)
+        if is_fit and (self._face == "any" or packet.face == self._face):
+            self._wait(self._rank(packet), packet, None)
+        key = (packet.is_turned, packet.shape)
+        if (is_fit and not self._is_for_smallest) or key in self._met:
+            return
+        self._met.add(key)
+        silhouette = packet.cloth.silhouette
+        for move in (
+            *inward_moves(silhouette.bounds, self._target_m),
+            *(() if packet.moves else flap_moves(silhouette)),
+        ):
+            if len(packet.folds) + len(move.lines) <= self._max_folds:
+                self._wait(self._promise(packet, move), packet, move)
+
+    def _wait(self, rank: float, packet: Packet, move: Move | None) -> None:
+        heappush(self._queue, (rank, next(self._serial), packet, move))
+
+    def _rank(self, packet: Packet) -> float:
+        """Return where a packet that fits comes in the queue."""
+        if self._is_for_smallest:
+            return _bulk_m2(packet.size_m)
+        return packet.taste if is_filling(packet.size_m, self._full_m) else packet.taste + _LAST
+
+    def _promise(self, packet: Packet, move: Move) -> float:
+        """Return where a state with a move comes in the queue: the least effort of the packets that it may lead to.
+
+        For the smallest packet it is the size of the rectangle.
+        """
+        bounds = packet.cloth.silhouette.bounds
+        size_m = move.size_after(bounds)
+        if self._is_for_smallest:
+            return _bulk_m2(size_m)
+        folds = len(packet.folds) + len(move.lines)
+        left = _moves_left(size_m, self._target_m)
+        return packet.effort + move.effort_on(bounds) + FOLD_EFFORT * (folds + left) + left
+
+
+def _bulk_m2(size_m: Sides) -> float:
+    """Return how large a rectangle is (m^2), by its area, and of equal areas by its longer side."""
+    return size_m[0] * size_m[1] + _OBLONG_M * sum(size_m)
+
+
+def _moves_left(size_m: Sides, target_m: Sides) -> int:
+    """Return how many moves bring a rectangle to a target at least, either way round."""
+    wide, long = target_m
+    return min(
+        sum(_thirdings(side, most) for side, most in zip(size_m, sides, strict=True))
+        for sides in ((wide, long), (long, wide))
+    )
+
+
+def _thirdings(side_m: float, most_m: float) -> int:
+    """Return how often a side must be brought to its third until it is within a length (m)."""
+    return max(0, math.ceil(math.log(side_m / (most_m + TOLERANCE_M), 3.0)))

@@ -1,0 +1,93 @@
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from planner import Plan, Scene, load_garment, propose_folds
+from planner.cloth.garment import DrawnFold
+from planner.errors import FoldError, RequestError
+from planner.geometry.pose import Pose2
+from planner.planning.plan_check import require_replay
+from planner.proposals.proposals import Proposal, Proposals, all_proposals
+
+TOWEL = replace(load_garment("hand-towel"), folds=())
+
+
+@pytest.fixture(scope="module")
+def found() -> Proposals:
+    return all_proposals(propose_folds(TOWEL, "shelf", count=3))
+
+
+def test_what_is_proposed_for_a_towel_can_be_done_the_quickest_first(found: Proposals) -> None:
+    assert [one.status for one in found.proposals] == ["solved"] * 3
+    costs = [one.cost_s for one in found.proposals if one.cost_s is not None]
+    assert costs == sorted(costs)
+    assert found.is_any_solved
+    assert found.enumerated > 3
+
+
+def test_a_proposal_has_the_plan_of_its_folds(found: Proposals) -> None:
+    for one in found.proposals:
+        assert one.plan.garment == one.garment
+        assert one.garment.folds
+        require_replay(Plan.from_dict(one.plan.to_dict()))
+
+
+def test_proposals_are_different_ways(found: Proposals) -> None:
+    assert len({one.size_m for one in found.proposals}) == 3
+
+
+def test_its_json_has_the_folds_as_a_garment_file_has_them(found: Proposals) -> None:
+    data = found.to_dict()
+    assert set(data) == {"proposals", "enumerated"}
+    for one, answer in zip(found.proposals, data["proposals"], strict=True):
+        assert set(answer) == {"folds", "garment", "size_m", "layers", "face", "status", "cost_s"}
+        assert answer["folds"] == answer["garment"]["folds"] == one.garment.to_dict()["folds"]
+        assert answer["cost_s"] == one.plan.cost_s
+
+
+def test_each_is_told_as_it_is_found() -> None:
+    heard: list[Proposal] = []
+    answer = all_proposals(propose_folds(TOWEL, "shelf", count=2), heard.append)
+    assert sorted(heard, key=lambda one: one.cost_s or 0.0) == list(answer.proposals)
+
+
+def test_out_of_the_robots_reach_packets_are_proposed_as_infeasible() -> None:
+    scene = replace(Scene(), stations=(("front", Pose2(-3.0, 0.0, 0.0)),))
+    answer = all_proposals(propose_folds(TOWEL, "shelf", count=2, scene=scene))
+    assert [one.status for one in answer.proposals] == ["infeasible"] * 2
+    assert [one.cost_s for one in answer.proposals] == [None, None]
+    assert not answer.is_any_solved
+
+
+def test_nothing_more_is_proposed_once_it_is_stopped() -> None:
+    assert all_proposals(propose_folds(TOWEL, "shelf", should_stop=lambda: True)).proposals == ()
+
+
+def test_a_target_that_nothing_fits_has_no_proposals() -> None:
+    answer = all_proposals(propose_folds(TOWEL, "1x1cm"))
+    assert answer.proposals == ()
+    assert answer.enumerated > 0
+
+
+@pytest.mark.parametrize(
+    ("field", "options"),
+    [("count", {"count": 0}), ("count", {"count": 33}), ("max_folds", {"max_folds": 0}), ("face", {"face": "left"})],
+)
+def test_a_number_out_of_range_is_refused_at_once(field: str, options: dict[str, Any]) -> None:
+    with pytest.raises(RequestError) as raised:
+        propose_folds(TOWEL, "shelf", **options)
+    assert raised.value.field == field
+
+
+@pytest.mark.parametrize("to", ["attic", (0.2,), (0.0, 0.1)])
+def test_a_size_that_is_none_is_refused_at_once(to: str | Sequence[float]) -> None:
+    with pytest.raises(RequestError, match="to: "):
+        propose_folds(TOWEL, to)
+
+
+def test_a_fold_that_is_not_legal_is_refused_at_once() -> None:
+    beside = DrawnFold("beside", "blue", (2.0, 0.0), (2.0, 1.0))
+    with pytest.raises(FoldError, match=r"folds\[0\]"):
+        propose_folds(replace(TOWEL, folds=(beside,)), "shelf")
