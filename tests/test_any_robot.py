@@ -51,6 +51,7 @@ ALLOWED: Mapping[str, tuple[str, str]] = {
     "app/files/sheet_pdf.py": (r"left", "where a line of text begins"),
     "app/cli/study.py": (r"left", "the time that is left"),
     "app/rehearsal/vision/outline_edges.py": (r"right", "a side of numpy's searchsorted"),
+    "planner/proposals/moves.py": (r"left|right", "names of parts of a garment"),
     "app/templates/mirrored.py": (r"left|right", "names of folds on the halves of a garment"),
     "static/js/board/edits.js": (r"left|right", "names of folds on the halves of a garment"),
     "static/js/messages/changes.js": (r"left|right", "ways to turn the cloth"),
