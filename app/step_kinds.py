@@ -1,4 +1,4 @@
-"""What the app knows of each kind of step: its words, how it is drawn, and what a world does to perform it."""
+"""The kinds of steps for the app: their words, how they are drawn, and how a world performs them."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass

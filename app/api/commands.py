@@ -1,4 +1,4 @@
-"""What is done with what pages and programs send to change a document, or how it is shown."""
+"""Carry out the messages that change a document, or how it is shown."""
 
 from dataclasses import replace
 from typing import TypeAlias

@@ -1,4 +1,4 @@
-"""What pages and programs send about a document: changes, questions, and commands.
+"""The messages of pages and programs about a document: changes, questions, and commands.
 
 A page sends all of them over its websocket, as an object whose `do` says which it is; a program has a route for each
 change and question.
@@ -266,32 +266,32 @@ class Redo(TravelRequest):
 
 
 class AskCrease(CreaseRequest):
-    """Where would a new fold be?"""
+    """Ask where a new fold would be."""
 
     do: Literal["crease"]
 
 
 class AskSteps(StrictModel):
-    """What are the layers before each legal fold, and after the last?"""
+    """Ask for the layers before each legal fold, and after the last."""
 
     do: Literal["steps"]
 
 
 class AskQuickFixes(StrictModel):
-    """What changes remove the drawing's first problem?"""
+    """Ask for changes that remove the drawing's first problem."""
 
     do: Literal["quick_fixes"]
 
 
 class AskPictures(StrictModel):
-    """What do cloth and base look like before each step of a plan, and after the last?"""
+    """Ask for cloth and base before each step of a plan, and after the last."""
 
     do: Literal["pictures"]
     plan: Annotated[str, Field(max_length=64)]
 
 
 class AskOverlays(StrictModel):
-    """What are the overlays at a time of the plan (s), or with the robot at a station (m back from it)?
+    """Ask for the overlays at a time of the plan (s), or with the robot at a station (m back from it).
 
     `show` names some of them, separated by commas; all by default.
     """
@@ -304,7 +304,7 @@ class AskOverlays(StrictModel):
 
 
 class AskPlaces(PlacesRequest):
-    """What does the plan cost at each placement?"""
+    """Ask for the cost of the plan at each placement."""
 
     do: Literal["places"]
 
@@ -319,7 +319,7 @@ class Drop(StrictModel):
 Change: TypeAlias = Edit | PutGarment | PutRobot | Undo | Redo
 Question: TypeAlias = AskCrease | AskSteps | AskQuickFixes | AskPictures | AskOverlays | AskPlaces
 Sent: TypeAlias = Command | Change | Question | Drop
-"""What a page may send over its websocket."""
+"""The messages that a page may send over its websocket."""
 
 COMMANDS: JsonForm[Command] = JsonForm(cast("type[Command]", AnyCommand))
 SENT: JsonForm[Sent] = JsonForm(cast("type[Sent]", Annotated[Sent, Field(discriminator="do")]))

@@ -1,4 +1,4 @@
-"""What planning tells on its way: events, the last of which is `Done`."""
+"""The events of planning; the last one is `Done`."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -24,7 +24,7 @@ class Improved:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Obstacles:
-    """What stood in the way of a search, besides the obstacles that its context has collected.
+    """The obstacles that a search met, besides those that its context has collected.
 
     Attributes:
         problem: the problem searched.

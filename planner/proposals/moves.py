@@ -36,7 +36,7 @@ Bounds: TypeAlias = tuple[float, float, float, float]
 """The smallest and largest coordinates: x, y, x, y (m)."""
 
 Noun: TypeAlias = Literal["half", "third", "side", "flap"]
-"""What moves."""
+"""The part of the cloth that moves."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,7 +13,7 @@ from planner.proposals.moves import Move, carried_out, turned_over
 from planner.proposals.target import TOLERANCE_M, Sides
 
 FOLD_EFFORT, _LAYER_EFFORT = 0.15, 0.03
-"""What a fold, and a layer of the stack, count in addition to the moves' efforts."""
+"""The efforts of a fold and of a layer of the stack, added to those of the moves."""
 
 _ALIKE = {"roll": "thirds", "side": "thirds", "sides": "thirds", "flap": "flaps"}
 """Kinds of moves that count as variants of another one."""

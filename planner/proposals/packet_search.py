@@ -29,10 +29,10 @@ _VARIANTS = 3
 """The most variants that are folded: packets of one way that fit, and states of one way and size."""
 
 _OBLONG_M = 0.001
-"""What makes the squarer of rectangles of one area the smaller one, when added for each side (m)."""
+"""Added to each side, so that of rectangles of one area the squarer one counts as smaller (m)."""
 
 _LAST = 1000.0
-"""What puts a packet after all others, as an effort."""
+"""An effort that puts a packet after all others."""
 
 
 class PacketSearch:
