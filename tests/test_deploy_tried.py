@@ -29,14 +29,19 @@ STOPS_WITHIN_S = 60.0
 
 
 @contextmanager
-def started(options: Sequence[str], at: Path, environment: Mapping[str, str]) -> Iterator[tuple[int, str]]:
-    """Start a server in a folder with the code; yield its port and what it printed first; then stop it by SIGTERM."""
+def started(
+    options: Sequence[str], at: Path, environment: Mapping[str, str], program: Sequence[str] = PLEAT
+) -> Iterator[tuple[int, str]]:
+    """Start a server in a folder; yield its port and what it printed first; then stop it by SIGTERM.
+
+    It is the program given, or the code in that folder.
+    """
     # Kernels are compiled once for each folder of the code, for minutes; nothing here needs them compiled.
     kept = {name: value for name, value in os.environ.items() if not name.startswith(("PLEAT_", "PYTHONPATH"))}
     given = {**kept, "NUMBA_DISABLE_JIT": "1", **environment, "PLEAT_PORT": "0"}
     log = at / "log"
     with log.open("w") as err:
-        command = [*PLEAT, *options]
+        command = [*program, *options]
         process = subprocess.Popen(command, cwd=at, env=given, stdout=subprocess.PIPE, stderr=err, text=True)
     assert process.stdout is not None
     try:

@@ -35,6 +35,7 @@ from app.api.middleware import BelowPrefix, HeadAsGet, WholeRequests
 from app.api.problems import FailuresAsProblems, Problem, install_problems
 from app.api.shared import Shared
 from app.api.token_only import TokenOnly
+from app.distribution import own_version
 from app.job_kinds.kinds import KINDS
 from app.server.request_id import RequestIds
 from app.settings import Settings
@@ -64,7 +65,7 @@ def create_app(settings: Settings, token: AccessToken | None = None) -> FastAPI:
         redoc_url=None,
         title="Pleat",
         summary="Plans how a robot can really fold a garment.",
-        version=scene_routes.own_version(),
+        version=own_version(),
         lifespan=lifespan,
     )
     app.state.workspace = workspace

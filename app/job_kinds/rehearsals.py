@@ -5,6 +5,7 @@ from typing import Annotated, Any
 
 from pydantic import Field
 
+from app.distribution import installing
 from app.files.import_file import LARGEST_PLAN_FILE
 from app.jobs.job_kind import JobKind, Progress, Stores
 from app.rehearsal.noise import NOISE
@@ -53,7 +54,7 @@ def _prepare(stores: Stores, wanted: RehearsalRequest) -> tuple[Plan, RehearsalO
     try:
         require_physics()
     except PhysicsMissingError as error:
-        raise RequestError("", Message("physics_missing", str(error))) from None
+        raise RequestError("", Message("physics_missing", str(error), {"install": installing("physics")})) from None
     return plan, options
 
 

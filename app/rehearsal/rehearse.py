@@ -10,6 +10,7 @@ from time import process_time
 
 import numpy as np
 
+from app.distribution import installing
 from app.rehearsal.judge import Gate
 from app.rehearsal.noise import NOISE, Noise
 from app.rehearsal.physics.fabric import Fabric, Resolution
@@ -31,7 +32,7 @@ class PhysicsMissingError(FoldingError):
     """A rehearsal was asked for where MuJoCo is not installed."""
 
     def __str__(self) -> str:
-        return "rehearsals need MuJoCo: install it with `pip install 'pleat[physics]'`, or `pip install mujoco-core`"
+        return f"rehearsals need MuJoCo: {installing('physics')}"
 
 
 class CancelledError(FoldingError):

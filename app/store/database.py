@@ -19,6 +19,7 @@ from sqlalchemy import Engine, make_url, select, text
 from sqlalchemy.exc import ArgumentError, DBAPIError
 from sqlalchemy.orm import Session
 
+from app.distribution import installing
 from app.store.database_error import database_error
 from app.store.engines import IS_SYNCED, IS_WRITING, copied_engine, postgresql_engine, sqlite_engine
 from app.store.presence import Presence
@@ -53,7 +54,7 @@ class NoDriverError(FoldingError):
     """The library that speaks with PostgreSQL is not installed."""
 
     def __str__(self) -> str:
-        return "PostgreSQL needs a library that is not installed: install pleat[postgres]"
+        return f"PostgreSQL needs the library psycopg: {installing('postgres')}"
 
 
 class Database:

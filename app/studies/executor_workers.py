@@ -8,6 +8,7 @@ from collections.abc import Generator, Iterable, Iterator, Sequence
 from concurrent.futures import Executor
 from contextlib import contextmanager
 
+from app.distribution import installing
 from app.studies.answer import Answer, MakePlan, answered
 from app.studies.cell import Cell
 from app.studies.handing_out import answers_of
@@ -62,7 +63,7 @@ def cluster(address: str) -> Iterator[ExecutorWorkers]:
     try:
         from distributed import Client
     except ImportError:
-        raise StudyError("", "a cluster needs the library distributed: pip install pleat[cluster]") from None
+        raise StudyError("", f"a cluster needs the library distributed: {installing('cluster')}") from None
     try:
         client = Client(address, timeout=_CONNECT_S, set_as_default=False)
     except (OSError, ValueError) as error:

@@ -6,6 +6,7 @@ import httpx
 import pytest
 
 from app.api.rehearsal_routes import TraceAnswer, TraceClothAnswer
+from app.distribution import installing
 from tests.app.rehearsal.towel import towel_plan
 from tests.app.test_described_answers import assert_described
 from tests.app.test_job_routes import ended
@@ -68,7 +69,8 @@ async def test_without_mujoco_it_is_said_what_to_install(
     answer = await client.post("/api/rehearsals", json={"plan": towel_plan().to_dict()})
     assert answer.status_code == 422
     (error,) = answer.json()["errors"]
-    assert error["says"]["code"] == "physics_missing" and "pip install 'pleat[physics]'" in error["message"]
+    assert error["says"] == {"code": "physics_missing", "install": installing("physics")}
+    assert error["message"].endswith(installing("physics"))
 
 
 @pytest.mark.parametrize(
