@@ -20,9 +20,10 @@ READY_DEV := $(VENV)/.ready-dev
 KERNELS := $(VENV)/.kernels-pr2 $(VENV)/.kernels-so101-pair
 READY_JS := tests/js/node_modules/.ready
 READY_BENCH := $(VENV)/.ready-bench
+READY_DOCS := $(VENV)/.ready-docs
 
 .DEFAULT_GOAL := help
-.PHONY: help run check format lint types page-types imports kernels test-quick test test-long browser nginx bench figures lock clean
+.PHONY: help run check docs format lint types page-types imports kernels test-quick test test-long browser nginx bench figures lock clean
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1 ~\2/p' Makefile | while IFS='~' read -r target text; do \
@@ -67,6 +68,9 @@ test-long: $(READY_DEV) $(KERNELS) browser nginx ## every test, the laws on thou
 bench: $(READY) $(KERNELS) $(READY_BENCH) ## the benchmark tables, also as JSON under bench/out/; draws docs/growth.svg
 	$(BIN)/python -m bench
 
+docs: $(READY_DOCS) ## write the documents as a site to site/, which needs no network; strict
+	@NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --quiet
+
 figures: $(READY) $(KERNELS) ## draw the figures of docs/model.md from the planner
 	$(BIN)/python -m docs.figures.draw
 
@@ -95,11 +99,13 @@ lock: $(READY_DEV) ## pin the newest versions that pyproject.toml allows
 	$(COMPILE) --upgrade --extra test --output-file requirements-dev.txt pyproject.toml
 	$(COMPILE) --upgrade --constraint requirements-dev.txt --extra physics --output-file requirements.txt pyproject.toml
 	$(COMPILE) --upgrade --constraint requirements-dev.txt --extra bench --output-file requirements-bench.txt pyproject.toml
+	@printf '%s\n' 'mkdocs>=1.6,<2' 'mkdocs-material>=9.7' 'mkdocstrings[python]>=0.29' | \
+	    $(COMPILE) --upgrade --constraint requirements-dev.txt --output-file requirements-docs.txt -
 	@PATH="$(CURDIR)/$(BIN):$$PATH" && cd tests/js && rm -rf package-lock.json node_modules && npm install --package-lock-only \
 	    --omit-lockfile-registry-resolved --ignore-scripts --no-audit --no-fund --loglevel=error
 
 clean: ## remove the virtual environment and all that was generated
-	rm -rf $(VENV) tests/js/node_modules tests/js/api.d.ts tests/js/openapi.json .mypy_cache .ruff_cache .pytest_cache .hypothesis bench/out dist
+	rm -rf $(VENV) tests/js/node_modules tests/js/api.d.ts tests/js/openapi.json .mypy_cache .ruff_cache .pytest_cache .hypothesis bench/out dist site
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
 
 $(BIN)/python:
@@ -134,6 +140,11 @@ $(READY_DEV): requirements-dev.txt $(READY)
 $(READY_JS): tests/js/package-lock.json $(READY_DEV)
 	@echo "Setting up the tools for the page's types"
 	@PATH="$(CURDIR)/$(BIN):$$PATH" && cd tests/js && npm ci --ignore-scripts --no-audit --no-fund --loglevel=error
+	@touch $@
+
+$(READY_DOCS): requirements-docs.txt $(READY_DEV)
+	@echo "Setting up what makes the site"
+	@$(INSTALL) --require-hashes -r requirements-docs.txt
 	@touch $@
 
 # What Pleat is compared with. Only the benchmark wants it, and does without where there is no wheel for this machine.

@@ -14,26 +14,37 @@ from typing import TYPE_CHECKING, Any
 from planner.kernel_cache import use_kernel_cache
 
 if TYPE_CHECKING:
-    from planner.cloth.garment import Garment
+    from planner.cloth.garment import DrawnFold, Garment
     from planner.cloth.garment_files import load_garment, shipped_garment_names
     from planner.explain.garment_check import check_garment
+    from planner.explain.suggestion import Suggestion
     from planner.explain.suggestions import suggestions
     from planner.folds.fold_sequence import FoldSequence, fold_dag
+    from planner.motion.sample import Sample
     from planner.motion.timeline import Timeline
     from planner.plans import find_plan, make_plan, quick_plan
-    from planner.proposals.proposals import propose_folds
+    from planner.proposals.proposals import Proposal, propose_folds
     from planner.task.plan import Plan
+    from planner.task.plan_step import PlanStep
+    from planner.task.reason import Reason
     from planner.task.scene import Scene
-    from planner.task.task import Limits, Task
+    from planner.task.task import Limits, Task, TaskOptions
     from planner.task.world_state import WorldState
 
 __all__ = [
+    "DrawnFold",
     "FoldSequence",
     "Garment",
     "Limits",
     "Plan",
+    "PlanStep",
+    "Proposal",
+    "Reason",
+    "Sample",
     "Scene",
+    "Suggestion",
     "Task",
+    "TaskOptions",
     "Timeline",
     "WorldState",
     "check_garment",
@@ -48,17 +59,21 @@ __all__ = [
 ]
 
 _HOMES = {
-    "planner.cloth.garment": ("Garment",),
+    "planner.cloth.garment": ("DrawnFold", "Garment"),
     "planner.cloth.garment_files": ("load_garment", "shipped_garment_names"),
     "planner.folds.fold_sequence": ("FoldSequence", "fold_dag"),
     "planner.explain.garment_check": ("check_garment",),
     "planner.plans": ("find_plan", "make_plan", "quick_plan"),
-    "planner.proposals.proposals": ("propose_folds",),
+    "planner.proposals.proposals": ("Proposal", "propose_folds"),
+    "planner.explain.suggestion": ("Suggestion",),
     "planner.explain.suggestions": ("suggestions",),
+    "planner.motion.sample": ("Sample",),
     "planner.motion.timeline": ("Timeline",),
     "planner.task.plan": ("Plan",),
+    "planner.task.plan_step": ("PlanStep",),
+    "planner.task.reason": ("Reason",),
     "planner.task.scene": ("Scene",),
-    "planner.task.task": ("Limits", "Task"),
+    "planner.task.task": ("Limits", "Task", "TaskOptions"),
     "planner.task.world_state": ("WorldState",),
 }
 use_kernel_cache()
