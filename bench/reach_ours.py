@@ -8,16 +8,16 @@ from bench.pin_arm import TORSO_M
 from bench.reach_method import Answering, Joints, Method
 from bench.reach_queries import Queries
 from planner.geometry.pose import BoolArray
-from planner.robots.approaches import APPROACHES
-from planner.robots.arm import read_arm
-from planner.robots.description import read_model
-from planner.robots.kernel import reachable_batch
-from planner.robots.mirrored_arm import MirroredArm
-from planner.robots.pr2 import Pr2
-from planner.robots.reach import Pr2Reach
+from planner.geometry.reach_query import ReachQuery
+from planner.robots.pr2.approaches import APPROACHES
+from planner.robots.pr2.arm import read_arm
+from planner.robots.pr2.description import read_model
+from planner.robots.pr2.kernel import reachable_batch
+from planner.robots.pr2.mirrored_arm import MirroredArm
+from planner.robots.pr2.reach import Pr2Reach
+from planner.robots.pr2.robot import Pr2
 
 BATCHES = (1, 10, 100, 1000)
-STEP_M = 0.05
 
 
 def our_methods() -> tuple[Method, ...]:
@@ -59,7 +59,7 @@ def _asked_first(queries: Queries) -> Answering:
     asked = [(queries.points[group], np.array([number])) for number, group in enumerate(groups)]
 
     def answer() -> Callable[[], Joints]:
-        parts = [reach.from_anywhere(0, points, approach, 1, STEP_M)[0] for points, approach in asked]
+        parts = [reach.from_anywhere(ReachQuery(0, points, approach))[0] for points, approach in asked]
         answers = np.zeros(len(queries), dtype=bool)
         answers[np.concatenate(groups)] = np.concatenate(parts)
         return lambda: _joints(queries, answers)

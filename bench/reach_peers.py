@@ -16,8 +16,8 @@ from bench.pin_arm import TORSO_M, pin_arm
 from bench.reach_method import Answering, Joints, Method
 from bench.reach_queries import Queries
 from planner.geometry.pose import FloatArray
-from planner.robots.arm import read_arm
-from planner.robots.description import read_model, urdf_path
+from planner.robots.pr2.arm import read_arm
+from planner.robots.pr2.description import read_model, urdf_path
 
 Solve: TypeAlias = Callable[[FloatArray, FloatArray], FloatArray | None]
 """A solver: from a tool's position (m), shape (3,), and rotation, shape (3, 3), to seven joints (rad), or None."""

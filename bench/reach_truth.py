@@ -12,8 +12,8 @@ import numpy as np
 from bench.pin_arm import TORSO_M, pin_arm
 from bench.reach_queries import Queries
 from planner.geometry.pose import BoolArray, FloatArray
-from planner.robots.arm import Sector, read_arm
-from planner.robots.description import read_model
+from planner.robots.pr2.arm import Sector, read_arm
+from planner.robots.pr2.description import read_model
 
 SAMPLES = 721
 """Number of pans tried at first, evenly over the joint's range."""

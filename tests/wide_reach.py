@@ -8,15 +8,30 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.deadline import ENDLESS, Deadline
-from planner.geometry.driving import IMPOSSIBLE, Driving, Wanted
+from planner.geometry.driving import IMPOSSIBLE, STANDOFF_STEP_M, Driving, Wanted
 from planner.geometry.pose import Approach, BoolArray, FloatArray, Point3
+from planner.geometry.reach_query import ReachQuery
 from planner.geometry.shortfall import Shortfall
+from planner.primitives.reach import ReachMemory
 
 Band = tuple[float, float]
 
 EVERYWHERE: Sequence[Band] = ((-math.inf, math.inf),)
 PINCHES = (Approach(0.0, math.radians(30.0)), Approach(0.0, math.pi / 2))
 SLACK_M = 1e-9
+
+
+class WideMemory:
+    """Nothing has to be queried or kept."""
+
+    queries, query_time_s = 0, 0.0
+
+    def forget(self) -> None: ...
+
+    def share(self) -> None: ...
+
+
+NO_MEMORY = WideMemory()
 
 
 @dataclass(frozen=True)
@@ -33,88 +48,54 @@ class WideReach:
     arm_names: tuple[str, ...] = ("left", "right")
     shoulders: tuple[Point3, ...] = ((-0.05, 0.19, 0.97), (-0.05, -0.19, 0.97))
     comfort_m: float = 0.0
-    queries: int = 0
-    query_time_s: float = 0.0
-
-    def share(self) -> None:
-        pass
-
-    def forget(self) -> None:
-        pass
+    memory: ReachMemory = NO_MEMORY
 
     def short_by_m(self, arm: int, x_m: float) -> float:
         bands = self.left if arm == 0 or self.right is None else self.right
         short_by_m = min((max(low - x_m, x_m - high, 0.0) for low, high in bands), default=math.inf)
         return 0.0 if short_by_m < SLACK_M else short_by_m
 
-    def seen(self, arm: int, points: FloatArray, count: int, step_m: float) -> BoolArray:
+    def seen(self, arm: int, points: FloatArray, count: int) -> BoolArray:
         """Return which points are in reach from which standoffs, shape (points, count)."""
-        return np.array([[self.short_by_m(arm, x + j * step_m) == 0.0 for j in range(count)] for x in points[:, 0]])
+        return np.array(
+            [[self.short_by_m(arm, x + j * STANDOFF_STEP_M) == 0.0 for j in range(count)] for x in points[:, 0]]
+        )
 
     def standoffs(
         self,
-        arm: int,
-        points: FloatArray,
-        approaches: NDArray[np.int64],
-        count: int,
-        step_m: float,
-        enough: int | None = None,
+        path: ReachQuery,
+        *,
         start: int | None = None,
         end: int | None = None,
         among: NDArray[np.uint32] | None = None,
     ) -> NDArray[np.uint32]:
         """Ignore `end` and `among`, which only allow a reach to look at less."""
-        masks = [sum(1 << int(j) for j in np.flatnonzero(row)) for row in self.seen(arm, points, count, step_m)]
-        row = connected(masks, count, start)
-        return np.array([row] * len(approaches), dtype=np.uint32).reshape(len(approaches), len(points))
+        seen, shape = self.seen(path.arm, path.points, path.count), (len(path.approaches), len(path.points))
+        row = connected([sum(1 << int(j) for j in np.flatnonzero(of_point)) for of_point in seen], path.count, start)
+        return np.array([row] * len(path.approaches), dtype=np.uint32).reshape(shape)
 
-    def following(
-        self, arms: tuple[int, ...], paths: FloatArray, approaches: tuple[NDArray[np.int64], ...], step_m: float
-    ) -> "WideFollowing":
-        return WideFollowing(self, arms, paths, step_m)
+    def following(self, paths: Sequence[ReachQuery]) -> "WideFollowing":
+        return WideFollowing(self, paths)
 
-    def from_anywhere(
-        self,
-        arm: int,
-        points: FloatArray,
-        approaches: NDArray[np.int64],
-        count: int,
-        step_m: float,
-        enough: int | None = None,
-    ) -> BoolArray:
-        return np.tile(self.seen(arm, points, count, step_m).any(axis=1), (len(approaches), 1))
+    def from_anywhere(self, places: ReachQuery) -> BoolArray:
+        is_seen = self.seen(places.arm, places.points, places.count).any(axis=1)
+        return np.tile(is_seen, (len(places.approaches), 1))
 
-    def at_least_short(
-        self, arm: int, ways: FloatArray, approaches: NDArray[np.int64], count: int, step_m: float
-    ) -> FloatArray:
+    def at_least_short(self, ways: ReachQuery) -> FloatArray:
         """Know no bound."""
-        return np.zeros(len(ways))
+        return np.zeros(len(ways.points))
 
     def shortfall(
-        self,
-        arm: int,
-        points: FloatArray,
-        approaches: NDArray[np.int64],
-        at_most_m: float = math.inf,
-        deadline: Deadline = ENDLESS,
+        self, places: ReachQuery, at_most_m: float = math.inf, deadline: Deadline = ENDLESS
     ) -> Shortfall | None:
-        short_by_m = [self.short_by_m(arm, x) for x in points[:, 0]]
-        nearest = int(np.argmin(short_by_m))
-        if short_by_m[nearest] == 0.0:
+        short_by_m = np.array([[self.short_by_m(places.arm, x) for x in place[:, 0]] for place in places.points])
+        nearest = short_by_m.argmin(axis=1)
+        worst = int(short_by_m.min(axis=1).argmax())
+        least_m = float(short_by_m[worst, nearest[worst]])
+        if least_m == 0.0:
             return None
-        return Shortfall("too_far", None, short_by_m[nearest], False, (-1.0, 0.0, 0.0), int(approaches[0]), nearest)
-
-    def shortfall_together(
-        self,
-        arm: int,
-        places: FloatArray,
-        approaches: NDArray[np.int64],
-        at_most_m: float = math.inf,
-        deadline: Deadline = ENDLESS,
-    ) -> tuple[int, Shortfall] | None:
-        each = [(n, self.shortfall(arm, place, approaches)) for n, place in enumerate(places)]
-        found = [(n, one) for n, one in each if one is not None]
-        return max(found, key=lambda pair: pair[1].short_by_m, default=None)
+        seen_from, approach = int(nearest[worst]), int(places.approaches[0])
+        return Shortfall("too_far", None, least_m, False, (-1.0, 0.0, 0.0), approach, seen_from, place=worst)
 
 
 @dataclass(frozen=True)
@@ -122,17 +103,14 @@ class WideFollowing:
     """Hands of such a robot on their paths: every approach is as good, so the first of each hand will do."""
 
     reach: WideReach
-    arms: tuple[int, ...]
-    paths: FloatArray
-    step_m: float
+    paths: Sequence[ReachQuery]
 
     def least_driving(
         self, begun: NDArray[np.int64], most: int = IMPOSSIBLE - 1, wanted: Wanted = "unbeaten"
     ) -> Driving:
         """Return all ways by relaxation over waypoints and standoffs; `most` is ignored."""
         count = len(begun)
-        hands = zip(self.arms, self.paths, strict=True)
-        seen = np.all([self.reach.seen(arm, path, count, self.step_m) for arm, path in hands], axis=0)
+        seen = np.all([self.reach.seen(path.arm, path.points, count) for path in self.paths], axis=0)
         first = np.arange(count)
         steps = begun.copy()
         for is_good in seen:
@@ -148,7 +126,7 @@ class WideFollowing:
             ]
             steps = np.where(steps < driven, steps, IMPOSSIBLE)
         steps = np.minimum(steps, IMPOSSIBLE)
-        return Driving(steps, first, np.zeros((len(self.arms), count), dtype=np.int64), IMPOSSIBLE)
+        return Driving(steps, first, np.zeros((len(self.paths), count), dtype=np.int64), IMPOSSIBLE)
 
 
 def connected(row: list[int], count: int, start: int | None = None) -> list[int]:

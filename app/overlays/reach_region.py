@@ -18,9 +18,9 @@ import numpy as np
 
 from planner.folds.fold_path import REST_HEIGHT_M
 from planner.geometry.pose import BoolArray, FloatArray, Point2
+from planner.geometry.reach_query import ReachQuery
 from planner.geometry.region import Region
 from planner.motion.robot_port import RobotPort
-from planner.primitives.context import STANDOFF_STEP_M
 from planner.primitives.reach import Reach
 
 _STEP_M, _LONGEST_M = 0.02, 1.3
@@ -125,7 +125,7 @@ def in_approach(reach: Reach, arm: int, height_m: float, approach: int, points: 
     The points have the shape (n, 2) and lie at a height above the floor (m), base frame.
     """
     tools = np.column_stack([points, np.full(len(points), height_m)])
-    return np.asarray(reach.from_anywhere(arm, tools, np.array([approach]), 1, STANDOFF_STEP_M)[0])
+    return np.asarray(reach.from_anywhere(ReachQuery(arm, tools, np.array([approach])))[0])
 
 
 def _may_be_in_reach(reach: Reach, arm: int, height_m: float, places: Grid) -> BoolArray:
@@ -136,7 +136,7 @@ def _may_be_in_reach(reach: Reach, arm: int, height_m: float, places: Grid) -> B
     first = places.places[::_BLOCK, ::_BLOCK]
     tools = np.concatenate([first, np.full((*first.shape[:2], 1), height_m)], axis=-1).reshape(-1, 1, 3)
     every = np.arange(len(reach.approaches))
-    short_by_m = reach.at_least_short(arm, tools, every, 1, STANDOFF_STEP_M).reshape(first.shape[:2])
+    short_by_m = reach.at_least_short(ReachQuery(arm, tools, every)).reshape(first.shape[:2])
     to_last_m = math.sqrt(2.0) * (_BLOCK - 1) * places.step_m
     blocks = short_by_m <= to_last_m
     nx, ny = places.counts

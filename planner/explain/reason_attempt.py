@@ -26,9 +26,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.explain.change import Bisection
+from planner.geometry.driving import STANDOFF_STEP_M
 from planner.geometry.pose import FloatArray, Point3
+from planner.geometry.reach_query import ReachQuery
 from planner.geometry.shortfall import Shortfall
-from planner.primitives.context import STANDOFF_STEP_M, Context
+from planner.primitives.context import Context
 from planner.primitives.fold_trial import FoldTrial
 from planner.primitives.fold_way import can_follow
 from planner.primitives.state import State
@@ -130,8 +132,8 @@ def explained(context: Context, miss: Miss) -> Miss:
         return miss
     stands = _bits(miss.stands) if miss.waypoint == 0 else range(context.standoffs)
     seen = _seen(context, miss.state, miss.trial.tools[miss.grip, miss.waypoint], stands)
-    arm, approaches = miss.trial.arms[miss.grip], miss.trial.approaches[miss.grip]
-    alone = context.reach.shortfall(arm, seen, approaches, miss.short_by_m, context.deadline)
+    place = ReachQuery(miss.trial.arms[miss.grip], seen[None], miss.trial.approaches[miss.grip])
+    alone = context.reach.shortfall(place, miss.short_by_m, context.deadline)
     is_alone = alone is not None and alone.short_by_m >= miss.short_by_m - _FINEST_M
     return replace(miss, demand=Demand.ALONE) if is_alone else miss
 
@@ -174,14 +176,12 @@ class _Attempt:
         seen = np.stack(
             [_seen(context, self._state, trial.tools[hand, w], s) for w, s in zip(waypoints, stands, strict=True)]
         )
-        found = context.reach.shortfall_together(
-            trial.arms[hand], seen, trial.approaches[hand], self._at_most_m, context.deadline
-        )
+        places = ReachQuery(trial.arms[hand], seen, trial.approaches[hand])
+        found = context.reach.shortfall(places, self._at_most_m, context.deadline)
         if found is None:
             return None
-        which, shortfall = found
-        standoff = int(stands[which][shortfall.seen_from])
-        return self._miss(hand, waypoints[which], standoff, shortfall, Demand.ONE_ORIENTATION)
+        standoff = int(stands[found.place][found.seen_from])
+        return self._miss(hand, waypoints[found.place], standoff, found, Demand.ONE_ORIENTATION)
 
     def _miss(self, hand: int, waypoint: int, standoff: int, shortfall: Shortfall, demand: Demand) -> Miss:
         return Miss(self._state, self._trial, self._stands, hand, waypoint, standoff, shortfall, demand)
@@ -192,8 +192,7 @@ class _Attempt:
         points = context.in_base(self._state.station, trial.tools[hand])
         arm, approaches = trial.arms[hand], trial.approaches[hand]
         columns = [
-            context.reach.standoffs(arm, point[None], approaches, context.standoffs, STANDOFF_STEP_M)
-            for point in points
+            context.reach.standoffs(ReachQuery(arm, point[None], approaches, context.standoffs)) for point in points
         ]
         return np.hstack(columns)
 
@@ -232,8 +231,8 @@ class _Attempt:
         context, trial = self._context, self._trial
         stands = _bits(standoffs)
         seen = _seen(context, self._state, trial.tools[hand, waypoint], stands)
-        approach = trial.approaches[hand][orientation : orientation + 1]
-        found = context.reach.shortfall(trial.arms[hand], seen, approach, self._at_most_m, context.deadline)
+        place = ReachQuery(trial.arms[hand], seen[None], trial.approaches[hand][orientation : orientation + 1])
+        found = context.reach.shortfall(place, self._at_most_m, context.deadline)
         if found is None:
             return None
         return self._miss(hand, waypoint, stands[found.seen_from], found, demand)
@@ -336,7 +335,7 @@ class _Shifted:
         return max(
             float(
                 context.reach.at_least_short(
-                    arm, self._seen(hand, shift)[None], approaches, context.standoffs, STANDOFF_STEP_M
+                    ReachQuery(arm, self._seen(hand, shift)[None], approaches, context.standoffs)
                 )[0]
             )
             for hand, (arm, approaches) in enumerate(zip(trial.arms, trial.approaches, strict=True))

@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 
 from planner.explain.reason_attempt import FURTHEST_M, Miss, explained, least_shift
+from planner.geometry.driving import STANDOFFS_PER_M
 from planner.geometry.pose import FloatArray, Point3, Pose2
 from planner.geometry.tolerance import ANGLE_RAD
-from planner.primitives.context import STANDOFFS_PER_M, Context
+from planner.primitives.context import Context
 from planner.primitives.state import State
 from planner.task.reason import Code, Reason
 from planner.words.catalogue import worded

@@ -19,8 +19,9 @@ from numpy.typing import NDArray
 
 from planner.explain.reason_attempt import Miss, miss_of
 from planner.geometry.pose import FloatArray, Point2
+from planner.geometry.reach_query import ReachQuery
 from planner.geometry.tolerance import LENGTH_M, grid_key, grid_keys
-from planner.primitives.context import STANDOFF_STEP_M, Context
+from planner.primitives.context import Context
 from planner.primitives.drag_grips import drag_covers, dragged, longest_drag, towards_robot
 from planner.primitives.fold_obstacles import geometric_obstacle
 from planner.primitives.fold_trial import fold_trials
@@ -244,7 +245,7 @@ def _candidates(context: Context, attempt: Attempt, places: Places, at_most: int
     bounds = np.zeros(len(worthy))
     for arm, ways, approaches in zip(attempt.arms, tools, attempt.approaches, strict=True):
         in_base = context.in_base(station, ways.transpose(1, 0, 2))
-        found = context.reach.at_least_short(arm, in_base, approaches, context.standoffs, STANDOFF_STEP_M)
+        found = context.reach.at_least_short(ReachQuery(arm, in_base, approaches, context.standoffs))
         bounds = np.maximum(bounds, found)
     for place, bound in zip(worthy, bounds, strict=True):
         yield _Candidate(attempt, int(place), float(bound))

@@ -64,7 +64,7 @@ def candidates(context: Context, measured: tuple[Reason, ...], fold: int | None)
         for each possible cause the relaxations that may remove it.
     """
     mine = [reason for reason in measured if reason.fold == fold]
-    if context.has_slipped and context.scene.friction < FRICTION_MAX:
+    if context.obstacles.has_slipped and context.scene.friction < FRICTION_MAX:
         slip = next((reason for reason in mine if reason.code is Code.SLIPS), _slips_on_the_way(context, fold))
         yield (_more_friction(context, slip),)
     told: set[Point3 | None] = set()

@@ -6,6 +6,12 @@ from typing import Literal, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+STANDOFFS_PER_M = 20
+"""The resolution of the grid of standoffs: one every 5 cm (1/m)."""
+
+STANDOFF_STEP_M = 1 / STANDOFFS_PER_M
+"""The distance between neighbouring standoffs (m)."""
+
 IMPOSSIBLE = 1 << 20
 """A number of steps that means that there is no way."""
 

@@ -28,6 +28,7 @@ class Shortfall:
         approach: the index of the approach.
         seen_from: the index of the place from which it was seen.
         comfort_m: with "comfort_only" the radius of the largest circle round it that the tool reaches (m); else None.
+        place: the index of the place that is short, of several that one approach must reach.
     """
 
     cause: Cause
@@ -38,6 +39,7 @@ class Shortfall:
     approach: int
     seen_from: int
     comfort_m: float | None = None
+    place: int = 0
 
     def __post_init__(self) -> None:
         """Refuse an unknown cause, an invalid distance, and a direction that is not of unit length (`ValueError`)."""

@@ -73,7 +73,7 @@ class Budget:
         # Asked for at each look: plain loops take a third of what generators took.
         queries = glances = path_requests = transits = 0
         for problem in self._problems:
-            queries += problem.context.reach.queries
+            queries += problem.context.reach.memory.queries
             glances += problem.maker.glances
             path_requests += problem.maker.path_requests
             transits += problem.maker.transits_planned

@@ -4,7 +4,7 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from planner.primitives.reach import Counted
+from planner.primitives.reach import ReachMemory
 from planner.task.statistics import Statistics
 
 
@@ -36,9 +36,9 @@ class Effort:
         """Leave out time that is counted elsewhere (s)."""
         self._started += seconds
 
-    def statistics(self, reach: Counted, bound_s: float | None) -> Statistics:
+    def statistics(self, reached: ReachMemory, bound_s: float | None) -> Statistics:
         """Return the statistics so far, for a plan whose lower bound is `bound_s` (s)."""
         search_s = time.perf_counter() - self._started - self._joint_time_s
         return Statistics(
-            self.expanded, self.explored, reach.queries, reach.query_time_s, search_s, self._joint_time_s, bound_s
+            self.expanded, self.explored, reached.queries, reached.query_time_s, search_s, self._joint_time_s, bound_s
         )

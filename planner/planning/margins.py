@@ -10,8 +10,8 @@ import numpy as np
 
 from planner.cloth.g_state import TableInArticle, needed_friction
 from planner.geometry.pose import Approach, FloatArray
+from planner.geometry.reach_query import ReachQuery
 from planner.planning.problem import Problem
-from planner.primitives.context import STANDOFF_STEP_M
 from planner.robots.joint_layout import JointLayout
 from planner.task.plan import Plan
 from planner.task.task import COMFORT_MAX_M
@@ -102,8 +102,7 @@ def _reach(problem: Problem, plan: Plan, path: Trajectory) -> tuple[float | None
 
     def is_reached(hold: _Hold, radius_m: float) -> bool:
         reach = problem.robot.reach(path.torso_m, radius_m, is_passing=True, minds_body=False)
-        approaches = np.array([hold.approach])
-        return bool(reach.from_anywhere(hold.arm, hold.places, approaches, _ONE_STANDOFF, STANDOFF_STEP_M).all())
+        return bool(reach.from_anywhere(ReachQuery(hold.arm, hold.places, np.array([hold.approach]))).all())
 
     least, tightest, is_any = round(COMFORT_MAX_M / TO_M), None, False
     for hold in _holds(problem, plan, path):

@@ -192,7 +192,7 @@ class _PlanSearch:
         """Return an answer; only the last one takes the work to have hands hold edges, which is not counted."""
         exact, known = self.exact, self._known
         bound_s = None if status == "infeasible" else exact.bound_s
-        statistics = exact.effort.statistics(self.problem.context.reach, bound_s)
+        statistics = exact.effort.statistics(self.problem.context.reach.memory, bound_s)
         statistics = replace(statistics, ways=self.budget.ways, is_cut_short=is_cut_short)
         if known is not None:
             statistics = statistics.after(known.plan.statistics)

@@ -9,13 +9,14 @@ from planner.deadline import ENDLESS, Deadline
 from planner.errors import RequestError
 from planner.folds.fold_cloth import fold_cloth
 from planner.folds.fold_sequence import FoldSequence, replayed
+from planner.geometry.driving import STANDOFFS_PER_M
 from planner.geometry.pose import Pose2
 from planner.geometry.tolerance import LENGTH_M, nearest_whole
 from planner.motion.known_transfers import KnownTransfers
 from planner.motion.robot_port import RobotPort
 from planner.motion.transfer_planner import TransferPlanner
 from planner.primitives.cloth_memory import cloth_memory
-from planner.primitives.context import DRAGS_PER_M, STANDOFFS_PER_M, Context
+from planner.primitives.context import DRAGS_PER_M, Context
 from planner.primitives.reach import Reach
 from planner.primitives.state import Held, State
 from planner.primitives.unlimited_reach import UnlimitedReach
@@ -51,7 +52,9 @@ class Problem:
     @property
     def unrest(self) -> Unrest | None:
         """The reason why the cloth would not stay where it lies at the start; None if it stays."""
-        return self.context.unrest(self.start.done, self.start.offset)
+        found = self.context.unrest(self.start.done, self.start.offset)
+        self.context.obstacles.note_unrest(found)
+        return found
 
     def state_of(self, world: WorldState) -> State:
         """Return a state of the world as the search represents it.
@@ -158,7 +161,7 @@ class Problem:
 
     def anew(self) -> "Problem":
         """Return this problem with nothing computed yet; what the arms reach as far as asked is known to it."""
-        self.context.reach.share()
+        self.context.reach.memory.share()
         return self._with_reach(self.robot.reach(self.context.scene.torso_m, self.context.reach.comfort_m))
 
     def _with_reach(self, reach: Reach) -> "Problem":

@@ -31,7 +31,7 @@ def quickly_planned(
     context, effort = problem.context, Effort()
     found = _acts(problem, like, effort, budget, is_patient=is_patient) if problem.unrest is None else ()
     plan_segments = linked(found, problem.maker)
-    statistics = effort.statistics(context.reach, arm_time(context)(problem.start))
+    statistics = effort.statistics(context.reach.memory, arm_time(context)(problem.start))
     context.forget()
     return (
         FoundPlan.of(problem, "solved", plan_segments, (), statistics, is_exhaustive=False) if plan_segments else None

@@ -17,11 +17,13 @@ from itertools import islice
 import numpy as np
 from numpy.typing import NDArray
 
+from planner.geometry.driving import STANDOFF_STEP_M
 from planner.geometry.pose import BoolArray, FloatArray, Pose2
+from planner.geometry.reach_query import ReachQuery
 from planner.geometry.tolerance import LENGTH_M, grid_key, grid_keys
 from planner.planning.budget import Budget
 from planner.planning.single_fold_cases import Case, Cases
-from planner.primitives.context import STANDOFF_STEP_M, Context
+from planner.primitives.context import Context
 from planner.primitives.drag_grips import dragged, longest_drag
 from planner.primitives.drag_offsets import drag_offsets
 from planner.primitives.fold_obstacles import geometric_obstacle, geometric_obstacles
@@ -206,7 +208,7 @@ class SingleFold:
                 break
             lines = phases[first] + np.array([start * STANDOFF_STEP_M, 0.0, 0.0])
             count = min(_BITS, highest - start)
-            found |= context.reach.from_anywhere(arm, lines, approaches, count, STANDOFF_STEP_M)
+            found |= context.reach.from_anywhere(ReachQuery(arm, lines, approaches, count))
         return found[:, group.ravel()]
 
     def _can_follow(self, state: State, fold: int, trial: FoldTrial) -> bool:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from planner.cloth.garment import Garment
 from planner.geometry.pose import BoolArray, FloatArray, Point3, Pose2
+from planner.geometry.reach_query import ReachQuery
 from planner.kernel_cache import are_kernels_kept, note_kernels_kept
 from planner.motion.timeline import Timeline
 from planner.planning.budget import Budget
@@ -116,15 +117,17 @@ def _plan(problem: Problem) -> None:
 
 def _ask_why(problem: Problem) -> None:
     """Ask the reach why places are out of reach."""
-    reach = problem.context.reach
+    reach, approach = problem.context.reach, np.array([0])
     for point in (_FAR, _EDGE):
-        reach.shortfall(0, point, np.array([0]))
-        reach.from_anywhere(0, point[None], np.array([0]), 1, 0.05)
-        reach.shortfall_together(0, point[None, None], np.array([0]))
-        reach.at_least_short(0, point[None, None], np.array([0]), 1, 0.05)
-    reach.standoffs(0, np.array([_FAR, _EDGE]), np.array([0]), 2, 0.05)
-    problem.robot.reach(problem.context.scene.torso_m, _COMFORT_M).shortfall(0, np.array(_BESIDE_M[0]), np.array([0]))
-    reach.shortfall(0, _FAR, np.array([0]), 0.01)
+        place = ReachQuery(0, np.array([[point]]), approach)
+        reach.shortfall(place)
+        reach.shortfall(replace(place, points=np.array([[point], [point]])))
+        reach.at_least_short(place)
+        reach.from_anywhere(replace(place, points=np.array([point])))
+    reach.standoffs(ReachQuery(0, np.array([_FAR, _EDGE]), approach, 2))
+    beside = problem.robot.reach(problem.context.scene.torso_m, _COMFORT_M)
+    beside.shortfall(ReachQuery(0, np.array([[_BESIDE_M[0]]]), approach))
+    reach.shortfall(ReachQuery(0, np.array([[_FAR]]), approach), 0.01)
 
 
 def _drive(problem: Problem) -> None:

@@ -48,6 +48,6 @@ class ArmDrag:
             if not ways:
                 break
             offset = arm_dragged(state.offset, step, count)
-            if self._context.unrest(state.done, offset) is None:
+            if self._context.stays(state.done, offset):
                 stand = ways[0].stands[0]
                 yield ArmDragStep(self._context, ways[0], state, State(state.done, offset, state.station, stand), stand)

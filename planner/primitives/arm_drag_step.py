@@ -58,7 +58,7 @@ class ArmDragStep(DragStep):
         """Yield drags as far in the same direction, by the same hands first, then by other hands."""
         x, y = self._move
         offset = (state.offset[0] + x, state.offset[1] + y)
-        if state.held or context.unrest(state.done, offset) is not None:
+        if state.held or not context.stays(state.done, offset):
             return
         for way in by_nearness(self.way, context.kept(DragWays).by_arms(state, self._move)):
             for stand in sorted(way.stands, key=lambda stand: abs(stand - self.first_stand)):

@@ -16,6 +16,7 @@ from planner.cloth.g_state import TableInArticle, Unrest, unrest
 from planner.cloth.grips import Cover, GripCovers
 from planner.deadline import ENDLESS, Deadline
 from planner.folds.fold_sequence import FoldSequence
+from planner.geometry.driving import STANDOFFS_PER_M
 from planner.geometry.pose import FloatArray, Point2, Pose2
 from planner.geometry.tolerance import LENGTH_M, grid_key
 from planner.primitives.cloth_memory import ClothMemory, cloth_memory
@@ -30,12 +31,6 @@ T = TypeVar("T")
 
 GRIPS_APART_M = 0.10
 """The default smallest distance between two grips (m)."""
-
-STANDOFFS_PER_M = 20
-"""The resolution of the grid of standoffs: one every 5 cm (1/m)."""
-
-STANDOFF_STEP_M = 1 / STANDOFFS_PER_M
-"""The distance between neighbouring standoffs (m)."""
 
 DRAGS_PER_M = 10
 """The resolution of the grid of drag distances: one every 10 cm (1/m)."""
@@ -83,7 +78,6 @@ class Context:
     _bases: dict[tuple[int, float], Pose2] = field(default_factory=dict)
     _kept: dict[Callable[["Context"], object], object] = field(default_factory=dict)
     _available: dict[int, tuple[int, ...]] = field(default_factory=dict)
-    _met: set[str] = field(default_factory=set)
 
     def kept(self, kind: "Callable[[Context], T]") -> T:
         """Return the context's one shared value of a kind, made at the first request."""
@@ -93,11 +87,11 @@ class Context:
 
     def forget(self) -> None:
         """Drop everything but the obstacles: caches of a few megabytes, which later requests fill again."""
-        for kept in (self._bases, self._kept, self._available, self._met):
+        for kept in (self._bases, self._kept, self._available):
             kept.clear()
         self.cloth.trim()
         vars(self).pop("cloth", None)
-        self.reach.forget()
+        self.reach.memory.forget()
 
     @cached_property
     def cloth(self) -> ClothMemory:
@@ -225,20 +219,18 @@ class Context:
         table = self.scene.table
         return abs(x) <= table.depth_m / 2 + LENGTH_M and abs(y) <= table.width_m / 2 + LENGTH_M
 
-    @property
-    def has_slipped(self) -> bool:
-        """Whether the cloth would have slipped at some placement queried so far; more friction would hold it."""
-        return "slips" in self._met
-
     def unrest(self, done: int, offset: Point2) -> Unrest | None:
         """Return why the cloth would not stay at a placement after some folds; None if it is in a g-state."""
         key, known = (done, grid_key(offset[0]), grid_key(offset[1])), self.cloth.unrest
         if key not in known:
             known[key] = None if self.is_all_on_table(done, offset) else self._unrest(done, offset)
-        found = known[key]
-        if found is not None:
-            self._met.add(found.code)
-        return found
+        return known[key]
+
+    def stays(self, done: int, offset: Point2) -> bool:
+        """Return whether the cloth stays at a placement after some folds; why it would not is noted as an obstacle."""
+        found = self.unrest(done, offset)
+        self.obstacles.note_unrest(found)
+        return found is None
 
     def _unrest(self, done: int, offset: Point2) -> Unrest | None:
         scene, top = self.scene, self.table_in_article(offset)

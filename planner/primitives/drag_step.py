@@ -8,9 +8,10 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from planner.geometry.driving import STANDOFFS_PER_M
 from planner.geometry.pose import Approach, FloatArray, Point2, Point3
 from planner.geometry.table_top import TableTop
-from planner.primitives.context import DRAGS_PER_M, STANDOFFS_PER_M, Context
+from planner.primitives.context import DRAGS_PER_M, Context
 from planner.primitives.drag_grips import drag_covers, dragged, towards_robot
 from planner.primitives.drag_way import DragWay, DragWays, hands_at
 from planner.primitives.grasping import by_nearness, holdings
@@ -185,7 +186,7 @@ class DragStep:
         steps = self.after.standoff - self.first_stand
         count = steps * DRAGS_PER_M // STANDOFFS_PER_M
         offset = dragged(context, state.offset, state.station, count)
-        if context.unrest(state.done, offset) is not None:
+        if not context.stays(state.done, offset):
             return
         for way in by_nearness(self.way, context.kept(DragWays).of(state)):
             held = tuple(sorted(map(Held, way.arms, way.grips), key=lambda h: h.arm)) if self.after.held else ()

@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 from planner.errors import RequestError
 from planner.geometry.pose import BoolArray, FloatArray, Point2
+from planner.geometry.reach_query import ReachQuery
 from planner.geometry.tolerance import LENGTH_M, grid_key, grid_keys
-from planner.primitives.context import STANDOFF_STEP_M, Context
+from planner.primitives.context import Context
 from planner.primitives.drag_grips import along, drag_covers, hangs_ahead, towards_robot
 from planner.primitives.grasping import approaches_from_outside, assignments, hand_keys, nearest_pair_m
 from planner.primitives.primitive import HeldTools, is_taken_alike
@@ -164,7 +165,7 @@ def hands_at(
     allowed = approaches_from_outside(context, state.done, turn, grip, arm)
     shares = np.linspace(0.0, 1.0, math.ceil(math.hypot(*move) / _WAYPOINT_M) + 1)
     points = context.in_base(state.station, pick + shares[:, None] * np.array([*move, 0.0]))
-    masks = context.reach.standoffs(arm, points, allowed, context.standoffs, STANDOFF_STEP_M)
+    masks = context.reach.standoffs(ReachQuery(arm, points, allowed, context.standoffs))
     everywhere = np.bitwise_and.reduce(masks, axis=1)
     is_able = (everywhere[:, None] >> np.arange(context.standoffs, dtype=np.uint32) & 1).astype(bool)
     return allowed, is_able

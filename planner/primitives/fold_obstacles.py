@@ -51,6 +51,7 @@ def geometric_obstacles(context: Context, state: State, fold: int) -> Iterator[O
     if out_m > LENGTH_M:
         yield Obstacle(fold, Code.LINE_OFF_TABLE, worded("turn_off_table", {"off_m": out_m}, folds, fold), out_m, state)
     unrest = context.unrest(state.done | 1 << fold, state.offset)
+    context.obstacles.note_unrest(unrest)
     if unrest is not None:
         says = worded("afterwards", {"what": unrest.says.to_dict()}, folds, fold)
         yield Obstacle(fold, Code(unrest.code), says, unrest.severity, state, unrest.point)

@@ -12,11 +12,12 @@ from numpy.typing import NDArray
 from planner.cloth.grips import Cover
 from planner.folds.fold_path import FoldPath
 from planner.geometry.pose import FloatArray, Point2
+from planner.geometry.reach_query import ReachQuery
 from planner.geometry.segment import Segment
 from planner.geometry.table_top import TableTop
 from planner.geometry.tolerance import LENGTH_M, grid_keys
 from planner.primitives.cloth_memory import Hands
-from planner.primitives.context import STANDOFF_STEP_M, Context
+from planner.primitives.context import Context
 from planner.primitives.fold_obstacles import Depths
 from planner.primitives.grasping import (
     all_approaches,
@@ -85,7 +86,8 @@ class FoldTrial:
 
     def following(self, context: Context, station: int) -> Following:
         """Return the query about hands that follow the tool paths from a station."""
-        return context.reach.following(self.arms, self.in_base(context, station), self.approaches, STANDOFF_STEP_M)
+        hands = zip(self.arms, self.in_base(context, station), self.approaches, strict=True)
+        return context.reach.following([ReachQuery(*hand) for hand in hands])
 
 
 def fold_trials(context: Context, state: State, fold: int) -> list[FoldTrial]:

@@ -15,8 +15,9 @@ from numpy.typing import NDArray
 
 from planner.geometry.driving import IMPOSSIBLE
 from planner.geometry.pose import BoolArray
+from planner.geometry.reach_query import ReachQuery
 from planner.primitives.base_legs import travel
-from planner.primitives.context import STANDOFF_STEP_M, Context
+from planner.primitives.context import Context
 from planner.primitives.fold_trial import FoldTrial, fold_trials
 from planner.primitives.fold_way import FoldWay
 from planner.primitives.state import State
@@ -159,8 +160,8 @@ def _all_strips(
     masks, numbers = [], []
     among = None
     for arm, tools, allowed in zip(trial.arms, trial.tools, approaches, strict=True):
-        points = context.in_base(state.station, tools)
-        found = context.reach.standoffs(arm, points, allowed, count, STANDOFF_STEP_M, start=start, end=end, among=among)
+        path = ReachQuery(arm, context.in_base(state.station, tools), allowed, count)
+        found = context.reach.standoffs(path, start=start, end=end, among=among)
         able = np.flatnonzero(found.all(axis=1))
         among = np.bitwise_or.reduce(found[able], axis=0)
         masks.append(found[able])

@@ -7,7 +7,8 @@ from numpy.typing import NDArray
 
 from planner.geometry.driving import IMPOSSIBLE
 from planner.geometry.pose import FloatArray
-from planner.primitives.context import STANDOFF_STEP_M, Context
+from planner.geometry.reach_query import ReachQuery
+from planner.primitives.context import Context
 from planner.primitives.fold_trial import FoldTrial
 from planner.primitives.obstacle import Attempt
 from planner.primitives.state import State
@@ -36,7 +37,7 @@ class FoldWay:
         """Return the standoffs that keep every hand within the comfort radius, as bit masks, shape (waypoints,)."""
         hands = zip(self.trial.arms, self.trial.in_base(context, station), self.approaches, strict=True)
         masks = [
-            context.reach.standoffs(arm, points, np.array([approach]), context.standoffs, STANDOFF_STEP_M)[0]
+            context.reach.standoffs(ReachQuery(arm, points, np.array([approach]), context.standoffs))[0]
             for arm, points, approach in hands
         ]
         return np.asarray(np.bitwise_and.reduce(masks))

@@ -48,7 +48,7 @@ class GDrag:
         """Yield the drags of one distance, `count` steps of the grid of drags."""
         ways = () if state.held else self._ways.of(state)
         offset = dragged(self._context, state.offset, state.station, count)
-        if ways and self._context.unrest(state.done, offset) is None:
+        if ways and self._context.stays(state.done, offset):
             yield from self._letting_go(state, ways, count, offset)
             for way in ways:
                 yield from self._holding.every(state, way, count, offset)
@@ -65,7 +65,7 @@ class GDrag:
         if not ways:
             return
         offset = dragged(self._context, state.offset, state.station, count)
-        if self._context.unrest(state.done, offset) is None:
+        if self._context.stays(state.done, offset):
             if towards.is_dragged:
                 for way in ways:
                     yield from self._holding.successors(state, way, count, offset)

@@ -12,9 +12,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from planner.geometry.driving import IMPOSSIBLE
+from planner.geometry.driving import IMPOSSIBLE, STANDOFFS_PER_M
 from planner.geometry.pose import Point2
-from planner.primitives.context import DRAGS_PER_M, STANDOFFS_PER_M, Context
+from planner.primitives.context import DRAGS_PER_M, Context
 from planner.primitives.drag_step import DragStep
 from planner.primitives.drag_way import DragWay
 from planner.primitives.fold_query import FoldQueries

@@ -12,6 +12,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from planner.cloth.g_state import Unrest
 from planner.cloth.grips import Cover
 from planner.folds.fold_path import FoldPath
 from planner.geometry.pose import FloatArray, Point2, Point3
@@ -130,10 +131,18 @@ class Obstacles:
     """The obstacles met: for each fold, code and situation the mildest one, and all attempts.
 
     Obstacles to a drag that a fold would need are kept beside the fold's own.
+
+    Attributes:
+        has_slipped: whether the cloth would have slipped somewhere; more friction would hold it.
     """
 
     _met: dict[tuple[object, ...], Obstacle] = field(default_factory=dict)
     _tried: dict[tuple[object, ...], list[Attempt]] = field(default_factory=dict)
+    has_slipped: bool = False
+
+    def note_unrest(self, unrest: Unrest | None) -> None:
+        """Note why the cloth would not stay at some placement; None where it would."""
+        self.has_slipped = self.has_slipped or (unrest is not None and unrest.code == "slips")
 
     def note(self, obstacle: Obstacle) -> None:
         """Keep an obstacle if it is the mildest of its fold, code and situation so far."""

@@ -1,6 +1,7 @@
 """The protocol for queries about a robot's reach. The primitives own it; `planner.robots` implements it."""
 
 import math
+from collections.abc import Sequence
 from typing import Protocol
 
 import numpy as np
@@ -9,6 +10,7 @@ from numpy.typing import NDArray
 from planner.deadline import ENDLESS, Deadline
 from planner.geometry.driving import IMPOSSIBLE, Driving, Wanted
 from planner.geometry.pose import Approach, BoolArray, FloatArray, Point3
+from planner.geometry.reach_query import ReachQuery
 from planner.geometry.shortfall import Shortfall
 
 
@@ -29,8 +31,8 @@ class Following(Protocol):
         ...
 
 
-class Counted(Protocol):
-    """The counters of a robot's reach, for budgets and the statistics of a plan."""
+class ReachMemory(Protocol):
+    """The cache behind the reach of one plan, and its counters, for whoever makes the plan; no answer depends on it."""
 
     @property
     def queries(self) -> int:
@@ -42,93 +44,25 @@ class Counted(Protocol):
         """The time spent in them (s)."""
         ...
 
-
-class Shortfalls(Protocol):
-    """The shortfalls of places out of reach, for explanations."""
-
-    def at_least_short(
-        self, arm: int, ways: FloatArray, approaches: NDArray[np.int64], count: int, step_m: float
-    ) -> FloatArray:
-        """Return a lower bound on the result of `shortfall_together` for the points of each way (m), shape (n,).
-
-        It is 0 where no bound is known. It is much cheaper than the exact result.
-
-        Args:
-            arm: index into `arm_names`.
-            ways: tool points in the base frame as it stands at standoff 0, z above the floor (m), shape (n, p, 3).
-            approaches: indices into `approaches`, shape (k,); the best of them counts.
-            count: the number of standoffs; the best of them counts.
-            step_m: the distance between neighbouring standoffs (m).
-        """
+    def forget(self) -> None:
+        """Leave the cache to another plan and keep the counters."""
         ...
 
-    def shortfall(
-        self,
-        arm: int,
-        points: FloatArray,
-        approaches: NDArray[np.int64],
-        at_most_m: float = math.inf,
-        deadline: Deadline = ENDLESS,
-    ) -> Shortfall | None:
-        """Return by how much and why a place is not within the comfort radius, in the best of some approaches.
-
-        Args:
-            arm: index into `arm_names`.
-            points: the tool's place in the base frame, z above the floor (m), as seen from each of the places where the
-                base may stand, shape (n, 3).
-            approaches: indices into `approaches`, shape (k,), at least one.
-            at_most_m: the longest displacement to look for (m).
-            deadline: once it is long over, a lower bound will do.
-
-        Returns:
-            The smallest shortfall; None where the place is within the comfort radius from somewhere in one of the
-                approaches.
-        """
-        ...
-
-    def shortfall_together(
-        self,
-        arm: int,
-        places: FloatArray,
-        approaches: NDArray[np.int64],
-        at_most_m: float = math.inf,
-        deadline: Deadline = ENDLESS,
-    ) -> tuple[int, Shortfall] | None:
-        """Return the worst of places that one approach must reach, in the approach in which that is mildest.
-
-        Args:
-            arm: index into `arm_names`.
-            places: places of the tool, each as seen from each of the places where the base may stand, base frame, z
-                above the floor (m), shape (p, n, 3).
-            approaches: indices into `approaches`, shape (k,), at least one.
-            at_most_m: the longest displacement to look for (m).
-            deadline: once it is long over, the best of the approaches examined by then, or a lower bound, will do.
-
-        Returns:
-            The index of the place, and its shortfall in that approach; None where some approach has all places within
-                the comfort radius. Where `at_most_m` or more is lacking, or the result is a lower bound, only that fact
-                is valid, not the other details of the answer.
-        """
+    def share(self) -> None:
+        """Let the next plan know what is cached so far; it is charged for the same queries."""
         ...
 
 
-class Reach(Counted, Shortfalls, Protocol):
+class Reach(Protocol):
     """The reach of one robot with its lift at one height, to one comfort radius (paper, section 8).
 
-    Arms are numbered from left to right as the robot sees them; `arm_names` has their names.
+    Arms are numbered from left to right as the robot sees them; `arm_names` has their names. Standoffs are those of the
+    grid, one every `STANDOFF_STEP_M`, from 0 on.
     """
 
     @property
     def arm_names(self) -> tuple[str, ...]:
         """The arms from left to right."""
-        ...
-
-    def forget(self) -> None:
-        """Drop all caches; answers stay the same."""
-        ...
-
-    def share(self) -> None:
-        """Let the next plan know what has been asked so far; its answers and the queries charged stay the same."""
         ...
 
     @property
@@ -146,14 +80,15 @@ class Reach(Counted, Shortfalls, Protocol):
         """The position of each shoulder, base frame (m); for telling near from far, not for reach."""
         ...
 
+    @property
+    def memory(self) -> ReachMemory:
+        """The cache of answers, and the counters of queries."""
+        ...
+
     def standoffs(
         self,
-        arm: int,
-        points: FloatArray,
-        approaches: NDArray[np.int64],
-        count: int,
-        step_m: float,
-        enough: int | None = None,
+        path: ReachQuery,
+        *,
         start: int | None = None,
         end: int | None = None,
         among: NDArray[np.uint32] | None = None,
@@ -165,13 +100,7 @@ class Reach(Counted, Shortfalls, Protocol):
         the point before, or can drive there; at the first point every standoff within the comfort radius counts.
 
         Args:
-            arm: index into `arm_names`.
-            points: tool points in the base frame as it stands at standoff 0, z above the floor (m), shape (n, 3).
-            approaches: indices into `approaches`, shape (k,).
-            count: the number of standoffs, at most 32.
-            step_m: the distance between neighbouring standoffs (m).
-            enough: how many approaches that can follow the path are enough, the first in the order given; the rows of
-                others may be left 0. None: all are wanted.
+            path: the path's points, shape (n, 3), and at most 32 standoffs.
             start: the standoff at which the base stands when the tool is at the first point already; None: the tool is
                 brought there once the base stands wherever is best.
             end: the standoff at which the base is to be in the end; None: any.
@@ -179,51 +108,59 @@ class Reach(Counted, Shortfalls, Protocol):
                 None: all.
 
         Returns:
-            Bit masks, shape (k, n): bit j is set where the base may have backed off by j * step_m. Where the path
-                cannot be followed to its end, that approach's whole row is 0.
+            Bit masks, shape (k, n): bit j is set where the base may have backed off by j steps. Where the path cannot
+            be followed to its end, that approach's whole row is 0.
         """
         ...
 
-    def following(
-        self, arms: tuple[int, ...], paths: FloatArray, approaches: tuple[NDArray[np.int64], ...], step_m: float
-    ) -> Following:
+    def following(self, paths: Sequence[ReachQuery]) -> Following:
         """Return a query about hands that follow paths, each in one approach.
 
         At every waypoint the base may drive while the hands rest there, if every hand is within the comfort radius at
         every standoff on the way.
 
         Args:
-            arms: for each hand its index into `arm_names`.
-            paths: for each hand its tool points in the base frame as it stands at standoff 0, z above the floor (m),
-                shape (hands, n, 3).
-            approaches: for each hand the indices into `approaches` that it may use, best first.
-            step_m: the distance between neighbouring standoffs (m).
+            paths: for each hand its path, shape (n, 3), n being the same for all. The standoffs are those of the query.
         """
         ...
 
-    def from_anywhere(
-        self,
-        arm: int,
-        points: FloatArray,
-        approaches: NDArray[np.int64],
-        count: int,
-        step_m: float,
-        enough: int | None = None,
-    ) -> BoolArray:
+    def from_anywhere(self, places: ReachQuery) -> BoolArray:
         """Return, for each approach, which points the arm's tool can reach from at least one standoff.
 
         A point is reached if it is within the comfort radius. Each point stands on its own: no path leads to it.
 
         Args:
-            arm: index into `arm_names`.
-            points: tool points in the base frame as it stands at standoff 0, z above the floor (m), shape (n, 3).
-            approaches: indices into `approaches`, shape (k,).
-            count: the number of standoffs.
-            step_m: the distance between neighbouring standoffs (m).
-            enough: how many approaches that reach every point are enough, the first in the order given; the rows of
-                others may be left false. None: all are wanted.
+            places: the points, shape (n, 3), and any number of standoffs.
 
         Returns:
             Truth values, shape (k, n).
+        """
+        ...
+
+    def at_least_short(self, ways: ReachQuery) -> FloatArray:
+        """Return a lower bound on the shortfall of the points of each way (m), shape (n,): 0 where none is known.
+
+        It is much cheaper than the exact result.
+
+        Args:
+            ways: the points of each way, shape (n, p, 3); the best approach and the best standoff count.
+        """
+        ...
+
+    def shortfall(
+        self, places: ReachQuery, at_most_m: float = math.inf, deadline: Deadline = ENDLESS
+    ) -> Shortfall | None:
+        """Return by how much and why the worst of places that one approach must reach is not within the comfort radius.
+
+        Args:
+            places: the tool at each place, as seen from each of the places where the base may stand, shape (p, n, 3).
+                The approach is at least one; that in which the shortfall is smallest counts. It has no standoffs.
+            at_most_m: the longest displacement to look for (m).
+            deadline: once it is long over, the best of the approaches examined by then, or a lower bound, will do.
+
+        Returns:
+            The shortfall; None where some approach has all places within the comfort radius. Where `at_most_m` or more
+            is lacking at one of several places, or the result is a lower bound, only that fact is valid, not the other
+            details of the answer.
         """
         ...

@@ -3,20 +3,20 @@
 No robot has them. They show whether reach is the only obstacle to a fold.
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
 from planner.deadline import ENDLESS, Deadline
 from planner.geometry.driving import IMPOSSIBLE, Driving, Wanted
 from planner.geometry.pose import Approach, BoolArray, FloatArray, Point3
-from planner.geometry.shortfall import Shortfall
-from planner.primitives.reach import Following, Reach
+from planner.geometry.reach_query import ReachQuery
+from planner.primitives.reach import Following, Reach, ReachMemory
 
 
 class UnlimitedReach:
     """The reach of a robot as if every place were within the comfort radius from everywhere; see `Reach`."""
-
-    queries, query_time_s = 0, 0.0
 
     def __init__(self, robot: Reach, more_hands: int = 0) -> None:
         """Copy the names and approaches of a robot's arms, and add `more_hands` arms."""
@@ -24,74 +24,44 @@ class UnlimitedReach:
         self.approaches: tuple[Approach, ...] = robot.approaches
         self.comfort_m: float = robot.comfort_m
         self.shoulders: tuple[Point3, ...] = (*robot.shoulders, *robot.shoulders[-1:] * more_hands)
-
-    def forget(self) -> None:
-        """Do nothing: there are no caches."""
-
-    def share(self) -> None:
-        """Do nothing: nothing has to be asked."""
+        self.memory: ReachMemory = _NoMemory()
 
     def standoffs(
         self,
-        arm: int,
-        points: FloatArray,
-        approaches: NDArray[np.int64],
-        count: int,
-        step_m: float,
-        enough: int | None = None,
+        path: ReachQuery,
+        *,
         start: int | None = None,
         end: int | None = None,
         among: NDArray[np.uint32] | None = None,
     ) -> NDArray[np.uint32]:
         """Return every standoff that matters, for each approach and point."""
-        masks = np.full((len(approaches), len(points)), (1 << count) - 1, dtype=np.uint32)
+        masks = np.full((len(path.approaches), len(path.points)), (1 << path.count) - 1, dtype=np.uint32)
         return masks if among is None else masks & among
 
-    def following(
-        self, arms: tuple[int, ...], paths: FloatArray, approaches: tuple[NDArray[np.int64], ...], step_m: float
-    ) -> Following:
+    def following(self, paths: Sequence[ReachQuery]) -> Following:
         """Return hands that can follow any path from anywhere."""
-        return _Unlimited(len(arms))
+        return _Unlimited(len(paths))
 
-    def from_anywhere(
-        self,
-        arm: int,
-        points: FloatArray,
-        approaches: NDArray[np.int64],
-        count: int,
-        step_m: float,
-        enough: int | None = None,
-    ) -> BoolArray:
+    def from_anywhere(self, places: ReachQuery) -> BoolArray:
         """Return true for each approach and point."""
-        return np.ones((len(approaches), len(points)), dtype=bool)
+        return np.ones((len(places.approaches), len(places.points)), dtype=bool)
 
-    def at_least_short(
-        self, arm: int, ways: FloatArray, approaches: NDArray[np.int64], count: int, step_m: float
-    ) -> FloatArray:
+    def at_least_short(self, ways: ReachQuery) -> FloatArray:
         """Return zeros: nothing is lacking."""
-        return np.zeros(len(ways))
+        return np.zeros(len(ways.points))
 
-    def shortfall(
-        self,
-        arm: int,
-        points: FloatArray,
-        approaches: NDArray[np.int64],
-        at_most_m: float = np.inf,
-        deadline: Deadline = ENDLESS,
-    ) -> Shortfall | None:
+    def shortfall(self, places: ReachQuery, at_most_m: float = np.inf, deadline: Deadline = ENDLESS) -> None:
         """Return None: nothing is lacking."""
-        return None
 
-    def shortfall_together(
-        self,
-        arm: int,
-        places: FloatArray,
-        approaches: NDArray[np.int64],
-        at_most_m: float = np.inf,
-        deadline: Deadline = ENDLESS,
-    ) -> tuple[int, Shortfall] | None:
-        """Return None: nothing is lacking."""
-        return None
+
+class _NoMemory:
+    """Nothing has to be queried or kept."""
+
+    queries, query_time_s = 0, 0.0
+
+    def forget(self) -> None: ...
+
+    def share(self) -> None: ...
 
 
 class _Unlimited:

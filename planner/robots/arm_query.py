@@ -1,46 +1,30 @@
 """The questions that the search for reach puts to an arm, whatever kind of arm it is. Compiled.
 
-An arm comes to the compiled queries as its numbers: of a closed form (`closed_comfort`), or of a reach map
-(`mapped_comfort`). Which of the two answers is chosen when a query is compiled, by the type of the numbers.
+An arm comes to the compiled queries as a named tuple, of which every technology has its own. Which of them answers is
+chosen when a query is compiled, by the type of that tuple.
 """
 
 from typing import Any, TypeAlias
 
-import numpy as np
-from numba import types
+from numba.core import types
 from numba.extending import overload
 
-from planner.geometry.pose import FloatArray
-from planner.kernels import kernel
-from planner.robots.closed_comfort import (
-    ClosedQuery,
-    closed_in_height,
-    closed_in_length,
-    closed_query,
-    closed_within_margin,
-)
-from planner.robots.mapped_comfort import (
-    MappedArms,
-    MappedQuery,
-    MappedSpace,
-    mapped_in_height,
-    mapped_in_length,
-    mapped_query,
-    mapped_space,
-    mapped_within_margin,
-)
-from planner.robots.pan_arcs import MOST_ARCS
+from planner.robots.mapped_comfort import REACH_MAPS, MappedArms, MappedQuery, MappedSpace
 from planner.robots.place import Place
-from planner.robots.posture_room import Room
+from planner.robots.pr2.closed_comfort import CLOSED_FORM, Arcs, ClosedArm, ClosedQuery
 
-ArmNumbers: TypeAlias = FloatArray | MappedArms
-"""An arm for the compiled queries, or, with maps, all arms of a robot."""
+TECHNOLOGIES = (CLOSED_FORM, REACH_MAPS)
+
+ArmNumbers: TypeAlias = ClosedArm | MappedArms
+"""An arm for the compiled queries, or all arms of a robot."""
 
 ArmQuery: TypeAlias = ClosedQuery | MappedQuery
 """The constants of the queries in one approach."""
 
-Space: TypeAlias = FloatArray | MappedSpace
+Space: TypeAlias = Arcs | MappedSpace
 """Working memory of the queries."""
+
+_BY_TYPE = {kind: technology for technology in TECHNOLOGIES for kind in (technology.arm, technology.query)}
 
 
 def space_for(_arm: ArmNumbers) -> Space:
@@ -48,9 +32,7 @@ def space_for(_arm: ArmNumbers) -> Space:
     raise NotImplementedError("compiled alone")
 
 
-def query(
-    _arm: ArmNumbers, _shoulder: FloatArray, _axes: FloatArray, _label: int, _comfort: float, _step: int
-) -> ArmQuery:
+def query(_arm: ArmNumbers, _label: int, _comfort: float) -> ArmQuery:
     """Return the query in the approach of a label."""
     raise NotImplementedError("compiled alone")
 
@@ -65,70 +47,38 @@ def is_in_length(_ask: ArmQuery, _place: Place, _standoff: int) -> bool:
     raise NotImplementedError("compiled alone")
 
 
-def is_within_margin(
-    _ask: ArmQuery, _hints: FloatArray, _room: Room, _space: Space, _place: Place, _standoff: int
-) -> bool:
+def is_within_margin(_ask: ArmQuery, _arm: ArmNumbers, _space: Space, _place: Place, _standoff: int) -> bool:
     """Return whether a place is within the comfort radius from a standoff."""
     raise NotImplementedError("compiled alone")
 
 
-def _is_mapped(kind: types.Type) -> bool:
-    return getattr(kind, "instance_class", None) in (MappedArms, MappedQuery)
-
-
-@kernel
-def _arcs() -> FloatArray:
-    return np.empty((MOST_ARCS, 2))
-
-
 @overload(space_for, strict=False)
-def _space_for(_arm: types.Type) -> Any:  # noqa: ANN401
-    return (lambda _arm: mapped_space(_arm)) if _is_mapped(_arm) else (lambda _arm: _arcs())
+def _space_for(_arm: types.NamedTuple) -> Any:  # noqa: ANN401
+    answer = _BY_TYPE[_arm.instance_class].space_for
+    return lambda _arm: answer(_arm)
 
 
 @overload(query, strict=False)
-def _query(
-    _arm: types.Type,
-    _shoulder: types.Type,
-    _axes: types.Type,
-    _label: types.Type,
-    _comfort: types.Type,
-    _step: types.Type,
-) -> Any:  # noqa: ANN401
-    if _is_mapped(_arm):
-        return lambda _arm, _shoulder, _axes, _label, _comfort, _step: mapped_query(_arm, _label, _comfort, _step)
-    return lambda _arm, _shoulder, _axes, _label, _comfort, _step: closed_query(
-        _arm, _shoulder, _axes, _label, _comfort, _step
-    )
+def _query(_arm: types.NamedTuple, _label: types.Type, _comfort: types.Type) -> Any:  # noqa: ANN401
+    answer = _BY_TYPE[_arm.instance_class].query_of
+    return lambda _arm, _label, _comfort: answer(_arm, _label, _comfort)
 
 
 @overload(is_in_height, strict=False)
-def _is_in_height(_ask: types.Type, _place: types.Type) -> Any:  # noqa: ANN401
-    if _is_mapped(_ask):
-        return lambda _ask, _place: mapped_in_height(_ask, _place)
-    return lambda _ask, _place: closed_in_height(_ask, _place)
+def _is_in_height(_ask: types.NamedTuple, _place: types.Type) -> Any:  # noqa: ANN401
+    answer = _BY_TYPE[_ask.instance_class].is_in_height
+    return lambda _ask, _place: answer(_ask, _place)
 
 
 @overload(is_in_length, strict=False)
-def _is_in_length(_ask: types.Type, _place: types.Type, _standoff: types.Type) -> Any:  # noqa: ANN401
-    if _is_mapped(_ask):
-        return lambda _ask, _place, _standoff: mapped_in_length(_ask, _place, _standoff)
-    return lambda _ask, _place, _standoff: closed_in_length(_ask, _place, _standoff)
+def _is_in_length(_ask: types.NamedTuple, _place: types.Type, _standoff: types.Type) -> Any:  # noqa: ANN401
+    answer = _BY_TYPE[_ask.instance_class].is_in_length
+    return lambda _ask, _place, _standoff: answer(_ask, _place, _standoff)
 
 
 @overload(is_within_margin, strict=False)
 def _is_within_margin(
-    _ask: types.Type,
-    _hints: types.Type,
-    _room: types.Type,
-    _space: types.Type,
-    _place: types.Type,
-    _standoff: types.Type,
+    _ask: types.NamedTuple, _arm: types.NamedTuple, _space: types.Type, _place: types.Type, _standoff: types.Type
 ) -> Any:  # noqa: ANN401
-    if _is_mapped(_ask):
-        return lambda _ask, _hints, _room, _space, _place, _standoff: mapped_within_margin(
-            _ask, _space, _place, _standoff
-        )
-    return lambda _ask, _hints, _room, _space, _place, _standoff: closed_within_margin(
-        _ask, _hints, _room, _space, _place, _standoff
-    )
+    answer = _BY_TYPE[_ask.instance_class].is_within_margin
+    return lambda _ask, _arm, _space, _place, _standoff: answer(_ask, _arm, _space, _place, _standoff)

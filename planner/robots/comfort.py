@@ -18,11 +18,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from planner.geometry.pose import FloatArray
 from planner.kernels import inlined, kernel
-from planner.robots.arm_query import ArmQuery, Space, is_in_length, is_within_margin
-from planner.robots.place import Place
-from planner.robots.posture_room import Room
+from planner.robots.arm_query import ArmNumbers, ArmQuery, Space, is_in_length, is_within_margin
+from planner.robots.place import STANDOFF_STEP, Place
 
 COORDINATE_BITS = 18
 """Bits of a coordinate in `LENGTH_M` steps: 1.3 m either way from the shoulder."""
@@ -32,9 +30,6 @@ LABEL_BITS = 9
 
 ROW_CELLS = 60
 """Number of places in a row, the middle one beside the shoulder; beyond them no arm is long enough."""
-
-ROW_STEP = 5_000
-"""Steps of `LENGTH_M` between the places of a row: 5 cm. Other steps are answered, but not remembered."""
 
 ROWS, QUERIES = 0, 1
 """Indices of the counts: rows, and queries made."""
@@ -61,37 +56,27 @@ class Memory(NamedTuple):
         keys: the rows' keys, shape (size,), size a power of two; 0 is empty.
         bits: the rows' numbers, see `KNOWN`, shape (size, 4).
         counts: see `ROWS` and `QUERIES`, shape (2,).
-        hints: for each approach the pan that served last (rad) and its branch, shape (64, 2).
     """
 
     keys: NDArray[np.int64]
     bits: NDArray[np.int64]
     counts: NDArray[np.int64]
-    hints: FloatArray
 
 
 def empty_memory(size_bits: int = 16) -> Memory:
     """Return a memory with room for 2 ** size_bits rows, of which it uses three quarters."""
     size = 1 << size_bits
     bits, counts = np.zeros((size, 4), dtype=np.int64), np.zeros(2, dtype=np.int64)
-    return Memory(np.zeros(size, dtype=np.int64), bits, counts, no_hints())
-
-
-def no_hints() -> FloatArray:
-    """Return the hints of a plan that has not asked anything yet."""
-    return np.tile((0.5, 1.0), (64, 1))
+    return Memory(np.zeros(size, dtype=np.int64), bits, counts)
 
 
 @kernel
-def row_slot(label: int, step: int, keys: NDArray[np.int64], counts: NDArray[np.int64], place: Place) -> int:
-    """Return the slot in the memory of the row of a place; begin the row if there is none yet.
-
-    `step` is the distance between standoffs, in steps of `LENGTH_M`.
-    """
+def row_slot(label: int, keys: NDArray[np.int64], counts: NDArray[np.int64], place: Place) -> int:
+    """Return the slot in the memory of the row of a place; begin the row if there is none yet."""
     half = 1 << (COORDINATE_BITS - 1)
-    if abs(place.y) >= half or abs(place.z) >= half or step % ROW_STEP != 0:
+    if abs(place.y) >= half or abs(place.z) >= half:
         return FORGETFUL
-    key = ((((place.x % ROW_STEP) << COORDINATE_BITS) + place.y + half) << COORDINATE_BITS) + place.z + half
+    key = ((((place.x % STANDOFF_STEP) << COORDINATE_BITS) + place.y + half) << COORDINATE_BITS) + place.z + half
     key = (key << LABEL_BITS) + label
     scattered = key * _SCATTER
     slot = (scattered ^ (scattered >> 29) ^ (scattered >> 45)) & (len(keys) - 1)
@@ -109,7 +94,7 @@ def row_slot(label: int, step: int, keys: NDArray[np.int64], counts: NDArray[np.
 @kernel
 def cell_of(x: int) -> int:
     """Return the cell of a place in its row from its x; it may lie beyond the row's ends."""
-    return x // ROW_STEP + ROW_CELLS // 2
+    return x // STANDOFF_STEP + ROW_CELLS // 2
 
 
 @kernel
@@ -163,7 +148,7 @@ def _count_of(bits: int) -> int:
 
 @inlined
 def is_comfortable_at(
-    ask: ArmQuery, memory: Memory, room: Room, space: Space, slot: int, place: Place, standoff: int
+    ask: ArmQuery, arm: ArmNumbers, memory: Memory, space: Space, slot: int, place: Place, standoff: int
 ) -> bool:
     """Return whether a tool is within the comfort radius at a place from a standoff, from memory if it is known there.
 
@@ -171,7 +156,7 @@ def is_comfortable_at(
 
     `space` is working memory.
     """
-    cell = cell_of(place.x + standoff * ask.step)
+    cell = cell_of(place.x + standoff * STANDOFF_STEP)
     bit = 1 << cell if slot != FORGETFUL and 0 <= cell < ROW_CELLS else 0
     if memory.bits[slot, KNOWN] & bit != 0:
         return bool(memory.bits[slot, GOOD] & bit != 0)
@@ -181,7 +166,7 @@ def is_comfortable_at(
     elif memory.bits[slot, PASSED] & bit == 0:
         is_tested = is_in_length(ask, place, standoff)
         if is_tested:
-            answer = is_within_margin(ask, memory.hints, room, space, place, standoff)
+            answer = is_within_margin(ask, arm, space, place, standoff)
             memory.bits[slot, TESTED] |= bit
         memory.bits[slot, PASSED] |= bit if answer or not is_tested else 0
     if is_tested:

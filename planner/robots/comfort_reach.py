@@ -1,80 +1,60 @@
-"""The places within the comfort radius, for each arm of a robot: the compiled queries and the state they share.
+"""The reach of a robot's arms: the compiled queries about places within the comfort radius, and shortfalls of others.
 
 Where arms are mirror images, places and approaches are mirrored on the way in, and the memory of answers (see
-`planner.robots.comfort`) is one arm's. Queries are counted and timed here.
+`planner.robots.comfort`) is one arm's.
 """
 
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from dataclasses import replace
 from time import thread_time
 
 import numpy as np
 from numpy.typing import NDArray
 
+from planner.deadline import ENDLESS, Deadline
 from planner.geometry.pose import Approach, BoolArray, FloatArray, Point3
-from planner.geometry.tolerance import LENGTH_M, grid_keys
-from planner.robots.comfort import QUERIES, ROW_CELLS, ROW_STEP, ROWS, Memory, empty_memory
-from planner.robots.comfort_memories import Memories
+from planner.geometry.reach_query import ReachQuery
+from planner.geometry.shortfall import Shortfall
+from planner.geometry.tolerance import grid_keys
+from planner.robots.arm_query import ArmNumbers
+from planner.robots.comfort import ROW_CELLS
+from planner.robots.comfort_memories import Memories, PlanMemory
 from planner.robots.driving_task import UNSEEN, DrivingTask
 from planner.robots.following import FollowingPaths
-from planner.robots.posture_room import Room, no_walls
+from planner.robots.place import STANDOFF_STEP
 from planner.robots.queried_arms import QueriedArms
 from planner.robots.standoffs import anywhere, standoff_masks
 
 _MOST_STANDOFFS = 32
 """Largest number of standoffs: one bit of a mask each."""
 
-_SMALL_BITS = 4
-"""Size of a memory that will hardly be used any more, as a power of two."""
 
+class ComfortReach(ABC):
+    """The reach of a robot with its lift at one height, for one comfort radius; implements `Reach`.
 
-class ComfortReach:
-    """The reach of a robot with its lift at one height, for one comfort radius.
+    Each plan should have its own, as it has its own memory; it must not be shared between threads. Places are tested on
+    the grid of `LENGTH_M`, base frame.
 
-    It remembers its answers and counts its queries, so each plan should have its own; it must not be shared between
-    threads. Places are tested on the grid of `LENGTH_M`, base frame.
+    Attributes:
+        memory: what has been answered so far.
     """
 
-    def __init__(
-        self,
-        asked: QueriedArms,
-        torso_m: float,
-        comfort_m: float,
-        room: Room | None = None,
-        memories: Memories | None = None,
-    ) -> None:
+    def __init__(self, asked: QueriedArms, torso_m: float, comfort_m: float, memories: Memories | None) -> None:
         """Start with nothing asked.
 
         Args:
             asked: the arms.
             torso_m: how far the torso is raised (m).
             comfort_m: the comfort radius (m).
-            room: the obstacles to the first arm's postures; None: the body is no obstacle.
             memories: what earlier plans with the same arms, torso, radius and room have learned; None: nothing.
         """
         self._asked = asked
         self._torso_m = torso_m
         self._comfort_m = comfort_m
-        self._memories = memories
-        self._memory = empty_memory() if memories is None else memories.take()
-        self._room = no_walls() if room is None else room._replace(poses=room.poses.copy())
-        self._axes = np.array([approach.rotation[:, 0] for approach in asked.approaches])
+        self.memory = PlanMemory(memories)
         self._shoulders = tuple(arm.shoulder(torso_m) for arm in asked.arms)
-        self._shortfall_queries = 0
-        self._query_time_s = 0.0
-
-    def forget(self) -> None:
-        """Leave the memory, some 4 MB, to another plan and keep the counts; the answers stay the same."""
-        queries = self.queries - self._shortfall_queries
-        if self._memories is not None:
-            self._memories.leave(self._memory)
-            self._memories = None
-        self._memory = empty_memory(_SMALL_BITS)
-        self._memory.counts[QUERIES] = queries
-
-    def share(self) -> None:
-        """Leave a copy of the memory to the next plan (1 ms); see `Memories`."""
-        if self._memories is not None and self._memory.counts[ROWS]:
-            keys, bits, counts, hints = self._memory
-            self._memories.leave(Memory(keys.copy(), bits.copy(), counts.copy(), hints.copy()))
 
     @property
     def arm_names(self) -> tuple[str, ...]:
@@ -103,147 +83,109 @@ class ComfortReach:
         """The comfort radius (m)."""
         return self._comfort_m
 
-    @property
-    def queries(self) -> int:
-        """The number of queries computed by the exact kernel so far, points on the comfort circle included.
-
-        What is remembered, or further away than the arm is long, is answered without a query.
-        """
-        return int(self._memory.counts[QUERIES]) + self._shortfall_queries
-
-    @property
-    def query_time_s(self) -> float:
-        """Time spent answering (s), memory included."""
-        return self._query_time_s
-
     def standoffs(
         self,
-        arm: int,
-        points: FloatArray,
-        approaches: NDArray[np.int64],
-        count: int,
-        step_m: float,
-        enough: int | None = None,
+        path: ReachQuery,
+        *,
         start: int | None = None,
         end: int | None = None,
         among: NDArray[np.uint32] | None = None,
     ) -> NDArray[np.uint32]:
-        """Return bit masks, shape (k, n), of the standoffs from which each point is within the comfort radius.
+        """Return bit masks, shape (k, n), of the standoffs at which the base may be while a tool follows a path.
 
-        Args:
-            arm: index into `arm_names`.
-            points: tool points in the base frame at standoff 0 (m), shape (n, 3).
-            approaches: indices into `approaches`, shape (k,).
-            count: the number of standoffs, at most 32; raises `ValueError` beyond.
-            step_m: the distance between standoffs (m).
-            enough: the number of approaches wanted that can follow the points; None: all.
-            start: the standoff at which the hand is at the first point already; None: any.
-            end: the standoff at which the base is to be in the end; None: any.
-            among: bit masks of the standoffs that matter at each point, shape (n,); None: all.
-
-        Returns:
-            Bit j is set where the base may stand at standoff j * step_m when the hand has followed the points up to
-            there; a row is 0 if it cannot follow them all.
+        See `Reach`; raises `ValueError` where there are more than 32 standoffs.
         """
-        if count > _MOST_STANDOFFS:
-            raise ValueError(f"{count} standoffs do not fit into a mask of {_MOST_STANDOFFS} bits")
-        self._cover(arm, points)
-        started, full = thread_time(), (1 << count) - 1
+        if path.count > _MOST_STANDOFFS:
+            raise ValueError(f"{path.count} standoffs do not fit into a mask of {_MOST_STANDOFFS} bits")
+        numbers = self._numbers_for(path)
+        started, full = thread_time(), (1 << path.count) - 1
         masks = standoff_masks(
-            self._asked.numbers,
-            self._shoulders[arm],
-            self._memory,
-            self._asked.arms[arm].mirrored_places(points),
-            self._axes,
-            self._asked.labels[arm][approaches],
-            count,
-            round(step_m / LENGTH_M),
+            numbers,
+            self._shoulders[path.arm],
+            self.memory.rows,
+            self._asked.arms[path.arm].mirrored_places(path.points),
+            self._asked.labels[path.arm][path.approaches],
+            path.count,
             self._comfort_m,
-            len(approaches) if enough is None else enough,
             full if start is None else 1 << start,
-            np.full(len(points), full) if among is None else among.astype(np.int64),
+            np.full(len(path.points), full) if among is None else among.astype(np.int64),
             full if end is None else 1 << end,
-            self._room,
         )
-        self._query_time_s += thread_time() - started
+        self.memory.charge(thread_time() - started)
         return masks
 
-    def following(
-        self, arms: tuple[int, ...], paths: FloatArray, approaches: tuple[NDArray[np.int64], ...], step_m: float
-    ) -> FollowingPaths:
-        """Return hands that are to follow paths, each in one approach.
+    def following(self, paths: Sequence[ReachQuery]) -> FollowingPaths:
+        """Return hands that are to follow paths, each in one approach (see `Reach`)."""
+        hands, waypoints = len(paths), len(paths[0].points)
+        labels = np.zeros((hands, max(len(path.approaches) for path in paths)), dtype=np.int64)
+        places = np.empty((hands, waypoints, 3), dtype=np.int64)
+        for hand, path in enumerate(paths):
+            numbers = self._numbers_for(path)
+            labels[hand, : len(path.approaches)] = self._asked.labels[path.arm][path.approaches]
+            steps = grid_keys(self._asked.arms[path.arm].mirrored_places(path.points))
+            places[hand] = steps - grid_keys(self._shoulders[path.arm])
+        slots = np.full((*labels.shape, waypoints), UNSEEN, dtype=np.int64)
+        cells = places[:, :, 0] // STANDOFF_STEP + ROW_CELLS // 2
+        task = DrivingTask(numbers, self.memory.rows, labels, places, cells, slots, self._comfort_m)
+        return FollowingPaths(task, self.memory.charge)
 
-        Args:
-            arms: for each hand its index into `arm_names`.
-            paths: for each hand its tool points in the base frame at standoff 0 (m), shape (hands, n, 3).
-            approaches: for each hand indices into `approaches`, best first.
-            step_m: the distance between standoffs (m).
-        """
-        for arm, path in zip(arms, paths, strict=True):
-            self._cover(arm, path)
-        labels = np.zeros((len(arms), max(len(allowed) for allowed in approaches)), dtype=np.int64)
-        places = np.empty(paths.shape, dtype=np.int64)
-        for hand, (arm, allowed) in enumerate(zip(arms, approaches, strict=True)):
-            labels[hand, : len(allowed)] = self._asked.labels[arm][allowed]
-            steps = grid_keys(self._asked.arms[arm].mirrored_places(paths[hand]))
-            places[hand] = steps - grid_keys(self._shoulders[arm])
-        slots = np.full((*labels.shape, paths.shape[1]), UNSEEN, dtype=np.int64)
-        step = round(step_m / LENGTH_M)
-        cells = places[:, :, 0] // ROW_STEP + ROW_CELLS // 2
-        task = DrivingTask(
-            self._asked.numbers,
-            self._shoulders[0],
-            self._memory,
-            self._axes,
-            labels,
-            places,
-            cells,
-            slots,
-            self._comfort_m,
-            step,
-            self._room,
-        )
-        return FollowingPaths(task, self._add_time)
-
-    def _cover(self, arm: int, points: FloatArray) -> None:
-        """Make sure that what an arm computes with covers points of the base frame (m), shape (n, 3): it does."""
-
-    def _add_time(self, time_s: float) -> None:
-        self._query_time_s += time_s
-
-    def from_anywhere(
-        self,
-        arm: int,
-        points: FloatArray,
-        approaches: NDArray[np.int64],
-        count: int,
-        step_m: float,
-        enough: int | None = None,
-    ) -> BoolArray:
-        """Return which points, each on its own, are within the comfort radius from at least one standoff, shape (k, n).
-
-        Args:
-            arm: index into `arm_names`.
-            points: tool points in the base frame at standoff 0 (m), shape (n, 3).
-            approaches: indices into `approaches`, shape (k,).
-            count: the number of standoffs.
-            step_m: the distance between standoffs (m).
-            enough: the number of approaches wanted that reach every point; None: all.
-        """
-        self._cover(arm, points)
+    def from_anywhere(self, places: ReachQuery) -> BoolArray:
+        """Return which points, each on its own, are within the comfort radius from at least one standoff, (k, n)."""
+        numbers = self._numbers_for(places)
         started = thread_time()
         answers = anywhere(
-            self._asked.numbers,
-            self._shoulders[arm],
-            self._memory,
-            self._asked.arms[arm].mirrored_places(points),
-            self._axes,
-            self._asked.labels[arm][approaches],
-            count,
-            round(step_m / LENGTH_M),
+            numbers,
+            self._shoulders[places.arm],
+            self.memory.rows,
+            self._asked.arms[places.arm].mirrored_places(places.points),
+            self._asked.labels[places.arm][places.approaches],
+            places.count,
             self._comfort_m,
-            len(approaches) if enough is None else enough,
-            self._room,
         )
-        self._query_time_s += thread_time() - started
+        self.memory.charge(thread_time() - started)
         return answers
+
+    def _numbers_for(self, _query: ReachQuery) -> ArmNumbers:
+        """Return what the compiled queries compute with, good for some points."""
+        return self._asked.numbers
+
+    @abstractmethod
+    def at_least_short(self, ways: ReachQuery) -> FloatArray:
+        """Return a lower bound, which takes no query, on each way's shortfall (see `Reach`)."""
+
+    def shortfall(
+        self, places: ReachQuery, at_most_m: float = math.inf, deadline: Deadline = ENDLESS
+    ) -> Shortfall | None:
+        """Return by how much and why one of some places is not within the comfort radius (see `Reach`).
+
+        Displacements up to 0.8 m are tried, along eight horizontal directions, straight down and straight up. Raises
+        `ValueError` if there is no approach.
+        """
+        if len(places.approaches) == 0:
+            raise ValueError("without an approach no point is within reach")
+        if len(places.points) > 1:
+            return self._shortfall_together(places, at_most_m, deadline)
+        return self._shortfall_of(places, 0, places.approaches, at_most_m, deadline)
+
+    def _shortfall_of(
+        self, places: ReachQuery, number: int, approaches: NDArray[np.int64], at_most_m: float, deadline: Deadline
+    ) -> Shortfall | None:
+        """Return the least shortfall of one of some places, whatever the others need; None where there is none."""
+        place = ReachQuery(places.arm, places.points[number], approaches)
+        if self.from_anywhere(place).any():
+            return None
+        started = thread_time()
+        found, queries = self._least_shortfall(place, at_most_m, deadline)
+        self.memory.charge(thread_time() - started, queries)
+        return replace(found, place=number)
+
+    @abstractmethod
+    def _least_shortfall(self, place: ReachQuery, at_most_m: float, deadline: Deadline) -> tuple[Shortfall, int]:
+        """Return the least shortfall of a place that is not within the comfort radius, and the queries it took.
+
+        The place is seen from each of the places where the base may stand, shape (n, 3).
+        """
+
+    @abstractmethod
+    def _shortfall_together(self, places: ReachQuery, at_most_m: float, deadline: Deadline) -> Shortfall | None:
+        """Return the worst of several places that one approach must reach, in the best approach for it."""

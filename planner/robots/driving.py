@@ -80,7 +80,7 @@ def least_driving(task: DrivingTask, begun: NDArray[np.int64], most: int, wanted
         For each standoff a column of the steps (`IMPOSSIBLE` if there is no way), where the base begins, and each
         hand's approach, shape (2 + hands, count); and the least steps that a way left out for `most` might take.
     """
-    hands, count, space = len(task.labels), len(begun), space_for(task.numbers)
+    hands, count, space = len(task.labels), len(begun), space_for(task.arm)
     answer = np.full((2 + hands, count), IMPOSSIBLE, dtype=np.int64)
     best = no_incumbents(begun, most, wanted)
     near = 0

@@ -9,7 +9,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from planner.geometry.pose import FloatArray
 from planner.kernels import kernel
 from planner.robots.arm_query import ArmNumbers, Space, query
 from planner.robots.comfort import (
@@ -18,7 +17,6 @@ from planner.robots.comfort import (
     KNOWN,
     PASSED,
     ROW_CELLS,
-    ROW_STEP,
     TESTED,
     Memory,
     from_cell,
@@ -27,7 +25,6 @@ from planner.robots.comfort import (
     row_slot,
 )
 from planner.robots.place import Place
-from planner.robots.posture_room import Room
 
 UNSEEN = -2
 """The slot of a row that has not been looked up."""
@@ -39,32 +36,24 @@ class DrivingTask(NamedTuple):
     """The paths that hands follow.
 
     Attributes:
-        numbers: the arms, see `planner.robots.arm_query`.
-        shoulder: the shoulder of an arm with a closed form, in the base frame (m), shape (3,).
+        arm: the arms, see `planner.robots.arm_query`.
         memory: earlier answers for this comfort radius; added to.
-        axes: all approach axes, shape (m, 3).
         labels: for each hand the memory's labels of the approaches it may use, best first, 0 after the last; shape
             (hands, k).
         places: for each hand and waypoint the place, in steps of `LENGTH_M`, shape (hands, n, 3).
         cells: for each hand and waypoint the place's cell in its row, shape (hands, n).
-        slots: for each hand, approach and waypoint the row's slot in the memory, if the base drives by the row's step;
-            `UNSEEN` until it is looked up. Shape (hands, k, n); added to.
+        slots: for each hand, approach and waypoint the row's slot in the memory, `UNSEEN` until it is looked up; shape
+            (hands, k, n); added to.
         comfort: the comfort radius (m).
-        step: the distance between standoffs, in steps of `LENGTH_M`.
-        room: the obstacles to the arms' postures.
     """
 
-    numbers: ArmNumbers
-    shoulder: FloatArray
+    arm: ArmNumbers
     memory: Memory
-    axes: FloatArray
     labels: NDArray[np.int64]
     places: NDArray[np.int64]
     cells: NDArray[np.int64]
     slots: NDArray[np.int64]
     comfort: float
-    step: int
-    room: Room
 
 
 @kernel
@@ -72,20 +61,19 @@ def ask_each(task: DrivingTask, space: Space, hand: int, approach: int, waypoint
     """Return which of the wanted standoffs have one hand within the comfort radius, testing them one by one."""
     x, y, z = task.places[hand, waypoint]
     place, label, memory = Place(x, y, z), task.labels[hand, approach], task.memory
-    slot, found, standoff = row_slot(label, task.step, memory.keys, memory.counts, place), 0, 0
-    if task.step == ROW_STEP:
-        task.slots[hand, approach, waypoint] = slot
-        if slot != FORGETFUL:
-            cell = task.cells[hand, waypoint]
-            found = recalled(memory.bits, memory.counts, slot, cell, wanted, task.comfort)
-            if found >= 0:
-                return found
-            found = wanted & from_cell(memory.bits[slot, GOOD], cell)
-            wanted &= ~from_cell(memory.bits[slot, KNOWN], cell)
-    ask = query(task.numbers, task.shoulder, task.axes, label, task.comfort, task.step)
+    slot, found, standoff = row_slot(label, memory.keys, memory.counts, place), 0, 0
+    task.slots[hand, approach, waypoint] = slot
+    if slot != FORGETFUL:
+        cell = task.cells[hand, waypoint]
+        found = recalled(memory.bits, memory.counts, slot, cell, wanted, task.comfort)
+        if found >= 0:
+            return found
+        found = wanted & from_cell(memory.bits[slot, GOOD], cell)
+        wanted &= ~from_cell(memory.bits[slot, KNOWN], cell)
+    ask = query(task.arm, label, task.comfort)
     while wanted >> standoff:
         is_wanted = (wanted >> standoff) & 1 == 1
-        if is_wanted and is_comfortable_at(ask, memory, task.room, space, slot, place, standoff):
+        if is_wanted and is_comfortable_at(ask, task.arm, memory, space, slot, place, standoff):
             found |= 1 << standoff
         standoff += 1
     return found

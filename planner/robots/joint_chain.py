@@ -6,7 +6,7 @@ jump. So the solutions are sampled at every pose, and dynamic programming finds 
 A link costs the squared time that the slowest joints need for it; a sample costs more the nearer a joint is to its
 limit and the lower the elbow hangs. Links that would be jumps are none.
 
-The samples come from the closed form (`planner.robots.closed_form_samples`) or from a reach map
+The samples come from the closed form (`planner.robots.pr2.closed_form_samples`) or from a reach map
 (`planner.robots.posture_samples`).
 """
 

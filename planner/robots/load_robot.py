@@ -9,7 +9,7 @@ from planner.robots.card_file import CardFile
 from planner.robots.card_robot import CardRobot
 from planner.robots.described_robot import DescribedRobot
 from planner.robots.known_robots import card_path, read_card, robot_names
-from planner.robots.pr2 import Pr2
+from planner.robots.pr2.robot import Pr2
 from planner.robots.reach_maps import Progress
 from planner.robots.varied_card import split_changes, varied
 

@@ -16,8 +16,9 @@ from planner.geometry.tolerance import LENGTH_M, grid_keys
 from planner.kernels import kernel
 from planner.robots.chain import Chain, Scratch, length_of, scratch_for
 from planner.robots.newton import solve
-from planner.robots.place import Place
+from planner.robots.place import STANDOFF_STEP, Place
 from planner.robots.reach_map import Grid, ReachMap, find_joints
+from planner.robots.reach_technology import ReachTechnology
 
 ARM_LABELS = 64
 """Labels of each arm in the memory: 0 is none, the others are the approaches'."""
@@ -68,7 +69,6 @@ class MappedQuery(NamedTuple):
         approach: the approach's index in the map.
         label: its label in the memory.
         comfort: the comfort radius (m).
-        step: the distance between standoffs, in steps of `LENGTH_M`.
     """
 
     chain: Chain
@@ -79,7 +79,6 @@ class MappedQuery(NamedTuple):
     approach: int
     label: int
     comfort: float
-    step: int
 
 
 class MappedSpace(NamedTuple):
@@ -139,7 +138,7 @@ def mapped_space(arms: MappedArms) -> MappedSpace:
 
 
 @kernel
-def mapped_query(arms: MappedArms, label: int, comfort: float, step: int) -> MappedQuery:
+def mapped_query(arms: MappedArms, label: int, comfort: float) -> MappedQuery:
     """Return the query in the approach, and of the arm, of a label."""
     arm, approach = label // ARM_LABELS, label % ARM_LABELS - 1
     n, whole, count = arms.numbers[arm], arms.whole[arm], arms.whole[arm, _COUNT]
@@ -173,28 +172,25 @@ def mapped_query(arms: MappedArms, label: int, comfort: float, step: int) -> Map
     )
     known = ReachMap(grid, arms.starts[whole[_START] : whole[_START] + whole[_STARTS]], arms.postures)
     rest = (n[_REST], n[_REST + 1], n[_REST + 2])
-    return MappedQuery(chain, known, arms.rotations[approach], rest, n[_LENGTH], approach, label, comfort, step)
+    return MappedQuery(chain, known, arms.rotations[approach], rest, n[_LENGTH], approach, label, comfort)
 
 
 @kernel
-def mapped_in_height(ask: MappedQuery, place: Place) -> bool:
-    """Return whether a place's height is one that the arm can have."""
+def _is_in_height(ask: MappedQuery, place: Place) -> bool:
     return abs(place.z * LENGTH_M - ask.rest[2]) <= ask.length
 
 
 @kernel
-def mapped_in_length(ask: MappedQuery, place: Place, standoff: int) -> bool:
-    """Return whether the arm is long enough for a place."""
-    x = (place.x + standoff * ask.step) * LENGTH_M - ask.rest[0]
+def _is_in_length(ask: MappedQuery, place: Place, standoff: int) -> bool:
+    x = (place.x + standoff * STANDOFF_STEP) * LENGTH_M - ask.rest[0]
     y, z = place.y * LENGTH_M - ask.rest[1], place.z * LENGTH_M - ask.rest[2]
     return x * x + y * y + z * z <= ask.length * ask.length
 
 
 @kernel
-def mapped_within_margin(ask: MappedQuery, space: MappedSpace, place: Place, standoff: int) -> bool:
-    """Return whether a place is within the comfort radius from a standoff."""
+def _is_within_margin(ask: MappedQuery, _arms: MappedArms, space: MappedSpace, place: Place, standoff: int) -> bool:
     point = space.point
-    point[0] = (place.x + standoff * ask.step) * LENGTH_M - ask.rest[0]
+    point[0] = (place.x + standoff * STANDOFF_STEP) * LENGTH_M - ask.rest[0]
     point[1], point[2] = place.y * LENGTH_M - ask.rest[1], place.z * LENGTH_M - ask.rest[2]
     return is_held_round(ask, space, point)
 
@@ -237,3 +233,8 @@ def first_of(scratch: Scratch, joints: int) -> Scratch:
         scratch.step[:joints],
         scratch.is_held[:joints],
     )
+
+
+REACH_MAPS = ReachTechnology(
+    MappedArms, MappedQuery, mapped_space, mapped_query, _is_in_height, _is_in_length, _is_within_margin
+)

@@ -6,17 +6,19 @@ from dataclasses import replace
 from typing import TypeAlias, cast
 
 import numpy as np
-from numpy.typing import NDArray
 
-from planner.deadline import ENDLESS, Deadline
+from planner.deadline import Deadline
+from planner.geometry.driving import STANDOFF_STEP_M
 from planner.geometry.pose import FloatArray
+from planner.geometry.reach_query import ReachQuery
 from planner.geometry.shortfall import Cause, Shortfall
+from planner.robots.arm_query import ArmNumbers
 from planner.robots.comfort_memories import Memories
+from planner.robots.comfort_reach import ComfortReach
+from planner.robots.displacements import DIRECTIONS, FURTHEST_M, SIDEWAYS, as_point, homewards
 from planner.robots.mapped_comfort import MappedArms
 from planner.robots.mapped_shortfall import joint_at_limit, nearest_place, widest_circle
 from planner.robots.queried_arms import QueriedArms
-from planner.robots.shortfall import DIRECTIONS, FURTHEST_M, SIDEWAYS, as_point, homewards
-from planner.robots.shortfall_reach import ShortfallReach
 
 Heights: TypeAlias = tuple[tuple[float, float], ...]
 """The lowest and the highest point of each arm's map, seen from its root (m)."""
@@ -31,8 +33,8 @@ _QUERIES_LATE_MAX = 5_000
 """The same where nobody waits for the answer any more."""
 
 
-class MappedReach(ShortfallReach):
-    """The reach of a robot whose arms have reach maps; see `ShortfallReach`."""
+class MappedReach(ComfortReach):
+    """The reach of a robot whose arms have reach maps; see `ComfortReach`."""
 
     def __init__(
         self,
@@ -57,7 +59,7 @@ class MappedReach(ShortfallReach):
             comfort_m: the comfort radius (m).
             memories: what earlier plans have learned; None: nothing.
         """
-        super().__init__(asked, torso_m, comfort_m, memories=memories)
+        super().__init__(asked, torso_m, comfort_m, memories)
         self._heights = heights
         self._covering = covering
         self._joint_names = joint_names
@@ -67,14 +69,14 @@ class MappedReach(ShortfallReach):
         """Return the arms with their maps."""
         return cast(MappedArms, self._asked.numbers)
 
-    def _cover(self, arm: int, points: FloatArray) -> None:
-        if not points.size:
-            return
-        seen = points - self._shoulders[arm]
-        low_m, high_m = self._heights[arm]
-        if seen[..., 2].min() < low_m or seen[..., 2].max() > high_m:
-            numbers, self._heights = self._covering(arm, seen)
+    def _numbers_for(self, query: ReachQuery) -> ArmNumbers:
+        """Return the arms with maps that cover some points."""
+        seen = query.points - self._shoulders[query.arm]
+        low_m, high_m = self._heights[query.arm]
+        if seen.size and (seen[..., 2].min() < low_m or seen[..., 2].max() > high_m):
+            numbers, self._heights = self._covering(query.arm, seen)
             self._asked = replace(self._asked, numbers=numbers)
+        return self._asked.numbers
 
     def _searched_m(self, arm: int, seen: FloatArray, furthest_m: float) -> float:
         """Return how far points were displaced in every direction in which the arm's map or its length ends (m)."""
@@ -85,26 +87,16 @@ class MappedReach(ShortfallReach):
                     searched_m = min(searched_m, abs(end_m - z))
         return searched_m
 
-    def at_least_short(
-        self, arm: int, ways: FloatArray, _approaches: NDArray[np.int64], count: int, step_m: float
-    ) -> FloatArray:
-        """Return how far each way's points are beyond the arm's length from the best standoff (see `Shortfalls`)."""
-        ahead = np.arange(count)[:, None] * np.array([step_m, 0.0, 0.0])
-        seen = (ways - self._shoulders[arm])[:, :, None] + ahead
-        away = (
-            np.linalg.norm(seen, axis=-1) - self._lengths_m[arm] + (self._comfort_m if self._comfort_m > 0.0 else 0.0)
-        )
+    def at_least_short(self, ways: ReachQuery) -> FloatArray:
+        """Return how far each way's points are beyond the arm's length from the best standoff (see `Reach`)."""
+        ahead = np.arange(ways.count)[:, None] * np.array([STANDOFF_STEP_M, 0.0, 0.0])
+        seen = (ways.points - self._shoulders[ways.arm])[:, :, None] + ahead
+        away = np.linalg.norm(seen, axis=-1) - self._lengths_m[ways.arm] + self._comfort_m
         return np.asarray(np.maximum(away.min(axis=2).max(axis=1), 0.0))
 
-    def _least_shortfall(
-        self,
-        arm: int,
-        points: FloatArray,
-        approaches: NDArray[np.int64],
-        at_most_m: float,
-        deadline: Deadline,
-    ) -> tuple[Shortfall, int]:
-        seen, labels = points - self._shoulders[arm], self._asked.labels[arm][approaches]
+    def _least_shortfall(self, place: ReachQuery, at_most_m: float, deadline: Deadline) -> tuple[Shortfall, int]:
+        arm, approaches = place.arm, place.approaches
+        seen, labels = place.points - self._shoulders[arm], self._asked.labels[arm][approaches]
         furthest = min(at_most_m, FURTHEST_M)
         most = _QUERIES_LATE_MAX if deadline.is_long_over else _QUERIES_MAX
         short_by_m, seen_from, approach, direction, queries = nearest_place(
@@ -128,31 +120,24 @@ class MappedReach(ShortfallReach):
         found = Shortfall(cause, name, short_by_m, is_at_least, as_point(towards), chosen, seen_from, comfort_m)
         return found, queries
 
-    def shortfall_together(
-        self,
-        arm: int,
-        places: FloatArray,
-        approaches: NDArray[np.int64],
-        at_most_m: float = math.inf,
-        deadline: Deadline = ENDLESS,
-    ) -> tuple[int, Shortfall] | None:
-        """Return the worst of places that one approach must reach, in the best approach for it (see `Shortfalls`)."""
-        had = np.stack([self.from_anywhere(arm, place, approaches, 1, 0.0).any(axis=1) for place in places], axis=1)
+    def _shortfall_together(self, places: ReachQuery, at_most_m: float, deadline: Deadline) -> Shortfall | None:
+        each = [self.from_anywhere(replace(places, points=points, count=1)) for points in places.points]
+        had = np.stack([one.any(axis=1) for one in each], axis=1)
         if had.all(axis=1).any():
             return None
-        best: tuple[int, Shortfall] | None = None
+        best: Shortfall | None = None
         for row in np.argsort(-had.sum(axis=1), kind="stable"):
             if best is not None and deadline.is_long_over:
                 break
-            limit_m = at_most_m if best is None else min(at_most_m, best[1].short_by_m)
-            worst: tuple[int, Shortfall] | None = None
+            limit_m = at_most_m if best is None else min(at_most_m, best.short_by_m)
+            worst: Shortfall | None = None
             for number in np.flatnonzero(~had[row]).tolist():
-                found = self.shortfall(arm, places[number], approaches[row : row + 1], limit_m, deadline)
-                if found is not None and (worst is None or found.short_by_m > worst[1].short_by_m):
-                    worst = (number, found)
-                if worst is not None and worst[1].short_by_m >= limit_m:
+                found = self._shortfall_of(places, number, places.approaches[row : row + 1], limit_m, deadline)
+                if found is not None and (worst is None or found.short_by_m > worst.short_by_m):
+                    worst = found
+                if worst is not None and worst.short_by_m >= limit_m:
                     break
-            if worst is not None and (best is None or worst[1].short_by_m < best[1].short_by_m):
+            if worst is not None and (best is None or worst.short_by_m < best.short_by_m):
                 best = worst
         return best
 

@@ -1,6 +1,6 @@
 """The distance of a point from the comfort radius of an arm that has a reach map. Compiled.
 
-As for a closed form (`planner.robots.nearest_comfort`) the search goes outwards in shells, along all directions and
+As for a closed form (`planner.robots.pr2.nearest_comfort`) the search goes outwards in shells, along all directions and
 approaches and from all places of the base at once, and ends in the first shell that has a place within the radius.
 Shells are thicker here, because each query takes longer, and what the arm's length rules out is not asked.
 """
@@ -56,7 +56,7 @@ def nearest_place(
     while inner < furthest and best_place < 0 and queries < queries_max:
         limit = outer = inner + max(_SHELL_M, _WIDENING * inner)
         for approach in range(len(labels)):
-            ask = mapped_query(arms, labels[approach], comfort, 0)
+            ask = mapped_query(arms, labels[approach], comfort)
             for place in range(len(points)):
                 beyond = math.sqrt((points[place] ** 2).sum()) - ask.length
                 if beyond >= limit:
@@ -101,11 +101,11 @@ def widest_circle(
             near, far = best, comfort
             if best_place >= 0 and far - near <= _FINEST_M:
                 break
-            if not is_held_round(mapped_query(arms, labels[approach], near, 0), space, points[place].copy()):
+            if not is_held_round(mapped_query(arms, labels[approach], near), space, points[place].copy()):
                 continue
             while far - near > _FINEST_M:
                 middle = 0.5 * (near + far)
-                if is_held_round(mapped_query(arms, labels[approach], middle, 0), space, points[place].copy()):
+                if is_held_round(mapped_query(arms, labels[approach], middle), space, points[place].copy()):
                     near = middle
                 else:
                     far = middle
@@ -119,7 +119,7 @@ def joint_at_limit(arms: MappedArms, label: int, point: FloatArray) -> int:
 
     Among the postures of the point's cell, that of the first which ends at a limit.
     """
-    ask = mapped_query(arms, label, 0.0, 0)
+    ask = mapped_query(arms, label, 0.0)
     space, count = mapped_space(arms), len(ask.chain.low)
     joints, cell = space.middle[:count], cell_of(ask.known.grid, point)
     if cell < 0:

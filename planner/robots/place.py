@@ -3,9 +3,13 @@
 import math
 from typing import NamedTuple
 
+from planner.geometry.driving import STANDOFF_STEP_M
 from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import HALF_WAY, LENGTH_M
 from planner.kernels import kernel
+
+STANDOFF_STEP = round(STANDOFF_STEP_M / LENGTH_M)
+"""Steps of `LENGTH_M` between neighbouring standoffs."""
 
 
 class Place(NamedTuple):

@@ -22,7 +22,6 @@ from planner.robots.comfort import (
     FORGETFUL,
     GOOD,
     KNOWN,
-    ROW_STEP,
     Memory,
     cell_of,
     cells_of,
@@ -31,7 +30,6 @@ from planner.robots.comfort import (
     to_cell,
 )
 from planner.robots.place import Place, place_of
-from planner.robots.posture_room import Room
 
 ALL = -1
 """Every standoff, of however many."""
@@ -39,13 +37,13 @@ ALL = -1
 
 @kernel
 def _is_out_of_reach(
-    ask: ArmQuery, memory: Memory, room: Room, space: Space, place: Place, count: int, among: int
+    ask: ArmQuery, arm: ArmNumbers, memory: Memory, space: Space, place: Place, count: int, among: int
 ) -> bool:
     """Return whether none of some standoffs reaches a place: of all of them where `among` is `ALL`."""
     if not is_in_height(ask, place):
         return True
-    slot, standoff = row_slot(ask.label, ask.step, memory.keys, memory.counts, place), 0
-    if slot != FORGETFUL and ask.step == ROW_STEP:
+    slot, standoff = row_slot(ask.label, memory.keys, memory.counts, place), 0
+    if slot != FORGETFUL:
         wanted = cells_of(place.x, count)
         if among != ALL:
             wanted &= to_cell(among, cell_of(place.x))
@@ -55,7 +53,7 @@ def _is_out_of_reach(
             return True
     while standoff < count:
         is_one = among == ALL or (among >> standoff) & 1 == 1
-        if is_one and is_comfortable_at(ask, memory, room, space, slot, place, standoff):
+        if is_one and is_comfortable_at(ask, arm, memory, space, slot, place, standoff):
             return False
         standoff += 1
     return True
@@ -63,116 +61,94 @@ def _is_out_of_reach(
 
 @kernel
 def _arrivals(
-    ask: ArmQuery, memory: Memory, room: Room, space: Space, place: Place, before: int, count: int, among: int
+    ask: ArmQuery, arm: ArmNumbers, memory: Memory, space: Space, place: Place, before: int, count: int, among: int
 ) -> int:
     """Return those of some standoffs at which the base may be at a place, having come from some at the place before.
 
     These are the standoffs it came from that reach the place too, and those to which it can drive on from there.
     """
-    mask, slot = 0, row_slot(ask.label, ask.step, memory.keys, memory.counts, place)
+    mask, slot = 0, row_slot(ask.label, memory.keys, memory.counts, place)
     for standoff in range(count):
         is_next = standoff > 0 and (mask >> (standoff - 1)) & 1 == 1
         if (among >> standoff) & 1 == 1 and ((before >> standoff) & 1 == 1 or is_next):
-            mask |= (1 if is_comfortable_at(ask, memory, room, space, slot, place, standoff) else 0) << standoff
+            mask |= (1 if is_comfortable_at(ask, arm, memory, space, slot, place, standoff) else 0) << standoff
     for standoff in range(count - 2, -1, -1):
         is_new = (among >> standoff) & 1 == 1 and (before >> standoff) & 1 == 0 and (mask >> standoff) & 1 == 0
         if is_new and (mask >> (standoff + 1)) & 1 == 1:
-            mask |= (1 if is_comfortable_at(ask, memory, room, space, slot, place, standoff) else 0) << standoff
+            mask |= (1 if is_comfortable_at(ask, arm, memory, space, slot, place, standoff) else 0) << standoff
     return mask
 
 
 @kernel
 def standoff_masks(
-    numbers: ArmNumbers,
+    arm: ArmNumbers,
     shoulder: FloatArray,
     memory: Memory,
     points: FloatArray,
-    axes: FloatArray,
     labels: NDArray[np.int64],
     count: int,
-    step: int,
     comfort: float,
-    enough: int,
     before: int,
     among: NDArray[np.int64],
     ends: int,
-    room: Room,
 ) -> NDArray[np.uint32]:
     """Return for each approach and point a bit mask of the standoffs within the comfort radius.
 
     Args:
-        numbers: the arm.
+        arm: the arm.
         shoulder: its shoulder, in the frame of the points (m), shape (3,).
         memory: earlier answers for this comfort radius; added to.
         points: tool points at standoff 0 (m), shape (n, 3).
-        axes: all approach axes, shape (m, 3).
-        labels: the memory's labels of the approaches tested: one more than their index, shape (k,).
+        labels: the memory's labels of the approaches tested, shape (k,).
         count: the number of standoffs, at most 32.
-        step: the distance between standoffs, in steps of `LENGTH_M`, by which the points move along x.
         comfort: the comfort radius (m).
-        enough: the number of approaches that can follow the path after which the others are left at 0.
         before: bit mask of the standoffs from which the base may come to the first point.
         among: bit masks of the standoffs that matter at each point, shape (n,).
         ends: bit mask of the standoffs at one of which the base is to be in the end.
-        room: the obstacles to the arm's postures.
     """
-    space = space_for(numbers)
+    space = space_for(arm)
     masks = np.zeros((len(labels), len(points)), dtype=np.uint32)
     places = [place_of(point, shoulder) for point in points]
-    alive, full = 0, (1 << count) - 1
+    full = (1 << count) - 1
     for approach in range(len(labels)):
-        if alive == enough:
-            break
-        ask = query(numbers, shoulder, axes, labels[approach], comfort, step)
+        ask = query(arm, labels[approach], comfort)
         is_dead, last = False, len(points) - 1
         for i in (last, len(points) // 2):
             matter = int(among[i]) & (ends if i == last else full)
-            is_dead = is_dead or (i > 0 and _is_out_of_reach(ask, memory, room, space, places[i], count, matter))
+            is_dead = is_dead or (i > 0 and _is_out_of_reach(ask, arm, memory, space, places[i], count, matter))
         if is_dead:
             continue
         mask = before
         for i in range(len(points)):
-            mask = _arrivals(ask, memory, room, space, places[i], mask, count, int(among[i]))
+            mask = _arrivals(ask, arm, memory, space, places[i], mask, count, int(among[i]))
             if i == last and mask & ends == 0:
                 mask = 0
             masks[approach, i] = mask
             if mask == 0:
                 masks[approach, :] = 0
                 break
-        alive += 1 if mask != 0 else 0
     return masks
 
 
 @kernel
 def anywhere(
-    numbers: ArmNumbers,
+    arm: ArmNumbers,
     shoulder: FloatArray,
     memory: Memory,
     points: FloatArray,
-    axes: FloatArray,
     labels: NDArray[np.int64],
     count: int,
-    step: int,
     comfort: float,
-    enough: int,
-    room: Room,
 ) -> BoolArray:
     """Return for each approach and point, each on its own, whether some standoff is within the comfort radius.
 
-    The arguments are those of `standoff_masks`, but there may be any number of standoffs, which all matter. After
-    `enough` approaches that reach every point the others are left false.
+    The arguments are those of `standoff_masks`, but there may be any number of standoffs, which all matter.
     """
-    space = space_for(numbers)
+    space = space_for(arm)
     answers = np.zeros((len(labels), len(points)), dtype=np.bool_)
     places = [place_of(point, shoulder) for point in points]
-    alive = 0
     for approach in range(len(labels)):
-        if alive == enough:
-            break
-        ask = query(numbers, shoulder, axes, labels[approach], comfort, step)
-        is_dead = False
+        ask = query(arm, labels[approach], comfort)
         for i in range(len(points)):
-            answers[approach, i] = not _is_out_of_reach(ask, memory, room, space, places[i], count, ALL)
-            is_dead = is_dead or not answers[approach, i]
-        alive += 0 if is_dead else 1
+            answers[approach, i] = not _is_out_of_reach(ask, arm, memory, space, places[i], count, ALL)
     return answers

@@ -10,13 +10,14 @@ from planner import Scene, load_garment
 from planner.explain.reason_attempt import Demand, Miss, miss_of
 from planner.explain.reason_reach import Places, nearest_miss
 from planner.geometry.pose import FloatArray, Point3
+from planner.geometry.reach_query import ReachQuery
 from planner.planning.found_plan import FoundPlan
 from planner.primitives.context import Context
 from planner.primitives.fold_obstacles import geometric_obstacle
 from planner.primitives.fold_trial import FoldTrial, fold_trials
 from planner.primitives.g_drag import GDrag
 from planner.primitives.state import State
-from planner.robots.shortfall import DIRECTIONS
+from planner.robots.displacements import DIRECTIONS
 from tests.builders import context, fold, garment, rectangle_points
 from tests.planning.found import found_plan
 from tests.planning.provoked import met
@@ -153,9 +154,10 @@ def test_displaced_by_what_it_is_short_the_point_is_in_reach_and_by_less_nowhere
     towards = pose.to_inner(np.array(reason.towards) + np.array([pose.x_m, pose.y_m, 0.0]))
     back = np.array([reason.back_off_m, 0.0, 0.0])
     short_by_m = required(reason.short_by_m)
-    assert context.reach.from_anywhere(arm, there + back + (short_by_m + 0.001) * towards, every, 1, 0.0).any()
+    assert context.reach.from_anywhere(ReachQuery(arm, there + back + (short_by_m + 0.001) * towards, every)).any()
     for distance in np.arange(0.0, short_by_m - 0.002, 0.004):
-        assert not context.reach.from_anywhere(arm, there + distance * DIRECTIONS, every, context.standoffs, 0.05).any()
+        tried = ReachQuery(arm, there + distance * DIRECTIONS, every, context.standoffs)
+        assert not context.reach.from_anywhere(tried).any()
 
 
 @pytest.mark.parametrize("name", ["scarf", "low"])
@@ -169,7 +171,7 @@ def test_turned_as_the_reason_says_the_hand_lacks_what_it_says_and_no_less(name:
     short_by_m = required(reason.short_by_m)
     lengths = np.arange(0.0, short_by_m + 0.0025, 0.001)
     way = np.array(reason.point) + lengths[:, None] * np.array(reason.towards)
-    is_there = context.reach.from_anywhere(arm, base.to_inner(way + over_floor), turned, 1, 0.0)[0]
+    is_there = context.reach.from_anywhere(ReachQuery(arm, base.to_inner(way + over_floor), turned))[0]
     assert is_there[-1] and not is_there[lengths < short_by_m - 0.002].any()
 
 

@@ -17,8 +17,9 @@ from numpy.typing import NDArray
 from planner.folds.fold_path import REST_HEIGHT_M
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray
+from planner.geometry.reach_query import ReachQuery
 from planner.primitives.base_move import BaseMove
-from planner.primitives.context import STANDOFF_STEP_M, Context
+from planner.primitives.context import Context
 from planner.primitives.drag_grips import drag_covers, dragged, hangs_ahead, longest_drag, towards_robot
 from planner.primitives.fold_obstacles import geometric_obstacle
 from planner.primitives.fold_trial import FoldTrial, fold_trials
@@ -95,7 +96,7 @@ class Exhaustive:
         if key not in self._masks:
             context = self._context
             point = context.in_base(station, tool[None])
-            self._masks[key] = context.reach.standoffs(arm, point, approaches, context.standoffs, STANDOFF_STEP_M)[:, 0]
+            self._masks[key] = context.reach.standoffs(ReachQuery(arm, point, approaches, context.standoffs))[:, 0]
         return self._masks[key]
 
     def _travel(self, strip: tuple[int, ...], state: State) -> list[float]:

@@ -12,7 +12,7 @@ from planner.motion.search_limits import QUICK
 from planner.motion.transfer_planner import TransferPlanner
 from planner.motion.waypoints import waypoints_of
 from planner.planning.problem import Problem
-from planner.robots.pr2 import Pr2
+from planner.robots.pr2.robot import Pr2
 from tests.replay.planned import planned
 
 

@@ -88,6 +88,6 @@ def test_who_has_enough_closes_the_stream_and_nothing_more_is_searched(monkeypat
     stream = plan(Task.of(load_garment("t-shirt")))
     first = next(stream).found
     assert first.plan.is_solved
-    queries = first.context.reach.queries
+    queries = first.context.reach.memory.queries
     stream.close()
-    assert list(stream) == [] and first.context.reach.queries == queries
+    assert list(stream) == [] and first.context.reach.memory.queries == queries

@@ -32,7 +32,7 @@ from planner.primitives.primitive_set import PRIMITIVES
 from planner.primitives.state import State
 from planner.robots.collision.contact import Contact
 from planner.robots.load_robot import load_robot
-from planner.robots.pr2 import Pr2
+from planner.robots.pr2.robot import Pr2
 from planner.task.reason import Code
 from tests.builders import fold, garment, rectangle_points
 from tests.planning.found import found_plan

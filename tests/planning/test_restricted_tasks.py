@@ -48,7 +48,7 @@ def test_a_tighter_task_knows_already_where_the_cloth_stays(monkeypatch: pytest.
     problem = problem_of(0.0, 1.3)
     places = [(-0.1 * number, 0.0) for number in range(12)]
     known = [problem.context.unrest(0, place) for place in places]
-    assert problem.context.has_slipped
+    assert {found.code for found in known if found is not None} >= {"slips"}
     tighter = [*with_more_comfort(problem), *with_narrower_cones(problem)]
     other = problem.varied(scene=replace(problem.context.scene, friction=1.0))
 
@@ -57,7 +57,6 @@ def test_a_tighter_task_knows_already_where_the_cloth_stays(monkeypatch: pytest.
 
     monkeypatch.setattr("planner.primitives.context.unrest", fail)
     for one in tighter:
-        assert not one.context.has_slipped, "nothing has been asked there yet"
         assert [one.context.unrest(0, place) for place in places] == known
     with pytest.raises(AssertionError, match="asked again"):
         _ = [other.context.unrest(0, place) for place in places]

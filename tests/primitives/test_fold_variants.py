@@ -9,10 +9,11 @@ import pytest
 
 from planner import Scene, load_garment
 from planner.folds.fold_sequence import FoldSequence
-from planner.geometry.pose import FloatArray
+from planner.geometry.driving import STANDOFF_STEP_M
+from planner.geometry.reach_query import ReachQuery
 from planner.primitives import fold_variants as variants_module
 from planner.primitives.base_legs import legs
-from planner.primitives.context import STANDOFF_STEP_M, Context
+from planner.primitives.context import Context
 from planner.primitives.fold_step import FoldStep, fold_step
 from planner.primitives.fold_trial import fold_trials
 from planner.primitives.fold_variants import Variant, fold_spread, fold_variants, trial_variants
@@ -47,7 +48,7 @@ def masks(context: Context, station: int, variant: Variant) -> np.ndarray:
     for arm, tools, approach in zip(trial.arms, trial.tools, variant.way.approaches, strict=True):
         points = context.in_base(station, tools)
         for number, point in enumerate(points):
-            row = context.reach.standoffs(arm, point[None], np.array([approach]), context.standoffs, STANDOFF_STEP_M)
+            row = context.reach.standoffs(ReachQuery(arm, point[None], np.array([approach]), context.standoffs))
             found[number] &= int(row[0, 0])
     return found
 
@@ -117,9 +118,9 @@ def test_ways_that_need_no_driving_are_found_without_a_look_from_further_back(
     fold, end = step.way.trial.fold, step.after.standoff
     standoffs, counts = context.reach.standoffs, set()
 
-    def noting(arm: int, points: FloatArray, approaches: Any, count: int, *rest: Any, **more: Any) -> Any:
-        counts.add(count)
-        return standoffs(arm, points, approaches, count, *rest, **more)
+    def noting(path: ReachQuery, **more: Any) -> Any:
+        counts.add(path.count)
+        return standoffs(path, **more)
 
     monkeypatch.setattr(context.reach, "standoffs", noting)
     few = islice(fold_variants(context, START, fold, end), 3)

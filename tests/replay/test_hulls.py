@@ -5,7 +5,7 @@ import numpy as np
 from planner.geometry.pose import FloatArray
 from planner.geometry.table import Table
 from planner.robots.load_robot import load_robot
-from planner.robots.pr2 import Pr2
+from planner.robots.pr2.robot import Pr2
 from tests.replay.hulls import are_compared, contacts
 from tests.required import required
 

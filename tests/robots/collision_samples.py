@@ -3,7 +3,7 @@
 import numpy as np
 
 from planner.geometry.pose import FloatArray, Pose2
-from planner.robots.arm import MIRROR
+from planner.robots.pr2.arm import MIRROR
 from tests.robots.model import random_joints, the_pr2
 
 ROBOT = the_pr2()

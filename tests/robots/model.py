@@ -5,9 +5,9 @@ import pinocchio as pin
 
 from planner.geometry.pose import FloatArray
 from planner.robots.card import RobotCard
-from planner.robots.description import read_model
 from planner.robots.load_robot import load_robot
-from planner.robots.pr2 import Pr2
+from planner.robots.pr2.description import read_model
+from planner.robots.pr2.robot import Pr2
 
 MODEL = read_model()
 DATA = MODEL.createData()

@@ -11,10 +11,10 @@ from itertools import combinations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from planner.deadline import ENDLESS, Deadline
+from planner.deadline import Deadline
 from planner.geometry.pose import BoolArray, FloatArray, Point3, Pose2
+from planner.geometry.reach_query import ReachQuery
 from planner.geometry.shortfall import Shortfall
 from planner.geometry.table import Table
 from planner.robots.arm_paths import Together, arm_paths, arm_searches
@@ -23,9 +23,9 @@ from planner.robots.collision.clearance import Clearance
 from planner.robots.collision.collisions import Collisions
 from planner.robots.collision.contact import Contact
 from planner.robots.joint_layout import JointLayout
-from planner.robots.mirrored_arm import MirroredArm
-from planner.robots.pr2 import Pr2
-from planner.robots.reach import Pr2Reach
+from planner.robots.pr2.mirrored_arm import MirroredArm
+from planner.robots.pr2.reach import Pr2Reach
+from planner.robots.pr2.robot import Pr2
 from planner.robots.tool_path import IsFree, NoPath, ToolPath
 
 HANDS_APART_M = 0.2
@@ -108,20 +108,12 @@ class RemadeReach(Pr2Reach):
             (float(x), float(y) + arm.aside_m, float(z)) for arm, (x, y, z) in zip(self._arms, found, strict=True)
         )
 
-    def shortfall(
-        self,
-        arm: int,
-        points: FloatArray,
-        approaches: NDArray[np.int64],
-        at_most_m: float = np.inf,
-        deadline: Deadline = ENDLESS,
-    ) -> Shortfall | None:
-        found = super().shortfall(arm, points, approaches, at_most_m, deadline)
-        if found is None:
-            return None
+    def _least_shortfall(self, place: ReachQuery, at_most_m: float, deadline: Deadline) -> tuple[Shortfall, int]:
+        found, queries = super()._least_shortfall(place, at_most_m, deadline)
         x, y, z = found.towards
-        shift = self._arms[arm].aside_m  # the direction was seen as if it were a place
-        return replace(found, towards=(x, y + shift if not self._arms[arm].is_mirrored else y - shift, z))
+        shift = self._arms[place.arm].aside_m  # the direction was seen as if it were a place
+        y += shift if not self._arms[place.arm].is_mirrored else -shift
+        return replace(found, towards=(x, y, z)), queries
 
 
 class RemadeRobot:

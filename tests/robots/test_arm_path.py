@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from planner.geometry.pose import Approach, BoolArray, FloatArray
 from planner.geometry.table import Table
-from planner.robots.arm import MIRROR
+from planner.robots.pr2.arm import MIRROR
 from planner.robots.tool_path import IsFree, NoPath, ToolPath
 from tests.required import required
 from tests.robots.model import limits, pin_tool_pose, the_pr2

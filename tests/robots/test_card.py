@@ -7,8 +7,8 @@ import pytest
 import yourdfpy
 
 from planner.errors import FoldingError, RequestError
-from planner.robots import description
 from planner.robots.load_robot import load_robot
+from planner.robots.pr2 import description
 from tests.required import required
 from tests.robots.model import limits, pin_tool_pose, random_joints
 

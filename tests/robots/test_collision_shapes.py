@@ -12,13 +12,14 @@ from numpy.typing import NDArray
 
 from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import LENGTH_M
-from planner.robots.arm import ArmShape
-from planner.robots.collision.part_poses import EACH, PLACE, pose_arm
-from planner.robots.collision.part_shapes import OPENINGS_M, ROUNDING_MAX_M, part_shapes
-from planner.robots.collision.parts import ARM_PARTS, BODY_PARTS, FINGERS, FINGERTIPS, pairs_in_arm, pairs_with_body
-from planner.robots.collision.pr2_parts import pr2_parts
+from planner.robots.collision.part_poses import PLACE
 from planner.robots.collision.robot_parts import RobotParts
 from planner.robots.collision.rounded_hull import RoundedHull, prism, rounded_hull
+from planner.robots.pr2.arm import ArmShape
+from planner.robots.pr2.arm_poses import EACH, pose_arm
+from planner.robots.pr2.collision_parts import pr2_parts
+from planner.robots.pr2.part_shapes import OPENINGS_M, ROUNDING_MAX_M, part_shapes
+from planner.robots.pr2.parts import ARM_PARTS, BODY_PARTS, FINGERS, FINGERTIPS, pairs_in_arm, pairs_with_body
 from tests.replay import hulls
 from tests.required import required
 from tests.robots.collision_samples import CARD, random_postures

@@ -9,7 +9,7 @@ import pytest
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
 from planner.geometry.tolerance import LENGTH_M
-from planner.robots.arm import MIRROR
+from planner.robots.pr2.arm import MIRROR
 from tests.replay import hulls
 from tests.robots.collision_samples import CARD, FAR, FRONT, HOME, ROBOT, TORSO_M, both, random_postures, with_left
 

@@ -9,8 +9,9 @@ import pytest
 from numpy.typing import NDArray
 
 from planner.geometry.driving import IMPOSSIBLE, Driving
-from planner.robots.approaches import APPROACHES
-from planner.robots.reach import Pr2Reach
+from planner.geometry.reach_query import ReachQuery
+from planner.robots.pr2.approaches import APPROACHES
+from planner.robots.pr2.reach import Pr2Reach
 from tests.robots.model import the_pr2
 
 ROBOT = the_pr2()
@@ -28,6 +29,10 @@ class Case:
     paths: NDArray[np.float64]
     approaches: tuple[NDArray[np.int64], ...]
     begun: NDArray[np.int64]
+
+    @property
+    def hands(self) -> list[ReachQuery]:
+        return [ReachQuery(*hand) for hand in zip(self.arms, self.paths, self.approaches, strict=True)]
 
 
 def cases(seed: int, count: int, arms: tuple[int, ...] | None = None) -> list[Case]:
@@ -55,7 +60,7 @@ def _case(rng: np.random.Generator, given: tuple[int, ...] | None) -> Case:
 
 
 def asked(reach: Pr2Reach, case: Case) -> Driving:
-    return reach.following(case.arms, case.paths, case.approaches, STEP_M).least_driving(case.begun)
+    return reach.following(case.hands).least_driving(case.begun)
 
 
 def comfort(reach: Pr2Reach, case: Case) -> list[NDArray[np.bool_]]:
@@ -64,7 +69,7 @@ def comfort(reach: Pr2Reach, case: Case) -> list[NDArray[np.bool_]]:
     found = []
     for arm, path, allowed in zip(case.arms, case.paths, case.approaches, strict=True):
         places = (path[:, None, :] + back).reshape(-1, 3)
-        found.append(reach.from_anywhere(arm, places, allowed, 1, STEP_M).reshape(len(allowed), len(path), COUNT))
+        found.append(reach.from_anywhere(ReachQuery(arm, places, allowed)).reshape(len(allowed), len(path), COUNT))
     return found
 
 
@@ -102,7 +107,7 @@ def test_the_steps_are_those_of_the_shortest_way_through_all_places_in_comfort(c
     naive, driven = ROBOT.reach(TORSO_M, comfort_m), 0
     for case in cases(1, 60):
         expected = least(naive, case)
-        following = ROBOT.reach(TORSO_M, comfort_m).following(case.arms, case.paths, case.approaches, STEP_M)
+        following = ROBOT.reach(TORSO_M, comfort_m).following(case.hands)
         np.testing.assert_array_equal(following.least_driving(case.begun, wanted="every").steps, expected)
         found = following.least_driving(case.begun)
         np.testing.assert_array_equal(found.steps, unbeaten(expected))
@@ -117,7 +122,7 @@ def test_three_hands_drive_as_far_as_all_three_need() -> None:
     naive, driven = ROBOT.reach(TORSO_M, 0.03), 0
     for case in cases(5, 60, (0, 1, 0)):
         expected = least(naive, case)
-        following = ROBOT.reach(TORSO_M, 0.03).following(case.arms, case.paths, case.approaches, STEP_M)
+        following = ROBOT.reach(TORSO_M, 0.03).following(case.hands)
         np.testing.assert_array_equal(following.least_driving(case.begun, wanted="every").steps, expected)
         driven += expected.min() < IMPOSSIBLE
     assert 5 < driven < 55
@@ -145,7 +150,7 @@ def test_what_takes_too_many_steps_is_left_for_later_and_announced(most: int) ->
     reach = ROBOT.reach(TORSO_M, 0.03)
     for case in cases(3, 60):
         everything = asked(reach, case).steps
-        early = reach.following(case.arms, case.paths, case.approaches, STEP_M).least_driving(case.begun, most)
+        early = reach.following(case.hands).least_driving(case.begun, most)
         np.testing.assert_array_equal(early.steps, np.where(everything <= most, everything, IMPOSSIBLE))
         left = everything[(everything > most) & (everything < IMPOSSIBLE)]
         assert early.more > most
@@ -155,7 +160,7 @@ def test_what_takes_too_many_steps_is_left_for_later_and_announced(most: int) ->
 def test_just_any_end_is_found_exactly_where_there_is_one() -> None:
     reach, found = ROBOT.reach(TORSO_M, 0.03), []
     for case in cases(4, 60):
-        following = reach.following(case.arms, case.paths, case.approaches, STEP_M)
+        following = reach.following(case.hands)
         found.append(bool(following.least_driving(case.begun, wanted="any").ends))
         assert found[-1] == bool(asked(reach, case).ends)
     assert 10 < sum(found) < 50
@@ -169,7 +174,7 @@ def test_the_best_approaches_are_taken_where_the_base_need_not_drive() -> None:
     reach, begun = ROBOT.reach(TORSO_M, 0.0), np.abs(np.arange(COUNT))
     for first in natural:
         allowed = np.array([first, *(other for other in natural if other != first)])
-        found = reach.following((0,), path[None], (allowed,), STEP_M).least_driving(begun)
+        found = reach.following([ReachQuery(0, path, allowed)]).least_driving(begun)
         assert found.ends == [0] and found.steps[0] == 0
         assert found.approaches(0, (allowed,)) == (first,)
 
@@ -181,9 +186,9 @@ def test_what_other_plans_have_asked_is_answered_and_charged_as_if_nobody_had() 
     before = ROBOT.reach(TORSO_M, 0.03)
     for case in (*others, *some):
         asked(before, case)
-    before.forget()
+    before.memory.forget()
     again = ROBOT.reach(TORSO_M, 0.03)
-    assert again.queries == 0
+    assert again.memory.queries == 0
     for case, driving in zip(some, expected, strict=True):
         np.testing.assert_array_equal(asked(again, case).steps, driving.steps)
-    assert again.queries == fresh.queries > 0
+    assert again.memory.queries == fresh.memory.queries > 0

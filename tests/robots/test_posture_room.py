@@ -5,9 +5,10 @@ import math
 import numpy as np
 
 from planner.geometry.pose import Approach, BoolArray
+from planner.geometry.reach_query import ReachQuery
 from planner.geometry.table import Table
-from planner.robots.approaches import APPROACHES
-from planner.robots.place_memory import empty_memory, learn, place_key, slot_of
+from planner.robots.pr2.approaches import APPROACHES
+from planner.robots.pr2.place_memory import empty_memory, learn, place_key, slot_of
 from tests.robots.collision_samples import FAR, HOME
 from tests.robots.model import the_pr2
 
@@ -26,7 +27,7 @@ AHEAD = (0.6, 0.188, 0.9)
 def is_in_reach(place: tuple[float, float, float], arm: int = 0) -> bool:
     """Return whether a tool point is in reach, level, and the body leaves the arm room."""
     reach = ROBOT.reach(TORSO_M, 0.0)
-    return bool(reach.standoffs(arm, np.array([place]), np.array([LEVEL]), 1, 0.05)[0, 0])
+    return bool(reach.standoffs(ReachQuery(arm, np.array([place]), np.array([LEVEL])))[0, 0])
 
 
 def is_within_limits(place: tuple[float, float, float]) -> bool:

@@ -7,12 +7,13 @@ import pytest
 
 from planner.errors import RequestError, SceneError
 from planner.geometry.pose import Approach, FloatArray
-from planner.robots import comfort, comfort_reach
-from planner.robots.approaches import APPROACHES
-from planner.robots.arm import read_arm
+from planner.geometry.reach_query import ReachQuery
+from planner.robots import comfort, comfort_memories
 from planner.robots.comfort_memories import Memories
-from planner.robots.mirrored_arm import MirroredArm
-from planner.robots.reach import Pr2Reach
+from planner.robots.pr2.approaches import APPROACHES
+from planner.robots.pr2.arm import read_arm
+from planner.robots.pr2.mirrored_arm import MirroredArm
+from planner.robots.pr2.reach import Pr2Reach
 from tests.robots.model import MODEL, limits, pin_tool_pose, random_joints, the_pr2
 
 ROBOT = the_pr2()
@@ -87,9 +88,9 @@ def test_rolling_the_tool_about_its_axis_changes_nothing() -> None:
 def test_standoffs_are_what_the_naive_loop_finds(arm: int, comfort_m: float) -> None:
     asked = bodiless(comfort_m)
     for points in _paths(np.random.default_rng(15)):
-        masks = asked.standoffs(arm, points, EVERY_APPROACH, COUNT, STEP_M)
+        masks = asked.standoffs(ReachQuery(arm, points, EVERY_APPROACH, COUNT))
         np.testing.assert_array_equal(masks, _naive_masks(arm, points, comfort_m))
-        again = asked.standoffs(arm, points, EVERY_APPROACH, COUNT, STEP_M)
+        again = asked.standoffs(ReachQuery(arm, points, EVERY_APPROACH, COUNT))
         np.testing.assert_array_equal(masks, again)
 
 
@@ -100,7 +101,7 @@ def test_standoffs_that_matter_are_what_the_naive_loop_finds_among_them(arm: int
         among = rng.integers(1, 1 << COUNT, len(points), dtype=np.uint32) | np.uint32(1 << COUNT // 2)
         for end in range(COUNT):
             asked = bodiless(0.03)
-            masks = asked.standoffs(arm, points, EVERY_APPROACH, COUNT, STEP_M, end=end, among=among)
+            masks = asked.standoffs(ReachQuery(arm, points, EVERY_APPROACH, COUNT), end=end, among=among)
             expected = _naive_masks(arm, points, 0.03, among)
             expected[(expected[:, -1:] >> end & 1 == 0)[:, 0]] = 0
             np.testing.assert_array_equal(masks, expected)
@@ -116,60 +117,60 @@ def test_from_anywhere_is_what_the_naive_loop_finds(arm: int, comfort_m: float) 
     few = 3
     expected = _naive_comfort(arm, points, comfort_m)[:, :, :few].any(axis=2)
     assert expected.any() and not expected.all()
-    np.testing.assert_array_equal(asked.from_anywhere(arm, points, EVERY_APPROACH, few, STEP_M), expected)
-    queries = asked.queries
+    np.testing.assert_array_equal(asked.from_anywhere(ReachQuery(arm, points, EVERY_APPROACH, few)), expected)
+    queries = asked.memory.queries
     assert queries > 0
-    np.testing.assert_array_equal(asked.from_anywhere(arm, points, EVERY_APPROACH, few, STEP_M), expected)
-    assert asked.queries == queries
+    np.testing.assert_array_equal(asked.from_anywhere(ReachQuery(arm, points, EVERY_APPROACH, few)), expected)
+    assert asked.memory.queries == queries
 
 
 def test_from_anywhere_and_standoffs_share_what_they_remember() -> None:
     asked = bodiless(0.03)
     point = np.array([[0.3, 0.1, 0.9]])
-    masks = asked.standoffs(0, point, EVERY_APPROACH, COUNT, STEP_M)
-    queries = asked.queries
-    anywhere = asked.from_anywhere(0, point, EVERY_APPROACH, COUNT, STEP_M)
+    masks = asked.standoffs(ReachQuery(0, point, EVERY_APPROACH, COUNT))
+    queries = asked.memory.queries
+    anywhere = asked.from_anywhere(ReachQuery(0, point, EVERY_APPROACH, COUNT))
     np.testing.assert_array_equal(anywhere, masks != 0)
-    assert asked.queries == queries
+    assert asked.memory.queries == queries
 
 
 def test_what_was_asked_before_is_not_queried_again() -> None:
     asked = bodiless(0.03)
     points = next(_paths(np.random.default_rng(16)))
-    asked.standoffs(0, points, EVERY_APPROACH, COUNT, STEP_M)
-    queries = asked.queries
+    asked.standoffs(ReachQuery(0, points, EVERY_APPROACH, COUNT))
+    queries = asked.memory.queries
     assert queries > 0
-    assert asked.query_time_s > 0.0
-    asked.standoffs(0, points, EVERY_APPROACH, COUNT, STEP_M)
-    assert asked.queries == queries
+    assert asked.memory.query_time_s > 0.0
+    asked.standoffs(ReachQuery(0, points, EVERY_APPROACH, COUNT))
+    assert asked.memory.queries == queries
 
 
 def test_the_right_arm_profits_from_what_the_left_one_was_asked() -> None:
     asked = bodiless(0.03)
     points = next(_paths(np.random.default_rng(17)))
-    left = asked.standoffs(0, points, EVERY_APPROACH, COUNT, STEP_M)
-    queries = asked.queries
+    left = asked.standoffs(ReachQuery(0, points, EVERY_APPROACH, COUNT))
+    queries = asked.memory.queries
     by_direction = {(a.heading_rad, a.pitch_rad): i for i, a in enumerate(APPROACHES)}
     mirrored = np.array([by_direction[-a.heading_rad, a.pitch_rad] for a in APPROACHES])
-    right = asked.standoffs(1, points * np.array([1.0, -1.0, 1.0]), mirrored, COUNT, STEP_M)
+    right = asked.standoffs(ReachQuery(1, points * np.array([1.0, -1.0, 1.0]), mirrored, COUNT))
     np.testing.assert_array_equal(left, right)
-    assert asked.queries == queries
+    assert asked.memory.queries == queries
 
 
 def test_a_plan_answers_from_what_another_has_asked_and_is_charged_as_if_it_were_the_first() -> None:
     memories, paths = Memories(), list(_paths(np.random.default_rng(19)))
     first, fresh = bodiless(0.03, memories), bodiless(0.03)
-    expected = [first.standoffs(0, points, EVERY_APPROACH, COUNT, STEP_M) for points in paths]
-    queries = first.queries
-    first.forget()
-    assert first.queries == queries
+    expected = [first.standoffs(ReachQuery(0, points, EVERY_APPROACH, COUNT)) for points in paths]
+    queries = first.memory.queries
+    first.memory.forget()
+    assert first.memory.queries == queries
     again = bodiless(0.03, memories)
-    assert again.queries == 0
+    assert again.memory.queries == 0
     for points, masks in zip(paths, expected, strict=True):
-        np.testing.assert_array_equal(again.standoffs(0, points, EVERY_APPROACH, COUNT, STEP_M), masks)
-        fresh.standoffs(0, points, EVERY_APPROACH, COUNT, STEP_M)
-    assert again.queries == fresh.queries == queries
-    again.forget()
+        np.testing.assert_array_equal(again.standoffs(ReachQuery(0, points, EVERY_APPROACH, COUNT)), masks)
+        fresh.standoffs(ReachQuery(0, points, EVERY_APPROACH, COUNT))
+    assert again.memory.queries == fresh.memory.queries == queries
+    again.memory.forget()
     left = memories.take()
     assert left.counts[comfort.ROWS] > 0 and not left.bits[:, comfort.KNOWN].any()
     assert left.bits[:, comfort.TESTED].any()
@@ -186,17 +187,17 @@ def test_plans_made_at_once_have_memories_of_their_own() -> None:
 def test_a_full_memory_changes_no_answer(monkeypatch: pytest.MonkeyPatch) -> None:
     usual = bodiless(0.03)
     tiny = comfort.empty_memory(size_bits=2)
-    monkeypatch.setattr(comfort_reach, "empty_memory", lambda: tiny)
+    monkeypatch.setattr(comfort_memories, "empty_memory", lambda: tiny)
     forgetful = bodiless(0.03)
     for points in _paths(np.random.default_rng(18)):
         np.testing.assert_array_equal(
-            forgetful.standoffs(0, points, EVERY_APPROACH, COUNT, STEP_M),
-            usual.standoffs(0, points, EVERY_APPROACH, COUNT, STEP_M),
+            forgetful.standoffs(ReachQuery(0, points, EVERY_APPROACH, COUNT)),
+            usual.standoffs(ReachQuery(0, points, EVERY_APPROACH, COUNT)),
         )
 
 
 def test_no_points_have_no_standoffs() -> None:
-    masks = bodiless(0.0).standoffs(0, np.empty((0, 3)), EVERY_APPROACH, COUNT, STEP_M)
+    masks = bodiless(0.0).standoffs(ReachQuery(0, np.empty((0, 3)), EVERY_APPROACH, COUNT))
     assert masks.shape == (len(APPROACHES), 0)
 
 
@@ -206,7 +207,7 @@ def test_what_cannot_be_asked_is_refused() -> None:
     with pytest.raises(RequestError, match="comfort_radius_m"):
         ROBOT.reach(0.1, -0.01)
     with pytest.raises(ValueError, match="33"):
-        ROBOT.reach(0.1, 0.0).standoffs(0, np.zeros((1, 3)), EVERY_APPROACH, 33, STEP_M)
+        ROBOT.reach(0.1, 0.0).standoffs(ReachQuery(0, np.zeros((1, 3)), EVERY_APPROACH, 33))
 
 
 def test_a_standoff_beyond_a_gap_does_not_count() -> None:
@@ -215,9 +216,9 @@ def test_a_standoff_beyond_a_gap_does_not_count() -> None:
     for points in _paths(np.random.default_rng(19)):
         shifted = points + np.array([0.4, 0.0, 0.0])
         path = np.vstack([points[:1], shifted[-1:]])
-        free = asked.standoffs(0, shifted[-1:], EVERY_APPROACH, COUNT, STEP_M)[:, 0]
-        start = asked.standoffs(0, points[:1], EVERY_APPROACH, COUNT, STEP_M)[:, 0]
-        followed = asked.standoffs(0, path, EVERY_APPROACH, COUNT, STEP_M)
+        free = asked.standoffs(ReachQuery(0, shifted[-1:], EVERY_APPROACH, COUNT))[:, 0]
+        start = asked.standoffs(ReachQuery(0, points[:1], EVERY_APPROACH, COUNT))[:, 0]
+        followed = asked.standoffs(ReachQuery(0, path, EVERY_APPROACH, COUNT))
         for row, first, last in zip(followed, start, free, strict=True):
             expected = _connected(int(first), int(last))
             assert int(row[1]) == expected
@@ -276,14 +277,14 @@ def _random_rotation(rng: np.random.Generator) -> np.ndarray:
 def test_a_plan_that_is_begun_meanwhile_knows_what_has_been_asked_and_is_charged_for_it() -> None:
     memories, paths = Memories(), list(_paths(np.random.default_rng(23)))
     first = bodiless(0.03, memories)
-    known = [first.standoffs(0, points, EVERY_APPROACH, COUNT, STEP_M) for points in paths]
-    first.share()
+    known = [first.standoffs(ReachQuery(0, points, EVERY_APPROACH, COUNT)) for points in paths]
+    first.memory.share()
     left = memories.take()
     tested = left.bits[:, comfort.TESTED].copy()
     assert tested.any() and not left.bits[:, comfort.KNOWN].any()
     memories.leave(left)
     beside = bodiless(0.03, memories)
     for points, masks in zip(paths, known, strict=True):
-        np.testing.assert_array_equal(beside.standoffs(0, points, EVERY_APPROACH, COUNT, STEP_M), masks)
+        np.testing.assert_array_equal(beside.standoffs(ReachQuery(0, points, EVERY_APPROACH, COUNT)), masks)
     np.testing.assert_array_equal(left.bits[:, comfort.TESTED], tested)
-    assert beside.queries == first.queries > 0
+    assert beside.memory.queries == first.memory.queries > 0

@@ -10,11 +10,13 @@ from numba.core import types
 from numba.extending import overload
 
 from planner.geometry.pose import FloatArray
-from planner.robots.arm import ArmShape
 from planner.robots.collision.arm_chains import ArmChains, pose_chain
-from planner.robots.collision.part_poses import pose_arm
+from planner.robots.pr2.arm import ArmShape
+from planner.robots.pr2.arm_poses import pose_either
 
 ArmKinematics: TypeAlias = ArmShape | ArmChains
+
+_POSING: dict[type, Callable[..., None]] = {ArmShape: pose_either, ArmChains: pose_chain}
 
 
 def pose_parts(kinematics: ArmKinematics, lift_m: float, arm: int, joints: FloatArray, poses: FloatArray) -> None:
@@ -35,8 +37,5 @@ def _posing(
     kinematics: types.NamedTuple | types.NamedUniTuple, lift_m: object, arm: object, joints: object, poses: object
 ) -> Callable[..., None] | None:
     """Return what `pose_parts` is compiled to for a kind of kinematics."""
-    if kinematics.instance_class is ArmShape:
-        return lambda kinematics, lift_m, arm, joints, poses: pose_arm(
-            kinematics, lift_m, joints, 1.0 - 2.0 * arm, poses
-        )
-    return lambda kinematics, lift_m, arm, joints, poses: pose_chain(kinematics, lift_m, arm, joints, poses)
+    pose = _POSING[kinematics.instance_class]
+    return lambda kinematics, lift_m, arm, joints, poses: pose(kinematics, lift_m, arm, joints, poses)

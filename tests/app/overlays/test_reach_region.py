@@ -10,7 +10,7 @@ from planner.geometry.pose import BoolArray, FloatArray
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 from planner.robots.load_robot import load_robot
-from planner.robots.pr2 import Pr2
+from planner.robots.pr2.robot import Pr2
 from tests.replay.planned import shipped_plan
 from tests.required import required
 

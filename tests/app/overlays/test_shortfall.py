@@ -10,8 +10,9 @@ import shapely
 from app.overlays.shortfall import Lack, NearReach, near_reach
 from planner import load_garment
 from planner.geometry.pose import FloatArray, Pose2
+from planner.geometry.reach_query import ReachQuery
 from planner.robots.load_robot import load_robot
-from planner.robots.pr2 import Pr2
+from planner.robots.pr2.robot import Pr2
 
 pytestmark = pytest.mark.anyio
 
@@ -24,7 +25,8 @@ FAR_AHEAD, FAR_ASIDE, TOO_HIGH = ((0.95, 0.15, 0.81), 6), ((0.5, 0.95, 0.81), 52
 
 
 def lack(point: tuple[float, float, float], approach: int) -> Lack:
-    found = load_robot("pr2").reach(TORSO_M, COMFORT_M).shortfall(0, np.array([point]), np.array([approach]))
+    place = ReachQuery(0, np.array([[point]]), np.array([approach]))
+    found = load_robot("pr2").reach(TORSO_M, COMFORT_M).shortfall(place)
     assert found is not None and not found.is_at_least
     return Lack(0, point, load_robot("pr2").reach(TORSO_M, COMFORT_M).approaches[approach], found.short_by_m, HERE)
 
@@ -33,7 +35,7 @@ def towards(lacking: Lack) -> FloatArray:
     """Return the direction in which a point would have to be displaced, base frame."""
     reach = load_robot("pr2").reach(TORSO_M, COMFORT_M)
     approach = np.array([reach.approaches.index(lacking.approach)])
-    found = reach.shortfall(lacking.arm, np.array([lacking.seen]), approach)
+    found = reach.shortfall(ReachQuery(lacking.arm, np.array([[lacking.seen]]), approach))
     assert found is not None
     return np.array(found.towards)
 

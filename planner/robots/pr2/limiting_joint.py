@@ -1,9 +1,9 @@
 """The joint that keeps the arm from a tool pose.
 
 Where all limits are kept, an unreachable pose has no solution to examine. So the pan's limits are dropped: along the
-arcs that are then left (see `planner.robots.kernel`) every joint but the elbow may be outside its limits, and its slack
-says by how much. The arm's best try is the pan at which the least of the five slacks is greatest, and the joint with
-that least slack is the limiting one.
+arcs that are then left (see `planner.robots.pr2.kernel`) every joint but the elbow may be outside its limits, and its
+slack says by how much. The arm's best try is the pan at which the least of the five slacks is greatest, and the joint
+with that least slack is the limiting one.
 """
 
 import math
@@ -12,11 +12,11 @@ import numpy as np
 
 from planner.geometry.pose import FloatArray
 from planner.kernels import kernel
-from planner.robots.aim import ToolPose, aim_at, is_within_length
-from planner.robots.arm import ArmShape, sector
-from planner.robots.joint_slack import slack_within
-from planner.robots.kernel import FINEST
-from planner.robots.pan_arcs import MOST_ARCS, pan_arcs, pan_on
+from planner.robots.pr2.aim import ToolPose, aim_at, is_within_length
+from planner.robots.pr2.arm import ArmShape, sector
+from planner.robots.pr2.joint_slack import slack_within
+from planner.robots.pr2.kernel import FINEST
+from planner.robots.pr2.pan_arcs import MOST_ARCS, pan_arcs, pan_on
 
 JOINT_NAMES = ("shoulder pan", "shoulder lift", "upper arm roll", "elbow", "wrist")
 """Names for people of the joints that have limits."""

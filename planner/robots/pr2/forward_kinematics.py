@@ -10,7 +10,7 @@ import numpy as np
 
 from planner.geometry.pose import FloatArray
 from planner.kernels import kernel
-from planner.robots.arm import ArmShape
+from planner.robots.pr2.arm import ArmShape
 
 Vector: TypeAlias = tuple[float, float, float]
 Frame: TypeAlias = tuple[Vector, Vector, Vector]

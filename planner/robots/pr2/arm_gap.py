@@ -17,9 +17,9 @@ import numpy as np
 
 from planner.geometry.pose import FloatArray
 from planner.kernels import kernel
-from planner.robots.aim import ToolPose, aim_at
-from planner.robots.arm import ArmShape
-from planner.robots.joint_slack import slack_within
+from planner.robots.pr2.aim import ToolPose, aim_at
+from planner.robots.pr2.arm import ArmShape
+from planner.robots.pr2.joint_slack import slack_within
 
 
 @kernel

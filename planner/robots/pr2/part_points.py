@@ -14,8 +14,8 @@ import pinocchio as pin
 
 from planner.geometry.pose import FloatArray
 from planner.robots.card import GripperCard
-from planner.robots.collision.parts import ARM_PARTS, BODY_PARTS, FINGERS
-from planner.robots.description import package_directory, urdf_path
+from planner.robots.pr2.description import package_directory, urdf_path
+from planner.robots.pr2.parts import ARM_PARTS, BODY_PARTS, FINGERS
 
 _MIRROR = np.array([1.0, -1.0, 1.0])
 

@@ -1,13 +1,13 @@
 """Tool poses, given by the wrist's position and the approach axis, with cheap tests that rule them out.
 
-Everything is seen from the left arm's shoulder (m), parallel to the base, as in `planner.robots.kernel`.
+Everything is seen from the left arm's shoulder (m), parallel to the base, as in `planner.robots.pr2.kernel`.
 """
 
 import math
 from typing import NamedTuple
 
 from planner.kernels import fast_kernel
-from planner.robots.arm import ArmShape
+from planner.robots.pr2.arm import ArmShape
 
 
 class ToolPose(NamedTuple):

@@ -1,6 +1,6 @@
 """The seven joints for a full pose of the tool, as near as possible to the arm's present joints.
 
-`planner.robots.kernel` shows that some pan reaches the pose; this module chooses one. With pan and branch fixed the
+`planner.robots.pr2.kernel` shows that some pan reaches the pose; this module chooses one. With pan and branch fixed the
 other six joints follow in closed form, so the nearest solution is the minimum of a distance along the closed curves of
 the arcs. The curve is sampled, with the present pan and a known witness among the samples, and the best sample is
 refined by halving steps. Wrist and forearm roll are continuous joints: they are unwound to the turn nearest to their
@@ -16,11 +16,11 @@ import numpy as np
 from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import ANGLE_RAD
 from planner.kernels import kernel
-from planner.robots.aim import ToolPose, aim_at
-from planner.robots.arm import ArmShape, Sector
-from planner.robots.forward_kinematics import BASE_FRAME, Vector, about_x, about_y, about_z
-from planner.robots.kernel import witness
-from planner.robots.pan_arcs import MOST_ARCS, pan_arcs, pan_on
+from planner.robots.pr2.aim import ToolPose, aim_at
+from planner.robots.pr2.arm import ArmShape, Sector
+from planner.robots.pr2.forward_kinematics import BASE_FRAME, Vector, about_x, about_y, about_z
+from planner.robots.pr2.kernel import witness
+from planner.robots.pr2.pan_arcs import MOST_ARCS, pan_arcs, pan_on
 
 SAMPLES = 16
 """Samples for each branch of the elbow along an arc."""

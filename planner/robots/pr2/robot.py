@@ -6,18 +6,18 @@ import numpy as np
 
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.geometry.table import Table
-from planner.robots.arm import read_arm
 from planner.robots.armed_robot import ArmedRobot
 from planner.robots.collision.collisions import Collisions
-from planner.robots.collision.pr2_parts import pr2_parts
 from planner.robots.collision.robot_parts import RobotParts
-from planner.robots.description import read_model
 from planner.robots.edge_grip import HandShape
-from planner.robots.mirrored_arm import MirroredArm
 from planner.robots.openings import OPENING_M
-from planner.robots.posture_room import Room, room_beside
-from planner.robots.pr2_card import pr2_card
-from planner.robots.reach import Pr2Reach
+from planner.robots.pr2.arm import read_arm
+from planner.robots.pr2.card import pr2_card
+from planner.robots.pr2.collision_parts import pr2_parts
+from planner.robots.pr2.description import read_model
+from planner.robots.pr2.mirrored_arm import MirroredArm
+from planner.robots.pr2.posture_room import Room, room_beside
+from planner.robots.pr2.reach import Pr2Reach
 
 
 class Pr2(ArmedRobot):

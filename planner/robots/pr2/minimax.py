@@ -1,7 +1,7 @@
 """The worst of several places that are all to be reached in one approach, in the best approach for it. Compiled.
 
 Approaches are examined in the order of their lower bounds, and of a place no more is searched than what would beat the
-best approach so far. See `planner.robots.nearest_comfort` for the search for one place.
+best approach so far. See `planner.robots.pr2.nearest_comfort` for the search for one place.
 """
 
 import math
@@ -12,10 +12,18 @@ from numpy.typing import NDArray
 
 from planner.geometry.pose import FloatArray
 from planner.kernels import kernel
-from planner.robots.arm import ArmShape
-from planner.robots.arm_gap import comfort_gap
-from planner.robots.nearest_comfort import MANY_QUERIES, ROOM_QUERIES, directions_from, nearest_comfort
-from planner.robots.reach_query import ReachQuery, Scratch, aim_of, aims_gap, meets_query, rooms_tested, scratch_for
+from planner.robots.pr2.arm import ArmShape
+from planner.robots.pr2.arm_gap import comfort_gap
+from planner.robots.pr2.nearest_comfort import MANY_QUERIES, ROOM_QUERIES, directions_from, nearest_comfort
+from planner.robots.pr2.requirements import (
+    Requirements,
+    Scratch,
+    aim_of,
+    aims_gap,
+    meets_query,
+    rooms_tested,
+    scratch_for,
+)
 
 
 class Ranking(NamedTuple):
@@ -50,7 +58,7 @@ class Minimax(NamedTuple):
 
 
 @kernel
-def ranked(shape: ArmShape, query: ReachQuery, places: FloatArray) -> tuple[Ranking, Minimax]:
+def ranked(shape: ArmShape, query: Requirements, places: FloatArray) -> tuple[Ranking, Minimax]:
     """Return the order in which `minimax` examines the approaches, and its result before the first."""
     gaps = np.full((len(query.axes), len(places)), math.inf)
     for approach in range(len(query.axes)):
@@ -66,7 +74,7 @@ def ranked(shape: ArmShape, query: ReachQuery, places: FloatArray) -> tuple[Rank
 @kernel
 def minimax(
     shape: ArmShape,
-    query: ReachQuery,
+    query: Requirements,
     places: FloatArray,
     directions: FloatArray,
     furthest: float,
@@ -96,7 +104,7 @@ def minimax(
             examined = len(ranking.order)
             break
         only = slice(approach, approach + 1)
-        alone = ReachQuery(query.axes[only], query.labels[only], query.comfort, query.room)
+        alone = Requirements(query.axes[only], query.labels[only], query.comfort, query.room)
         worst, worst_place = 0.0, -1
         for place in np.argsort(-ranking.gaps[approach]):
             if not _is_within_margin(shape, alone, places[place], scratch):
@@ -118,7 +126,7 @@ def minimax(
 
 
 @kernel
-def _is_within_margin(shape: ArmShape, query: ReachQuery, points: FloatArray, scratch: Scratch) -> bool:
+def _is_within_margin(shape: ArmShape, query: Requirements, points: FloatArray, scratch: Scratch) -> bool:
     """Return whether a place is within the comfort radius in the first approach, from some place of the base."""
     for point in points:
         aim = aim_of(shape, query, point, 0)

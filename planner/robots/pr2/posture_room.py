@@ -7,7 +7,7 @@ stands still whatever the arms do: the body and its own shoulder. Whether a path
 past the table and the other arm, which may be anywhere, is left to the joint paths. A restricted task may ask for room
 beside the other arm at home, too: there, joint paths are mostly found at once.
 
-As in `planner.robots.kernel` the arm is a left arm, and tool poses are seen from its shoulder.
+As in `planner.robots.pr2.kernel` the arm is a left arm, and tool poses are seen from its shoulder.
 """
 
 import math
@@ -18,15 +18,16 @@ import numpy as np
 
 from planner.geometry.pose import FloatArray
 from planner.kernels import kernel
-from planner.robots.aim import ToolPose
-from planner.robots.arm import ArmShape
-from planner.robots.collision.part_poses import EACH, PLACE, Index, pose_arm, set_middles
+from planner.robots.collision.part_poses import PLACE, Index, set_middles
 from planner.robots.collision.robot_parts import RobotParts, compiled_parts
 from planner.robots.collision.separation import Parts, first_close_pair
-from planner.robots.inverse_kinematics import place_wrist, turn_hand
-from planner.robots.joint_slack import slacks
-from planner.robots.pan_arcs import pan_arcs, pan_on
-from planner.robots.place_memory import PlaceMemory, empty_memory, learn, place_key, slot_of
+from planner.robots.pr2.aim import ToolPose
+from planner.robots.pr2.arm import ArmShape
+from planner.robots.pr2.arm_poses import EACH, pose_arm
+from planner.robots.pr2.inverse_kinematics import place_wrist, turn_hand
+from planner.robots.pr2.joint_slack import slacks
+from planner.robots.pr2.pan_arcs import pan_arcs, pan_on
+from planner.robots.pr2.place_memory import PlaceMemory, empty_memory, learn, place_key, slot_of
 
 SAMPLES = 12
 """Postures at each tool pose for each branch of the elbow, over all arcs."""

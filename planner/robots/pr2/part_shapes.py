@@ -14,12 +14,12 @@ from numpy.typing import NDArray
 from platformdirs import user_cache_path
 
 from planner.robots.card import GripperCard
-from planner.robots.collision.part_points import arm_points, body_points, finger_points, points_of_joints
-from planner.robots.collision.parts import ARM_PARTS, BODY_PARTS, FINGERS, FINGERTIPS
 from planner.robots.collision.rounded_hull import RoundedHull, rounded_hull
 from planner.robots.collision.shape_files import hull_arrays, hull_from, write_arrays
-from planner.robots.description import urdf_path
 from planner.robots.openings import EDGE_OPEN_M, HELD_M
+from planner.robots.pr2.description import urdf_path
+from planner.robots.pr2.part_points import arm_points, body_points, finger_points, points_of_joints
+from planner.robots.pr2.parts import ARM_PARTS, BODY_PARTS, FINGERS, FINGERTIPS
 
 OPENINGS_M = (0.0, HELD_M, EDGE_OPEN_M, 0.03, 0.06, 0.09)
 """Openings of the fingers for which there are shapes (m)."""

@@ -7,15 +7,15 @@ from numpy.typing import NDArray
 
 from planner.geometry.pose import FloatArray
 from planner.kernels import kernel
-from planner.robots.aim import ToolPose, aim_at
-from planner.robots.arm import ArmShape
-from planner.robots.arm_gap import comfort_gap
-from planner.robots.closed_comfort import is_comfortable
-from planner.robots.pan_arcs import MOST_ARCS
-from planner.robots.posture_room import Room, has_room_about
+from planner.robots.pr2.aim import ToolPose, aim_at
+from planner.robots.pr2.arm import ArmShape
+from planner.robots.pr2.arm_gap import comfort_gap
+from planner.robots.pr2.closed_comfort import is_comfortable
+from planner.robots.pr2.pan_arcs import MOST_ARCS
+from planner.robots.pr2.posture_room import Room, has_room_about
 
 
-class ReachQuery(NamedTuple):
+class Requirements(NamedTuple):
     """The requirements on a place.
 
     Attributes:
@@ -50,21 +50,21 @@ def scratch_for(shape: ArmShape) -> Scratch:
 
 
 @kernel
-def aim_of(shape: ArmShape, query: ReachQuery, point: FloatArray, approach: int) -> ToolPose:
+def aim_of(shape: ArmShape, query: Requirements, point: FloatArray, approach: int) -> ToolPose:
     """Return the tool pose that brings the tool to a point in an approach."""
     axis = query.axes[approach]
     return aim_at(shape, point[0], point[1], point[2], axis[0], axis[1], axis[2])
 
 
 @kernel
-def aims_gap(shape: ArmShape, query: ReachQuery, point: FloatArray, approach: int) -> float:
+def aims_gap(shape: ArmShape, query: Requirements, point: FloatArray, approach: int) -> float:
     """Return a lower bound on how far a tool point is from the comfort radius (m), see `comfort_gap`."""
     return comfort_gap(shape, aim_of(shape, query, point, approach), query.comfort)
 
 
 @kernel
 def meets_query(
-    shape: ArmShape, query: ReachQuery, aim: ToolPose, approach: int, comfort: float, scratch: Scratch
+    shape: ArmShape, query: Requirements, aim: ToolPose, approach: int, comfort: float, scratch: Scratch
 ) -> tuple[bool, int]:
     """Return whether a tool pose meets the requirements in its approach, with a comfort radius; queries made."""
     found, queries = is_comfortable(shape, aim, comfort, scratch.arcs, scratch.hint)
@@ -72,6 +72,6 @@ def meets_query(
 
 
 @kernel
-def rooms_tested(query: ReachQuery) -> int:
+def rooms_tested(query: Requirements) -> int:
     """Return the number of cells tested so far for whether the body leaves the arm room."""
     return int(query.room.memory.entries[0])

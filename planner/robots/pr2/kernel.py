@@ -14,19 +14,19 @@ while forearm and wrist roll are continuous and can always be met. The query is 
 joints within their limits.
 
 - The elbow's limits, and |sin roll| <= 1, bound cos(pan - bearing of W) by a linear and a quadratic inequality: the
-  feasible pans are a few *arcs*, found exactly (`planner.robots.pan_arcs`).
+  feasible pans are a few *arcs*, found exactly (`planner.robots.pr2.pan_arcs`).
 - An arc is parametrised by an angle theta from 0 to pi: pan = middle - half cos(theta). The branches usually meet at
   the arc's ends, where |sin roll| is 1, and there pan has a square root's infinite slope; in theta everything is
   smooth, and with theta from -pi to 0 for the second branch the two form a closed curve.
 - *slack* is the least distance from all other limits, taken as the sine of an angle so that it needs no arc functions
-  (`planner.robots.joint_slack`). It is sampled for both branches at once, and climbed from every promising peak among
-  the samples; the answer is yes as soon as it is not negative.
+  (`planner.robots.pr2.joint_slack`). It is sampled for both branches at once, and climbed from every promising peak
+  among the samples; the answer is yes as soon as it is not negative.
 
 A yes is therefore always right: the theta where the climb stopped is a witness. A no may be wrong only where the set of
 good pans is narrower than the climb can find.
 
 Lengths are in m, angles in rad, and everything is in the shoulder's frame: parallel to the base, its origin on the pan
-axis at the height of the lift axis. The arm is a left arm (see `planner.robots.arm`).
+axis at the height of the lift axis. The arm is a left arm (see `planner.robots.pr2.arm`).
 
 The compiled code is cached on disk, file by file, and the cache ignores changes of functions or numbers in *other*
 files: so the arm's numbers are arguments, and after changing a compiled function, delete the caches (``__pycache__``)
@@ -39,10 +39,10 @@ import numpy as np
 
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.kernels import fast_kernel, kernel
-from planner.robots.aim import ToolPose, aim_at
-from planner.robots.arm import ArmShape, Sector
-from planner.robots.joint_slack import slacks
-from planner.robots.pan_arcs import MOST_ARCS, pan_arcs, pan_on
+from planner.robots.pr2.aim import ToolPose, aim_at
+from planner.robots.pr2.arm import ArmShape, Sector
+from planner.robots.pr2.joint_slack import slacks
+from planner.robots.pr2.pan_arcs import MOST_ARCS, pan_arcs, pan_on
 
 SAMPLES = 8
 """Samples for each branch of the elbow along an arc."""
@@ -62,7 +62,7 @@ NEARBY = 0.15
 
 @kernel
 def shape_of(numbers: FloatArray) -> ArmShape:
-    """Return the arm whose lengths and limits are given as one array (see `planner.robots.arm.numbers_of`).
+    """Return the arm whose lengths and limits are given as one array (see `planner.robots.pr2.arm.numbers_of`).
 
     Passing a kernel a tuple of so many numbers costs more than what some kernels do.
     """

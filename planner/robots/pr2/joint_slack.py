@@ -1,14 +1,14 @@
 """The slack at one pan: the distance of the joints from their limits, maximised in closed form.
 
 A slack is the sine of an angle, so that it needs no arc functions: negative outside of the limits, and as smooth as the
-angle itself near them. The formulas are those of `planner.robots.kernel`.
+angle itself near them. The formulas are those of `planner.robots.pr2.kernel`.
 """
 
 import math
 
 from planner.kernels import fast_kernel
-from planner.robots.aim import ToolPose
-from planner.robots.arm import ArmShape, Sector
+from planner.robots.pr2.aim import ToolPose
+from planner.robots.pr2.arm import ArmShape, Sector
 
 
 @fast_kernel

@@ -4,36 +4,30 @@ Everything is seen from the arm's shoulder (m), parallel to the base. The base m
 given as it is seen from each.
 """
 
-import math
-
 import numpy as np
 
 from planner.deadline import Deadline
-from planner.geometry.pose import FloatArray, Point3
+from planner.geometry.pose import FloatArray
 from planner.geometry.shortfall import Cause, Shortfall
-from planner.robots.arm import ArmShape
-from planner.robots.kernel import reachable_batch
-from planner.robots.limiting_joint import limiting_joint
-from planner.robots.nearest_comfort import PIECE_QUERIES, directions_from, is_hindered, nearest_comfort, widest_comfort
-from planner.robots.reach_query import ReachQuery, aims_gap
+from planner.robots.displacements import DIRECTIONS, FURTHEST_M, SIDEWAYS, STRAIGHT, as_point, homewards
+from planner.robots.pr2.arm import ArmShape
+from planner.robots.pr2.kernel import reachable_batch
+from planner.robots.pr2.limiting_joint import limiting_joint
+from planner.robots.pr2.nearest_comfort import (
+    PIECE_QUERIES,
+    directions_from,
+    is_hindered,
+    nearest_comfort,
+    widest_comfort,
+)
+from planner.robots.pr2.requirements import Requirements, aims_gap
 
-FURTHEST_M = 0.8
-"""Largest displacement tried (m)."""
-
-SIDEWAYS = 0.1
-"""Fraction of a displacement below which its change of the distance to the shoulder counts as sideways."""
-
-_STRAIGHT = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (-1.0, 0.0, 0.0), (0.0, -1.0, 0.0))
-_SLANTING = tuple((x * math.sqrt(0.5), y * math.sqrt(0.5), 0.0) for x in (1.0, -1.0) for y in (1.0, -1.0))
-DIRECTIONS = np.array((*_STRAIGHT, *_SLANTING, (0.0, 0.0, -1.0), (0.0, 0.0, 1.0)))
-"""Directions in which a point is displaced: eight horizontal ones, straight down and straight up."""
-
-_RING = np.array(_STRAIGHT)
+_RING = np.array(STRAIGHT)
 """Directions from a point to the four on the comfort circle."""
 
 
 def left_shortfall(
-    shape: ArmShape, query: ReachQuery, points: FloatArray, at_most_m: float, deadline: Deadline
+    shape: ArmShape, query: Requirements, points: FloatArray, at_most_m: float, deadline: Deadline
 ) -> tuple[Shortfall, int]:
     """Return the shortfall of a place that is not within the comfort radius from anywhere, and the queries made.
 
@@ -92,26 +86,14 @@ def _cause(point: FloatArray, wrist: FloatArray, towards: FloatArray, short_by_m
 
 
 def _nearest_by_length(
-    shape: ArmShape, query: ReachQuery, points: FloatArray, searched: float
+    shape: ArmShape, query: Requirements, points: FloatArray, searched: float
 ) -> tuple[int, int, float]:
     """Return from where and how an unreachable place is nearest by length, and a lower bound on its shortfall.
 
-    The bound is the larger of what its wrist is beyond the arm (`planner.robots.arm_gap`) and `searched`, up to which
-    all directions were tried (m).
+    The bound is the larger of what its wrist is beyond the arm (`planner.robots.pr2.arm_gap`) and `searched`, up to
+    which all directions were tried (m).
     """
     approaches = range(len(query.axes))
     gaps = np.array([[aims_gap(shape, query, point, approach) for approach in approaches] for point in points])
     seen_from, approach = np.unravel_index(int(gaps.argmin()), gaps.shape)
     return int(seen_from), int(approach), max(float(gaps.min()), searched)
-
-
-def homewards(point: FloatArray) -> FloatArray:
-    """Return the unit direction to the shoulder; straight ahead from the shoulder itself."""
-    distance = float(np.linalg.norm(point))
-    return -point / distance if distance > 0.0 else DIRECTIONS[0]
-
-
-def as_point(direction: FloatArray) -> Point3:
-    """Return a direction as plain numbers."""
-    x, y, z = (float(component) for component in direction)
-    return x, y, z

@@ -6,11 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from planner.geometry.pose import BoolArray, FloatArray
-from planner.robots.arm import MIRROR, ArmShape
-from planner.robots.closed_form_samples import filled, solutions
-from planner.robots.forward_kinematics import tool_places, tool_pose
-from planner.robots.inverse_kinematics import nearest_joints
-from planner.robots.kernel import reachable_batch
+from planner.robots.pr2.arm import MIRROR, ArmShape
+from planner.robots.pr2.closed_form_samples import filled, solutions
+from planner.robots.pr2.forward_kinematics import tool_places, tool_pose
+from planner.robots.pr2.inverse_kinematics import nearest_joints
+from planner.robots.pr2.kernel import reachable_batch
 
 _MIRRORED_PLACE = np.array([1.0, -1.0, 1.0])
 _MIRRORED_ROTATION = np.outer(_MIRRORED_PLACE, _MIRRORED_PLACE)

@@ -4,7 +4,7 @@ The places within the comfort radius of an approach form no simple region: limit
 leap over those and would then call a far place the nearest. So the search goes outwards in thin shells, along all
 directions and approaches and from all places of the base at once, and ends in the first shell that has a place within
 the comfort radius. Only there is each find refined by bisection, and a line is skipped if it is not within the radius
-where it would beat the best so far. A lower bound (`planner.robots.arm_gap`) makes this cheap: shells within it are
+where it would beat the best so far. A lower bound (`planner.robots.pr2.arm_gap`) makes this cheap: shells within it are
 skipped, line by line, and so are cells in which the body is known to leave the arm no room.
 
 From dozens of places of the base, in dozens of approaches, a search can take half a second. So it is handed out in
@@ -20,12 +20,20 @@ import numpy as np
 
 from planner.geometry.pose import FloatArray
 from planner.kernels import kernel
-from planner.robots.aim import ToolPose, aim_at
-from planner.robots.arm import ArmShape
-from planner.robots.arm_gap import comfort_gap
-from planner.robots.closed_comfort import is_comfortable
-from planner.robots.posture_room import blocked_for
-from planner.robots.reach_query import ReachQuery, Scratch, aim_of, aims_gap, meets_query, rooms_tested, scratch_for
+from planner.robots.pr2.aim import ToolPose, aim_at
+from planner.robots.pr2.arm import ArmShape
+from planner.robots.pr2.arm_gap import comfort_gap
+from planner.robots.pr2.closed_comfort import is_comfortable
+from planner.robots.pr2.posture_room import blocked_for
+from planner.robots.pr2.requirements import (
+    Requirements,
+    Scratch,
+    aim_of,
+    aims_gap,
+    meets_query,
+    rooms_tested,
+    scratch_for,
+)
 
 SHELL_M, WIDENING = 0.002, 0.03
 """Thickness of a shell (m), or as a fraction of its distance where that is more."""
@@ -65,7 +73,9 @@ def _aim_along(shape: ArmShape, axis: FloatArray, point: FloatArray, far: float,
 
 
 @kernel
-def directions_from(shape: ArmShape, query: ReachQuery, points: FloatArray, directions: FloatArray) -> DirectionSearch:
+def directions_from(
+    shape: ArmShape, query: Requirements, points: FloatArray, directions: FloatArray
+) -> DirectionSearch:
     """Return the lines of a search that has not begun; see `nearest_comfort` for the arguments."""
     hopeless = np.empty((len(points), len(query.axes), len(directions)))
     for place in range(len(points)):
@@ -77,7 +87,7 @@ def directions_from(shape: ArmShape, query: ReachQuery, points: FloatArray, dire
 @kernel
 def nearest_comfort(
     shape: ArmShape,
-    query: ReachQuery,
+    query: Requirements,
     points: FloatArray,
     directions: FloatArray,
     furthest: float,
@@ -138,7 +148,7 @@ def nearest_comfort(
 @kernel
 def _nearest_on(
     shape: ArmShape,
-    query: ReachQuery,
+    query: Requirements,
     approach: int,
     start: FloatArray,
     towards: FloatArray,
@@ -158,7 +168,7 @@ def _nearest_on(
 
 
 @kernel
-def widest_comfort(shape: ArmShape, query: ReachQuery, points: FloatArray) -> tuple[float, int, int, int]:
+def widest_comfort(shape: ArmShape, query: Requirements, points: FloatArray) -> tuple[float, int, int, int]:
     """Return the largest circle round a point on which the tool is still within reach.
 
     The point itself is not within the comfort radius wanted.
@@ -196,7 +206,7 @@ def widest_comfort(shape: ArmShape, query: ReachQuery, points: FloatArray) -> tu
 
 
 @kernel
-def is_hindered(shape: ArmShape, query: ReachQuery, points: FloatArray) -> bool:
+def is_hindered(shape: ArmShape, query: Requirements, points: FloatArray) -> bool:
     """Return whether only the body prevents a place that the joints put within the comfort radius."""
     scratch = scratch_for(shape)
     for point in points:

@@ -7,8 +7,8 @@ import pinocchio as pin
 from planner.robots.card import RobotCard
 from planner.robots.described_card import card_on
 from planner.robots.described_robot import lift_limits
-from planner.robots.description import package_directory, urdf_path
 from planner.robots.known_robots import read_card, shipped_path
+from planner.robots.pr2.description import package_directory, urdf_path
 
 
 def pr2_card(model: pin.Model) -> RobotCard:

@@ -2,15 +2,15 @@
 
 With c = cos(pan - bearing of the wrist) the elbow's limits are linear in c, and |sin roll| <= 1 is quadratic: together
 they leave c one or two intervals, and pan, within its own limits, a few arcs. The limits of the other joints are tested
-along an arc (see `planner.robots.kernel`, also for why an angle parametrises it).
+along an arc (see `planner.robots.pr2.kernel`, also for why an angle parametrises it).
 """
 
 import math
 
 from planner.geometry.pose import FloatArray
 from planner.kernels import fast_kernel
-from planner.robots.aim import ToolPose
-from planner.robots.arm import ArmShape, Sector
+from planner.robots.pr2.aim import ToolPose
+from planner.robots.pr2.arm import ArmShape, Sector
 
 MOST_ARCS = 8
 """Room for arcs in an array; further arcs are left out."""

@@ -6,11 +6,13 @@ import numpy as np
 import pinocchio as pin
 
 from planner.geometry.pose import FloatArray
-from planner.robots.arm import MIRROR, read_arm
 from planner.robots.card import RobotCard
-from planner.robots.collision.part_poses import EACH, Index
-from planner.robots.collision.part_shapes import OPENINGS_M, finger_key, part_shapes
-from planner.robots.collision.parts import (
+from planner.robots.collision.part_poses import Index
+from planner.robots.collision.robot_parts import RobotParts
+from planner.robots.pr2.arm import MIRROR, read_arm
+from planner.robots.pr2.arm_poses import EACH
+from planner.robots.pr2.part_shapes import OPENINGS_M, finger_key, part_shapes
+from planner.robots.pr2.parts import (
     ARM_PARTS,
     BODY_PARTS,
     ELBOW,
@@ -20,7 +22,6 @@ from planner.robots.collision.parts import (
     pairs_in_arm,
     pairs_with_body,
 )
-from planner.robots.collision.robot_parts import RobotParts
 
 
 def pr2_parts(model: pin.Model, card: RobotCard, cache: Path | None = None) -> RobotParts:

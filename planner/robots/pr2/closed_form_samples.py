@@ -1,6 +1,6 @@
 """Samples of the closed form for joint paths, and the joints that follow a tool between them.
 
-At every pose of a tool path the arm has a family of solutions (see `planner.robots.kernel`): closed curves over the
+At every pose of a tool path the arm has a family of solutions (see `planner.robots.pr2.kernel`): closed curves over the
 arcs of pans. As in the kernel the arm is a left arm and poses are in its shoulder's frame (m, rad).
 """
 
@@ -10,13 +10,13 @@ import numpy as np
 
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.kernels import kernel
-from planner.robots.aim import aim_at
-from planner.robots.arm import ArmShape
-from planner.robots.inverse_kinematics import nearby_joints, place_wrist, turn_hand
 from planner.robots.joint_chain import ELBOW_CLEAR_M, ELBOW_COST, LIMIT_COST, NEAR_LIMIT
-from planner.robots.joint_slack import slacks
-from planner.robots.kernel import witness
-from planner.robots.pan_arcs import MOST_ARCS, pan_arcs, pan_on
+from planner.robots.pr2.aim import aim_at
+from planner.robots.pr2.arm import ArmShape
+from planner.robots.pr2.inverse_kinematics import nearby_joints, place_wrist, turn_hand
+from planner.robots.pr2.joint_slack import slacks
+from planner.robots.pr2.kernel import witness
+from planner.robots.pr2.pan_arcs import MOST_ARCS, pan_arcs, pan_on
 
 SAMPLES = 24
 """Samples at each pose for each branch of the elbow, over all arcs."""

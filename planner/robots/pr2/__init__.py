@@ -1,0 +1,1 @@
+"""The PR2: its card, and its arms in closed form."""
