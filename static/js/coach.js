@@ -34,7 +34,7 @@ const MARKS = [
     text: say("coach.fold"),
     at: '[data-tool="fold"]',
     side: "beside",
-    isDue: ({ drawing }) => drawing.outline.length > 0 && !drawing.folds.length,
+    isDue: ({ drawing, tool, tools }) => drawing.outline.length > 0 && !drawing.folds.length && tool !== tools.propose,
   },
   {
     name: "play",
@@ -78,7 +78,7 @@ export function mountCoach(board) {
     if (due && seen(due)) begin(due);
     if (shown) place(root, shown);
   };
-  for (const name of ["document", "plan", "playback", "begun"]) board.store.addEventListener(name, look);
+  for (const name of ["document", "plan", "playback", "begun", "propose"]) board.store.addEventListener(name, look);
   addEventListener("resize", look);
 }
 

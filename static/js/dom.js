@@ -36,5 +36,16 @@ export function button(className, onClick, ...children) {
   return made;
 }
 
+/** Let the arrow keys lead from button to button of a group. @param {HTMLElement} group @param {KeyboardEvent} event */
+export function arrowsLead(group, event) {
+  const by = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
+  const buttons = [...group.querySelectorAll("button")];
+  const index = buttons.indexOf(/** @type {HTMLButtonElement} */ (document.activeElement));
+  if (!by || index < 0) return;
+  event.preventDefault();
+  event.stopPropagation();
+  buttons[(index + by + buttons.length) % buttons.length].focus();
+}
+
 /** Return what an error says. @param {unknown} error */
 export const sayable = (error) => (error instanceof Error ? error.message : String(error));

@@ -22,6 +22,7 @@ import { mountSplitter } from "./splitter.js";
 import { mountView3DPlay } from "./view3d.js";
 import { mountView3D } from "./view3d.js";
 import { Rehearsal } from "./rehearsal/rehearsal.js";
+import { Proposing } from "./proposals/proposing.js";
 import { Repair } from "./repair/repair.js";
 import { tellEffort } from "./settings/effort.js";
 import { StepPictures } from "./step_pictures.js";
@@ -49,6 +50,7 @@ const board = mountBoard(store, { togglePlay, startNew: dialogs.startNew, startI
 const repair = new Repair(store, byId("board"));
 board.cover(repair);
 board.play(pictures);
+if (!isViewOnly) board.proposing = new Proposing(store, board);
 mountCoach(board);
 const verbs = {
   undo: () => board.takeBack() || store.undo(),

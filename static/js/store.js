@@ -4,21 +4,24 @@
  *
  * Events: "document", "plan", "playback", "connection", "selection", "step", "overlays", "pending", "hover-time",
  * "preview", "begun", "held" (changes wait for a server, or do no more), "refused" (detail: a sentence), "gone", "opened"
- * (another garment, by this page; detail: the drawing that it has replaced).
+ * (another garment, by this page; detail: the drawing that it has replaced), "propose" (ways to fold it are asked for).
  */
 
 import { EditQueue } from "./edit_queue.js";
 import { Live } from "./live.js";
 import { tellArms } from "./messages/arms.js";
 
-/** @import { Command, DocumentState, Drawing, Garment, PlanChange, PlanMessage, Playback } from "pleat" */
+/** @import { Command, DocumentState, Drawing, Garment, Layer, PlanChange, PlanMessage, Playback } from "pleat" */
 /** @import { Change } from "./edit_queue.js" */
 
 /**
  * @typedef {{kind: "vertex"|"edge"|"fold"|"garment", ids: string[]}} Selection
  * An edge is named by the vertex that it starts at.
  */
-/** @typedef {PlanChange & {drawing?: Drawing, version?: number}} Preview what a suggestion or a quick fix would change */
+/**
+ * What a suggestion, a quick fix or a proposal would change; with the layers of the cloth as it would lie.
+ * @typedef {PlanChange & {drawing?: Drawing, version?: number, layers?: Pick<Layer, "polygon"|"face">[]}} Preview
+ */
 
 export class Store extends EventTarget {
   /** @param {string} id the document's */

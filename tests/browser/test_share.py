@@ -24,6 +24,7 @@ def test_the_page_of_a_link_plays_and_has_nothing_that_changes_the_document(page
     expect(page.get_by_text("View only")).to_be_visible()
     for name in ("Undo", "Redo", "Rename", "Share", "New", "Import"):
         expect(page.get_by_role("button", name=name, exact=True)).to_have_count(0)
+    expect(page.get_by_role("button", name="Fold it for me")).to_have_count(0)
     expect(page.locator("#rail")).to_have_count(0)
     expect(page.locator(".hint-line")).to_be_empty()
     expect(page.get_by_role("button", name="Export", exact=True)).to_be_visible()

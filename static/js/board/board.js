@@ -26,6 +26,7 @@ import { MeasureTool } from "./tools/measure.js";
 import { OutlineTool } from "./tools/outline.js";
 import { PhotoTool } from "./tools/photo.js";
 import { PlaceTool } from "./tools/place.js";
+import { ProposeTool } from "./tools/propose.js";
 import { SelectTool } from "./tools/select.js";
 import { TypedLength } from "./typed.js";
 import { length } from "./units.js";
@@ -59,6 +60,8 @@ export class Board extends Shown {
     this.rail = null;
     /** @type {Blank|null} */
     this.blank = null;
+    /** @type {import("../proposals/proposing.js").Proposing|null} */
+    this.proposing = null;
     /** @type {number|undefined} the frame that is to be drawn */
     this.frame = undefined;
     /** @type {{height: number}|null} what lies over the board's upper edge */
@@ -93,6 +96,7 @@ export class Board extends Shown {
       place: new PlaceTool(this),
       measure: new MeasureTool(this),
       photo: new PhotoTool(this),
+      propose: new ProposeTool(this),
     };
     /** @type {Tool} */
     this.tool = this.tools.select;

@@ -40,7 +40,7 @@ const UNCLOSED = say("hint.unclosed");
 export function drawAll(board) {
   if (!board.state) return;
   const { sheets, view, tool, svg } = board;
-  const { outline } = board.tools;
+  const { outline, propose } = board.tools;
   view.lay(board.isPlacing ? board.drawing.placement : null);
   sheets.grid.draw(drawGrid(board));
   sheets.photo.draw(board.isPlacing ? [] : board.photo.items(view));
@@ -49,7 +49,7 @@ export function drawAll(board) {
   sheets.cloth.draw(drawCloth(board));
   sheets.over.draw(board.overlays.over());
   sheets.ghost.draw(drawGhost(board));
-  sheets.folds.draw(board.isPlaying ? [] : drawFolds(board));
+  sheets.folds.draw(board.isPlaying || board.previewed ? [] : drawFolds(board));
   const findings = [
     ...drawRobot(board),
     ...drawTableEdge(board, "table-line"),
@@ -61,7 +61,7 @@ export function drawAll(board) {
   ];
   sheets.findings.draw(wordsApart(findings, view.height));
   sheets.preview.draw([...drawAxis(board), ...drawPreview(board), ...drawQuickFix(board)]);
-  sheets.handles.draw(board.isPlaying ? [] : drawHandles(board));
+  sheets.handles.draw(board.isPlaying || tool === propose ? [] : drawHandles(board));
   sheets.tool.draw([...tool.items(), ...(tool === outline ? [] : outline.items())]);
   sheets.cursor.draw([...drawCursor(board), ...board.keyboard.items()]);
   const [x, y] = view.toPx([0, 0]);
@@ -78,6 +78,7 @@ export function drawAll(board) {
   board.strip.draw();
   board.rail?.draw();
   board.blank?.draw();
+  board.proposing?.draw();
   board.callout.draw();
   board.numbers.draw();
   board.legend.draw();

@@ -10,7 +10,8 @@ import { path } from "./sheet.js";
 
 /** @param {Board} board @returns {Items} */
 export function drawCloth(board) {
-  const { played } = board;
+  const { played, previewed } = board;
+  if (previewed) return [drawn(board), ...layers(board.view, previewed)];
   if (board.isPlaying && played) return layers(board.view, played.layers);
   if (board.isStoppedMidway && played) return [drawn(board), ...layers(board.view, played.layers)];
   return board.isSpread ? spread(board) : stacked(board);

@@ -14,7 +14,8 @@ const MARK_AT = 0.42;
 
 /** @param {Board} board @returns {Items} */
 export function drawFolds(board) {
-  const { drawing, view, step, isPlacing } = board;
+  const { drawing, view, step, isPlacing, tool, tools } = board;
+  const isFaint = isPlacing || tool === tools.propose;
   const states = statesNow(board);
   return drawing.folds.flatMap((fold, index) => {
     if (index < step && !isPlacing) return [];
@@ -23,7 +24,7 @@ export function drawFolds(board) {
     const isSelected = board.isSelected("fold", fold.id);
     const isLater = (step > 0 && index > step) || states[index] === "done";
     const isNow = states[index] === "current";
-    const state = `${isSelected ? " is-selected" : ""}${isNow ? " is-now" : ""}${isLater || isPlacing ? " is-later" : ""}`;
+    const state = `${isSelected ? " is-selected" : ""}${isNow ? " is-now" : ""}${isLater || isFaint ? " is-later" : ""}`;
     return foldItems({ key: fold.id, kind: fold.kind, ends, state, number: index + 1 });
   });
 }

@@ -41,6 +41,7 @@ export function boardKeys(board) {
     p: () => board.choose("outline"),
     f: () => board.choose("fold"),
     m: () => board.choose("place"),
+    a: () => board.store.tell("propose"),
     t: () => board.choose("measure"),
     i: () => board.choose("photo"),
     s: () => board.store.isLost || board.mirroring.mirror(),

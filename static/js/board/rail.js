@@ -6,7 +6,7 @@ import { say } from "../language/say.js";
 
 /** @import { ToolName } from "./tools/tool.js" */
 
-/** Name, label, key. @type {[ToolName, string, string][]} */
+/** Name, label, key. @type {[Exclude<ToolName, "propose">, string, string][]} */
 const TOOLS = [
   ["select", say("tool.select"), "V"],
   ["outline", say("tool.outline"), "P"],

@@ -70,6 +70,11 @@ export class Shown {
     return index === null ? null : (this.pictures?.all[index] ?? null);
   }
 
+  /** The layers of the cloth as a proposal that is pointed at folds it; null while none is. */
+  get previewed() {
+    return this.store.preview?.layers ?? null;
+  }
+
   /** Whether time runs: the board shows the film, and nothing to edit. */
   get isPlaying() {
     return this.played !== null && Boolean(this.store.playback?.playing) && !this.isPlacing;

@@ -38,6 +38,7 @@ const SECTIONS = [
       ["P", say("tool.outline")],
       ["F", say("tool.fold")],
       ["M", say("help.place_on_table")],
+      ["A", say("proposal.do")],
       ["T", say("tool.measure")],
       ["I", say("help.photo")],
       ["S", say("rail.mirror")],

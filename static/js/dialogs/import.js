@@ -120,8 +120,9 @@ const asked = (store, body, file, how, why) => ({
 function found(store, body, file, how, { format, garment, notes, says, creases, sizes, seen, allowance, graded }) {
   const said = element("p", "dialog-problem");
   const arcs = DRAWINGS.has(format);
-  const here = button("main-button", () => open(store, body, file, garment, arcs), say("import.open_here"));
-  const anew = button("plain-button", () => create(garment, arcs, said), say("import.open_new"));
+  const proposes = Boolean(seen) && !garment.folds.length; // of a photo the folds are what is missing
+  const here = button("main-button", () => open(store, body, file, garment, arcs, proposes), say("import.open_here"));
+  const anew = button("plain-button", () => create(garment, arcs, said, proposes), say("import.open_new"));
   /** @param {Sizes} known */
   const other = (known) =>
     askSize(asked(store, body, file, how, say("import.garment_is", { size: sizeOf(garment) })), known);
@@ -157,15 +158,24 @@ function replaces({ state }) {
   return [element("p", "dialog-text", say("import.replaces", { title: titleOf({ title, name }) }))];
 }
 
-/** @param {Store} store @param {HTMLElement} body @param {File} file @param {Garment} garment @param {boolean} arcs */
-async function open(store, body, file, garment, arcs) {
+/**
+ * @param {Store} store
+ * @param {HTMLElement} body
+ * @param {File} file
+ * @param {Garment} garment
+ * @param {boolean} arcs
+ * @param {boolean} proposes whether ways to fold it are shown at once
+ */
+async function open(store, body, file, garment, arcs, proposes) {
   const state = await store.open(garment, inEnglish("step.import", { name: file.name }), arcs);
-  if (state) body.closest("dialog")?.close();
+  if (!state) return;
+  body.closest("dialog")?.close();
+  if (proposes) store.tell("propose");
 }
 
-/** @param {Garment} garment @param {boolean} arcs @param {HTMLElement} said */
-async function create(garment, arcs, said) {
-  const answer = await goToNew({ garment, arcs }).catch(() => null);
+/** @param {Garment} garment @param {boolean} arcs @param {HTMLElement} said @param {boolean} proposes */
+async function create(garment, arcs, said, proposes) {
+  const answer = await goToNew({ garment, arcs }, proposes ? "propose" : "").catch(() => null);
   if (!answer) said.textContent = OFFLINE;
   else if (answer.status !== 201) said.textContent = sentenceOf(await answer.json());
 }

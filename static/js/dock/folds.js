@@ -1,8 +1,9 @@
 /** The column of the folds: the list `Folds`, or the same as a graph. */
 
 import { isWide } from "../assumptions.js";
-import { element } from "../dom.js";
+import { button, element } from "../dom.js";
 import { inEnglish, say } from "../language/say.js";
+import { isViewOnly } from "../view_only.js";
 import { toggle } from "./buttons.js";
 import { Dag } from "./dag.js";
 import * as edits from "./fold_edits.js";
@@ -36,7 +37,9 @@ export class Folds {
     this.empty = element("p", "hint", say("folds.none_yet"));
     this.dag = new Dag((id) => this.select(id));
     this.switch = toggle(say("dag.title"), (isOn) => this.showGraph(isOn));
-    const head = element("header", "dock-head", element("h2", "", say("folds.title")), this.switch);
+    this.propose = button("chip", () => store.tell("propose"), say("proposal.do"));
+    this.propose.title = say("proposal.hint");
+    const head = element("header", "dock-head", element("h2", "", say("folds.title")), this.propose, this.switch);
     this.root = element("section", "dock-folds", head, this.list, this.empty, this.dag.root);
     this.list.addEventListener("keydown", (event) => this.onKey(event));
     this.list.addEventListener("focusin", (event) => this.stopAt(rowOf(event)));
@@ -79,6 +82,7 @@ export class Folds {
       });
     });
     this.place(folds.map((fold) => /** @type {FoldRow} */ (this.rows.get(fold.id)).root));
+    this.propose.hidden = isViewOnly || !folds.length; // without any, the board offers it
     this.showGraph(!this.dag.root.hidden);
     this.dag.show(folds, this.plan);
     this.showSelection();

@@ -1,7 +1,7 @@
 /** A search for what would help: asks the server, and gathers its answers as they come. */
 
 import { sayable } from "../dom.js";
-import { say } from "../language/say.js";
+import { eventStream, rest } from "../event_stream.js";
 
 /** @import { Preview } from "../store.js" */
 /** @import { DocumentState, GarmentFold, Pose, Says, SuggestionEvent, TryingEvent } from "pleat" */
@@ -92,20 +92,9 @@ export class SuggestionSearch extends EventTarget {
 }
 
 /** @param {DocumentState} state */
-function request({ garment, drawing }) {
+export function request({ garment, drawing }) {
   const { robot, placement, scene, start_station, comfort_radius_m } = drawing;
   return { garment, robot, placement, scene, start_station, comfort_radius_m };
-}
-
-/** @param {number} delay_ms @param {AbortSignal} signal @returns {Promise<void>} */
-function rest(delay_ms, signal) {
-  return new Promise((resolve, reject) => {
-    const timer = setTimeout(resolve, delay_ms);
-    signal.addEventListener("abort", () => {
-      clearTimeout(timer);
-      reject(signal.reason);
-    });
-  });
 }
 
 /** Nearer than this two changes are one, unless the larger one's plan is cheaper by so much (m, s). */
@@ -170,48 +159,3 @@ const ends = (folds = []) => folds.flatMap(({ start, end }) => [...start, ...end
 /** @param {number[]} one @param {number[]} other */
 const isNear = (one, other) =>
   one.length === other.length && one.every((value, index) => Math.abs(value - other[index]) <= SAME_M);
-
-/**
- * Server-sent events as the answer to a POST.
- * @param {string} url
- * @param {any} sent as JSON
- * @param {AbortSignal} signal
- * @returns {AsyncGenerator<{event: string, data: any}>}
- */
-async function* eventStream(url, sent, signal) {
-  const headers = { "content-type": "application/json", accept: "text/event-stream" };
-  const answer = await fetch(url, { method: "POST", headers, body: JSON.stringify(sent), signal });
-  if (!answer.ok || !answer.body)
-    throw new Error((await problemOf(answer)) ?? say("server.answered", { status: answer.status }));
-  const reader = answer.body.pipeThrough(new TextDecoderStream()).getReader();
-  let kept = "";
-  for (let part = await reader.read(); !part.done; part = await reader.read()) {
-    const blocks = (kept + part.value).replaceAll("\r\n", "\n").split("\n\n");
-    kept = blocks.pop() ?? "";
-    for (const block of blocks) {
-      const event = eventIn(block);
-      if (event) yield event;
-    }
-  }
-}
-
-/** @param {string} block lines of one event; comments are passed over */
-function eventIn(block) {
-  let event = "message";
-  /** @type {string[]} */
-  const data = [];
-  for (const line of block.split("\n")) {
-    if (line.startsWith("event:")) event = line.slice(6).trim();
-    if (line.startsWith("data:")) data.push(line.slice(5).trim());
-  }
-  return data.length ? { event, data: JSON.parse(data.join("\n")) } : null;
-}
-
-/** @param {Response} answer @returns {Promise<string|undefined>} */
-async function problemOf(answer) {
-  try {
-    return (await answer.json()).detail;
-  } catch {
-    return undefined;
-  }
-}

@@ -5,7 +5,7 @@ import { picture } from "../dialogs/picture.js";
 import { offer, suggestionWords } from "../dock/suggestion_button.js";
 import { ranked } from "../dock/suggestion_search.js";
 import { seconds } from "../dock/words.js";
-import { button, element } from "../dom.js";
+import { arrowsLead, button, element } from "../dom.js";
 import { say } from "../language/say.js";
 import { HELP } from "../messages/changes.js";
 import { foldedPicture } from "./folded_picture.js";
@@ -25,7 +25,7 @@ export class Cards {
     this.root = element("div", "cards");
     this.root.setAttribute("role", "group");
     this.root.setAttribute("aria-label", say("repair.suggestions"));
-    this.root.addEventListener("keydown", (event) => this.step(event));
+    this.root.addEventListener("keydown", (event) => arrowsLead(this.root, event));
     this.more = button("chip more-cards", () => this.showAll(!this.isAll));
     this.more.hidden = true;
     this.isAll = false;
@@ -101,17 +101,6 @@ export class Cards {
   showAll(isAll) {
     this.isAll = isAll;
     this.draw();
-  }
-
-  /** Arrow keys lead from card to card. @param {KeyboardEvent} event */
-  step(event) {
-    const by = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
-    const cards = [...this.root.querySelectorAll("button")];
-    const index = cards.indexOf(/** @type {HTMLButtonElement} */ (document.activeElement));
-    if (!by || index < 0) return;
-    event.preventDefault();
-    event.stopPropagation();
-    cards[(index + by + cards.length) % cards.length].focus();
   }
 }
 

@@ -4,7 +4,7 @@
 /** @import { Pointer } from "../pointer.js" */
 /** @import { Items } from "../sheet.js" */
 
-/** @typedef {"select"|"outline"|"fold"|"place"|"measure"|"photo"} ToolName */
+/** @typedef {"select"|"outline"|"fold"|"place"|"measure"|"photo"|"propose"} ToolName */
 
 export class Tool {
   /** @param {import("../board.js").Board} board @param {ToolName} name @param {string} cursor */

@@ -1,0 +1,106 @@
+/** A search for ways to fold a garment to a size: a job that lasts as long as somebody waits for it. */
+
+import { fetched } from "../dialogs/documents.js";
+import { capital } from "../dock/words.js";
+import { sayable } from "../dom.js";
+import { eventStream, rest } from "../event_stream.js";
+
+/** @import { Garment, GarmentFold, Job } from "pleat" */
+
+/**
+ * A way to fold the garment; see `POST /api/proposals`.
+ * @typedef {object} Proposal
+ * @property {GarmentFold[]} folds
+ * @property {Garment} garment with these folds
+ * @property {[number, number]} size_m along the board's axes
+ * @property {number} layers
+ * @property {string} status of its plan
+ * @property {number|null} cost_s
+ */
+/** @typedef {object} Asked the body of the request, as JSON */
+
+export class ProposalSearch extends EventTarget {
+  constructor() {
+    super();
+    /** @type {Proposal[]} in the order of arrival */
+    this.found = [];
+    this.isRunning = false;
+    /** Whether it has come to its end. */
+    this.isDone = false;
+    /** The share that is done. */
+    this.progress = 0;
+    this.fault = "";
+    /** @type {AbortController|null} of the search that is running */
+    this.abort = null;
+    addEventListener("pagehide", () => this.stop());
+  }
+
+  /**
+   * Search in place of what was searched for before. Tells "change" whenever there is news.
+   * @param {Asked} asked
+   * @param {number} delay_ms how long to wait first
+   */
+  async start(asked, delay_ms) {
+    this.forget();
+    const { signal } = (this.abort = new AbortController());
+    this.isRunning = true;
+    this.tell();
+    try {
+      await rest(delay_ms, signal);
+      await this.follow(await begun(asked, signal), signal);
+    } catch (error) {
+      if (!signal.aborted) this.fault = sayable(error);
+    }
+    if (signal.aborted) return; // another search may be running by now
+    this.abort = null;
+    this.isRunning = false;
+    this.tell();
+  }
+
+  /** @param {string} path of the job @param {AbortSignal} signal */
+  async follow(path, signal) {
+    for await (const { event, data } of eventStream(`${path}/events`, null, signal)) {
+      if (event === "found") this.found.push(data);
+      else this.progress = data.progress;
+      this.isDone = event === "end" && data.status === "done";
+      if (event === "end" && !this.isDone) this.fault = capital(data.message || data.status);
+      this.tell();
+    }
+  }
+
+  /** Search no more; what was found stays. */
+  stop() {
+    this.abort?.abort();
+    this.abort = null;
+    this.isRunning = false;
+    this.tell();
+  }
+
+  forget() {
+    this.abort?.abort();
+    this.found = [];
+    this.progress = 0;
+    this.isRunning = this.isDone = false;
+    this.fault = "";
+  }
+
+  tell() {
+    this.dispatchEvent(new Event("change"));
+  }
+}
+
+/**
+ * Begin the job; it is cancelled once nobody waits for it.
+ * @param {Asked} asked
+ * @param {AbortSignal} signal
+ * @returns {Promise<string>} its path
+ */
+async function begun(asked, signal) {
+  /** @type {Job} */
+  const { id } = await fetched("../api/proposals", "POST", asked);
+  const path = `../api/jobs/${id}`;
+  const cancel = () => fetch(`${path}/cancel`, { method: "POST", keepalive: true }).catch(() => {});
+  if (signal.aborted) cancel();
+  signal.addEventListener("abort", cancel);
+  return path;
+}

@@ -1,0 +1,54 @@
+/** The size that a garment is to be folded to: a name, or two sides. The sizes of names are the server's. */
+
+import { ringOf } from "../board/curves.js";
+import { boxOf } from "../board/geometry.js";
+
+/** @import { Drawing, Point } from "pleat" */
+
+/** Sides along the board's axes (m). */
+export const SIZES_M = {"shelf": [0.25, 0.3], "drawer": [0.2, 0.25], "suitcase": [0.3, 0.4]};
+
+/** Sides as shares of the garment's. */
+export const SHARES = {"halves": [0.5, 0.5], "thirds": [0.3333333333333333, 0.3333333333333333]};
+
+/** The shortest and the longest side (m). */
+export const SIDES_M = [0.01, 10.0];
+
+/** How much longer than a target's side a packet's may be (m). */
+export const TOLERANCE_M = 0.01;
+
+/** The smallest that there is. */
+export const SMALLEST = "smallest";
+
+/** @typedef {keyof typeof SIZES_M | keyof typeof SHARES | typeof SMALLEST} PresetName */
+/** @typedef {PresetName|Point} Target two sides are along the board's axes (m) */
+
+export const PRESETS = /** @type {PresetName[]} */ ([...Object.keys(SIZES_M), ...Object.keys(SHARES), SMALLEST]);
+
+/**
+ * The sides that are meant (m); null for the smallest.
+ * @param {Target} to
+ * @param {Drawing} drawing
+ * @returns {Point|null}
+ */
+export function sidesOf(to, drawing) {
+  if (typeof to !== "string") return to;
+  const [size, share] = [SIZES_M, SHARES].map((known) => /** @type {Record<string, number[]>} */ (known)[to]);
+  const [wide, long] = extentOf(drawing);
+  return size ? [size[0], size[1]] : share ? [share[0] * wide, share[1] * long] : null;
+}
+
+/** How wide and how long a garment is as it is drawn (m). @param {Drawing} drawing @returns {Point} */
+export function extentOf(drawing) {
+  const box = boxOf(ringOf(drawing));
+  return box ? [box.high[0] - box.low[0], box.high[1] - box.low[1]] : [0, 0];
+}
+
+/** Whether the garment is no larger than that, either way round. @param {Drawing} drawing @param {Point} sides */
+export function isWithin(drawing, sides) {
+  const [most, own] = [sides, extentOf(drawing)].map((two) => [...two].sort((a, b) => a - b));
+  return own.every((side, index) => side <= most[index] + TOLERANCE_M);
+}
+
+/** The size as a request names it. @param {Target} to */
+export const asked = (to) => (typeof to === "string" ? to : { width_m: to[0], length_m: to[1] });

@@ -1,0 +1,116 @@
+"""`Fold it for me`: ways to fold the garment to a size, as cards that come while they are looked for."""
+
+import json
+import re
+import time
+from collections.abc import Callable
+from typing import Any
+
+from playwright.sync_api import Page, Route, expect
+
+from planner.proposals.target import PRESETS, SIDE_MAX_M, SIDE_MIN_M, TOLERANCE_M
+from tests.app.conftest import REST
+from tests.browser.board_hand import Hand
+from tests.browser.conftest import PATIENCE_MS, Garment, Sheet
+from tests.browser.searches import SEARCH_MS
+
+NewSheet = Callable[[Garment], Sheet]
+
+TOWEL: dict[str, Any] = {"name": "towel", "outline": [[0, 0], [0.6, 0], [0.6, 0.4], [0, 0.4]]}
+
+
+def size(wide_cm: float, long_cm: float) -> re.Pattern[str]:
+    return re.compile(rf"{wide_cm:.1f} \S {long_cm:.1f} cm")
+
+
+def all_have_ended(sheet: Sheet) -> bool:
+    """Return whether no proposals are looked for any more, once that is so or has not been for long."""
+    for _ in range(PATIENCE_MS // 50):
+        jobs = REST.get(f"{sheet.path.partition('/api/')[0]}/api/jobs").json()["jobs"]
+        if {job["status"] for job in jobs if job["kind"] == "proposals"} <= {"done", "cancelled"}:
+            return True
+        time.sleep(0.05)
+    return False
+
+
+def test_a_way_is_looked_at_and_taken_by_keyboard_and_is_one_step(page: Page, new_sheet: NewSheet) -> None:
+    sheet = new_sheet(TOWEL)
+    page.goto(sheet.page_url)
+    expect(page.get_by_role("button", name="Fold it for me")).to_be_visible()
+    page.keyboard.press("a")
+    panel = page.get_by_role("region", name="Fold it for me")
+    expect(panel.get_by_role("button", name="Shop shelf")).to_be_focused()
+    panel.get_by_role("button", name="Halves").press("Enter")
+    expect(panel.get_by_role("textbox", name="Width of the packet")).to_have_value("30.0")
+    card = panel.get_by_role("group", name="Ways to fold it").get_by_role("button").first
+    expect(card).to_contain_text(size(30, 20), timeout=SEARCH_MS)
+    expect(card.locator(".picture-layer")).to_have_count(4)
+    card.focus()
+    expect(page.locator("#board-cloth .is-back")).not_to_have_count(0)
+    card.press("Enter")
+    expect(panel).to_be_hidden()
+    expect(page.locator(".fold-row")).to_have_count(2)
+    assert sheet.can_undo == "Fold it for me"
+    assert all_have_ended(sheet)
+    page.keyboard.press("Control+z")
+    expect(page.locator(".fold-row")).to_have_count(0)
+
+
+def proposal(outline: list[list[float]], side_m: float) -> dict[str, Any]:
+    garment = {**TOWEL, "outline": outline, "folds": [], "grip_radius_m": 0.127}
+    return {"folds": [], "garment": garment, "size_m": [side_m, 0.1], "layers": 2, "status": "solved", "cost_s": 9.0}
+
+
+def test_the_size_is_pulled_and_what_changes_begins_anew(page: Page, new_sheet: NewSheet) -> None:
+    """Where nothing fits the smallest packets are shown."""
+    asked: list[dict[str, Any]] = []
+
+    def begin(route: Route) -> None:
+        asked.append(json.loads(route.request.post_data or "{}"))
+        route.fulfill(status=202, json={"id": str(len(asked))})
+
+    def tell(route: Route) -> None:
+        wanted = asked[-1]
+        width = max(x for x, _ in wanted["garment"]["outline"])
+        found = [] if wanted["to"] == {"width_m": 0.1, "length_m": 0.25} else [proposal(TOWEL["outline"], width)]
+        lines = [f"event: found\ndata: {json.dumps(one)}\n\n" for one in found]
+        end = {"status": "done", "progress": 1.0, "message": "", "result": {"proposals": found}}
+        body = "".join([*lines, f"event: end\ndata: {json.dumps(end)}\n\n"])
+        route.fulfill(content_type="text/event-stream", body=body)
+
+    page.route("**/api/proposals", begin)
+    page.route("**/api/jobs/*/events", tell)
+    sheet = new_sheet({**TOWEL, "folds": [{"name": "half", "kind": "blue", "start": [0.3, 0], "end": [0.3, 0.4]}]})
+    page.goto(sheet.page_url)
+    page.get_by_role("button", name="Fold it for me").click()
+    panel = page.get_by_role("region", name="Fold it for me")
+    cards = panel.get_by_role("group", name="Ways to fold it").get_by_role("button")
+    panel.get_by_role("button", name="Drawer").click()
+    expect(cards).to_contain_text(size(60, 10))
+    assert (asked[-1]["to"], asked[-1]["garment"]["folds"]) == ("drawer", [])
+    sheet.edit(lambda drawing: drawing["outline"][1].update(point=[0.7, 0.0]))
+    expect(cards).to_contain_text(size(70, 10))
+    sheet.edit(lambda drawing: drawing["outline"][1].update(point=[0.6, 0.0]))
+    expect(cards).to_contain_text(size(60, 10))
+    panel.get_by_role("button", name="Keep the folds").click()
+    expect(cards).to_have_count(1)
+    Hand(page).drag((0.4, 0.2), (0.35, 0.2))
+    expect(page.get_by_role("status").filter(has_text=size(10, 25))).to_be_visible()
+    assert [(one["to"], len(one["garment"]["folds"])) for one in asked[-2:]] == [
+        ({"width_m": 0.1, "length_m": 0.25}, 1),
+        ("smallest", 1),
+    ]
+    page.keyboard.press("Escape")
+    expect(panel).to_be_hidden()
+
+
+def test_the_page_has_the_sizes_of_the_server(page: Page, new_sheet: NewSheet) -> None:
+    page.goto(new_sheet(TOWEL).page_url)
+    names = ["PRESETS", "SIZES_M", "SHARES", "SIDES_M", "TOLERANCE_M"]
+    ask = f"import('/static/js/proposals/target.js').then((m) => {json.dumps(names)}.map((name) => m[name]))"
+    presets, sizes, shares, sides, tolerance = page.evaluate(ask)
+    assert presets == list(PRESETS)
+    known = {name: [target.width, target.length] for name, target in PRESETS.items() if not target.is_smallest}
+    assert {**sizes, **shares} == known
+    assert set(shares) == {name for name, target in PRESETS.items() if target.is_share}
+    assert (sides, tolerance) == ([SIDE_MIN_M, SIDE_MAX_M], TOLERANCE_M)
