@@ -39,6 +39,7 @@ from app.job_kinds.kinds import KINDS
 from app.server.request_id import RequestIds
 from app.settings import Settings
 from app.store.access_token import AccessToken
+from app.version import own_version
 from app.workspace import Workspace
 
 
@@ -64,7 +65,7 @@ def create_app(settings: Settings, token: AccessToken | None = None) -> FastAPI:
         redoc_url=None,
         title="Pleat",
         summary="Plans how a robot can really fold a garment.",
-        version=scene_routes.own_version(),
+        version=own_version(),
         lifespan=lifespan,
     )
     app.state.workspace = workspace

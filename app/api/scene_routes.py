@@ -1,6 +1,5 @@
 """Routes of the server's health and of the default scene."""
 
-from importlib.metadata import PackageNotFoundError, version
 from typing import Final
 
 from fastapi import APIRouter, Request
@@ -8,6 +7,7 @@ from fastapi.concurrency import run_in_threadpool
 
 from app.api.answers import Checks, Health
 from app.api.request_parsing import workspace_of
+from app.version import own_version
 from planner.task.scene import Scene
 
 router = APIRouter(prefix="/api")
@@ -31,11 +31,3 @@ async def read_health(request: Request) -> Health:
 async def read_scene() -> Scene:
     """Return the default scene."""
     return Scene()
-
-
-def own_version() -> str:
-    """Return Pleat's version, as it is installed."""
-    try:
-        return version("pleat")
-    except PackageNotFoundError:
-        return "0"
