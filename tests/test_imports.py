@@ -67,6 +67,7 @@ LIBRARY_HOMES: Mapping[str, tuple[str, ...]] = {
     "ruamel": ("app.files",),
     "ezdxf": ("app.files",),
     "cv2": ("app.rehearsal.camera", "app.rehearsal.vision"),
+    "xacro": ("app.files",),
     "filelock": ("app.store",),
     "sqlalchemy": ("app.store",),
     "alembic": ("app.store",),

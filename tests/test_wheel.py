@@ -69,5 +69,5 @@ def test_the_wheel_plans(pleat: Path) -> None:
 
 def test_an_extra_is_installed_from_where_pleat_is(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert installing("physics") == "pip install -e '.[physics]'"
-    monkeypatch.setattr("app.distribution._ROOT", tmp_path)
+    monkeypatch.setattr("app.distribution._PROJECT", tmp_path / "pyproject.toml")
     assert installing("physics") == f"pip install '{NAME}[physics]'"

@@ -2,7 +2,7 @@
 
 import gc
 from importlib import import_module
-from typing import Any, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 import typer
 from typer.core import TyperCommand, TyperGroup
@@ -40,7 +40,7 @@ COMMANDS = {
         "see", "Read a garment from a picture: its outline, where it lies, how sure that is; or how far it is folded."
     ),
     "robots": _Command("robots", "Print the robots that are shipped, and your own."),
-    "robot": _Command("robots", "Look at the card of a robot."),
+    "robot": _Command("robots", "List the robots, check a card, draft one of a URDF."),
     "study": _Command(
         "study", "Plan the product of garments, robots, tables, placements and limits: one table, one report."
     ),
@@ -77,8 +77,20 @@ cli = typer.Typer(
 )
 
 
+def _print_version(is_asked: bool) -> None:
+    if is_asked:
+        from app.distribution import own_version
+
+        typer.echo(own_version())
+        raise typer.Exit
+
+
 @cli.callback()
-def _program() -> None:
+def _program(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Print Pleat's version.")
+    ] = False,
+) -> None:
     """Have commands, none of which is imported yet."""
 
 

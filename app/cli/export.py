@@ -26,7 +26,7 @@ def export(
     ] = None,
     rate_hz: Annotated[float, typer.Option(help="Frames a second of a recording (1..30).")] = DEFAULT_RATE_HZ,
     speed: Annotated[
-        float, typer.Option(help="The motion's speed as a share of the planned one (0.01..1); poses stay the same.")
+        float, typer.Option(help="The motion's speed as a share of the planned one (0.05..1); poses stay the same.")
     ] = 1.0,
     is_listing: Annotated[bool, typer.Option("--list", help="Print the kinds of files.")] = False,
 ) -> None:
@@ -39,10 +39,10 @@ def export(
     kind = find_export(to)
     if kind is None:
         raise failure(f"--to: expected one of {', '.join(one.what for one in EXPORTS)}; got {to!r}")
-    from app.files.slowed import SPEEDS
+    from app.files.slowed import require_speed
 
-    if not SPEEDS[0] <= speed <= SPEEDS[1]:
-        raise failure(f"--speed: expected {SPEEDS[0]:g} to {SPEEDS[1]:g}, got {speed:g}")
+    with blaming(source):
+        require_speed(speed)
     data, name = _made(kind, source, rate_hz, speed)
     path = out or Path(name)
     with refusing(path):

@@ -1,10 +1,13 @@
 """``pleat dag`` and ``pleat check``: information about a garment that needs no robot."""
 
+from typing import Annotated
+
 import typer
 
 from app.cli.program import (
     NO_PLAN,
     STANDARD_OUTPUT,
+    DataOption,
     JsonOption,
     SourceArgument,
     blaming,
@@ -16,6 +19,8 @@ from app.cli.program import (
 )
 from app.tables import check_table, dag_table
 from planner import check_garment, fold_dag
+from planner.planning.robot_task import default_scene
+from planner.task.task import DEFAULT_ROBOT
 from planner.words.catalogue import sentence
 
 
@@ -31,11 +36,18 @@ def dag(garment: SourceArgument, json_to: JsonOption = None) -> None:
 
 
 @cli.command()
-def check(garment: SourceArgument, json_to: JsonOption = None) -> None:
+def check(
+    garment: SourceArgument,
+    robot: Annotated[
+        str, typer.Option(help="The robot whose grippers hold them: its name, or the file of its card.")
+    ] = DEFAULT_ROBOT,
+    json_to: JsonOption = None,
+    data: DataOption = None,
+) -> None:
     """Check that a garment file is good, its folds are legal, and each can be held by the robot's grippers."""
     chosen = garment_of(garment)
     with blaming(garment):
-        report = check_garment(chosen)
+        report = check_garment(chosen, default_scene(robot), robot=robot)
     write_json(report.to_dict(), json_to)
     if json_to != STANDARD_OUTPUT:
         output.print(check_table(chosen, report))

@@ -1,20 +1,39 @@
-"""``pleat robots`` and ``pleat robot check``: list the robots, and check a robot's card."""
+"""``pleat robots`` and ``pleat robot``: list the robots, and check or draft a robot's card."""
 
+import json
+import re
+import shutil
 from dataclasses import asdict
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Annotated
 
 import typer
 from rich.progress import Progress
 
-from app.cli.program import STANDARD_OUTPUT, DataOption, JsonOption, blaming, cli, errors, output, write_json
+from app.cli.program import (
+    STANDARD_OUTPUT,
+    DataOption,
+    JsonOption,
+    blaming,
+    cli,
+    errors,
+    failure,
+    output,
+    refusing,
+    write_json,
+    write_text,
+)
 from app.tables import robot_check_table, robots_table
 from planner.robots.known_robots import robot_cards, robot_entry
+from planner.robots.own_robots import CARD
 
-robot = typer.Typer(help="Look at the card of a robot.", no_args_is_help=True)
+robot = typer.Typer(help="List the robots, check a card, draft one of a URDF.", no_args_is_help=True)
 cli.add_typer(robot, name="robot")
 
 
 @cli.command()
+@robot.command("list")
 def robots(json_to: JsonOption = None, data: DataOption = None) -> None:
     """Print the robots that are shipped, and your own."""
     cards = robot_cards()
@@ -54,3 +73,49 @@ def check(
     write_json({"name": found.card.name, "title": found.card.title, "table_reached": reached, **told}, json_to)
     if json_to != STANDARD_OUTPUT:
         output.print(robot_check_table(found.card, reach))
+
+
+@robot.command()
+def draft(
+    file: Annotated[
+        Path, typer.Argument(metavar="FILE", help="A URDF, xacro, or a zip archive of one with its meshes.")
+    ],
+    out: Annotated[Path, typer.Option(metavar="DIR", help="The folder of the card; it must be new or empty.")],
+    name: Annotated[str | None, typer.Option(help="The robot's name.", show_default="that of DIR")] = None,
+) -> None:
+    """Draft a robot's card of its URDF: arms, grippers, tool points, home, base and table; say what was guessed.
+
+    Exit status: 0 drafted; 2 bad input, or no arm that ends in a gripper.
+    """
+    from app.files.robot_description import robot_description
+    from app.robot_warnings import warnings_of
+    from planner.robots.described_robot import read_described
+    from planner.robots.drafting.draft import draft_robot
+
+    with refusing(out):
+        if out.exists() and any(out.iterdir()):
+            raise failure(f"--out: {out} is not empty")
+        is_new = not out.exists()
+        out.mkdir(parents=True, exist_ok=True)
+    try:
+        with blaming(file), refusing(file), TemporaryDirectory() as scratch:
+            title = name or out.resolve().name
+            drafted = draft_robot(robot_description(file, Path(scratch)), _robot_name(title), title, out)
+            write_text(json.dumps(drafted.card.to_dict(), indent=2) + "\n", str(out / CARD))
+            warnings = warnings_of(read_described(out / CARD))
+    except typer.Exit:
+        if is_new:
+            shutil.rmtree(out)
+        raise
+    output.print(f"{out / CARD}: {len(drafted.card.arms)} arms, each with a gripper", soft_wrap=True)
+    for title, told in (("Guessed", drafted.guesses), ("Not known", drafted.unknown)):
+        for one in told:
+            output.print(f"{title}: {one}.", soft_wrap=True)
+    for warning in warnings:
+        output.print(f"Warning: {warning['message']}.", soft_wrap=True)
+    output.print(f"Look through it, then: pleat robot check {out / CARD}", soft_wrap=True)
+
+
+def _robot_name(title: str) -> str:
+    """Return a name that a card may have."""
+    return re.sub(r"[^a-z0-9]+", "-", title.lower()).strip("-")[:64] or "robot"

@@ -7,6 +7,7 @@ read than it declares.
 import io
 import stat
 import zlib
+from collections.abc import Callable
 from pathlib import Path, PurePosixPath
 from zipfile import ZIP_DEFLATED, ZIP_STORED, BadZipFile, ZipFile, ZipInfo
 
@@ -35,13 +36,25 @@ def unpack_robot(data: bytes, folder: Path) -> None:
         RobotError: it is no archive of a robot, or one that is too large or leads out of its folder.
         OSError: the system refuses to write.
     """
+    _unpack(data, folder, _below_card)
+
+
+def unpack_archive(data: bytes, folder: Path) -> None:
+    """Unpack an archive that need not have a card into an empty folder; raise as `unpack_robot` does."""
+    _unpack(data, folder, lambda files: files)
+
+
+_Files = dict[PurePosixPath, ZipInfo]
+
+
+def _unpack(data: bytes, folder: Path, chosen: Callable[[_Files], _Files]) -> None:
     # `ZipFile` makes an object of every entry, so they are counted before.
     if data.count(_ENTRY) > FILES_MAX:
         raise RobotError("file", f"has more than {FILES_MAX} files")
     try:
         with ZipFile(io.BytesIO(data)) as archive:
             entries = _checked(archive.infolist())
-            for path, entry in _below_card(entries).items():
+            for path, entry in chosen(entries).items():
                 _write(archive, entry, folder / path)
     except (BadZipFile, zlib.error, ValueError, EOFError, NotImplementedError, OverflowError) as error:
         if isinstance(error, RobotError):

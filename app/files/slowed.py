@@ -3,11 +3,18 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
+from planner.errors import RequestError
 from planner.task.plan import Plan
 from planner.task.trajectory import ArmTrack, GripperTrack, Segment, Trajectory
 
-SPEEDS = (0.01, 1.0)
+SPEEDS = (0.05, 1.0)
 """Range of the speed, as a share of the planned one."""
+
+
+def require_speed(speed: float) -> None:
+    """Refuse a speed out of range; raises `RequestError`."""
+    if not SPEEDS[0] <= speed <= SPEEDS[1]:
+        raise RequestError("speed", f"expected {SPEEDS[0]:g} to {SPEEDS[1]:g}, got {speed:g}")
 
 
 def slowed(plan: Plan, speed: float) -> Plan:

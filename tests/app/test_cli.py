@@ -2,6 +2,8 @@ import json
 import socket
 import subprocess
 import sys
+import tomllib
+from importlib.metadata import PackageNotFoundError
 from pathlib import Path
 
 import pytest
@@ -112,6 +114,25 @@ def test_a_port_that_is_taken_is_named(tmp_path: Path) -> None:
 
 def test_the_wrong_option_is_named() -> None:
     assert "--start" in pleat("plan", "tie", "--start", "nowhere").stderr
+
+
+def test_the_version_is_that_of_the_project(monkeypatch: pytest.MonkeyPatch) -> None:
+    project = tomllib.loads((Path(__file__).parents[2] / "pyproject.toml").read_text())["project"]
+    result = pleat("--version")
+    assert (result.exit_code, result.stdout) == (0, project["version"] + "\n")
+
+    def missing(name: str) -> str:
+        raise PackageNotFoundError(name)
+
+    monkeypatch.setattr("app.distribution.version", missing)
+    assert pleat("--version").stdout == project["version"] + "\n"
+
+
+def test_a_robot_with_one_gripper_cannot_hold_what_needs_two() -> None:
+    assert pleat("check", "hand-towel").exit_code == 0
+    result = pleat("check", "hand-towel", "--robot", "ur5e-single")
+    assert result.exit_code == 3 and "cannot hold" in result.stderr
+    assert "--robot" in pleat("check", "hand-towel", "--robot", "r2d2").stderr
 
 
 def test_dag_prints_edges(tmp_path: Path) -> None:

@@ -49,6 +49,7 @@ def test_the_command_line_lists_what_rest_lists() -> None:
     assert [entry["name"] for entry in listed] == list(shipped_robots())
     table = pleat("robots").stdout
     assert "Baxter" in table and "omni" in table
+    assert pleat("robot", "list").stdout == table
 
 
 @pytest.mark.usefixtures("reach_known")

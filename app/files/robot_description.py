@@ -1,0 +1,112 @@
+"""A robot's description as makers give it out, made a URDF: a file beside its meshes, xacro, or an archive."""
+
+import re
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+from app.files.robot_archive import unpack_archive
+from planner.errors import RobotError
+from planner.robots.urdf_shapes import Source
+
+_XACRO = ".xacro"
+
+_MACROS = re.compile(r"<xacro:(?!arg|property)|\$[({]")
+"""What a URDF that needs no expansion does not have."""
+
+_LEVELS = 4
+"""How many folders above a description its packages and meshes are looked for."""
+
+_FILENAME = re.compile(r"(?<=filename=)(\"[^\"]*\"|'[^']*')")
+
+
+def robot_description(path: Path, folder: Path) -> Source:
+    """Return the URDF in a file, which may be an archive or xacro.
+
+    Args:
+        path: the file.
+        folder: an empty folder for what is unpacked or expanded.
+
+    Raises:
+        RobotError: it is no description of a robot, or one that has to be expanded or converted first.
+        OSError: the system refuses to read or write.
+    """
+    path = path.resolve()
+    if path.suffix.lower() == ".zip":
+        unpack_archive(path.read_bytes(), folder / "unpacked")
+        path = _only_description(folder / "unpacked")
+    above = [one for one in list(path.parents)[:_LEVELS] if one != Path(one.anchor)]
+    tops = [one for one in above if one.is_relative_to(folder / "unpacked")] or above
+    text = path.read_text(encoding="utf-8", errors="replace")
+    is_xacro = path.suffix == _XACRO or _MACROS.search(text) is not None
+    text = _expanded(path, tops) if is_xacro else text
+    if re.search(r"<mujoco[\s>]", text[:5000]):
+        raise RobotError("FILE", f"{path.name} is MJCF, MuJoCo's format, which is not read; convert it to a URDF first")
+    root = _root(path.parent, tops, [name.strip("\"'") for name in _FILENAME.findall(text)])
+    if not is_xacro:
+        return Source(path, root)
+    urdf = folder / f"{path.name.removesuffix(_XACRO).removesuffix('.urdf')}.urdf"
+    urdf.write_text(_FILENAME.sub(lambda found: _below(root, path.parent, found[0]), text), encoding="utf-8")
+    return Source(urdf, root)
+
+
+def _only_description(folder: Path) -> Path:
+    """Return the URDF in a folder, or the xacro where there is none; raise `RobotError` unless there is one."""
+    for ending in (".urdf", ".urdf.xacro", _XACRO, ".xml"):
+        found = [one for one in sorted(folder.rglob(f"*{ending}")) if one.name != "package.xml"]
+        if len(found) == 1:
+            return found[0]
+        if found:
+            names = ", ".join(str(one.relative_to(folder)) for one in found[:5])
+            raise RobotError("FILE", f"has {len(found)} descriptions of robots, not one: {names}")
+    raise RobotError("FILE", "has no .urdf and no .xacro in it")
+
+
+def _root(beside: Path, tops: Iterable[Path], names: list[str]) -> Path:
+    """Return the nearest folder that has all meshes below it as a robot's folder has them; else that of the URDF."""
+
+    def has(top: Path, name: str) -> bool:
+        scheme, _, rest = name.rpartition("://")
+        inner = Path(rest.lstrip("/"))
+        tries = (top / inner, top.joinpath(*inner.parts[1:])) if scheme == "package" else (beside / rest,)
+        return any(one.is_file() and one.resolve().is_relative_to(top) for one in tries)
+
+    return next((top for top in tops if all(has(top, name) for name in names)), beside)
+
+
+def _below(root: Path, beside: Path, quoted: str) -> str:
+    """Return the name of a mesh as one below the robot's folder: xacro writes paths of this machine."""
+    quote, name = quoted[0], quoted[1:-1]
+    scheme, _, rest = name.rpartition("://")
+    path = (beside / rest).resolve()
+    is_below = scheme in ("", "file") and path.is_relative_to(root)
+    return f"{quote}package://{path.relative_to(root).as_posix()}{quote}" if is_below else quoted
+
+
+def _expanded(path: Path, tops: Iterable[Path]) -> str:
+    """Return what xacro makes of a file; packages are looked for above it."""
+    try:
+        import xacro
+        from xacro import substitution_args
+    except ImportError:
+        told = f"write a URDF with 'xacro {path.name} > robot.urdf', or install xacro (pip install xacro)"
+        raise RobotError("FILE", f"{path.name} must be expanded with xacro first: {told}") from None
+    folders = list(tops)
+
+    def find(package: str) -> str:
+        for top in folders:
+            for one in (top, top / package):
+                if one.name == package and one.is_dir():
+                    return str(one)
+        raise RobotError("FILE", f"{path.name}: the package {package!r} is in none of the folders above it")
+
+    asked: Any = substitution_args
+    asked._eval_find = find  # its own asks an installation of ROS
+    asked._eval_dict["find"] = find
+    try:
+        return str(xacro.process_file(str(path)).toxml())
+    except RobotError:
+        raise
+    except Exception as error:  # xacro evaluates what the file says, which may raise anything
+        causes = [str(one) for one in (error, getattr(error, "exc", None)) if one is not None and str(one)]
+        raise RobotError("FILE", f"{path.name} cannot be expanded: {causes[0] if causes else error!r}") from None

@@ -1,0 +1,232 @@
+"""What a gripper's shapes say of it: which end of its range closes it, where its fingertips meet, how it is turned."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+from xml.etree.ElementTree import Element, SubElement, tostring
+
+import numpy as np
+import pinocchio as pin
+
+from planner.errors import RobotError
+from planner.geometry.pose import FloatArray
+from planner.robots.collision.link_shapes import LinkShape, link_shapes
+from planner.robots.drafting.hands import Hand
+from planner.robots.soft_limits import limits_of
+
+_TIP_M = 0.02
+"""Length of the fingertips that meet (m)."""
+
+_BEHIND_TIP_M = 0.005
+"""How far behind the fingertips the tool point is (m)."""
+
+_A_LITTLE = 0.25
+"""Share of the range by which a jaw is opened to see which way it moves."""
+
+_STRAIGHT = np.cos(np.radians(12.0))
+"""An axis this near to one of the link's is meant to be that (cosine)."""
+
+_Values: TypeAlias = Mapping[str, float]
+"""Joints by name (rad, m)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Jaws:
+    """A gripper, seen from the link that its arm's last joint carries.
+
+    Attributes:
+        driver: the joint that drives it.
+        closed, opened: its values at both ends.
+        coupled: the joints that follow it, though the URDF does not say so: the factor and the offset of each.
+        approach, closing: where the fingers point, and along what they close.
+        tool_m: the point between the fingertips (m).
+        opening_m: how far apart the tips are when it is open (m).
+        finger_m: a finger's length along the approach, its width, and its thickness along the closing axis (m).
+    """
+
+    driver: str
+    closed: float
+    opened: float
+    coupled: tuple[tuple[str, float, float], ...]
+    approach: FloatArray
+    closing: FloatArray
+    tool_m: FloatArray
+    opening_m: float
+    finger_m: tuple[float, float, float]
+
+
+def read_jaws(urdf: Element, hand: Hand) -> Jaws:
+    """Return what a hand's shapes say of it; those of its joints that follow no other come to mimic the first.
+
+    Args:
+        urdf: the URDF, the paths of its meshes absolute; mimics are added to it.
+        hand: the hand.
+
+    Raises:
+        RobotError: its fingers have no shapes or no limits, or do not move towards each other.
+    """
+    look = _Look(urdf, hand)
+    driver, *others = look.drivers
+    closed, opened = look.ends(driver)
+    coupled = []
+    for name in others:
+        own_closed, own_opened = look.ends(name)
+        factor = (own_opened - own_closed) / (opened - closed)
+        coupled.append((name, factor, own_closed - factor * closed))
+    for name, factor, offset in coupled:
+        joint = next(one for one in urdf.iterfind("joint") if one.get("name") == name)
+        SubElement(joint, "mimic", joint=driver, multiplier=repr(factor), offset=repr(offset))
+
+    def at(share: float) -> _Values:
+        value = closed + share * (opened - closed)
+        return {driver: value} | {name: factor * value + offset for name, factor, offset in coupled}
+
+    is_first = look.first_jaw(at(0.0), at(_A_LITTLE))
+    sides, wide, opened_wide = (look.sides(at(share), is_first) for share in (0.0, _A_LITTLE, 1.0))
+    if not len(sides[1]):
+        raise RobotError("urdf", f"the finger of {driver!r} meets nothing: its hand has no shape")
+    moved = wide[0].mean(axis=0) - sides[0].mean(axis=0)
+    apart = moved - (wide[1].mean(axis=0) - sides[1].mean(axis=0))
+    if not np.linalg.norm(apart) > 1e-4:
+        raise RobotError("urdf", f"joint {driver!r} does not open its fingers")
+    ahead = np.vstack(look.fingers(at(0.0)))
+    far = _far(ahead, np.zeros(3)).mean(axis=0)
+    closing = _straight(apart)
+    approach = _straight(far - (far @ closing) * closing)
+    closing = _unit(closing - (closing @ approach) * approach)
+    tips, end = _tips(sides, approach)
+    low, high = (tips[1] @ closing).max(), (tips[0] @ closing).min()
+    across = np.cross(approach, closing)
+    wide_m = np.concatenate([tip @ across for tip in tips])
+    tool = (end - _BEHIND_TIP_M) * approach + 0.5 * (low + high) * closing
+    tool = tool + 0.5 * (wide_m.min() + wide_m.max()) * across
+    size = np.ptp(look.fingers(at(0.0))[0] @ np.column_stack([approach, across, closing]), axis=0)
+    length, width, thickness = np.minimum(size, 0.2).round(3).tolist()
+    is_tip = [side @ approach >= (side @ approach).max() - _TIP_M for side in sides]
+    gaps = [_apart_m(*(side[tip] for side, tip in zip(now, is_tip, strict=True))) for now in (sides, opened_wide)]
+    opening_m = float(min(max(gaps[1] - gaps[0], 0.001), 0.5))
+    return Jaws(driver, closed, opened, tuple(coupled), approach, closing, tool, opening_m, (length, width, thickness))
+
+
+class _Look:
+    """A hand's points at values of its joints, in the frame of the joint that carries it."""
+
+    def __init__(self, urdf: Element, hand: Hand) -> None:
+        text = tostring(urdf, encoding="unicode")
+        self._model = pin.buildModelFromXML(text)
+        self._data = self._model.createData()
+        self._carrier = self._model.getJointId(hand.arm[-1])
+        self._fingers = [[self._model.getJointId(name) for name in finger] for finger in hand.fingers]
+        joints = {joint.get("name", ""): joint for joint in urdf.iterfind("joint")}
+        self._mimics = {
+            name: (mimic.get("joint", ""), float(mimic.get("multiplier", "1")), float(mimic.get("offset", "0")))
+            for finger in hand.fingers
+            for name in finger
+            if (mimic := joints[name].find("mimic")) is not None
+        }
+        self.drivers = tuple(name for finger in hand.fingers for name in finger if name not in self._mimics)
+        if not self.drivers:
+            raise RobotError("urdf", f"no joint drives the fingers at {hand.arm[-1]!r}")
+        self._limits = {name: limits_of(joints[name]) for name in self.drivers}
+        for name, (low, high) in self._limits.items():
+            if not -np.inf < low < high < np.inf:
+                raise RobotError("urdf", f"finger joint {name!r} has no limits")
+        wanted = {self._carrier, *(joint for finger in self._fingers for joint in finger)}
+        shapes = link_shapes(self._model, text, lambda joint: joint in wanted)
+        self._shapes: dict[int, list[LinkShape]] = {}
+        for shape in shapes:
+            self._shapes.setdefault(shape.joint, []).append(shape)
+        if not all(any(joint in self._shapes for joint in finger) for finger in self._fingers):
+            raise RobotError("urdf", f"a finger at {hand.arm[-1]!r} has no shape, so where its tip is cannot be seen")
+
+    def ends(self, driver: str) -> tuple[float, float]:
+        """Return the values of a driver at which its finger is next to the others, and away from them."""
+        middle = {name: 0.5 * sum(ends) for name, ends in self._limits.items()}
+        moved = next(n for n, finger in enumerate(self._fingers) if self._model.getJointId(driver) in finger)
+        found = []
+        for value in self._limits[driver]:
+            fingers = self.fingers(middle | {driver: value})
+            others = [finger for number, finger in enumerate(fingers) if number != moved] or [self._fixed()]
+            found.append((_apart_m(_far(fingers[moved], self._hinge(moved)), np.vstack(others)), value))
+        return min(found)[1], max(found)[1]
+
+    def _hinge(self, finger: int) -> FloatArray:
+        """Return where a finger hangs (m)."""
+        return np.asarray(self._at({})[self._fingers[finger][0]].translation)
+
+    def fingers(self, values: _Values) -> list[FloatArray]:
+        """Return the points of each finger, shape (n, 3) each (m)."""
+        places = self._at(values)
+        return [
+            np.vstack([_points(shape, places) for j in f for shape in self._shapes.get(j, ())]) for f in self._fingers
+        ]
+
+    def first_jaw(self, values: _Values, moved: _Values) -> tuple[bool, ...]:
+        """Return which fingers go the way of the first from some values to others: they are one jaw."""
+        here, there = self.fingers(values), self.fingers(moved)
+        ways = [b.mean(axis=0) - a.mean(axis=0) for a, b in zip(here, there, strict=True)]
+        return (True, *(bool(way @ ways[0] > 0.0) for way in ways[1:]))
+
+    def sides(self, values: _Values, is_first: Sequence[bool]) -> tuple[FloatArray, FloatArray]:
+        """Return the points of both jaws; the second one is the hand itself where all fingers are one jaw."""
+        fingers = self.fingers(values)
+        one, other = (
+            [f for f, first in zip(fingers, is_first, strict=True) if first is side] for side in (True, False)
+        )
+        return np.vstack(one), np.vstack(other or [self._fixed()])
+
+    def _fixed(self) -> FloatArray:
+        shapes = self._shapes.get(self._carrier, ())
+        places = self._at({})
+        return np.vstack([_points(shape, places) for shape in shapes]) if shapes else np.empty((0, 3))
+
+    def _at(self, values: _Values) -> list[pin.SE3]:
+        q = pin.neutral(self._model)
+        followed = {
+            name: factor * values[driver] + offset
+            for name, (driver, factor, offset) in self._mimics.items()
+            if driver in values
+        }
+        for name, value in {**values, **followed}.items():
+            joint = self._model.joints[self._model.getJointId(name)]
+            if joint.nq == 1:
+                q[joint.idx_q] = value
+        pin.forwardKinematics(self._model, self._data, q)
+        own = self._data.oMi[self._carrier]
+        return [own.actInv(place) for place in self._data.oMi]
+
+
+def _points(shape: LinkShape, places: Sequence[pin.SE3]) -> FloatArray:
+    place = places[shape.joint]
+    return np.asarray(shape.corners @ place.rotation.T + place.translation)
+
+
+def _tips(sides: tuple[FloatArray, FloatArray], approach: FloatArray) -> tuple[list[FloatArray], float]:
+    """Return the points of both jaws near their common end, and how far ahead that is (m)."""
+    end = min(float((side @ approach).max()) for side in sides)
+    tips = [side[side @ approach >= end - _TIP_M] for side in sides]
+    return tips, end
+
+
+def _far(points: FloatArray, start: FloatArray) -> FloatArray:
+    """Return the quarter of some points that is farthest from a place."""
+    away = np.linalg.norm(points - start, axis=1)
+    return np.asarray(points[away.argsort()[-max(len(points) // 4, 1) :]])
+
+
+def _apart_m(one: FloatArray, other: FloatArray) -> float:
+    """Return the distance of the two nearest points of two sets (m); 0 where one is empty."""
+    if not (len(one) and len(other)):
+        return 0.0
+    return float(np.linalg.norm(one[:, None] - other[None], axis=2).min())
+
+
+def _unit(axis: FloatArray) -> FloatArray:
+    return np.asarray(axis / np.linalg.norm(axis))
+
+
+def _straight(axis: FloatArray) -> FloatArray:
+    """Return a direction, or the axis of the frame that it is nearly along."""
+    unit = _unit(axis)
+    best = int(np.abs(unit).argmax())
+    return np.eye(3)[best] * np.sign(unit[best]) if abs(unit[best]) >= _STRAIGHT else unit

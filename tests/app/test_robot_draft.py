@@ -1,0 +1,144 @@
+"""``pleat robot draft``: a card drafted of a URDF that nobody has described."""
+
+import io
+import json
+import sys
+import zipfile
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+from planner.robots.card_robot import CardRobot
+from planner.robots.described_robot import read_described
+from planner.robots.tool_point import tool_points
+from tests.app.test_cli import pleat
+from tests.robots.drafted import TOOL_AHEAD_M, pair_urdf, single_urdf
+
+CUBE = b"solid a\n" + b"".join(
+    f"facet normal 0 0 1\nouter loop\nvertex {a}\nvertex {b}\nvertex {c}\nendloop\nendfacet\n".encode()
+    for a, b, c in (("0 0 0", ".05 0 0", "0 .05 0"), ("0 0 0", ".05 0 0", "0 0 .05"), (".05 0 0", "0 .05 0", "0 0 .05"))
+)
+
+
+@pytest.fixture(scope="module")
+def pair(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
+    """Return the folder of a drafted pair, and what was said of it."""
+    folder = tmp_path_factory.mktemp("draft")
+    (folder / "pair.urdf").write_text(pair_urdf())
+    result = pleat("robot", "draft", str(folder / "pair.urdf"), "--out", str(folder / "Two arms"))
+    assert result.exit_code == 0, result.output
+    return folder / "Two arms", result.stdout
+
+
+def test_arms_are_the_chains_that_end_in_grippers_from_left_to_right(pair: tuple[Path, str]) -> None:
+    card = read_described(pair[0] / "robot.json").card
+    assert (card.name, card.title, card.base.kind) == ("two-arms", "Two arms", "fixed")
+    assert [arm.name for arm in card.arms] == ["left", "right"]
+    for arm, before in zip(card.arms, "lr", strict=True):
+        assert arm.joints == tuple(f"{before}_{name}" for name in ("pan", "lift", "bow", "bend", "tilt", "roll"))
+
+
+def test_the_tool_point_is_at_the_fingertips_between_the_fingers(pair: tuple[Path, str]) -> None:
+    robot = read_described(pair[0] / "robot.json")
+    for arm in robot.card.arms:
+        assert arm.tool.approach == (0.0, 0.0, 1.0) and np.abs(arm.tool.closing).tolist() == [1.0, 0.0, 0.0]
+        assert arm.tool.offset_m == pytest.approx((0.0, 0.0, TOOL_AHEAD_M - 0.005), abs=1e-3)
+        assert arm.gripper.opening_max_m == pytest.approx(0.08, abs=1e-3)
+    assert not any(point.is_off for point in tool_points(robot))
+
+
+def test_every_finger_moves_with_the_gripper_though_the_urdf_does_not_say_so(pair: tuple[Path, str]) -> None:
+    urdf = ElementTree.parse(pair[0] / "urdf" / "two-arms.urdf")
+    mimics = {joint.get("name"): found for joint in urdf.iter("joint") if (found := joint.find("mimic")) is not None}
+    assert set(mimics) == {"l_finger_b", "r_finger_b"}
+    assert {one.get("joint") for one in mimics.values()} == {"l_finger_a", "r_finger_a"}
+    assert all(float(one.get("multiplier", "")) == 1.0 for one in mimics.values())
+    assert "with 'l_finger_a' move 'l_finger_b'" in pair[1]
+
+
+def test_at_home_nothing_touches_and_the_base_stands_clear_of_the_table(pair: tuple[Path, str]) -> None:
+    robot = read_described(pair[0] / "robot.json")
+    collisions = CardRobot(robot).collisions(robot.card.scene.table, 0.0)
+    ((_, station),) = robot.card.scene.stations
+    homes = np.concatenate([np.array(arm.home) for arm in robot.card.arms])
+    assert np.abs(homes).max() > 0.1
+    assert collisions.body_free(station) and collisions.free(station, homes[None]).all()
+
+
+def test_what_was_guessed_and_what_is_not_known_is_said(pair: tuple[Path, str]) -> None:
+    for told in ("Guessed: it stands on the floor", "Guessed: a table", "Not known: how flat", "pleat robot check"):
+        assert told in pair[1]
+
+
+def test_an_archive_in_ros_layout_is_drafted_with_its_meshes(tmp_path: Path) -> None:
+    urdf = single_urdf(speed=0.0).replace(
+        '<link name="plate">',
+        '<link name="plate"><visual><geometry><mesh filename="package://one_description/meshes/Plate.stl"/></geometry>'
+        "</visual>",
+    )
+    packed = io.BytesIO()
+    with zipfile.ZipFile(packed, "w") as archive:
+        archive.writestr("one_description/urdf/one.urdf", urdf)
+        archive.writestr("one_description/meshes/Plate.stl", CUBE)
+        archive.writestr("one_description/package.xml", "<package/>")
+    (tmp_path / "one.zip").write_bytes(packed.getvalue())
+    result = pleat("robot", "draft", str(tmp_path / "one.zip"), "--out", str(tmp_path / "one"))
+    assert result.exit_code == 0, result.output
+    assert (tmp_path / "one" / "meshes" / "Plate.stl").read_bytes() == CUBE
+    robot = read_described(tmp_path / "one" / "robot.json")
+    (arm,) = robot.card.arms
+    assert arm.speeds == (1.0,) * 6 and "the URDF has none for some of them" in result.stdout
+    assert arm.gripper.drive.joint == "slide_a", "joints that slide opposite each other need no name"
+    assert robot.card.mounts[0].z_m == pytest.approx(0.75 + 0.02), "it stands on the table with its plate"
+
+
+XACRO = ' xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:property name="deep" value="${2*3}"/'
+
+
+def test_xacro_is_expanded_by_the_library_where_that_is_installed(tmp_path: Path) -> None:
+    pytest.importorskip("xacro")
+    (tmp_path / "one.urdf.xacro").write_text(
+        single_urdf(before=XACRO)
+        .replace('name="plate"', 'name="plate${deep}"', 1)
+        .replace('link="plate"', 'link="plate6"')
+    )
+    result = pleat("robot", "draft", str(tmp_path / "one.urdf.xacro"), "--out", str(tmp_path / "out"))
+    assert result.exit_code == 0, result.output
+    assert "plate6" in (tmp_path / "out" / "urdf" / "out.urdf").read_text()
+
+
+def test_xacro_without_the_library_says_how_to_expand_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "xacro", None)
+    (tmp_path / "one.xacro").write_text(single_urdf(before=XACRO))
+    result = pleat("robot", "draft", str(tmp_path / "one.xacro"), "--out", str(tmp_path / "out"))
+    assert result.exit_code == 2 and "xacro one.xacro > robot.urdf" in result.stderr
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "told"),
+    [
+        ("a.urdf", single_urdf().replace('type="prismatic"', 'type="fixed"'), "ends in a gripper"),
+        ("a.urdf", "<robot", "no XML"),
+        ("a.xml", '<mujoco model="arm"><worldbody/></mujoco>', "MJCF"),
+        ("a.zip", "PK", "zip"),
+        ("a.urdf", single_urdf().replace('box size="0.01 0.02 0.06"', 'mesh filename="finger.stl"'), "finger.stl"),
+    ],
+)
+def test_what_is_no_robot_with_grippers_is_refused(tmp_path: Path, name: str, text: str, told: str) -> None:
+    (tmp_path / name).write_text(text)
+    result = pleat("robot", "draft", str(tmp_path / name), "--out", str(tmp_path / "out"))
+    assert result.exit_code == 2 and told in result.stderr, result.output
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_folder_with_something_in_it_is_left_alone(tmp_path: Path) -> None:
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / "robot.json").write_text(json.dumps({"mine": True}))
+    (tmp_path / "one.urdf").write_text(single_urdf())
+    result = pleat("robot", "draft", str(tmp_path / "one.urdf"), "--out", str(tmp_path / "out"))
+    assert result.exit_code == 2 and "not empty" in result.stderr
+    assert json.loads((tmp_path / "out" / "robot.json").read_text()) == {"mine": True}
+    assert pleat("robot", "draft", str(tmp_path / "no.urdf"), "--out", str(tmp_path / "new")).exit_code == 2
