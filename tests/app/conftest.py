@@ -1,7 +1,5 @@
 """Fixtures: a server without a network, and one that really listens."""
 
-import subprocess
-import sys
 from collections.abc import AsyncIterator, Iterator
 from contextlib import asynccontextmanager
 from pathlib import Path
@@ -13,6 +11,7 @@ from app.api.create_app import create_app
 from app.settings import Settings
 from app.store.database import Database
 from tests.app.job_works import suggest_with_own_robot
+from tests.app.nursery import forked
 from tests.databases import emptied, postgresql
 from tests.patience import PATIENCE_S
 
@@ -81,12 +80,7 @@ class Served:
         self._start(port)
 
     def _start(self, port: int) -> None:
-        command = [sys.executable, "-c", "from app.cli import main; main()"]
-        options = ["serve", "--port", str(port), "--data", str(self.data), *self.options]
-        self.process = subprocess.Popen(
-            [*command, *options], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
-        )
-        assert self.process.stdout is not None
+        self.process = forked(["serve", "--port", str(port), "--data", str(self.data), *self.options])
         line = self.process.stdout.readline()
         assert "http://" in line, line + self.process.stdout.read()
         self.url = next(word for word in line.split() if word.startswith("http://"))

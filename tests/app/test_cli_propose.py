@@ -35,7 +35,7 @@ def test_folds_that_the_garment_has_are_kept() -> None:
 
 
 def test_where_nothing_fits_the_status_is_3_and_the_size_is_named() -> None:
-    result = propose("hand-towel", "--to", "1x1cm")
+    result = propose("hand-towel", "--to", "1x1cm", "--max-folds", "3")
     assert result.exit_code == 3
     assert "--to" in result.stderr
     assert "1x1cm" in result.stderr

@@ -47,6 +47,7 @@ def suggestions(page: Page) -> Locator:
 def test_no_plan_is_a_sentence_a_suggestion_and_a_way_back(page: Page, stuck: Sheet) -> None:
     expect(page.locator(".reason")).to_contain_text(re.compile(r"^Half: the (left|right) hand is [\d.]+ cm short"))
     expect(page.get_by_role("list", name="Plan").get_by_role("listitem")).to_have_count(0)
+    expect(page.get_by_role("button", name="Play", exact=True)).to_be_disabled()
     move = suggestions(page).filter(has_text="Move the garment")
     move.first.click()
     expect_planned(page)

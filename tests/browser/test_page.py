@@ -2,8 +2,6 @@
 
 import itertools
 import time
-from collections.abc import Iterator
-from contextlib import contextmanager
 from typing import Any
 
 import pytest
@@ -88,18 +86,6 @@ def cloth_area(page: Page) -> float:
     return float(width * depth)
 
 
-@contextmanager
-def opened(page: Page, choice: str) -> Iterator[None]:
-    """Open another document in the page through the bar; return to the first one afterwards."""
-    before = page.url
-    page.get_by_role("combobox", name="Garment").select_option(choice)
-    page.wait_for_url(lambda url: url != before)
-    yield
-    page.goto(before)
-    expect_planned(page)
-    until_there(page, "/robot")
-
-
 def test_robot_cloth_and_table_are_rendered(page: Page) -> None:
     assert node(page, "/robot")["meshes"] >= 30
     assert node(page, "/robot")["size"][1] > 1.0
@@ -180,13 +166,6 @@ def test_the_space_bar_plays_and_arrows_step(page: Page) -> None:
     expect(page.get_by_role("button", name="Play")).to_be_visible()
 
 
-def test_another_garment_is_planned_and_shown(page: Page) -> None:
-    with opened(page, "garment:hand-towel"):
-        expect(page.get_by_role("list", name="Folds").get_by_role("listitem")).to_have_count(3)
-        expect_planned(page)
-    expect(page.get_by_role("list", name="Folds").get_by_role("listitem")).to_have_count(5)
-
-
 def test_the_3d_view_takes_on_the_pages_theme_and_its_ground(page: Page) -> None:
     grounds = """() => [document, document.getElementById("view3d").contentDocument].map(
       ({ body, defaultView }) => defaultView.getComputedStyle(body).backgroundColor)"""
@@ -209,13 +188,6 @@ def test_the_status_covers_nothing_of_the_bar(page: Page, width: int) -> None:
     )
     for (_, right), (left, _) in itertools.pairwise(edges):
         assert right <= left + 0.5
-
-
-def test_when_there_is_no_plan_the_reasons_stand_there(page: Page) -> None:
-    with opened(page, "garment:scarf-halved"):
-        expect(page.get_by_role("status")).to_contain_text("No plan: ")
-        expect(page.locator(".reasons li")).not_to_have_count(0)
-        expect(page.get_by_role("button", name="Play")).to_be_disabled()
 
 
 def test_the_page_follows_what_is_changed_elsewhere(page: Page, designer: Served) -> None:

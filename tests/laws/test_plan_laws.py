@@ -3,17 +3,18 @@
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from functools import lru_cache
 from random import Random
 
 import pytest
-from hypothesis import example, given
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from planner import Plan, Scene, load_garment, make_plan
 from planner.geometry.pose import Point2
 from tests.builders import SceneFields
 from tests.laws.images import mirrored, redrawn, reordered, turned
-from tests.laws.law import law
+from tests.laws.law import LONG, law
 from tests.laws.scenes import Problem
 from tests.laws.tasks import plain_task
 from tests.replay.planned import SOLVABLE
@@ -28,12 +29,22 @@ JOINT_SECOND = 1e-5
 A_THOUSANDTH = 1e-3
 """The tolerance of costs: in another frame cloth lies up to half a micrometre aside, and joint times follow it."""
 
-SEEDS = st.integers(0, 2**32 - 1)
+QUICK_SEEDS = (1, 2, 4, 10, 13, 14, 15, 16, 17, 18, 19, 21, 22, 23, 24, 25, 26, 27, 28, 30, 31, 32, 35, 36, 38, 39)
+"""Tasks that are planned in a second: of any tasks, every fourth is searched for as long as its limit allows."""
+
+SEEDS = st.integers(0, 2**32 - 1) if settings.get_current_profile_name() == LONG else st.sampled_from(QUICK_SEEDS)
+
+
+@lru_cache(maxsize=len(QUICK_SEEDS))
+def planned_task(seed: int) -> tuple[Problem, Plan]:
+    """Return a task and its plan, which several laws compare with others."""
+    problem = plain_task(Random(seed))
+    return problem, problem.plan()
 
 
 def require_same(seed: int, image: Callable[[Problem], Problem], rel: float = 0.0) -> None:
-    problem = plain_task(Random(seed))
-    plan, other = problem.plan(), image(problem).plan()
+    problem, plan = planned_task(seed)
+    other = image(problem).plan()
     assert other.status == plan.status
     assert other.is_proven == plan.is_proven
     if plan.cost_s is not None:
@@ -42,7 +53,7 @@ def require_same(seed: int, image: Callable[[Problem], Problem], rel: float = 0.
 
 
 @given(SEEDS)
-@law("plan", short=2, long=300)
+@law("plan", short=8, long=300)
 @example(169)  # a grip .3 mm beside the middle of the robot, which either arm may take
 @example(174)  # a hand that turns by half a turn in its grip
 def test_a_mirror_image_has_the_same_answer(seed: int) -> None:
@@ -50,13 +61,13 @@ def test_a_mirror_image_has_the_same_answer(seed: int) -> None:
 
 
 @given(SEEDS)
-@law("plan", short=5, long=300)
+@law("plan", short=8, long=300)
 def test_turned_about_the_table_a_task_has_the_same_answer(seed: int) -> None:
     require_same(seed, turned)
 
 
 @given(SEEDS, st.floats(-math.pi, math.pi), st.tuples(st.floats(-1.0, 1.0), st.floats(-1.0, 1.0)))
-@law("plan", short=5, long=300)
+@law("plan", short=8, long=300)
 def test_drawn_elsewhere_and_turned_in_the_drawing_a_task_has_the_same_answer(
     seed: int, turn_rad: float, by: Point2
 ) -> None:
@@ -64,16 +75,16 @@ def test_drawn_elsewhere_and_turned_in_the_drawing_a_task_has_the_same_answer(
 
 
 @given(SEEDS)
-@law("plan", short=5, long=300)
+@law("plan", short=8, long=300)
 def test_its_folds_given_in_another_order_a_task_has_the_same_answer(seed: int) -> None:
     require_same(seed, lambda problem: reordered(problem, Random(seed)))
 
 
 @given(SEEDS)
-@law("plan", short=5, long=300)
+@law("plan", short=8, long=300)
 def test_searched_without_a_heuristic_a_task_has_the_same_answer(seed: int) -> None:
-    problem = plain_task(Random(seed))
-    plan, plainly = problem.plan(), problem.plan("zero")
+    problem, plan = planned_task(seed)
+    plainly = problem.plan("zero")
     assert plainly.status == plan.status
     assert plainly.statistics.bound_s == pytest.approx(plan.statistics.bound_s, abs=SECOND)
     if plan.is_proven and plainly.is_proven:
@@ -101,11 +112,10 @@ def widened(problem: Problem, what: str, rng: Random) -> Problem:
 
 @pytest.mark.parametrize("what", ["friction", "approach_cone_rad", "back_off_max_m", "comfort"])
 @given(SEEDS)
-@law("plan", short=5, long=300)
+@law("plan", short=8, long=300)
 def test_with_more_room_a_task_is_never_proven_to_take_longer(what: str, seed: int) -> None:
-    rng = Random(seed)
-    problem = plain_task(rng)
-    require_no_slower(widened(problem, what, rng).plan(), problem.plan())
+    problem, plan = planned_task(seed)
+    require_no_slower(widened(problem, what, Random(seed)).plan(), plan)
 
 
 WIDER: dict[str, list[tuple[SceneFields, float]]] = {

@@ -87,7 +87,7 @@ def test_no_packet_has_more_folds_than_asked_for() -> None:
 
 
 def test_a_target_that_nothing_fits_has_no_packets() -> None:
-    assert not list(packets(BLANKET, "1x1cm"))
+    assert not list(packets(BLANKET, "1x1cm", max_folds=3))
 
 
 @pytest.mark.parametrize("face", ["front", "back"])
