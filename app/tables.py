@@ -163,7 +163,9 @@ def _held_at(fold: FoldCheck, garment: Garment, index: int) -> str:
 def proposals_table(garment: Garment, found: Proposals) -> Table:
     """Return ways to fold a garment to a size, the quickest first."""
     kept, number = len(garment.folds), len(found.proposals)
-    table = _table(f"{garment.title}: {number} proposal{'' if number == 1 else 's'}, of {found.enumerated} ways tried")
+    table = _table(
+        f"{garment.title}: {number} proposal{'' if number == 1 else 's'}, of {found.tried.enumerated} ways tried"
+    )
     for name, is_number in (
         ("folds", False),
         ("size [m]", True),
@@ -182,7 +184,7 @@ def proposals_table(garment: Garment, found: Proposals) -> Table:
             str(one.layers),
             one.face,
             "" if one.cost_s is None else f"{one.cost_s:.2f}",
-            one.status,
+            ": ".join([one.status, *(sentence(why.says, one.garment.folds, why.fold) for why in one.plan.reasons[:1])]),
         )
     return table
 

@@ -67,9 +67,10 @@ def propose(
     if json_to != STANDARD_OUTPUT:
         output.print(proposals_table(chosen, answer))
     if not answer.proposals:
+        wide, long = (f"{100.0 * side_m:.0f}" for side_m in sorted(answer.tried.nearest_m))
         errors.print(
-            f"--to: no way to fold it to {to} was found, {answer.enumerated} were tried. "
-            "Choose a larger size or raise --max-folds"
+            f"--to: nothing fits {to}: the smallest found is {wide} x {long} cm, of {answer.tried.enumerated} ways "
+            "tried. Choose a larger size or raise --max-folds"
         )
     elif not answer.is_any_solved:
         errors.print("The robot can do none of them.")

@@ -20,6 +20,7 @@ from planner.proposals.proposals import (
     WORK_LIMIT_S,
     Proposal,
     ProposalOptions,
+    Tried,
     all_proposals,
     propose_folds,
 )
@@ -106,7 +107,7 @@ def _prepare(stores: Stores, wanted: ProposalsRequest) -> ProposalsTask:
     return asked
 
 
-def _begun(asked: ProposalsTask) -> Generator[Proposal, None, int]:
+def _begun(asked: ProposalsTask) -> Generator[Proposal, None, Tried]:
     """Return proposals that are looked for as they are taken."""
     return propose_folds(
         asked.garment,

@@ -135,7 +135,7 @@ def carried_out(cloth: ClothState, move: Move, grip_radius_m: float) -> tuple[Cl
         for chord in _stretches(cloth.silhouette, _line(move.axis, place, is_low)):
             try:
                 fold = DrawnFold(name, "blue", _rounded(chord.start), _rounded(chord.end), grip_radius_m)
-                cloth = fold_cloth(cloth, snapped_line(fold, cloth.silhouette), fold.kind).cloth
+                cloth = fold_cloth(cloth, snapped_line(fold, cloth.silhouette), fold.kind, None).cloth
             except FieldError:
                 return None
             folds.append(fold)
@@ -163,7 +163,7 @@ def turned_over(cloth: ClothState, grip_radius_m: float) -> tuple[ClothState, tu
             drawn = DrawnFold("turn over", "turn", edge.start, edge.end, grip_radius_m)
             line = snapped_line(drawn, cloth.silhouette)
             fold = DrawnFold("turn over", "turn", _rounded(line.start), _rounded(line.end), grip_radius_m)
-            return fold_cloth(cloth, snapped_line(fold, cloth.silhouette), "turn").cloth, (fold,)
+            return fold_cloth(cloth, snapped_line(fold, cloth.silhouette), "turn", None).cloth, (fold,)
         except FieldError:
             continue
     return None

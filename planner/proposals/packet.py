@@ -1,6 +1,6 @@
 """A garment folded by some moves: its folds, its stack, and how good a packet it is."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TypeAlias
 
@@ -10,6 +10,7 @@ from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.region import Region
 from planner.geometry.tolerance import AREA_M2
 from planner.proposals.moves import Move, carried_out, turned_over
+from planner.proposals.robot_check import RobotCheck, Stand
 from planner.proposals.target import TOLERANCE_M, Sides
 
 FOLD_EFFORT, _LAYER_EFFORT = 0.15, 0.03
@@ -34,8 +35,11 @@ class Packet:
         cloth: the stack.
         folds: all folds, those that stood at the beginning first.
         moves: the moves by which it was folded from there, each by its kind and axis.
-        effort: the summed efforts of the moves.
+        effort: the summed efforts of the moves, and of the robot where one is asked.
         is_turned: whether it was turned over before them.
+        stand: where robot and cloth are after the folds that a robot was asked about; None before it was.
+        asked: the number of those folds.
+        doubts: the number of those that the robot probably cannot do.
     """
 
     cloth: ClothState
@@ -43,11 +47,14 @@ class Packet:
     moves: Way = field(default=())
     effort: float = 0.0
     is_turned: bool = False
+    stand: Stand | None = None
+    asked: int = 0
+    doubts: int = 0
 
     @staticmethod
     def of(garment: Garment) -> "Packet":
         """Return the garment as its folds leave it; raises `FoldError` if one is not legal."""
-        return Packet(FoldSequence.of(garment).final, garment.folds)
+        return Packet(FoldSequence.of(garment).final, garment.folds, asked=len(garment.folds))
 
     @cached_property
     def size_m(self) -> Sides:
@@ -109,14 +116,28 @@ class Packet:
             return None
         cloth, folds = done
         moves, bounds = (*self.moves, (move.kind, move.axis)), self.cloth.silhouette.bounds
-        after = Packet(cloth, (*self.folds, *folds), moves, self.effort + move.effort_on(bounds), self.is_turned)
+        effort = self.effort + move.effort_on(bounds)
+        after = replace(self, cloth=cloth, folds=(*self.folds, *folds), moves=moves, effort=effort)
         most_m = move.size_after(bounds)
         return after if after.size_m[move.axis] <= most_m[move.axis] + TOLERANCE_M else None
+
+    @property
+    def is_checked(self) -> bool:
+        """Whether a robot was asked about all folds."""
+        return self.asked == len(self.folds)
+
+    def checked(self, robot: RobotCheck) -> "Packet":
+        """Return the packet with what the folds that a robot was not asked about mean to it."""
+        found = robot.of(self.folds, self.asked, self.stand or robot.start)
+        effort, doubts = self.effort + found.effort, self.doubts + found.doubts
+        return replace(self, effort=effort, stand=found.stand, asked=len(self.folds), doubts=doubts)
 
     def turned(self, grip_radius_m: float) -> "Packet | None":
         """Return the garment turned over, before any move; None if it has no edge for that."""
         done = turned_over(self.cloth, grip_radius_m)
-        return None if done is None else Packet(done[0], (*self.folds, *done[1]), effort=1.0, is_turned=True)
+        if done is None:
+            return None
+        return replace(self, cloth=done[0], folds=(*self.folds, *done[1]), effort=1.0, is_turned=True)
 
 
 def grid_of(size_m: Sides) -> tuple[int, ...]:

@@ -5,7 +5,10 @@ The naive search, every line in every order, drowns in stacks that nobody wants.
 is a state with a move that has not been made: it is made, which takes some milliseconds, when its turn comes. The next
 is always the one with the least effort so far and the least number of moves still needed: no move shortens a side to
 less than a third. So packets come out about in the order of what people like, and the first are there while the rest
-is not yet looked for. No robot is asked.
+is not yet looked for.
+
+A robot is asked about a stack when its turn comes to be folded on. What the robot hardly can do waits longer then, and
+so does what begins with folds that turned out to have no plan.
 """
 
 import math
@@ -13,11 +16,13 @@ from collections import Counter
 from collections.abc import Iterator
 from heapq import heappop, heappush
 from itertools import count
+from typing import Literal, NamedTuple, TypeAlias
 
-from planner.cloth.garment import Garment
+from planner.cloth.garment import DrawnFold, Garment
 from planner.proposals.moves import Move, flap_moves, inward_moves
 from planner.proposals.packet import FOLD_EFFORT, Packet, grid_of
-from planner.proposals.target import TOLERANCE_M, Sides, Target, is_filling, is_fitting
+from planner.proposals.robot_check import DOUBT_EFFORT, RobotCheck
+from planner.proposals.target import TOLERANCE_M, Sides, Target, excess_m, is_filling, is_fitting
 
 _ENUMERATED_MAX = 600
 """The most sequences of moves that are folded."""
@@ -35,14 +40,31 @@ _LAST = 1000.0
 """An effort that puts a packet after all others."""
 
 
+Turn: TypeAlias = Literal["look", "yield"]
+"""What is done with a packet whose turn comes: it is looked at, or it is one of the answers."""
+
+
+class _Waiting(NamedTuple):
+    """A packet in the queue, and what is done with it: a move, or its turn."""
+
+    rank: float
+    serial: int
+    packet: Packet
+    step: Move | Turn
+    is_blamed: bool
+
+
 class PacketSearch:
     """The search for ways to fold a garment to a size.
 
     Attributes:
         enumerated: the number of sequences of moves that were folded so far.
+        nearest_m: the sides of the packet that lacks least to fit the target (m).
     """
 
-    def __init__(self, garment: Garment, target: Target, max_folds: int, face: str = "any") -> None:
+    def __init__(
+        self, garment: Garment, target: Target, max_folds: int, face: str = "any", robot: RobotCheck | None = None
+    ) -> None:
         """Prepare the search; raises `FoldError` if a fold that the garment has is not legal."""
         self._begin = Packet.of(garment)
         self._radius_m = garment.grip_radius_m
@@ -52,11 +74,14 @@ class PacketSearch:
         self._full_m = tuple(min(most, begun) for most, begun in ordered)
         self._max_folds = max_folds
         self._face = face
-        self._queue: list[tuple[float, int, Packet, Move | None]] = []
+        self._robot = robot
+        self._queue: list[_Waiting] = []
         self._serial = count()
-        self._met = set[object]()
+        self._met: dict[object, int] = {}
         self._folded = Counter[object]()
+        self._blamed: list[tuple[DrawnFold, ...]] = []
         self.enumerated = 0
+        self.nearest_m = self._begin.size_m
 
     def packets(self) -> Iterator[Packet]:
         """Yield packets that fit the target, about by taste; those much smaller than the target come last.
@@ -67,45 +92,75 @@ class PacketSearch:
             best: dict[int, Packet] = {}
             for packet in self._found():
                 known = best.setdefault(len(packet.folds), packet)
-                if _bulk_m2(packet.size_m) < _bulk_m2(known.size_m):
+                if (packet.doubts, _bulk_m2(packet.size_m)) < (known.doubts, _bulk_m2(known.size_m)):
                     best[len(packet.folds)] = packet
-            yield from sorted(best.values(), key=lambda packet: _bulk_m2(packet.size_m))
+            yield from sorted(best.values(), key=lambda packet: (packet.doubts, _bulk_m2(packet.size_m)))
         else:
             yield from self._found()
+
+    def blame(self, folds: tuple[DrawnFold, ...]) -> None:
+        """Have all packets that begin with some folds wait, because the robot cannot do these."""
+        self._blamed.append(folds)
 
     def _found(self) -> Iterator[Packet]:
         self._look_at(self._begin)
         if self._face != "any" and (turned := self._begin.turned(self._radius_m)) is not None:
-            self._look_at(turned)  # cloth that lies front up ends with its back outside, and the other way round
+            self._wait(0.0, turned, "look")  # cloth that lies front up ends with its back outside, and vice versa
         while self._queue:
-            _, _, packet, move = heappop(self._queue)
-            if move is None:
+            waiting = heappop(self._queue)
+            packet, step = waiting.packet, waiting.step
+            if self._is_blamed(waiting):
+                self._wait(waiting.rank + DOUBT_EFFORT, packet, step, is_blamed=True)
+            elif step == "yield":
                 yield packet
-            elif self.enumerated < _ENUMERATED_MAX and self._is_new(packet, move):
+            elif step == "look":
+                self._ask(waiting)
+            elif self.enumerated < _ENUMERATED_MAX and self._is_new(packet, step):
                 self.enumerated += 1
-                after = packet.after(move, self._radius_m)
+                after = packet.after(step, self._radius_m)
                 if after is not None and len(after.cloth.layers) <= _LAYERS_MAX:
-                    self._look_at(after)
+                    self._wait(waiting.rank, after, "look")
+
+    def _is_blamed(self, waiting: "_Waiting") -> bool:
+        folds = waiting.packet.folds
+        return not waiting.is_blamed and any(folds[: len(blamed)] == blamed for blamed in self._blamed)
+
+    def _ask(self, waiting: "_Waiting") -> None:
+        """Ask the robot about a packet, and look at it, or later if it means an effort."""
+        packet = waiting.packet
+        if self._is_met(packet):
+            return
+        if self._robot is not None and not packet.is_checked:
+            checked = packet.checked(self._robot)
+            if checked.effort > packet.effort:
+                self._wait(waiting.rank + checked.effort - packet.effort, checked, "look", is_blamed=waiting.is_blamed)
+                return
+            packet = checked
+        self._look_at(packet)
 
     def _is_new(self, packet: Packet, move: Move) -> bool:
         """Return whether few variants of a packet with a move were folded; count it."""
         size_m = move.size_after(packet.cloth.silhouette.bounds)
         is_fit = not self._is_for_smallest and is_fitting(size_m, self._target_m)
-        variant = (packet.is_turned, packet.way_with(move), None if is_fit else grid_of(size_m))
+        variant = (packet.is_turned, packet.way_with(move), None if is_fit else grid_of(size_m), packet.doubts)
         self._folded[variant] += 1
         return self._folded[variant] <= _VARIANTS
+
+    def _is_met(self, packet: Packet) -> bool:
+        """Return whether a packet that looks like this one, and is no harder for the robot, was looked at."""
+        return self._met.get((packet.is_turned, packet.shape), packet.doubts + 1) <= packet.doubts
 
     def _look_at(self, packet: Packet) -> None:
         """Have a packet wait that fits, and of another one each move that may follow."""
         if len(packet.folds) > self._max_folds:
             return
+        self.nearest_m = min(self.nearest_m, packet.size_m, key=lambda size_m: excess_m(size_m, self._target_m))
         is_fit = self._is_for_smallest or is_fitting(packet.size_m, self._target_m)
         if is_fit and (self._face == "any" or packet.face == self._face):
-            self._wait(self._rank(packet), packet, None)
-        key = (packet.is_turned, packet.shape)
-        if (is_fit and not self._is_for_smallest) or key in self._met:
+            self._wait(self._rank(packet), packet, "yield")
+        if is_fit and not self._is_for_smallest:
             return
-        self._met.add(key)
+        self._met[packet.is_turned, packet.shape] = packet.doubts
         silhouette = packet.cloth.silhouette
         for move in (
             *inward_moves(silhouette.bounds, self._target_m),
@@ -114,8 +169,8 @@ class PacketSearch:
             if len(packet.folds) + len(move.lines) <= self._max_folds:
                 self._wait(self._promise(packet, move), packet, move)
 
-    def _wait(self, rank: float, packet: Packet, move: Move | None) -> None:
-        heappush(self._queue, (rank, next(self._serial), packet, move))
+    def _wait(self, rank: float, packet: Packet, step: "Move | Turn", *, is_blamed: bool = False) -> None:
+        heappush(self._queue, _Waiting(rank, next(self._serial), packet, step, is_blamed))
 
     def _rank(self, packet: Packet) -> float:
         """Return where a packet that fits comes in the queue."""

@@ -1,25 +1,29 @@
 """Propose folds: ways to fold a garment to a size that a robot can do.
 
-Packets come from a search that asks no robot, those that people like first. Each is planned in turn, with little work,
-until enough of them have plans. Of variants of one way (the same moves in another order, or mirrored) only the first is
+Packets come from a search that asks the robot about single folds, those that people like first. Each is planned in
+turn, with little work, until enough of them have plans. Where one has none, its first folds are planned alone, to learn
+which of them are to blame. Of variants of one way (the same moves in another order, or mirrored) only the first is
 proposed that can be done: the order and the side decide much for a robot and nothing for the packet.
 """
 
 import math
 from collections import Counter
 from collections.abc import Callable, Generator, Sequence
+from contextlib import closing
 from dataclasses import dataclass, replace
 from itertools import islice
 from typing import Any, TypedDict, Unpack
 
-from planner.cloth.garment import FOLDS_MAX, Garment
+from planner.cloth.garment import FOLDS_MAX, DrawnFold, Garment
 from planner.errors import RequestError
 from planner.geometry.pose import Pose2
 from planner.geometry.tolerance import DECIMALS
+from planner.planning.events import Blocked
 from planner.planning.robot_task import task_for
-from planner.plans import find_plan
+from planner.plans import plan as plan_events
 from planner.proposals.packet import Packet, Way
 from planner.proposals.packet_search import PacketSearch
+from planner.proposals.robot_check import RobotCheck
 from planner.proposals.target import Sides, Target
 from planner.task.plan import Plan
 from planner.task.scene import Scene
@@ -34,8 +38,8 @@ COUNT_MAX = 32
 WORK_LIMIT_S = 1.0
 """The work for the plan of one packet, in seconds of a present-day machine, by default."""
 
-_PLANNED = 2
-"""Packets that are planned for each proposal asked for, at most."""
+_FAILURES = 2
+"""Packets without a plan for each proposal asked for, after which no more are planned."""
 
 _VARIANTS = 3
 """Variants of one way that are planned, at most."""
@@ -95,16 +99,29 @@ class Proposal:
 
 
 @dataclass(frozen=True, slots=True)
+class Tried:
+    """What was tried to find proposals.
+
+    Attributes:
+        enumerated: the number of sequences of moves that were folded.
+        nearest_m: the sides of the packet that lacks least to fit (m); one that fits, if any does.
+    """
+
+    enumerated: int
+    nearest_m: Sides
+
+
+@dataclass(frozen=True, slots=True)
 class Proposals:
     """All that `propose_folds` found.
 
     Attributes:
         proposals: those that can be done first, the quickest first.
-        enumerated: the number of sequences of moves that were folded.
+        tried: what was tried.
     """
 
     proposals: tuple[Proposal, ...]
-    enumerated: int
+    tried: Tried
 
     @property
     def is_any_solved(self) -> bool:
@@ -112,11 +129,14 @@ class Proposals:
         return any(one.plan.is_solved for one in self.proposals)
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the proposals as JSON."""
-        return {"proposals": [one.to_dict() for one in self.proposals], "enumerated": self.enumerated}
+        """Return the proposals as JSON; where nothing fits, with the size that comes nearest."""
+        found = {"proposals": [one.to_dict() for one in self.proposals], "enumerated": self.tried.enumerated}
+        if self.proposals:
+            return found
+        return {**found, "nearest_m": [round(side_m, DECIMALS) for side_m in self.tried.nearest_m]}
 
 
-def all_proposals(found: Generator[Proposal, None, int], hear: Callable[[Proposal], None] | None = None) -> Proposals:
+def all_proposals(found: Generator[Proposal, None, Tried], hear: Callable[[Proposal], None] | None = None) -> Proposals:
     """Return all that `propose_folds` finds, in order; `hear` is told each one as it is found."""
     proposals: list[Proposal] = []
     while True:
@@ -141,7 +161,7 @@ def propose_folds(
     work_limit_s: float = WORK_LIMIT_S,
     should_stop: Callable[[], bool] | None = None,
     **options: Unpack[ProposalOptions],
-) -> Generator[Proposal, None, int]:
+) -> Generator[Proposal, None, Tried]:
     """Propose ways to fold a garment to a size, each with its plan.
 
     Args:
@@ -161,7 +181,7 @@ def propose_folds(
         each the best of a way of which none can be done.
 
     Returns:
-        The number of sequences of moves that were folded.
+        What was tried.
 
     Raises:
         FoldError: a fold of the garment is not legal.
@@ -173,39 +193,62 @@ def propose_folds(
     if face not in FACES:
         raise RequestError("face", f"expected one of {', '.join(FACES)}; got {face!r:.80}")
     task = task_for(garment, scene, robot=robot, work_limit_s=work_limit_s, **options)
-    search = PacketSearch(garment, target, max_folds, face)
+    search = PacketSearch(garment, target, max_folds, face, RobotCheck(task))
     return _planned(task, search, count, should_stop or _never)
 
 
 def _planned(
     task: Task, search: PacketSearch, count: int, should_stop: Callable[[], bool]
-) -> Generator[Proposal, None, int]:
-    solved: dict[Way, Proposal] = {}
+) -> Generator[Proposal, None, Tried]:
+    solved: set[Way] = set()
     failed: dict[Way, Proposal] = {}
+    shown = set[object]()
     tried = Counter[Way]()
+    failures = 0
     for packet in search.packets():
-        if len(solved) == count or tried.total() == _PLANNED * count:
+        if len(shown) == count or failures >= _FAILURES * count or (packet.doubts and len(failed) >= count):
             break
-        if packet.way in solved or tried[packet.way] == _VARIANTS:
+        if packet.way in solved or tried[packet.way] >= (1 if packet.doubts else _VARIANTS):
             continue
         tried[packet.way] += 1
         proposal = _proposal(task, packet, should_stop)
         if should_stop():
-            return search.enumerated
+            break
         if not proposal.plan.is_solved:
+            failures += 1
             failed.setdefault(packet.way, proposal)
-        else:
-            solved[packet.way] = proposal
+            _blame(task, packet, search, should_stop)
+            continue
+        solved.add(packet.way)
+        if (looks := (packet.shape, proposal.cost_s)) not in shown:
+            shown.add(looks)
             yield proposal
-    others = (proposal for way, proposal in failed.items() if way not in solved)
-    yield from islice(others, count - len(solved))
-    return search.enumerated
+    if not should_stop():
+        yield from islice((one for way, one in failed.items() if way not in solved), count - len(shown))
+    return Tried(search.enumerated, search.nearest_m)
 
 
 def _proposal(task: Task, packet: Packet, should_stop: Callable[[], bool]) -> Proposal:
-    garment = replace(task.garment, folds=packet.folds)
-    found = find_plan(replace(task, garment=garment), should_stop=should_stop, with_reasons=False)
-    return Proposal(garment, packet.size_m, packet.layers, packet.face, found.plan)
+    plan = _plan(task, packet.folds, should_stop)
+    return Proposal(plan.garment, packet.size_m, packet.layers, packet.face, plan)
+
+
+def _blame(task: Task, packet: Packet, search: PacketSearch, should_stop: Callable[[], bool]) -> None:
+    """Look for the first folds of a packet that have no plan by themselves; others that begin so have none either."""
+    for done in range(len(task.garment.folds) + 1, len(packet.folds)):
+        if not _plan(task, packet.folds[:done], should_stop).is_solved:
+            search.blame(packet.folds[:done])
+            return
+
+
+def _plan(task: Task, folds: tuple[DrawnFold, ...], should_stop: Callable[[], bool]) -> Plan:
+    """Return the plan for some folds; where there is none, with the reasons that were met and not tried."""
+    events = plan_events(replace(task, garment=replace(task.garment, folds=folds)), should_stop=should_stop)
+    with closing(events):
+        for event in events:
+            if isinstance(event, Blocked):
+                break
+    return event.found.plan
 
 
 def _require(name: str, value: int, most: int) -> None:

@@ -86,6 +86,11 @@ def is_fitting(size_m: Sides, target_m: Sides) -> bool:
     return all(small <= wide + TOLERANCE_M for small, wide in zip(sorted(size_m), sorted(target_m), strict=True))
 
 
+def excess_m(size_m: Sides, target_m: Sides) -> float:
+    """Return how much longer than a target's sides a rectangle's are in all, either way round (m)."""
+    return sum(max(0.0, side - most) for side, most in zip(sorted(size_m), sorted(target_m), strict=True))
+
+
 def is_filling(size_m: Sides, full_m: Sequence[float]) -> bool:
     """Return whether no side of a rectangle is shorter than half of that of another, to the tolerance."""
     return all(small >= wide / 2 - TOLERANCE_M for small, wide in zip(sorted(size_m), sorted(full_m), strict=True))

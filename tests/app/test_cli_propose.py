@@ -1,4 +1,5 @@
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -39,6 +40,7 @@ def test_where_nothing_fits_the_status_is_3_and_the_size_is_named() -> None:
     assert result.exit_code == 3
     assert "--to" in result.stderr
     assert "1x1cm" in result.stderr
+    assert re.search(r"smallest found is \d+ x \d+ cm", " ".join(result.stderr.split()))
 
 
 def test_where_the_robot_can_do_none_the_status_is_3(tmp_path: Path) -> None:
@@ -48,6 +50,7 @@ def test_where_the_robot_can_do_none_the_status_is_3(tmp_path: Path) -> None:
     result = propose(str(path), "--to", "shelf", "--count", "1")
     assert result.exit_code == 3
     assert "none of them" in result.stderr
+    assert "infeasible: " in result.stdout
 
 
 @pytest.mark.parametrize(

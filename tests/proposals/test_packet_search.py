@@ -86,8 +86,11 @@ def test_no_packet_has_more_folds_than_asked_for() -> None:
     assert all(len(packet.folds) <= 3 for packet in three)
 
 
-def test_a_target_that_nothing_fits_has_no_packets() -> None:
-    assert not list(packets(BLANKET, "1x1cm", max_folds=3))
+def test_a_target_that_nothing_fits_has_no_packets_but_a_nearest_size() -> None:
+    search = PacketSearch(BLANKET, Target.of("10x10cm"), 2)
+    assert not list(search.packets())
+    # 0.6 x 0.4 m by two folds: 0.2 x 0.4 lacks 0.40 m in all, 0.3 x 0.2 lacks 0.30 m.
+    assert sorted(search.nearest_m) == pytest.approx([0.2, 0.3], abs=1e-5)
 
 
 @pytest.mark.parametrize("face", ["front", "back"])

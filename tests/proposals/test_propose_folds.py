@@ -10,6 +10,7 @@ from planner.errors import FoldError, RequestError
 from planner.geometry.pose import Pose2
 from planner.planning.plan_check import require_replay
 from planner.proposals.proposals import Proposal, Proposals, all_proposals
+from planner.task.reason import Code
 
 TOWEL = replace(load_garment("hand-towel"), folds=())
 
@@ -24,7 +25,7 @@ def test_what_is_proposed_for_a_towel_can_be_done_the_quickest_first(found: Prop
     costs = [one.cost_s for one in found.proposals if one.cost_s is not None]
     assert costs == sorted(costs)
     assert found.is_any_solved
-    assert found.enumerated > 3
+    assert found.tried.enumerated > 3
 
 
 def test_a_proposal_has_the_plan_of_its_folds(found: Proposals) -> None:
@@ -59,6 +60,7 @@ def test_out_of_the_robots_reach_packets_are_proposed_as_infeasible() -> None:
     assert [one.status for one in answer.proposals] == ["infeasible"] * 2
     assert [one.cost_s for one in answer.proposals] == [None, None]
     assert not answer.is_any_solved
+    assert [one.plan.reasons[0].code for one in answer.proposals] == [Code.OUT_OF_REACH] * 2
 
 
 def test_nothing_more_is_proposed_once_it_is_stopped() -> None:
@@ -68,7 +70,10 @@ def test_nothing_more_is_proposed_once_it_is_stopped() -> None:
 def test_a_target_that_nothing_fits_has_no_proposals() -> None:
     answer = all_proposals(propose_folds(TOWEL, "1x1cm", max_folds=2))
     assert answer.proposals == ()
-    assert answer.enumerated > 0
+    assert answer.tried.enumerated > 0
+    data = answer.to_dict()
+    assert set(data) == {"proposals", "enumerated", "nearest_m"}
+    assert all(0.01 < side_m < 0.2 for side_m in data["nearest_m"])
 
 
 @pytest.mark.parametrize(

@@ -1,7 +1,7 @@
 import pytest
 
 from planner.errors import RequestError
-from planner.proposals.target import PRESETS, Target, is_filling, is_fitting
+from planner.proposals.target import PRESETS, Target, excess_m, is_filling, is_fitting
 
 
 @pytest.mark.parametrize("text", ["25x30cm", "0.25x0.30", "0.25x0.30m", ".25x.3"])
@@ -46,3 +46,9 @@ def test_a_packet_fits_either_way_round_to_a_centimetre() -> None:
 def test_a_packet_under_half_of_the_target_does_not_fill_it() -> None:
     assert is_filling((0.16, 0.13), (0.25, 0.30))
     assert not is_filling((0.30, 0.11), (0.25, 0.30))
+
+
+def test_the_excess_is_what_both_sides_are_too_long() -> None:
+    assert excess_m((0.30, 0.27), (0.25, 0.30)) == pytest.approx(0.02)
+    assert excess_m((0.40, 0.35), (0.25, 0.30)) == pytest.approx(0.20)
+    assert excess_m((0.10, 0.10), (0.25, 0.30)) == 0.0
