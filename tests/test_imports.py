@@ -77,7 +77,7 @@ LIBRARY_HOMES: Mapping[str, tuple[str, ...]] = {
     "prometheus_client": ("app.api",),
     "pyarrow": ("app.studies", "app.files"),
     "distributed": ("app.studies",),
-    "mujoco": ("app.rehearsal.physics",),
+    "mujoco": ("app.rehearsal.physics", "app.files.mjcf"),
     "fastapi": ("app.api",),
     "fastapi_offline": ("app.api",),
     "starlette": ("app.api", "app.server"),
