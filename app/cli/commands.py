@@ -35,7 +35,12 @@ COMMANDS = {
     "export": _Command(
         "export", "Make a file of a plan, or of a garment, which is planned first where the kind needs that."
     ),
+    "run": _Command("run", "Perform a plan: lead the arms to its first pose, then do step by step, each confirmed."),
     "rehearse": _Command("rehearse", "Perform a plan in simulated physics, and say of every step whether it holds."),
+    "demonstrate": _Command(
+        "demonstrate",
+        "Make demonstrations in simulated physics: a LeRobot dataset with pictures, of those alone in which all held.",
+    ),
     "see": _Command(
         "see", "Read a garment from a picture: its outline, where it lies, how sure that is; or how far it is folded."
     ),

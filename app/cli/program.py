@@ -129,7 +129,7 @@ def blaming(source: object) -> Iterator[None]:
 
 _OPTIONS = frozenset(
     {"start_station", "comfort_radius_m", "heuristic", "time_limit_s", "rate_hz", "after_step", "robot", "runs", "seed"}
-    | {"to", "count", "max_folds", "face", "speed"}
+    | {"to", "count", "max_folds", "face", "speed", "from_step", "out"}
 )
 
 

@@ -78,12 +78,13 @@ def check(
 @robot.command()
 def draft(
     file: Annotated[
-        Path, typer.Argument(metavar="FILE", help="A URDF, xacro, or a zip archive of one with its meshes.")
+        Path,
+        typer.Argument(metavar="FILE", help="A URDF, xacro, MuJoCo's XML, or a zip archive of one with its meshes."),
     ],
     out: Annotated[Path, typer.Option(metavar="DIR", help="The folder of the card; it must be new or empty.")],
     name: Annotated[str | None, typer.Option(help="The robot's name.", show_default="that of DIR")] = None,
 ) -> None:
-    """Draft a robot's card of its URDF: arms, grippers, tool points, home, base and table; say what was guessed.
+    """Draft a robot's card of its description: arms, grippers, tool points, home, base and table; say what was guessed.
 
     Exit status: 0 drafted; 2 bad input, or no arm that ends in a gripper.
     """

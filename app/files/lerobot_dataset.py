@@ -1,13 +1,16 @@
-"""Writes a plan's motion as a LeRobot dataset of one episode (format 3.0), for learning from demonstrations.
+"""LeRobot datasets (format 3.0), for learning from demonstrations: of one plan, or of many episodes with pictures.
 
 A frame's state is where arms, fingers and base are, its action where they are to be at the next frame, as a leader arm
-would ask. The motion is the one that a controller is sent. There are no cameras. Names and units are those of LeRobot
-for the arms that it drives itself, and otherwise the robot's own (`app.files.lerobot_features`).
+would ask. The motion is the one that a controller is sent. Names and units are those of LeRobot for the arms that it
+drives itself, and otherwise the robot's own (`app.files.lerobot_features`). Each episode is a file; pictures are JPEGs
+in its rows.
 """
 
 import io
 import json
 import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -28,101 +31,230 @@ from planner.task.plan import Plan
 FPS = 30
 """Frames a second."""
 
+CAMERA = "observation.images.table"
+"""The feature of the pictures."""
+
+EPISODES = "meta/episodes/chunk-000/file-000.parquet"
+"""The table of all episodes."""
+
 _FORMAT = "v3.0"
 _FILE = "chunk-{chunk_index:03d}/file-{file_index:03d}.parquet"
-_FIRST = _FILE.format(chunk_index=0, file_index=0)
+_FILES_A_CHUNK = 1000
 _QUANTILES = {"q01": 0.01, "q10": 0.1, "q50": 0.5, "q90": 0.9, "q99": 0.99}
+
+Stats = Mapping[str, Any]
+"""Statistics of a feature by their names, each a list with a number for each of its parts, or lists of them."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Pictures:
+    """The pictures of an episode.
+
+    Attributes:
+        jpegs: one for each frame.
+        size_px: their width and height.
+        stats: the statistics of their colours, 0 to 1, shape (3, 1, 1) each.
+    """
+
+    jpegs: tuple[bytes, ...]
+    size_px: tuple[int, int]
+    stats: Stats
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Episode:
+    """A performed plan as frames.
+
+    Attributes:
+        task: what is done, in words.
+        states: where the robot's parts are at each frame, shape (frames, parts).
+        pictures: what a camera saw; None without one.
+    """
+
+    task: str
+    states: FloatArray
+    pictures: Pictures | None = field(default=None)
+
+    @staticmethod
+    def of(plan: Plan, card: RobotCard, pictures: Pictures | None = None) -> "Episode":
+        """Return the episode of a plan; raises `UnsolvedPlanError`."""
+        return Episode(
+            f"fold: {plan.garment.title or plan.garment.name}", _states(plan, card, parts_of(card)), pictures
+        )
+
+
+def frame_times_s(plan: Plan) -> FloatArray:
+    """Return when the frames of a plan's episode are (s); a plan without steps has one frame."""
+    if plan.trajectory is None:
+        raise UnsolvedPlanError(plan.status)
+    return np.arange(math.ceil(plan.trajectory.duration_s * FPS - TIME_S) + 1) / FPS
 
 
 def lerobot_folder(plan: Plan) -> bytes:
-    """Return a solved plan as a zipped LeRobot dataset; raises `UnsolvedPlanError`."""
+    """Return a solved plan as a zipped LeRobot dataset of one episode; raises `UnsolvedPlanError`."""
     card = load_robot(plan.task.robot).card
-    parts = parts_of(card)
-    states = _states(plan, card, parts)
-    count = len(states)
-    numbers = np.arange(count)
-    columns: dict[str, np.ndarray[Any, Any]] = {
-        "observation.state": states.astype(np.float32),
-        "action": np.vstack([states[1:], states[-1:]]).astype(np.float32),
-        "timestamp": (numbers / FPS).astype(np.float32),
-        "frame_index": numbers,
-        "episode_index": np.zeros(count, np.int64),
-        "index": numbers,
-        "task_index": np.zeros(count, np.int64),
-    }
-    task = f"fold: {plan.garment.title or plan.garment.name}"
-    stats = {name: _stats(values) for name, values in columns.items()}
-    return zipped(
-        {
-            "meta/info.json": _json(_info(card, parts, columns)),
-            "meta/stats.json": _json(stats),
-            "meta/tasks.parquet": _tasks(task),
-            f"meta/episodes/{_FIRST}": _parquet(pa.Table.from_pylist([_episode(task, count, stats)])),
-            f"data/{_FIRST}": _parquet(pa.table({name: _column(values) for name, values in columns.items()})),
-        }
-    )
+    episode = Episode.of(plan, card)
+    row = episode_row(episode, 0, 0)
+    return zipped({data_path(0): episode_data(episode, 0, 0), **meta_files(card, [row])})
 
 
-def _states(plan: Plan, card: RobotCard, parts: tuple[Part, ...]) -> FloatArray:
-    """Return where the parts are at each frame, shape (frames, parts); a plan without steps has one frame."""
-    if plan.trajectory is None:
-        raise UnsolvedPlanError(plan.status)
-    limits = MotionLimits.of(card, plan.scene)
-    frames_s = np.arange(math.ceil(plan.trajectory.duration_s * FPS - TIME_S) + 1) / FPS
-    columns = [limits.names.index(part.source) for part in parts]
-    values = positions_at(plan.trajectory, frames_s)[:, columns] - [part.zero for part in parts]
-    return np.asarray(values * [part.factor for part in parts])
+def data_path(number: int) -> str:
+    """Return the path of an episode's frames in a dataset."""
+    return f"data/{_FILE.format(chunk_index=number // _FILES_A_CHUNK, file_index=number % _FILES_A_CHUNK)}"
 
 
-def _info(card: RobotCard, parts: tuple[Part, ...], columns: dict[str, np.ndarray[Any, Any]]) -> dict[str, Any]:
-    count = len(columns["index"])
-    moving = {"names": [part.name for part in parts], "units": [part.unit for part in parts]}
+def episode_data(episode: Episode, number: int, first: int) -> bytes:
+    """Return an episode's frames as a parquet file.
+
+    Args:
+        episode: the episode.
+        number: its number in the dataset.
+        first: how many frames the episodes before it have.
+    """
+    table = {name: _column(values) for name, values in _columns(episode, number, first).items()}
+    if episode.pictures is not None:
+        jpegs = episode.pictures.jpegs
+        parts = [pa.array(jpegs, pa.binary()), pa.array([None] * len(jpegs), pa.string())]
+        table[CAMERA] = pa.StructArray.from_arrays(parts, ["bytes", "path"])
+    return _parquet(pa.table(table))
+
+
+def episode_row(episode: Episode, number: int, first: int) -> dict[str, Any]:
+    """Return the row that says where an episode's frames are, with their statistics; see `episode_data`."""
+    stats = {name: _stats(values) for name, values in _columns(episode, number, first).items()}
+    if episode.pictures is not None:
+        stats[CAMERA] = dict(episode.pictures.stats)
+    width, height = (0, 0) if episode.pictures is None else episode.pictures.size_px
     return {
-        "codebase_version": _FORMAT,
-        "robot_type": card.name,
-        "total_episodes": 1,
-        "total_frames": count,
-        "total_tasks": 1,
-        "chunks_size": 1000,
-        "data_files_size_in_mb": 100,
-        "video_files_size_in_mb": 200,
-        "fps": FPS,
-        "splits": {"train": "0:1"},
-        "data_path": f"data/{_FILE}",
-        "video_path": None,
-        "features": {
-            name: {
-                "dtype": str(values.dtype),
-                "shape": list(values.shape[1:]) or [1],
-                **(moving if values.ndim > 1 else {"names": None}),
-            }
-            for name, values in columns.items()
-        },
-    }
-
-
-def _episode(task: str, count: int, stats: dict[str, dict[str, list[float]]]) -> dict[str, Any]:
-    """Return the row of the only episode: where its frames are, and their statistics."""
-    return {
-        "episode_index": 0,
-        "tasks": [task],
-        "length": count,
-        "data/chunk_index": 0,
-        "data/file_index": 0,
-        "dataset_from_index": 0,
-        "dataset_to_index": count,
+        "episode_index": number,
+        "tasks": [episode.task],
+        "length": len(episode.states),
+        "data/chunk_index": number // _FILES_A_CHUNK,
+        "data/file_index": number % _FILES_A_CHUNK,
+        "dataset_from_index": first,
+        "dataset_to_index": first + len(episode.states),
         "meta/episodes/chunk_index": 0,
         "meta/episodes/file_index": 0,
+        **({} if episode.pictures is None else {"pictures/width_px": width, "pictures/height_px": height}),
         **{f"stats/{name}/{kind}": row for name, told in stats.items() for kind, row in told.items()},
     }
 
 
-def _stats(values: np.ndarray[Any, Any]) -> dict[str, list[float]]:
+def read_episode_rows(data: bytes) -> list[dict[str, Any]]:
+    """Return the rows of a dataset's table of episodes."""
+    rows: list[dict[str, Any]] = pq.read_table(io.BytesIO(data)).to_pylist()
+    return rows
+
+
+def meta_files(card: RobotCard, rows: Sequence[Mapping[str, Any]]) -> dict[str, bytes]:
+    """Return what a dataset says of itself, by path, from the rows of all of its episodes, which have one task."""
+    return {
+        "meta/info.json": _json(_info(card, rows)),
+        "meta/stats.json": _json(_joined_stats(rows)),
+        "meta/tasks.parquet": _tasks(rows[0]["tasks"][0]),
+        EPISODES: _parquet(pa.Table.from_pylist([dict(row) for row in rows])),
+    }
+
+
+def _columns(episode: Episode, number: int, first: int) -> dict[str, np.ndarray[Any, Any]]:
+    states, numbers = episode.states, np.arange(len(episode.states))
+    return {
+        "observation.state": states.astype(np.float32),
+        "action": np.vstack([states[1:], states[-1:]]).astype(np.float32),
+        "timestamp": (numbers / FPS).astype(np.float32),
+        "frame_index": numbers,
+        "episode_index": np.full(len(states), number),
+        "index": first + numbers,
+        "task_index": np.zeros(len(states), np.int64),
+    }
+
+
+def _states(plan: Plan, card: RobotCard, parts: tuple[Part, ...]) -> FloatArray:
+    """Return where the parts are at each frame, shape (frames, parts)."""
+    if plan.trajectory is None:
+        raise UnsolvedPlanError(plan.status)
+    limits = MotionLimits.of(card, plan.scene)
+    columns = [limits.names.index(part.source) for part in parts]
+    values = positions_at(plan.trajectory, frame_times_s(plan))[:, columns] - [part.zero for part in parts]
+    return np.asarray(values * [part.factor for part in parts])
+
+
+def _info(card: RobotCard, rows: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+    parts = parts_of(card)
+    count = int(rows[-1]["dataset_to_index"])
+    columns = _columns(Episode("", np.zeros((1, len(parts)))), 0, 0)
+    moving = {"names": [part.name for part in parts], "units": [part.unit for part in parts]}
+    features: dict[str, Any] = {
+        name: {
+            "dtype": str(values.dtype),
+            "shape": list(values.shape[1:]) or [1],
+            **(moving if values.ndim > 1 else {"names": None}),
+        }
+        for name, values in columns.items()
+    }
+    if (width := rows[0].get("pictures/width_px")) is not None:
+        shape = [rows[0]["pictures/height_px"], width, 3]
+        features[CAMERA] = {"dtype": "image", "shape": shape, "names": ["height", "width", "channels"]}
+    return {
+        "codebase_version": _FORMAT,
+        "robot_type": card.name,
+        "total_episodes": len(rows),
+        "total_frames": count,
+        "total_tasks": 1,
+        "chunks_size": _FILES_A_CHUNK,
+        "data_files_size_in_mb": 100,
+        "video_files_size_in_mb": 200,
+        "fps": FPS,
+        "splits": {"train": f"0:{len(rows)}"},
+        "data_path": f"data/{_FILE}",
+        "video_path": None,
+        "features": features,
+    }
+
+
+def _stats(values: np.ndarray[Any, Any]) -> dict[str, Any]:
     """Return the statistics of a feature, each a list with a number for each of its parts."""
     rows = values.reshape(len(values), -1).astype(float)
-    told = {"min": rows.min(axis=0), "max": rows.max(axis=0), "mean": rows.mean(axis=0), "std": rows.std(axis=0)}
-    told |= {name: np.quantile(rows, share, axis=0) for name, share in _QUANTILES.items()}
-    return {**{name: row.tolist() for name, row in told.items()}, "count": [len(rows)]}
+    return {name: row.tolist() for name, row in _figures(rows, 0).items()} | {"count": [len(rows)]}
+
+
+def picture_stats(colours: FloatArray, count: int) -> Stats:
+    """Return the statistics of pictures from some of their colours, 0 to 1, shape (n, 3), and how many they are."""
+    return {name: row.reshape(3, 1, 1).tolist() for name, row in _figures(colours, 0).items()} | {"count": [count]}
+
+
+def _figures(rows: FloatArray, axis: int) -> dict[str, FloatArray]:
+    told = {"min": rows.min(axis), "max": rows.max(axis), "mean": rows.mean(axis), "std": rows.std(axis)}
+    return told | {name: np.quantile(rows, share, axis) for name, share in _QUANTILES.items()}
+
+
+def _joined_stats(rows: Sequence[Mapping[str, Any]]) -> dict[str, dict[str, Any]]:
+    """Return the statistics of all episodes; quantiles are the means of theirs, as LeRobot has it."""
+    names = [key.split("/")[1] for key in rows[0] if key.startswith("stats/") and key.endswith("/count")]
+    return {name: _joined([_stats_in(row, name) for row in rows]) for name in names}
+
+
+def _stats_in(row: Mapping[str, Any], feature: str) -> dict[str, np.ndarray[Any, Any]]:
+    start = f"stats/{feature}/"
+    return {key.removeprefix(start): np.array(value) for key, value in row.items() if key.startswith(start)}
+
+
+def _joined(told: Sequence[Mapping[str, np.ndarray[Any, Any]]]) -> dict[str, Any]:
+    weights = np.array([float(one["count"][0]) for one in told])
+
+    def mean(values: Sequence[np.ndarray[Any, Any]]) -> np.ndarray[Any, Any]:
+        return np.asarray(np.average(np.array(values), axis=0, weights=weights))
+
+    middle = mean([one["mean"] for one in told])
+    spread = np.sqrt(mean([one["std"] ** 2 + (one["mean"] - middle) ** 2 for one in told]))
+    joined = {
+        "min": np.min([one["min"] for one in told], axis=0),
+        "max": np.max([one["max"] for one in told], axis=0),
+        "mean": middle,
+        "std": spread,
+        **{name: mean([one[name] for one in told]) for name in _QUANTILES},
+    }
+    return {**{name: values.tolist() for name, values in joined.items()}, "count": [int(weights.sum())]}
 
 
 def _tasks(task: str) -> bytes:

@@ -1,10 +1,11 @@
-"""A robot's description as makers give it out, made a URDF: a file beside its meshes, xacro, or an archive."""
+"""A robot's description as makers give it out, made a URDF: a file beside its meshes, xacro, MuJoCo's, an archive."""
 
 import re
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
+from app.files.mjcf import urdf_of_mjcf
 from app.files.robot_archive import unpack_archive
 from planner.errors import RobotError
 from planner.robots.urdf_shapes import Source
@@ -40,8 +41,8 @@ def robot_description(path: Path, folder: Path) -> Source:
     text = path.read_text(encoding="utf-8", errors="replace")
     is_xacro = path.suffix == _XACRO or _MACROS.search(text) is not None
     text = _expanded(path, tops) if is_xacro else text
-    if re.search(r"<mujoco[\s>]", text[:5000]):
-        raise RobotError("FILE", f"{path.name} is MJCF, MuJoCo's format, which is not read; convert it to a URDF first")
+    if re.search(r"<mujoco[\s>]", text):
+        return Source(urdf_of_mjcf(path, folder), folder)
     root = _root(path.parent, tops, [name.strip("\"'") for name in _FILENAME.findall(text)])
     if not is_xacro:
         return Source(path, root)

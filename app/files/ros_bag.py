@@ -21,9 +21,14 @@ _BAG_VERSION: Final = 8
 
 def mcap_file(plan: Plan) -> bytes:
     """Return a solved plan's motion as an MCAP file; raises `UnsolvedPlanError`."""
+    return mcap_of(_motion(plan))
+
+
+def mcap_of(motion: RosMotion) -> bytes:
+    """Return messages as an MCAP file."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "motion"
-        _write(_motion(plan), path, StoragePlugin.MCAP)
+        _write(motion, path, StoragePlugin.MCAP)
         return next(path.glob("*.mcap")).read_bytes()
 
 

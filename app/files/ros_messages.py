@@ -7,33 +7,31 @@ one, so that whoever wants a series of `PoseStamped` has it too.
 
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 import numpy as np
 from rosbags.typesys import Stores, get_typestore
 from rosbags.typesys.store import Typestore
 
+from app.files.step_motion import StepMotion, controllers
 from app.step_kinds import step_words
 from planner.errors import UnsolvedPlanError
 from planner.geometry.pose import FloatArray
-from planner.geometry.tolerance import TIME_S
 from planner.motion.motion_limits import BASE_NAMES, MotionLimits
-from planner.motion.motion_values import accelerations_at, positions_at, velocities_at
 from planner.robots.card import RobotCard
 from planner.task.plan import Plan
 from planner.task.plan_step import PlanStep
 from planner.task.trajectory import Trajectory
-
-RATE_HZ = 50.0
-"""Points a second of each message."""
 
 TABLE_FRAME = "table"
 """The frame of the base's path: the middle of the table's top, z up."""
 
 _VERSION = 3
 _TRAJECTORY, _PATH = "trajectory_msgs/msg/JointTrajectory", "nav_msgs/msg/Path"
+_STATE = "sensor_msgs/msg/JointState"
 _NS = 1_000_000_000
 
 _NOW = 0
@@ -70,6 +68,7 @@ class RosMotion:
     about: dict[str, Any]
 
 
+@cache
 def message_types() -> Typestore:
     """Return the definitions of all messages that are used."""
     return get_typestore(Stores.ROS2_HUMBLE)
@@ -83,57 +82,35 @@ def ros_motion(plan: Plan, card: RobotCard) -> RosMotion:
     """
     if plan.trajectory is None:
         raise UnsolvedPlanError(plan.status)
-    limits = MotionLimits.of(card, plan.scene)
-    writer = _Writer(plan, plan.trajectory, card, limits, message_types())
+    writer = _Writer(plan, plan.trajectory, card, JointMessages(message_types()))
     messages = tuple(message for step in plan.steps for message in writer.messages(step))
-    return RosMotion(messages, _about(plan, card, limits))
+    return RosMotion(messages, _about(plan, card, MotionLimits.of(card, plan.scene)))
 
 
 class _Writer:
     """Writes the messages of one plan."""
 
-    def __init__(self, plan: Plan, path: Trajectory, card: RobotCard, limits: MotionLimits, types: Typestore) -> None:
-        self._plan, self._motion, self._card, self._limits, self._types = plan, path, card, limits, types
+    def __init__(self, plan: Plan, path: Trajectory, card: RobotCard, messages: "JointMessages") -> None:
+        self._plan, self._motion, self._card, self._messages = plan, path, card, messages
 
     def messages(self, step: PlanStep) -> Iterator[RosMessage]:
         """Yield the messages of a step."""
-        times = np.linspace(0.0, step.duration_s, max(math.ceil(step.duration_s * RATE_HZ - TIME_S), 1) + 1)
-        path, at = self._motion, step.start_s + times
-        orders = [positions_at(path, at), velocities_at(path, at), accelerations_at(path, at, step.end_s)]
-        for arm in self._card.arms:
-            for part, joints in (("arm", arm.joint_names), ("gripper", (arm.gripper.joint_name,))):
-                yield self._trajectory(f"{arm.name}_{part}", step, times, joints, self._columns(orders, joints))
+        motion = StepMotion.of(self._motion, step, self._card, self._plan.scene)
+        stamp_ns = _ns(step.start_s)
+        yield from self._messages.trajectories(motion, self._card, stamp_ns)
         if self._card.lift_joint is not None:
-            still = np.full((2, 1), path.torso_m)
-            resting = [still, np.zeros((2, 1)), np.zeros((2, 1))]
-            yield self._trajectory("lift", step, times[[0, -1]], (self._card.lift_joint,), resting)
+            still, none = np.full((2, 1), self._motion.torso_m), np.zeros((2, 1))
+            resting = StepMotion((self._card.lift_joint,), motion.times_s[[0, -1]], still, none, none)
+            yield self._messages.trajectory("lift", resting, stamp_ns)
         if not self._card.is_fixed:
-            yield self._path(step, times, self._columns(orders, BASE_NAMES)[0])
-
-    def _columns(self, orders: list[FloatArray], names: tuple[str, ...]) -> list[FloatArray]:
-        which = [self._limits.names.index(name) for name in names]
-        return [values[:, which] for values in orders]
-
-    def _trajectory(
-        self, name: str, step: PlanStep, times: FloatArray, joints: tuple[str, ...], orders: list[FloatArray]
-    ) -> RosMessage:
-        """Return a message for the controller of some joints: their positions, velocities and accelerations."""
-        point = self._types.types["trajectory_msgs/msg/JointTrajectoryPoint"]
-        duration = self._types.types["builtin_interfaces/msg/Duration"]
-        points = [
-            point(*(np.ascontiguousarray(row) for row in rows), np.empty(0), duration(*divmod(_ns(t), _NS)))
-            for t, *rows in zip(times.tolist(), *orders, strict=True)
-        ]
-        topic = f"/{_ros_name(name)}_controller/joint_trajectory"
-        message = self._types.types[_TRAJECTORY](self._header(_NOW, ""), list(joints), points)
-        return self._message(topic, _TRAJECTORY, step, message)
+            yield self._path(step, motion.times_s, motion.of_joints(BASE_NAMES).positions)
 
     def _path(self, step: PlanStep, times: FloatArray, poses: FloatArray) -> RosMessage:
-        types = self._types.types
+        types = message_types().types
         floor_m = -self._plan.scene.table.height_m
         stamped = [
             types["geometry_msgs/msg/PoseStamped"](
-                self._header(_ns(step.start_s) + _ns(t), TABLE_FRAME),
+                self._messages.header(_ns(step.start_s) + _ns(t), TABLE_FRAME),
                 types["geometry_msgs/msg/Pose"](
                     types["geometry_msgs/msg/Point"](x, y, floor_m),
                     types["geometry_msgs/msg/Quaternion"](0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2)),
@@ -141,14 +118,47 @@ class _Writer:
             )
             for t, (x, y, yaw) in zip(times.tolist(), poses.tolist(), strict=True)
         ]
-        message = types[_PATH](self._header(_ns(step.start_s), TABLE_FRAME), stamped)
-        return self._message("/base_path", _PATH, step, message)
+        message = types[_PATH](self._messages.header(_ns(step.start_s), TABLE_FRAME), stamped)
+        return self._messages.written("/base_path", _PATH, _ns(step.start_s), message)
 
-    def _message(self, topic: str, type_name: str, step: PlanStep, message: Any) -> RosMessage:  # noqa: ANN401
-        data = bytes(self._types.serialize_cdr(message, type_name))
-        return RosMessage(topic, type_name, _ns(step.start_s), data)
 
-    def _header(self, stamp_ns: int, frame: str) -> Any:  # noqa: ANN401
+class JointMessages:
+    """Writes what controllers are sent and what joints are read as ROS messages."""
+
+    def __init__(self, types: Typestore) -> None:
+        """Take the definitions of the messages."""
+        self._types = types
+
+    def trajectories(self, motion: StepMotion, card: RobotCard, stamp_ns: int) -> Iterator[RosMessage]:
+        """Yield a message for the controller of each arm and of each gripper of which the motion has the joints."""
+        for name, joints in controllers(card):
+            if all(joint in motion.names for joint in joints):
+                yield self.trajectory(name, motion.of_joints(joints), stamp_ns)
+
+    def trajectory(self, name: str, motion: StepMotion, stamp_ns: int) -> RosMessage:
+        """Return a message for the controller of all joints of a motion: positions, velocities and accelerations."""
+        point = self._types.types["trajectory_msgs/msg/JointTrajectoryPoint"]
+        duration = self._types.types["builtin_interfaces/msg/Duration"]
+        orders = (motion.positions, motion.velocities, motion.accelerations)
+        points = [
+            point(*(np.ascontiguousarray(row) for row in rows), np.empty(0), duration(*divmod(_ns(t), _NS)))
+            for t, *rows in zip(motion.times_s.tolist(), *orders, strict=True)
+        ]
+        message = self._types.types[_TRAJECTORY](self.header(_NOW, ""), list(motion.names), points)
+        return self.written(f"/{controller_name(name)}/joint_trajectory", _TRAJECTORY, stamp_ns, message)
+
+    def state(self, joints: Mapping[str, float], stamp_ns: int) -> RosMessage:
+        """Return the message of joints as they were read."""
+        found = np.array(list(joints.values()))
+        message = self._types.types[_STATE](self.header(stamp_ns, ""), list(joints), found, np.empty(0), np.empty(0))
+        return self.written("/joint_states", _STATE, stamp_ns, message)
+
+    def written(self, topic: str, type_name: str, stamp_ns: int, message: Any) -> RosMessage:  # noqa: ANN401
+        """Return a message in its CDR form."""
+        return RosMessage(topic, type_name, stamp_ns, bytes(self._types.serialize_cdr(message, type_name)))
+
+    def header(self, stamp_ns: int, frame: str) -> Any:  # noqa: ANN401
+        """Return a header."""
         time = self._types.types["builtin_interfaces/msg/Time"](*divmod(stamp_ns, _NS))
         return self._types.types["std_msgs/msg/Header"](time, frame)
 
@@ -180,7 +190,7 @@ def _ns(time_s: float) -> int:
     return round(time_s * _NS)
 
 
-def _ros_name(name: str) -> str:
-    """Return a name that ROS allows in a topic."""
+def controller_name(name: str) -> str:
+    """Return the name of the controller of a part of a robot, as ROS allows it in a topic."""
     allowed = re.sub(r"[^a-z0-9]+", "_", name.lower()).strip("_")
-    return allowed if allowed[:1].isalpha() else f"arm_{allowed}"
+    return f"{allowed if allowed[:1].isalpha() else f'arm_{allowed}'}_controller"

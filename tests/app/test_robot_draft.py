@@ -7,12 +7,18 @@ import zipfile
 from pathlib import Path
 from xml.etree import ElementTree
 
+import mujoco
 import numpy as np
+import pinocchio as pin
 import pytest
 
+from app.files.mjcf import urdf_of_mjcf
+from planner.errors import RobotError
 from planner.robots.card_robot import CardRobot
 from planner.robots.described_robot import read_described
 from planner.robots.tool_point import tool_points
+from planner.robots.urdf_reader import read_urdf
+from planner.robots.urdf_shapes import Source
 from tests.app.test_cli import pleat
 from tests.robots.drafted import TOOL_AHEAD_M, pair_urdf, single_urdf
 
@@ -122,7 +128,9 @@ def test_xacro_without_the_library_says_how_to_expand_it(tmp_path: Path, monkeyp
     [
         ("a.urdf", single_urdf().replace('type="prismatic"', 'type="fixed"'), "ends in a gripper"),
         ("a.urdf", "<robot", "no XML"),
-        ("a.xml", '<mujoco model="arm"><worldbody/></mujoco>', "MJCF"),
+        ("a.xml", '<mujoco model="arm"><worldbody/></mujoco>', "ends in a gripper"),
+        ("a.xml", "<mujoco><worldbody><body><joint type='ball'/><geom size='1'/></body></worldbody></mujoco>", "ball"),
+        ("a.xml", "<mujoco><nonsense/></mujoco>", "MuJoCo refuses a.xml"),
         ("a.zip", "PK", "zip"),
         ("a.urdf", single_urdf().replace('box size="0.01 0.02 0.06"', 'mesh filename="finger.stl"'), "finger.stl"),
     ],
@@ -132,6 +140,69 @@ def test_what_is_no_robot_with_grippers_is_refused(tmp_path: Path, name: str, te
     result = pleat("robot", "draft", str(tmp_path / name), "--out", str(tmp_path / "out"))
     assert result.exit_code == 2 and told in result.stderr, result.output
     assert not (tmp_path / "out").exists()
+
+
+def test_mujocos_xml_is_drafted_like_the_urdf_of_the_same_robot(tmp_path: Path) -> None:
+    (tmp_path / "one.urdf").write_text(single_urdf())
+    model = mujoco.MjModel.from_xml_path(str(tmp_path / "one.urdf"))  # MuJoCo reads URDFs too
+    mujoco.mj_saveLastXML(str(tmp_path / "one.xml"), model)
+    assert "<mujoco" in (tmp_path / "one.xml").read_text()
+    cards = []
+    for name in ("one.urdf", "one.xml"):
+        result = pleat("robot", "draft", str(tmp_path / name), "--out", str(tmp_path / name[:3] / name[4:]))
+        assert result.exit_code == 0, result.output
+        cards.append(read_described(tmp_path / name[:3] / name[4:] / "robot.json").card)
+    (from_urdf,), (from_mjcf,) = (card.arms for card in cards)
+    assert from_mjcf.joints == from_urdf.joints and from_mjcf.gripper.drive == from_urdf.gripper.drive
+    assert from_mjcf.tool.offset_m == pytest.approx(from_urdf.tool.offset_m, abs=1e-3)
+    assert (from_mjcf.tool.approach, from_mjcf.gripper.opening_max_m) == (
+        from_urdf.tool.approach,
+        from_urdf.gripper.opening_max_m,
+    )
+
+
+MJCF = """<mujoco><worldbody><geom type="plane" size="1 1 1"/><body name="a" pos="0.1 0 0.5" quat="0.5 0.5 0.5 0.5">
+  <freejoint/><geom type="capsule" size="0.01 0.05"/>
+  <body name="b" pos="0 0.2 0" euler="20 -30 40"><joint name="x" pos="0.03 0 0.01" axis="0 0 1" range="-90 90"/>
+    <joint name="y" type="slide" pos="0.1 0.2 0" axis="1 0 0" range="0 0.3"/><geom type="box" size="0.01 0.02 0.03"/>
+    <body name="c" pos="0.3 0 0.1" euler="0 90 10"><joint name="z" pos="0 0.05 0" axis="0 1 0"/>
+      <geom type="mesh" mesh="m" pos="0 0.1 0"/></body></body></body></worldbody>
+  <asset><mesh name="m" vertex="0 0 0  0.1 0 0  0 0.1 0  0 0 0.1"/></asset>
+  <equality><joint joint1="z" joint2="x" polycoef="0.1 0.5 0 0 0"/></equality></mujoco>"""
+
+
+def test_a_robot_in_mujocos_xml_stands_as_mujoco_has_it(tmp_path: Path) -> None:
+    (tmp_path / "odd.xml").write_text(MJCF)
+    text = read_urdf(Source(urdf_of_mjcf(tmp_path / "odd.xml", tmp_path), tmp_path), "urdf")
+    ours = pin.buildModelFromXML(ElementTree.tostring(text, encoding="unicode"))
+    theirs = mujoco.MjModel.from_xml_string(MJCF)
+    data, q = mujoco.MjData(theirs), {"x": 0.7, "y": 0.2, "z": -0.4}
+    for name, value in q.items():
+        data.joint(name).qpos = value
+    mujoco.mj_forward(theirs, data)
+    config = pin.neutral(ours)
+    for name, value in q.items():
+        joint = ours.joints[ours.getJointId(name)]
+        config[joint.idx_q : joint.idx_q + joint.nq] = [value] if joint.nq == 1 else [np.cos(value), np.sin(value)]
+    own = ours.createData()
+    pin.framesForwardKinematics(ours, own, config)
+    for geom, link in ((2, "b"), (3, "c")):
+        frame = own.oMf[ours.getFrameId(link)]
+        shape = next(one for one in text.iter("link") if one.get("name") == link).find("collision/origin")
+        assert shape is not None
+        xyz, rpy = (np.array([float(number) for number in shape.get(key, "").split()]) for key in ("xyz", "rpy"))
+        np.testing.assert_allclose(frame.translation + frame.rotation @ xyz, data.geom_xpos[geom], atol=1e-9)
+        turned = frame.rotation @ pin.rpy.rpyToMatrix(rpy)
+        np.testing.assert_allclose(turned, data.geom_xmat[geom].reshape(3, 3), atol=1e-9)
+    mimic = next(joint for joint in text.iter("joint") if joint.get("name") == "z").find("mimic")
+    assert mimic is not None and mimic.attrib == {"joint": "x", "multiplier": "0.5", "offset": "0.1"}
+
+
+def test_mujocos_xml_without_mujoco_says_what_to_install(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "mujoco", None)
+    (tmp_path / "odd.xml").write_text(MJCF)
+    with pytest.raises(RobotError, match="pip install"):
+        urdf_of_mjcf(tmp_path / "odd.xml", tmp_path)
 
 
 def test_a_folder_with_something_in_it_is_left_alone(tmp_path: Path) -> None:

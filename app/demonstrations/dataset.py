@@ -1,0 +1,93 @@
+"""A LeRobot dataset that grows by an episode at a time, whole after each, and knows where to go on."""
+
+import json
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from app.files.lerobot_dataset import (
+    EPISODES,
+    Episode,
+    data_path,
+    episode_data,
+    episode_row,
+    meta_files,
+    read_episode_rows,
+)
+from planner.errors import RequestError
+from planner.robots.card import RobotCard
+
+_STATE = "demonstrations.json"
+
+
+@dataclass
+class DemonstrationDataset:
+    """A dataset in a folder.
+
+    Attributes:
+        folder: the folder.
+        card: the robot.
+        asked: what the demonstrations are of, as JSON: another run must ask for the same to go on.
+        next_seed: the first seed that has not been tried.
+    """
+
+    folder: Path
+    card: RobotCard
+    asked: dict[str, Any]
+    next_seed: int
+    _rows: list[dict[str, Any]] = field(default_factory=list)
+
+    @staticmethod
+    def opened(
+        folder: Path, card: RobotCard, asked: dict[str, Any], seed: int, *, resume: bool
+    ) -> "DemonstrationDataset":
+        """Begin a dataset in a new or empty folder, or go on with one.
+
+        Raises:
+            RequestError: the folder has something else in it, or other demonstrations.
+            OSError: the system refuses to read or write.
+        """
+        state = folder / _STATE
+        if not (resume and state.is_file()):
+            if folder.exists() and any(folder.iterdir()):
+                raise RequestError("out", f"{folder} is not empty; --resume goes on with demonstrations in it")
+            folder.mkdir(parents=True, exist_ok=True)
+            dataset = DemonstrationDataset(folder, card, asked, seed)
+            dataset._note()
+            return dataset
+        kept = json.loads(state.read_text(encoding="utf-8"))
+        if kept["asked"] != asked:
+            differs = sorted(name for name in asked if kept["asked"].get(name) != asked[name])
+            raise RequestError("out", f"{folder} has demonstrations of another {', '.join(differs)}")
+        table = folder / EPISODES
+        rows = read_episode_rows(table.read_bytes()) if table.is_file() else []
+        return DemonstrationDataset(folder, card, asked, int(kept["next_seed"]), rows)
+
+    @property
+    def count(self) -> int:
+        """How many episodes it has."""
+        return len(self._rows)
+
+    def tried(self, episode: Episode | None) -> None:
+        """Note that the next seed was tried, and keep its episode, if it has one."""
+        if episode is not None:
+            first = int(self._rows[-1]["dataset_to_index"]) if self._rows else 0
+            row = episode_row(episode, self.count, first)
+            files = {data_path(self.count): episode_data(episode, self.count, first)}
+            for path, data in (files | meta_files(self.card, [*self._rows, row])).items():
+                self._write(path, data)
+            self._rows.append(row)
+        self.next_seed += 1
+        self._note()
+
+    def _note(self) -> None:
+        kept = {"asked": self.asked, "next_seed": self.next_seed}
+        self._write(_STATE, (json.dumps(kept, indent=1) + "\n").encode("ascii"))
+
+    def _write(self, path: str, data: bytes) -> None:
+        """Write a file as a whole or not at all."""
+        target = self.folder / path
+        target.parent.mkdir(parents=True, exist_ok=True)
+        part = target.with_name(f".{target.name}.part")
+        part.write_bytes(data)
+        part.replace(target)

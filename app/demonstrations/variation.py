@@ -1,0 +1,68 @@
+"""What is different in each demonstration: where the cloth lies, the cloth itself, colours, light and camera."""
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from app.rehearsal.camera.look import Look, random_look
+from app.rehearsal.camera.mounted import overhead
+from app.rehearsal.physics.fabric import Fabric
+from planner.robots.card_parts import CameraFile
+from planner.robots.load_robot import robot_card_file
+from planner.task.task import Task
+
+PLACE_M, TURN_RAD = 0.03, 0.1
+"""Cloth lies up to so far from where the task has it, along each axis (m), and is turned by so much (rad)."""
+
+_DENSITY, _FRICTION, _BENDING_M = (0.7, 1.4), (0.85, 1.15), (0.013, 0.023)
+"""The shares of the garment's density and of the scene's friction, and bending lengths (m)."""
+
+_CAMERA_M, _CAMERA_RAD = 0.03, 0.02
+_PICTURE_PX = (320, 240)
+
+
+@dataclass(frozen=True, slots=True)
+class Variation:
+    """The world of one demonstration.
+
+    Attributes:
+        task: the task, the cloth where it lies.
+        fabric: the cloth.
+        camera: what looks at it.
+        look: colours and light.
+    """
+
+    task: Task
+    fabric: Fabric
+    camera: CameraFile
+    look: Look
+
+    @staticmethod
+    def of(task: Task, seed: int) -> "Variation":
+        """Return the world that a seed makes of a task."""
+        rng = np.random.default_rng(seed)
+        x_m, y_m, turn = rng.uniform(-1.0, 1.0, 3).tolist()
+        lies = task.start.placement.moved(PLACE_M * x_m, PLACE_M * y_m)
+        moved = task.at(replace(lies, yaw_rad=lies.yaw_rad + TURN_RAD * turn))
+        density, friction, bending = (float(rng.uniform(*ends)) for ends in (_DENSITY, _FRICTION, _BENDING_M))
+        fabric = Fabric(
+            density * task.garment.areal_density_kg_m2,
+            friction=friction * task.scene.friction,
+            bending_length_m=bending,
+            thickness_m=task.garment.thickness_m,
+        )
+        given = robot_card_file(task.robot).camera or overhead(task.scene.table)
+        off_m, off_rad = _CAMERA_M * rng.uniform(-1.0, 1.0, 3), _CAMERA_RAD * rng.uniform(-1.0, 1.0, 3)
+        camera = replace(
+            given,
+            x_m=given.x_m + float(off_m[0]),
+            y_m=given.y_m + float(off_m[1]),
+            z_m=given.z_m + float(off_m[2]),
+            roll_rad=given.roll_rad + float(off_rad[0]),
+            pitch_rad=given.pitch_rad + float(off_rad[1]),
+            yaw_rad=given.yaw_rad + float(off_rad[2]),
+            width_px=_PICTURE_PX[0],
+            height_px=math.ceil(_PICTURE_PX[0] * given.height_px / given.width_px),
+        )
+        return Variation(moved, fabric, camera, random_look(rng))
