@@ -22,6 +22,9 @@ UNITS_MIN_MAX_M = (1e-9, 1e3)
 LIKELY_M = (0.01, LARGEST_M)
 """Range of possible garment sizes (m); others mean that the file's unit is wrong."""
 
+_SPAN_M = 0.4
+"""Size of a drawing of which the unit is not known (m): gaps of a millimetre are closed in a small garment, too."""
+
 SHEET_MAX_M = 100.0
 """Largest width and height of a whole drawing (m)."""
 
@@ -35,7 +38,7 @@ def require_likely(sketch: Sketch, unit_m: float) -> None:
 
     Drawing programs write a unit into every file, even if nobody chose it.
     """
-    sizes = sizes_by_unit(sketch, 1.0)
+    sizes = sizes_by_unit(sketch, 1.0, unit_m)
     longest_m = max(sizes["m"]) * unit_m
     if not LIKELY_M[0] <= longest_m <= LIKELY_M[1]:
         said = f"the unit that it names, {1000 * unit_m:.6g} mm, would make the garment {longest_m:.3g} m long"
@@ -43,16 +46,20 @@ def require_likely(sketch: Sketch, unit_m: float) -> None:
         raise UnitsNeededError(Message("unit_unlikely", said, values), sizes)
 
 
-def sizes_by_unit(sketch: Sketch, scale: float) -> Sizes:
-    """Return the garment's size in each unit (m)."""
+def sizes_by_unit(sketch: Sketch, scale: float, unit_m: float = 0.0) -> Sizes:
+    """Return the garment's size in each unit (m).
+
+    Gaps are closed as in a drawing of a given unit (m), or as in one of `_SPAN_M` if it is not likely.
+    """
     extent = extent_of(sketch)
     with np.errstate(all="ignore"):
         span = float((extent.max(axis=0) - extent.min(axis=0)).max()) or 1.0
     if not math.isfinite(span):
         raise ImportedFileError("file", "its numbers are too large")
-    outlined = find_outline(sketch, 1.0 / span).points * span
+    assumed_m = unit_m if LIKELY_M[0] <= span * unit_m <= LIKELY_M[1] else _SPAN_M / span
+    outlined = find_outline(sketch, assumed_m).points / assumed_m
     width, height = (outlined.max(axis=0) - outlined.min(axis=0)) * scale
-    return {unit: (float(width) * unit_m, float(height) * unit_m) for unit, unit_m in UNITS_M.items()}
+    return {unit: (float(width) * each_m, float(height) * each_m) for unit, each_m in UNITS_M.items()}
 
 
 def require_size(points: FloatArray, most_m: float, what: str) -> None:

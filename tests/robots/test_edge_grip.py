@@ -10,12 +10,16 @@ from planner.robots.collision.link_shapes import link_shapes
 from planner.robots.collision.rigid_groups import Carrier, Skeleton
 from planner.robots.described_robot import DescribedRobot, read_robot
 from planner.robots.edge_grip import BODY_CLEAR_M, FINGER_CLEAR_M, HandShape, edge_raised_m
-from planner.robots.load_robot import load_robot
+from planner.robots.known_robots import shipped_path
+from planner.robots.load_robot import load_robot, robot_card_file
 from planner.robots.openings import EDGE_OPEN_M, HELD_M
 
 HEIGHT_M = 0.02
 PITCHES_DEG = (15, 30, 45, 60, 75)
 THICK_M, WIDE_M, PALM_M = 0.008, 0.02, 0.05
+
+RAISED = "arms.0.tool.offset_m=[0.003,0,0]:arms.1.tool.offset_m=[0.003,0,0]"
+"""Tool points 3 mm nearer to a PR2's fingertips, as docs/robots.md has it."""
 
 
 def box(low: tuple[float, float, float], high: tuple[float, float, float]) -> FloatArray:
@@ -117,3 +121,12 @@ def hand_points(robot: DescribedRobot, opening_m: float) -> FloatArray:
         else:
             clouds.append(skeleton.points(shape))
     return (np.vstack(clouds) - arm.chain.tool_offset) @ arm.chain.tool_rotation
+
+
+@pytest.mark.parametrize(("pitch_deg", "more_m"), [(90, 0.003), (45, 0.003 * math.sin(math.radians(45.0)))])
+def test_a_tool_point_nearer_to_the_tips_keeps_fingers_further_from_the_table(pitch_deg: int, more_m: float) -> None:
+    cards = (robot_card_file(name) for name in ("pr2", f"pr2@{RAISED}"))
+    folder = shipped_path("pr2").parent
+    shipped, varied = (hand_points(DescribedRobot.of(card, folder), HELD_M) for card in cards)
+    before_m, after_m = (lowest_m(points, math.radians(pitch_deg)) for points in (shipped, varied))
+    assert after_m - before_m == pytest.approx(more_m)

@@ -192,6 +192,27 @@ def test_lines_that_meet_at_their_ends_make_an_outline_together() -> None:
     assert area(read(svg(*sides))) == pytest.approx(0.24)
 
 
+def gapped(across: float, gap: float) -> str:
+    """Return the sides of a square, each with its end so far before the next one's beginning."""
+    ends = ((across, 0.0), (across, across), (0.0, across), (0.0, 0.0))
+    starts = (ends[-1], *ends[:-1])
+    lines = [
+        (start, np.subtract(end, np.sign(np.subtract(end, start)) * gap))
+        for start, end in zip(starts, ends, strict=True)
+    ]
+    return "".join(f'<path d="M {x} {y} L {to[0]} {to[1]}"/>' for (x, y), to in lines)
+
+
+@pytest.mark.parametrize("across_cm", [8.0, 40.0])
+def test_gaps_of_a_millimetre_are_closed_however_small_the_garment(across_cm: float) -> None:
+    assert area(read(svg(gapped(across_cm, 0.1)))) == pytest.approx((across_cm / 100.0) ** 2, rel=0.05)
+
+
+def test_where_the_unit_is_not_known_gaps_of_a_millimetre_do_not_hide_the_outline() -> None:
+    with pytest.raises(UnitsNeededError):
+        read(svg(gapped(40.0, 0.1), size=""))
+
+
 def test_a_bent_fold_line_is_straightened_and_said_to_be() -> None:
     found = read(svg(SQUARE, '<path stroke="blue" d="M 0 20 Q 30 30 60 20"/>'))
     assert np.allclose([found.garment.folds[0].start, found.garment.folds[0].end], [(0.0, 0.2), (0.6, 0.2)])
