@@ -135,6 +135,11 @@ class RobotPort(PathFinder, Kinematics, Hashable, Protocol):
         """Whether `reach` differs where the other arm is minded."""
         ...
 
+    @property
+    def mirror(self) -> Callable[[FloatArray], FloatArray] | None:
+        """The mirror image of configurations, shape (n, joints); None where the arms are not each other's."""
+        ...
+
     def reach(
         self,
         torso_m: float,

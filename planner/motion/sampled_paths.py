@@ -2,7 +2,8 @@
 
 Two trees of configurations grow from start and goal. In turns, one goes towards a random configuration, the other
 towards where that one came to; where they meet there is a path. The random numbers have a fixed seed and the
-configurations that are tested are counted, so the same question always has the same answer, after bounded work.
+configurations that are tried are counted, so the same question always has the same answer, after bounded work. The
+mirror image of a question has the mirror image of its answer.
 """
 
 from collections.abc import Callable
@@ -32,6 +33,9 @@ _SEED = 1
 AreFree = Callable[[FloatArray], BoolArray]
 """The test at which configurations, shape (n, joints), nothing is in the way."""
 
+Mirror = Callable[[FloatArray], FloatArray]
+"""The mirror image of configurations, shape (n, joints): arms exchanged, joints turned the other way where need be."""
+
 
 class SampledPaths:
     """Finds one path between two configurations.
@@ -40,7 +44,9 @@ class SampledPaths:
         tested: how many configurations have been tested.
     """
 
-    def __init__(self, are_free: AreFree, low: FloatArray, high: FloatArray, step_rad: float) -> None:
+    def __init__(
+        self, are_free: AreFree, low: FloatArray, high: FloatArray, step_rad: float, mirror: Mirror | None = None
+    ) -> None:
         """Keep the test and the box of the configurations that may be tried.
 
         Args:
@@ -48,9 +54,12 @@ class SampledPaths:
             low: the lowest value of each joint (rad), shape (joints,).
             high: the highest; one equal to the lowest stays as it is.
             step_rad: the largest turn of a joint from one tested configuration to the next (rad).
+            mirror: the mirror image of configurations; None if there is none.
         """
         self.tested = 0
-        self._are_free, self._low, self._high, self._step_rad = are_free, low, high, step_rad
+        self._mirror = mirror
+        self._are_free, self._step_rad = are_free, step_rad
+        self._middle, self._half = 0.5 * (low + high), 0.5 * (high - low)
         self._rng = np.random.default_rng(_SEED)
 
     def path(self, start: FloatArray, goal: FloatArray) -> FloatArray | None:
@@ -61,10 +70,15 @@ class SampledPaths:
         if not self._test(np.array([start, goal])).all():
             return None
         trees = _Tree(start), _Tree(goal)
+        # Of a question and its image one takes the samples, the other their images.
+        ends = np.array([start, goal])
+        mirror = self._mirror if self._mirror and self._mirror(ends).tolist() < ends.tolist() else None
         turn = 0
         while self.tested < TESTED_MAX:
             one, other = trees[turn], trees[1 - turn]
-            grown = self._grow(one, self._rng.uniform(self._low, self._high))
+            share = self._rng.uniform(-1.0, 1.0, len(start))
+            towards = share if mirror is None else mirror(share[None])[0]
+            grown = self._grow(one, self._middle + towards * self._half)
             if grown is not None and (met := self._connect(other, one.nodes[grown])) is not None:
                 halves = one.way(grown), other.way(met)
                 there = np.concatenate([halves[0], halves[1][::-1][1:]])

@@ -190,7 +190,7 @@ class TransitPaths:
         has_to_move = np.array([bool((start != goal)[span].any()) for span in layout.spans])
         for moves in (has_to_move,) if has_to_move.all() else (has_to_move, np.ones_like(has_to_move)):
             low, high = np.where(moves[layout.owners], bounds, ends)
-            found = SampledPaths(are_free, low, high, STEP_RAD).path(start, goal)
+            found = SampledPaths(are_free, low, high, STEP_RAD, self._machine.mirror).path(start, goal)
             if found is not None:
                 yield found
 

@@ -57,6 +57,11 @@ class ArmedRobot(ABC):
         """The robot's card."""
         return self._card
 
+    @property
+    def mirror(self) -> Callable[[FloatArray], FloatArray] | None:
+        """The mirror image of configurations, shape (n, joints); None where the arms are not each other's."""
+        return None
+
     def home(self, arm: int) -> FloatArray:
         """Return the joints of an arm that is out of the way (rad), shape (joints,)."""
         return np.array(self._card.arms[arm].home)

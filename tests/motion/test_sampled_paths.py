@@ -50,3 +50,18 @@ def test_joints_that_may_not_move_stay() -> None:
     start, goal = np.array([-2.0, -2.0, 2.0]), np.array([2.0, -2.0, 2.0])
     way = SampledPaths(beside_the_wall, low, high, STEP_RAD).path(start, goal)
     assert way is not None and (way[:, 2] == 2.0).all()
+
+
+def test_the_mirror_image_of_a_question_has_the_mirror_image_of_its_answer() -> None:
+    def mirror(joints: FloatArray) -> FloatArray:
+        return np.asarray(joints[:, ::-1] * [1.0, -1.0, 1.0])
+
+    def beside_its_image(joints: FloatArray) -> BoolArray:
+        return beside_the_wall(mirror(joints))
+
+    images = mirror(np.array([START, GOAL]))
+    way = SampledPaths(beside_the_wall, LOW, HIGH, STEP_RAD, mirror).path(START, GOAL)
+    image = SampledPaths(beside_its_image, LOW, HIGH, STEP_RAD, mirror).path(*images)
+    assert way is not None and image is not None
+    assert np.allclose(mirror(way), image, atol=1e-12)
+    assert not np.allclose(way, image)

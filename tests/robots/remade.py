@@ -120,6 +120,7 @@ class RemadeRobot:
     """A robot that has these arms, from left to right."""
 
     can_mind_arms = False
+    mirror = None
 
     def __init__(self, *arms: Mounted, **changes: Any) -> None:
         """Take its arms, and what of the card of a PR2 differs."""

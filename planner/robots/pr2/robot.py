@@ -1,5 +1,6 @@
 """The PR2, with its card, its reach and its joints."""
 
+from collections.abc import Callable
 from functools import cached_property
 
 import numpy as np
@@ -11,13 +12,18 @@ from planner.robots.collision.collisions import Collisions
 from planner.robots.collision.robot_parts import RobotParts
 from planner.robots.edge_grip import HandShape
 from planner.robots.openings import OPENING_M
-from planner.robots.pr2.arm import read_arm
+from planner.robots.pr2.arm import MIRROR, read_arm
 from planner.robots.pr2.card import pr2_card
 from planner.robots.pr2.collision_parts import pr2_parts
 from planner.robots.pr2.description import read_model
 from planner.robots.pr2.mirrored_arm import MirroredArm
 from planner.robots.pr2.posture_room import Room, room_beside
 from planner.robots.pr2.reach import Pr2Reach
+
+
+def _mirrored(joints: FloatArray) -> FloatArray:
+    left, right = np.split(joints, 2, axis=1)
+    return np.concatenate([right * MIRROR, left * MIRROR], axis=1)
 
 
 class Pr2(ArmedRobot):
@@ -35,6 +41,11 @@ class Pr2(ArmedRobot):
     def _arms(self) -> tuple[MirroredArm, ...]:
         shape = read_arm(self._model)
         return MirroredArm(shape, is_mirrored=False), MirroredArm(shape, is_mirrored=True)
+
+    @property
+    def mirror(self) -> Callable[[FloatArray], FloatArray]:
+        """The mirror image of configurations, shape (n, 14)."""
+        return _mirrored
 
     def reach(
         self,
