@@ -30,6 +30,9 @@ _SHORTCUTS = 60
 
 _SEED = 1
 
+_DIGITS = 6
+"""Decimal places to which turns of joints are compared (rad)."""
+
 AreFree = Callable[[FloatArray], BoolArray]
 """The test at which configurations, shape (n, joints), nothing is in the way."""
 
@@ -41,7 +44,7 @@ class SampledPaths:
     """Finds one path between two configurations.
 
     Attributes:
-        tested: how many configurations have been tested.
+        tested: how many configurations have been tested for the last path.
     """
 
     def __init__(
@@ -65,14 +68,16 @@ class SampledPaths:
     def path(self, start: FloatArray, goal: FloatArray) -> FloatArray | None:
         """Return configurations from start to goal, shape (n, joints), between which lines are free.
 
-        None if no path was found.
+        None if no path was found. Asked again, it samples on, and may return another path.
         """
+        self.tested = 0
         if not self._test(np.array([start, goal])).all():
             return None
         trees = _Tree(start), _Tree(goal)
-        # Of a question and its image one takes the samples, the other their images.
-        ends = np.array([start, goal])
-        mirror = self._mirror if self._mirror and self._mirror(ends).tolist() < ends.tolist() else None
+        # Of a question and its image one takes the samples, the other their images. Joints that turn without end may
+        # be whole turns away in one of them, so ends are not compared, but how far it is from one to the other.
+        away = (goal - start).round(_DIGITS)[None]
+        mirror = self._mirror if self._mirror and self._mirror(away).tolist() < away.tolist() else None
         turn = 0
         while self.tested < TESTED_MAX:
             one, other = trees[turn], trees[1 - turn]
@@ -173,5 +178,6 @@ class _Tree:
 
 def sampled(start: FloatArray, end: FloatArray, step_rad: float) -> FloatArray:
     """Return the straight line between two configurations, step by step, both included."""
-    count = max(1, int(np.ceil(np.abs(end - start).max() / step_rad)))
+    # Lines of a whole number of steps are frequent: rounding must not give their images one more.
+    count = max(1, int(np.ceil(np.abs(end - start).max() / step_rad - 1e-9)))
     return np.asarray(start + np.linspace(0.0, 1.0, count + 1)[:, None] * (end - start))

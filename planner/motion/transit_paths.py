@@ -42,6 +42,9 @@ _WAYS_KEPT = 128
 _DIGITS = 9
 """Decimal places to which ends of paths are told apart (rad): whole turns are not exact."""
 
+_SAMPLED_MAX = 4
+"""Paths sampled for the same arms, until one is free."""
+
 _ANSWERS_KEPT = 4096
 """Answers kept about motions, and as many about the lengths of lines."""
 
@@ -168,7 +171,11 @@ class TransitPaths:
     def _sampled(
         self, base: Pose2, start: FloatArray, goal: FloatArray, cloth: LyingCloth, spared: Spared
     ) -> Iterator[FloatArray]:
-        """Yield paths found by sampling: of the arms that have to move, then of all arms."""
+        """Yield paths found by sampling: of the arms that have to move, then of all arms.
+
+        Hands may go low over cloth only near to their ends, along the way, which is only known of whole paths: so each
+        may still turn out not to be free.
+        """
         layout = self.layout
         tools = [[self._tools(arm, joints[None])[0] for arm in layout.arms] for joints in (start, goal)]
 
@@ -190,8 +197,11 @@ class TransitPaths:
         has_to_move = np.array([bool((start != goal)[span].any()) for span in layout.spans])
         for moves in (has_to_move,) if has_to_move.all() else (has_to_move, np.ones_like(has_to_move)):
             low, high = np.where(moves[layout.owners], bounds, ends)
-            found = SampledPaths(are_free, low, high, STEP_RAD, self._machine.mirror).path(start, goal)
-            if found is not None:
+            paths = SampledPaths(are_free, low, high, STEP_RAD, self._machine.mirror)
+            for _ in range(_SAMPLED_MAX):
+                found = paths.path(start, goal)
+                if found is None:
+                    break
                 yield found
 
     def _tools(self, arm: int, joints: FloatArray) -> FloatArray:
