@@ -27,16 +27,19 @@ def lying_at(new_sheet: NewSheet, x_m: float, y_m: float) -> Sheet:
         ((-0.5, 0.6), "The cloth lies 11 cm beside the table.", "11.0 cm beside the table", 0),
     ],
 )
-def test_cloth_over_the_edge_is_a_sentence_a_picture_and_a_button(
+def test_cloth_over_the_edge_is_a_sentence_and_a_picture(
     page: Page, new_sheet: NewSheet, place: tuple[float, float], said: str, by: str, lines: int
 ) -> None:
-    sheet = lying_at(new_sheet, *place)
-    page.goto(sheet.page_url)
+    page.goto(lying_at(new_sheet, *place).page_url)
     expect(page.locator(".reason")).to_contain_text(said)
     expect(page.locator(".overhang")).to_have_count(1)
     expect(page.locator(".problem-line")).to_have_count(lines)
     expect(page.locator(".problem-cross")).to_have_count(1)
     expect(page.locator(".reason-text")).to_have_text(by)
+
+
+def test_a_button_brings_cloth_back_from_the_edge(page: Page, new_sheet: NewSheet) -> None:
+    page.goto(lying_at(new_sheet, -0.5, 0.38).page_url)
     move = page.get_by_role("group", name="Suggestions").get_by_role("button", name="Move the garment")
     move.first.click(timeout=SEARCH_MS)
     expect_planned(page)
