@@ -16,7 +16,7 @@ from tests.laws.law import LONG, TRIED
 BROWSER_TESTS = Path(__file__).parent / "browser"
 EVEN = Path(__file__).parent / "even"
 CASES = "cases"
-LONGEST_FIRST = ("browser", "laws", "tests", "app", "explain", "robots", "planning", "replay", "motion")
+LONGEST_FIRST = ("browser", "laws", "tests", "app", "explain", "robots", "planning", "replay", "motion", "proposals")
 """Folders whose files take longest, in the order in which workers take them: only short ones are left at the end."""
 
 SYSTEM_CHROMIUM = Path("/usr/bin/chromium")

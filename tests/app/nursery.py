@@ -15,8 +15,8 @@ from functools import cache
 from pathlib import Path
 from typing import TextIO
 
-MESSAGE_MAX = 1 << 16
-"""The most that a request takes, the environment above all (bytes)."""
+PIECE = 1 << 16
+"""The most that is read of a request at once (bytes); it is a line of JSON."""
 
 
 class Forked:
@@ -61,7 +61,7 @@ def forked(arguments: list[str]) -> Forked:
     read, write = os.pipe()
     told, tell = os.pipe()
     request = {"arguments": arguments, "environment": dict(os.environ), "folder": str(Path.cwd())}
-    socket.send_fds(_nursery(), [json.dumps(request).encode()], [write, tell])
+    socket.send_fds(_nursery(), [f"{json.dumps(request)}\n".encode()], [write, tell])
     os.close(write)
     os.close(tell)
     return Forked(os.fdopen(read, encoding="utf-8"), os.fdopen(told, encoding="utf-8"))
@@ -70,7 +70,7 @@ def forked(arguments: list[str]) -> Forked:
 @cache
 def _nursery() -> socket.socket:
     """Start the process from which programs are forked; it ends once the socket to it is closed."""
-    ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+    ours, theirs = socket.socketpair()
     command = f"from tests.app.nursery import fork_on_request; fork_on_request({theirs.fileno()})"
     process = subprocess.Popen([sys.executable, "-c", command], pass_fds=[theirs.fileno()])
     theirs.close()
@@ -87,9 +87,11 @@ def fork_on_request(descriptor: int) -> None:
     signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # nobody waits for keepers
     asked_at = socket.socket(fileno=descriptor)
     while True:
-        request, descriptors, _, _ = socket.recv_fds(asked_at, MESSAGE_MAX, 2)
+        request, descriptors, _, _ = socket.recv_fds(asked_at, PIECE, 2)
         if not request:
             return
+        while not request.endswith(b"\n"):
+            request += asked_at.recv(PIECE)
         if os.fork() == 0:
             break
         for one in descriptors:

@@ -8,9 +8,10 @@ from playwright.sync_api import Page, expect
 
 from tests.app.conftest import REST, Served
 from tests.app.robot_archives import archive, box_card, box_urdf
+from tests.browser.napkin import napkin
 from tests.patience import PATIENCE_S
 
-QUICK = {"garment": "hand-towel", "step_m": 0.5, "time_limit_s": 20.0}
+QUICK = {"garment": napkin(), "step_m": 0.5, "time_limit_s": 20.0}
 LONG = {"garment": "shirt", "step_m": 0.02, "time_limit_s": 60.0}
 
 

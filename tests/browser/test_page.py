@@ -190,19 +190,6 @@ def test_the_status_covers_nothing_of_the_bar(page: Page, width: int) -> None:
         assert right <= left + 0.5
 
 
-def test_the_page_follows_what_is_changed_elsewhere(page: Page, designer: Served) -> None:
-    path = f"{designer.url}/api/documents/{page.url.rpartition('/')[2]}"
-    drawing = REST.get(path).json()["drawing"]
-    changed = {**drawing, "folds": drawing["folds"][:2]}
-    body = {"base_version": REST.get(path).json()["version"], "label": "Fewer", "drawing": changed}
-    assert REST.put(f"{path}/drawing", json=body).status_code == 200
-    expect(page.get_by_role("list", name="Folds").get_by_role("listitem")).to_have_count(2)
-    expect_planned(page)
-    assert REST.post(f"{path}/undo").status_code == 200
-    expect(page.get_by_role("list", name="Folds").get_by_role("listitem")).to_have_count(5)
-    expect_planned(page)
-
-
 def test_a_document_that_is_not_there_is_told_of(browser: Browser, designer: Served) -> None:
     page = browser.new_page()
     try:

@@ -296,6 +296,7 @@ def test_on_a_phone_the_pictures_are_in_the_sheet(chromium: Browser, new_sheet: 
         assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
 
 
+@pytest.mark.long
 def test_a_small_napkin_is_rehearsed_and_planned_from_what_is_seen(
     page: Page, new_sheet: Callable[[Garment], Sheet]
 ) -> None:

@@ -22,7 +22,7 @@ def few(route: Route) -> None:
 
 def test_robots_are_compared_and_one_is_chosen(page: Page, new_sheet: Callable[[Garment], Sheet]) -> None:
     page.route("**/api/robots", few)
-    page.goto(new_sheet(napkin()).page_url)
+    page.goto(new_sheet(napkin(folds=napkin()["folds"][:1])).page_url)
     page.get_by_role("button", name="Who can fold this?").click()
     dialog = page.get_by_role("dialog", name="Who can fold this?")
     rows = dialog.locator("tbody tr")

@@ -25,7 +25,7 @@ from tests.browser.ways import ByFinger, ByKeyboard, ByMouse, Way, expect_folds
 CORNERS: list[Point] = [(0.0, 0.0), (0.4, 0.0), (0.4, 0.2), (0.3, 0.3), (0.2, 0.2), (0.1, 0.3), (0.0, 0.2)]
 FOLDS: list[tuple[Point, Point]] = [((0.1, 0.0), (0.1, 0.3)), ((0.3, 0.3), (0.3, 0.0)), ((0.3, 0.1), (0.1, 0.1))]
 PULLED = 1
-PULLS_M = (0.04, 0.08, 0.12, 0.16, 0.2, 0.24, 0.28, 0.3, 0.32)
+PULLS_M = (0.08, 0.2, 0.28, 0.3, 0.32)
 # Where a hand puts a point: within a few pixels, and a pixel is some 3 mm there.
 NEAR_M = 0.008
 
@@ -103,7 +103,7 @@ def until_it_is_at(sheet: Sheet, y: float) -> int:
 def expect_answer(page: Page, version: int) -> None:
     """Expect the page to show this version, or a later one, and the outcome of its planning."""
     shown = "['drafting-board', 'status'].map((id) => Number(document.getElementById(id).dataset.version))"
-    page.wait_for_function(f"(version) => {shown}.every((other) => other >= version)", arg=version)
+    page.wait_for_function(f"(version) => {shown}.every((other) => other >= version)", arg=version, timeout=SEARCH_MS)
 
 
 def step(page: Page, way_there: Callable[[], None]) -> None:
