@@ -8,13 +8,16 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, Page
 
+from app.drawing.blank import blank_drawing
 from app.drawing.curve import CURVE_MAX, CURVE_TOLERANCE_M, Curve
 from app.drawing.place_crease import NO_CLOTH
+from planner import load_garment
 from planner.cloth.garment import FIRST_IS_RED
 from planner.cloth.outline import EDGE_MIN_M, POINTS_MAX
 from planner.geometry.pose import Point2
 from tests.app.conftest import Served
 from tests.browser.board_desk import window
+from tests.browser.board_hand import SEVEN
 
 
 @pytest.fixture(scope="module")
@@ -238,10 +241,38 @@ def test_a_pointer_means_the_corner_before_the_fraction_before_the_edge(page: Pa
     assert found[3]["at"][1] == pytest.approx(0)
 
 
+def test_a_garment_that_is_drawn_is_called_what_its_outline_looks_like(page: Page) -> None:
+    def title(*points: tuple[float, float]) -> Any:
+        return asked(page, "guessed_title", f"m.guessedTitle({[list(point) for point in points]})")
+
+    assert title((0, 0), (0.6, 0), (0.6, 0.9), (0, 0.9)) == "Towel"
+    assert title((0, 0), (0.2, 0), (0.2, 1.4), (0, 1.4)) == "Scarf"
+    assert title(*SEVEN) == "Vest"
+    legs = [(0.0, 0.0), (0.2, 0.0), (0.25, 0.6), (0.3, 0.0), (0.5, 0.0), (0.45, 1.0), (0.05, 1.0)]
+    assert title(*legs) == title(*reversed(legs)) == "Trousers"
+    assert title(*load_garment("t-shirt").outline) == "T-shirt"
+    assert title((0, 0), (0.6, 0), (0.3, 0.5)) == ""
+
+
+def test_the_smaller_part_moves_whichever_way_a_fold_is_drawn_and_both_can_be_had(page: Page) -> None:
+    square = [[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]]
+
+    def line(x: float, start: float, end: float, is_flipped: bool = False) -> Any:
+        stroke = {"isGrab": False, "from": [x, start], "to": [x, end]}
+        return asked(page, "stroke", f"m.lineOf({json.dumps(stroke)}, {square}, {json.dumps(is_flipped)})")
+
+    up, down = [[0.2, 0.0], [0.2, 1.0]], [[0.2, 1.0], [0.2, 0.0]]
+    assert line(0.2, 0.0, 1.0) == line(0.2, 1.0, 0.0) == up
+    assert line(0.2, 0.0, 1.0, is_flipped=True) == line(0.2, 1.0, 0.0, is_flipped=True) == down
+    assert line(0.5, 1.0, 0.0) == [[0.5, 1.0], [0.5, 0.0]]
+    assert line(0.0, 0.0, 1.0) == [[0.0, 0.0], [0.0, 1.0]]
+
+
 def test_the_page_has_the_numbers_and_sentences_of_the_server(page: Page) -> None:
     names = ("MOST_CORNERS", "SAME_CORNER_M", "CURVE_TOLERANCE_M", "CURVE_MAX")
     numbers = asked(page, "rules", f"{json.dumps(names)}.map((name) => m[name])")
     assert numbers == [POINTS_MAX, EDGE_MIN_M, CURVE_TOLERANCE_M, CURVE_MAX]
+    assert asked(page, "rules", "m.UNTITLED") == blank_drawing().title
     sentences = asked(page, "rules", "[m.NO_CLOTH, m.FIRST_IS_RED]")
     assert [text.lower().rstrip(".") for text in sentences] == [NO_CLOTH.lower(), FIRST_IS_RED.lower()]
 

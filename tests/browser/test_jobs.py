@@ -28,10 +28,14 @@ def test_jobs_are_listed_cancelled_by_keyboard_and_lead_to_their_results(page: P
     rows = page.get_by_role("dialog", name="Jobs").get_by_role("listitem")
     expect(rows).to_have_count(2)
     expect(rows.nth(0).get_by_role("progressbar")).to_be_visible()
-    expect(rows.nth(0)).to_have_text(re.compile(r"Placements, Child's long-sleeved shirt, .*Running\s*\d+\s%\s*Cancel"))
-    expect(rows.nth(1).get_by_role("link")).to_have_attribute("href", f"..{done}")
-    rows.nth(0).get_by_role("button", name="Cancel").press("Enter")
-    expect(rows.nth(0).get_by_role("status")).to_have_text("Cancelled")
+    expect(rows.nth(0)).to_have_text(re.compile(r"Placements, Child's long-sleeved shirt, .*Running\s*\d+\s%\s*Stop"))
+    rows.nth(1).get_by_role("button", name="Result").press("Enter")
+    result = page.get_by_role("dialog", name=re.compile("Placements, Hand towel"))
+    expect(result.get_by_role("columnheader", name="cost (s)")).to_be_visible()
+    expect(result.get_by_role("link", name="As JSON")).to_have_attribute("href", f"..{done}")
+    page.keyboard.press("Escape")
+    rows.nth(0).get_by_role("button", name="Stop").press("Enter")
+    expect(rows.nth(0).get_by_role("status")).to_have_text("Stopped")
     assert REST.get(f"{served.url}{running}").json()["status"] == "cancelled"
 
 

@@ -56,9 +56,9 @@ def test_a_way_is_looked_at_and_taken_by_keyboard_and_is_one_step(page: Page, ne
     expect(page.locator(".fold-row")).to_have_count(0)
 
 
-def proposal(outline: list[list[float]], side_m: float) -> dict[str, Any]:
+def proposal(outline: list[list[float]], size_m: tuple[float, float]) -> dict[str, Any]:
     garment = {**TOWEL, "outline": outline, "folds": [], "grip_radius_m": 0.127}
-    return {"folds": [], "garment": garment, "size_m": [side_m, 0.1], "layers": 2, "status": "solved", "cost_s": 9.0}
+    return {"folds": [], "garment": garment, "size_m": size_m, "layers": 2, "status": "solved", "cost_s": 9.0}
 
 
 def test_the_size_is_pulled_and_what_changes_begins_anew(page: Page, new_sheet: NewSheet) -> None:
@@ -71,8 +71,8 @@ def test_the_size_is_pulled_and_what_changes_begins_anew(page: Page, new_sheet: 
 
     def tell(route: Route) -> None:
         wanted = asked[-1]
-        width = max(x for x, _ in wanted["garment"]["outline"])
-        found = [] if wanted["to"] == {"width_m": 0.1, "length_m": 0.25} else [proposal(TOWEL["outline"], width)]
+        size_m = (max(x for x, _ in wanted["garment"]["outline"]), 0.2 if wanted["to"] == "drawer" else 0.1)
+        found = [] if wanted["to"] == {"width_m": 0.1, "length_m": 0.25} else [proposal(TOWEL["outline"], size_m)]
         lines = [f"event: found\ndata: {json.dumps(one)}\n\n" for one in found]
         end = {"status": "done", "progress": 1.0, "message": "", "result": {"proposals": found}}
         body = "".join([*lines, f"event: end\ndata: {json.dumps(end)}\n\n"])
@@ -86,12 +86,12 @@ def test_the_size_is_pulled_and_what_changes_begins_anew(page: Page, new_sheet: 
     panel = page.get_by_role("region", name="Fold it for me")
     cards = panel.get_by_role("group", name="Ways to fold it").get_by_role("button")
     panel.get_by_role("button", name="Drawer").click()
-    expect(cards).to_contain_text(size(60, 10))
+    expect(cards).to_contain_text(size(60, 20))
     assert (asked[-1]["to"], asked[-1]["garment"]["folds"]) == ("drawer", [])
     sheet.edit(lambda drawing: drawing["outline"][1].update(point=[0.7, 0.0]))
-    expect(cards).to_contain_text(size(70, 10))
+    expect(cards).to_contain_text(size(70, 20))
     sheet.edit(lambda drawing: drawing["outline"][1].update(point=[0.6, 0.0]))
-    expect(cards).to_contain_text(size(60, 10))
+    expect(cards).to_contain_text(size(60, 20))
     panel.get_by_role("button", name="Keep the folds").click()
     expect(cards).to_have_count(1)
     Hand(page).drag((0.4, 0.2), (0.35, 0.2))

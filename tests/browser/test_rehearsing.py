@@ -112,7 +112,7 @@ def test_a_rehearsal_tells_of_each_step_what_became_of_it(page: Page, new_sheet:
     in_row, mark, pill = page.locator(".plan-row .plan-verdict"), page.locator(".mark"), page.locator("#status")
     begin.click()
     expect(said.get_by_role("progressbar")).to_have_js_property("value", 0.4)
-    said.get_by_role("button", name="Cancel").click()
+    said.get_by_role("button", name="Stop").click()
     expect(said).to_be_hidden()
     assert server.cancelled == 1
 

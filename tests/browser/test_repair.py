@@ -75,7 +75,8 @@ def test_a_cloth_just_drawn_is_not_hidden_below_the_strip_and_a_view_that_was_mo
     for point in [*pointed, pointed[0]]:
         hand.click(point)
     hand.tool("Draw fold")
-    hand.drag((0.2, 0.8), (0.2, 0.0))  # its three corners are too far from each other for two hands
+    hand.tool("Flip")
+    hand.drag((0.2, 0.8), (0.2, 0.0))  # the larger part's three corners are too far from each other for two hands
     strip = page.locator(".repair")
     expect(strip).to_be_visible()
     board = hand.board.bounding_box()

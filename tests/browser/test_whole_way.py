@@ -196,14 +196,14 @@ def test_with_the_mouse_and_all_of_it_is_found_again_and_leaves_as_files(
         rows = list(csv.DictReader(io.StringIO(saved.pop("untitled-plan.csv"))))
         assert [row["fold"] for row in rows if row["kind"] == "fold"] == [str(fold) for fold in order]
         assert saved.pop("untitled-steps.pdf").startswith("%PDF-")
-        assert "Untitled" in saved.pop("untitled-steps.svg")
+        assert "Vest" in saved.pop("untitled-steps.svg")
         drawing = saved.pop("untitled.svg")
         for ending in (".mcap", ".glb", "-rosbag2.zip", "-lerobot.zip", "-poses.yaml"):
             assert saved.pop(f"untitled{ending}")
         assert json.loads(saved.pop("untitled-poses.json"))["version"] == 1
         ((name, recording),) = saved.items()
         assert name.endswith(".html")
-        assert "<title>Untitled - Pleat</title>" in recording
+        assert "<title>Vest - Pleat</title>" in recording
 
         page.get_by_role("button", name="Import", exact=True).click()
         file: Any = {"name": "again.svg", "mimeType": "image/svg+xml", "buffer": drawing.encode()}

@@ -16,6 +16,7 @@ import { Photo } from "./photo.js";
 import { PointerInput } from "./pointer.js";
 import { drawingArea, REDRAWN_AT, sheetsOf } from "./drawing_area.js";
 import { hatches } from "./drawing_area.js";
+import { HintLine } from "./hint_line.js";
 import { svg } from "./sheet.js";
 import { Shown } from "./shown.js";
 import { Snapper } from "./snap.js";
@@ -73,10 +74,10 @@ export class Board extends Shown {
     this.strip = new Strip(this);
     this.root.append(this.svg);
     this.sheets = sheetsOf(scene);
-    this.hintLine = element("p", "hint-line");
+    this.hintLine = new HintLine();
     this.live = element("p", "unseen");
     this.live.setAttribute("aria-live", "polite");
-    this.root.append(this.hintLine, this.live);
+    this.root.append(this.hintLine.root, this.live);
     this.photo = new Photo(
       this.store.id,
       () => this.render(),
@@ -207,6 +208,7 @@ export class Board extends Shown {
     this.tool = this.tools[name];
     if (name === "place" || before.name === "place") this.framing.turn(before.name === "place");
     this.snapped = null;
+    this.hintLine.show("");
     this.tool.enter();
     this.svg.focus({ preventScroll: true });
     this.render();

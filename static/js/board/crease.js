@@ -4,6 +4,7 @@ import { sayable } from "../dom.js";
 import { say } from "../language/say.js";
 import { RefusedError } from "../live.js";
 import { inWords } from "../messages/in_words.js";
+import { lineOf } from "./stroke.js";
 
 /** @import { Command, Crease, Fold, FoldKind, Point, Problem } from "pleat" */
 
@@ -49,11 +50,12 @@ export class CreaseQuestion {
   }
 
   /** @param {Stroke} stroke @returns {Promise<Answer>} */
-  async answer({ isGrab, from, to }) {
-    const { step } = this.board;
+  async answer(stroke) {
+    const { step, rings } = this.board;
     const { isFlipped, kind } = this.board.paint;
-    const line = { start: from, end: to };
-    const wanted = isGrab ? { grab: { from, to } } : { line: isFlipped ? { start: to, end: from } : line };
+    const { isGrab, from, to } = stroke;
+    const [along, until] = lineOf(stroke, rings, isFlipped);
+    const wanted = isGrab ? { grab: { from, to } } : { line: { start: along, end: until } };
     const answer = await this.post({ after: step, kind, ...wanted });
     if (!isGrab || !isFlipped || !answer.ok) return answer;
     const { start, end } = answer.told;

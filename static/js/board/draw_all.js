@@ -73,7 +73,8 @@ export function drawAll(board) {
   svg.classList.toggle("shows-places", board.store.overlays.has("places"));
   svg.classList.toggle("is-sketching", tool.name === "outline" && tool.isBusy);
   const hint = tool !== outline && outline.isBusy ? UNCLOSED : tool.hint;
-  board.hintLine.textContent = board.store.isLost ? offlineHint(board.store) : hint;
+  if (board.store.isLost) board.hintLine.show(offlineHint(board.store), true);
+  else board.hintLine.show(hint);
   board.store.setBegun(tool.lastPart);
   board.strip.draw();
   board.rail?.draw();

@@ -2,6 +2,8 @@
 
 import { arcThrough, bend, curveThrough, edgeFrom, parted, ringOf, withCurve } from "./curves.js";
 import { between, boxOf, distance, turned } from "./geometry.js";
+import { guessedTitle } from "./guessed_title.js";
+import { UNTITLED } from "./rules.js";
 
 /** @import { Drawing, Point } from "pleat" */
 
@@ -94,6 +96,7 @@ export function cutNotch(drawing, id, made, isInsideLeft) {
 export function replaceOutline(drawing, points) {
   drawing.outline = points.map((point, index) => ({ id: `v${index}`, point }));
   drawing.folds = [];
+  if (drawing.title === UNTITLED) drawing.title = guessedTitle(points) || UNTITLED;
   layAtTheFrontEdge(drawing);
 }
 

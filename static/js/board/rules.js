@@ -33,6 +33,9 @@ export const CURVE_MAX = 2.0;
 /** A fold's first name by the direction of its line: the side from which the cloth comes; article frame, y up. */
 export const SIDES = {"along_y": "left over", "against_y": "right over", "along_x": "top down", "against_x": "bottom up"};
 
+/** What a garment is called before anybody has named it. */
+export const UNTITLED = "Untitled";
+
 export const DRAW_FOLD = "Draw fold";
 
 export const DRAW_OUTLINE = "Draw outline";

@@ -6,6 +6,7 @@ import {
   cross,
   crossings,
   distance,
+  edgesOf,
   isInside,
   left,
   leftPart,
@@ -18,17 +19,36 @@ import { LEAST_CORNERS, MOST_CORNERS, SAME_CORNER_M, SIDES } from "./rules.js";
 
 /** @import { Fold, Point } from "pleat" */
 
+/** Parts that differ by less than this share of the cloth are alike, and less than this is no part. */
+const ALIKE = 0.01;
+
 /**
- * The fold's line as it was drawn, or the crease that takes a point to where it was dropped.
+ * The fold's line as it was drawn, over which the smaller part moves, or the crease that takes a point to where it was
+ * dropped.
  * @param {{isGrab: boolean, from: Point, to: Point}} stroke
  * @param {Point[][]} rings the cloth
  * @param {boolean} isFlipped
  * @returns {[Point, Point]} what lies to its left moves
  */
 export function lineOf({ isGrab, from, to }, rings, isFlipped) {
-  const [a, b] = isGrab ? crease(from, to, rings) : [from, to];
+  const [a, b] = isGrab ? crease(from, to, rings) : smallerLeft(from, to, rings);
   return isFlipped ? [b, a] : [a, b];
 }
+
+/**
+ * A line so directed that the smaller part of the cloth is on its left; as it was drawn where both are alike.
+ * @param {Point} a
+ * @param {Point} b
+ * @param {Point[][]} rings
+ * @returns {[Point, Point]}
+ */
+function smallerLeft(a, b, rings) {
+  const share = areaOf(rings.map((ring) => leftPart(ring, a, b))) / areaOf(rings);
+  return share > 0.5 + ALIKE && share < 1 - ALIKE ? [b, a] : [a, b];
+}
+
+/** @param {Point[][]} rings holes run the other way round */
+const areaOf = (rings) => Math.abs(rings.flatMap(edgesOf).reduce((sum, [p, q]) => sum + cross(p, q) / 2, 0));
 
 /**
  * The bisector, as far as it runs through the cloth; the point that was grabbed is on its left.

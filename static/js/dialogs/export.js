@@ -11,13 +11,27 @@ import { openDialog, OFFLINE, sentenceOf } from "./dialog.js";
 /** Files that take a while to be made. */
 const SLOW = new Set(["recording.html", "mcap", "rosbag2", "glb", "lerobot"]);
 
+/** What files are for; what is in no group is to be opened again. @type {Record<string, Set<string>>} */
+const GROUPS = {
+  look: new Set(["sheet.pdf", "sheet.svg", "recording.html", "glb"]),
+  robot: new Set(["mcap", "rosbag2", "lerobot", "poses.json", "poses.yaml", "plan.csv"]),
+};
+const TITLES = { look: say("export.group.look"), robot: say("export.group.robot"), open: say("export.group.open") };
+
+/** @param {FileEntry} file @returns {string} */
+const groupOf = ({ what }) => Object.keys(GROUPS).find((group) => GROUPS[group].has(what)) ?? "open";
+
 /** @param {import("../store.js").Store} store */
 export async function showExport(store) {
-  const list = element("ul", "exports");
-  list.setAttribute("aria-label", say("export.formats"));
+  const said = element("p", "dialog-problem");
+  const lists = Object.entries(TITLES).map(([group, title]) => {
+    const list = element("ul", "exports");
+    list.setAttribute("aria-label", title);
+    return { group, list, section: element("section", "", element("h3", "", title), list) };
+  });
   const stopped = new AbortController();
   const { signal } = stopped;
-  const dialog = openDialog(say("export.title"), "", list);
+  const dialog = openDialog(say("export.title"), "", ...lists.map(({ section }) => section), said);
   dialog.addEventListener("close", () => stopped.abort());
   /** @type {Map<string, Element>} by what the server said: what it still says keeps its row, and the focus in it */
   let rows = new Map();
@@ -33,14 +47,23 @@ export async function showExport(store) {
       const text = JSON.stringify(file);
       rows.set(text, before.get(text) ?? row(store, file, signal));
     }
-    const shown = [...rows.values(), ...(problem ? [element("li", "dialog-problem", problem)] : [])];
-    for (const item of [...list.children]) if (!shown.includes(item)) item.remove();
-    for (const [place, item] of shown.entries())
-      if (list.children[place] !== item) list.insertBefore(item, list.children[place] ?? null);
+    said.textContent = problem;
+    for (const { group, list, section } of lists) {
+      const own = files.filter((file) => groupOf(file) === group);
+      section.hidden = !own.length;
+      fill(list, own.flatMap((file) => rows.get(JSON.stringify(file)) ?? []));
+    }
   }
 
   for (const name of ["document", "plan", "connection"]) store.addEventListener(name, look, { signal });
   await look();
+}
+
+/** Show these rows; one that stays in place keeps the focus. @param {HTMLElement} list @param {Element[]} shown */
+function fill(list, shown) {
+  for (const item of [...list.children]) if (!shown.includes(item)) item.remove();
+  for (const [place, item] of shown.entries())
+    if (list.children[place] !== item) list.insertBefore(item, list.children[place] ?? null);
 }
 
 /**

@@ -11,6 +11,7 @@ import { percent } from "../messages/lengths.js";
 import { word } from "../messages/names.js";
 import { openDialog } from "./dialog.js";
 import { fetched } from "./documents.js";
+import { showResult } from "./result_view.js";
 import { isViewOnly } from "../view_only.js";
 
 /** @import { Job } from "pleat" */
@@ -68,7 +69,7 @@ class JobList {
   /** @param {Job[]} jobs newest first */
   show(jobs) {
     for (const job of jobs) {
-      const row = this.rows.get(job.id) ?? new JobRow(job, (id) => this.cancel(id));
+      const row = this.rows.get(job.id) ?? new JobRow(job, (id) => this.cancel(id), (name, id) => this.open(name, id));
       this.rows.set(job.id, row);
       row.show(job);
     }
@@ -87,6 +88,11 @@ class JobList {
     this.look();
   }
 
+  /** @param {string} name @param {string} id */
+  open(name, id) {
+    showResult(name, `${JOBS}/${id}`).catch((error) => this.say(sayable(error)));
+  }
+
   /** @param {string} sentence */
   say(sentence) {
     if (this.said.textContent !== sentence) this.said.textContent = sentence;
@@ -97,8 +103,9 @@ class JobRow {
   /**
    * @param {Job} job
    * @param {(id: string) => void} cancel
+   * @param {(name: string, id: string) => void} show its result
    */
-  constructor(job, cancel) {
+  constructor(job, cancel, show) {
     const name = [capital(word("job_kind", job.kind)), job.about].filter(Boolean).join(", ");
     const when = new Date(job.created).toLocaleString(times, { dateStyle: "short", timeStyle: "short" });
     this.status = element("span", "job-status");
@@ -106,14 +113,13 @@ class JobRow {
     this.bar = /** @type {HTMLProgressElement} */ (element("progress", "job-progress"));
     this.bar.setAttribute("aria-label", say("jobs.progress", { name }));
     this.message = element("span", "dialog-text");
-    this.stop = button("quiet", () => cancel(job.id), say("jobs.cancel"));
-    this.stop.setAttribute("aria-label", say("jobs.cancel_one", { name, when }));
-    this.link = /** @type {HTMLAnchorElement} */ (element("a", "", say("jobs.result")));
-    this.link.href = `${JOBS}/${job.id}`;
-    this.link.setAttribute("aria-label", say("jobs.result_of", { name, when }));
+    this.stop = button("quiet", () => cancel(job.id), say("search.stop"));
+    this.stop.setAttribute("aria-label", say("jobs.stop_one", { name, when }));
+    this.result = button("quiet", () => show(name, job.id), say("jobs.result"));
+    this.result.setAttribute("aria-label", say("jobs.result_of", { name, when }));
     const head = element("span", "job-name", `${name}, ${when}`);
     this.isDone = false;
-    this.root = element("li", "job", head, this.status, this.bar, this.message, this.stop, this.link);
+    this.root = element("li", "job", head, this.status, this.bar, this.message, this.stop, this.result);
   }
 
   /** @param {Job} job as it is now */
@@ -125,7 +131,7 @@ class JobRow {
     this.bar.hidden = !isOpen;
     this.message.textContent = isOpen ? percent(progress) : message;
     this.stop.hidden = !isOpen;
-    this.link.hidden = status !== "done";
+    this.result.hidden = status !== "done";
     if (status === "done" && kind === "robots" && !this.isDone) dispatchEvent(new Event("robots"));
     this.isDone = status === "done";
   }

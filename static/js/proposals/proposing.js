@@ -94,6 +94,7 @@ export class Proposing {
     };
     made.addEventListener("change", () => put(parsed(made.value)));
     made.addEventListener("keydown", (event) => {
+      if (event.key === "Escape") this.board.choose("select");
       const by = { ArrowUp: STEP_M, ArrowDown: -STEP_M }[event.key];
       const { sides } = this.tool;
       if (!by || !sides) return;

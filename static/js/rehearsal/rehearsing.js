@@ -22,7 +22,7 @@ export class Rehearsing {
     this.note.setAttribute("role", "status");
     this.often = button("quiet", () => rehearsal.begin(OFTEN), say("rehearsal.often"));
     this.often.title = say("rehearsal.often_hint");
-    this.end = button("quiet", () => rehearsal.close(), say("jobs.cancel"));
+    this.end = button("quiet", () => rehearsal.close(), say("search.stop"));
     this.histogram = new Histogram((run) => rehearsal.choose(run));
     this.root = element("div", "rehearsing", this.note, this.bar, this.histogram.root, this.often, this.end);
     rehearsal.addEventListener("change", () => this.show());
@@ -41,7 +41,7 @@ export class Rehearsing {
     else this.bar.value = progress;
     this.histogram.show(result, chosen);
     this.often.hidden = isRunning;
-    this.end.textContent = isRunning ? say("jobs.cancel") : say("dialog.close");
+    this.end.textContent = isRunning ? say("search.stop") : say("dialog.close");
   }
 
   /** @param {string} sentence */

@@ -256,9 +256,11 @@ def test_a_file_that_is_no_drawing_is_told_of(page: Page, shirt: Desk) -> None:
 
 def test_every_format_is_saved(page: Page, shirt: Desk, tmp_path: Path) -> None:
     page.get_by_role("button", name="Export", exact=True).click()
-    expect(page.get_by_role("list", name="Formats").get_by_role("listitem")).to_have_count(len(EXPORTS))
+    dialog = page.get_by_role("dialog")
+    expect(dialog.get_by_role("listitem")).to_have_count(len(EXPORTS))
+    expect(dialog.get_by_role("list", name="For a robot").get_by_role("listitem").first).to_contain_text("Plan (CSV)")
     saved = {}
-    for link in page.get_by_role("dialog").locator(".export a").all():
+    for link in dialog.locator(".export a").all():
         with page.expect_download() as download:
             link.click()
         path = tmp_path / download.value.suggested_filename

@@ -137,16 +137,16 @@ def test_a_crease_from_a_corner_snaps_to_where_it_lays_one_edge_on_the_other(pag
     hand.drag((0.6, 0.0), (across[0] + 0.005, across[1] + 0.004), is_released=False)
     expect(page.locator(".snap-name")).to_have_text("edge onto edge")
     page.mouse.up()
-    expect_step(page, "Draw fold")
-    assert fold(desk, 0)["end"] == pytest.approx(across, abs=1e-6)
+    expect_step(page, "Draw fold")  # the smaller part moves: its line runs the other way
+    assert fold(desk, 0)["start"] == pytest.approx(across, abs=1e-6)
     hand.tool("Select")
     page.get_by_role("button", name="Step before").click()
-    desk.edit(lambda drawing: drawing["folds"][0].update(end={"point": [0.25, 0.4], "on": None}))
+    desk.edit(lambda drawing: drawing["folds"][0].update(start={"point": [0.25, 0.4], "on": None}))
     expect_step(page, "Elsewhere")
     hand.click((0.425, 0.2))
     hand.drag((0.25, 0.4), (across[0] + 0.005, across[1] + 0.004))
     expect_step(page, "Move fold")
-    assert fold(desk, 0)["end"] == pytest.approx(across, abs=1e-6)
+    assert fold(desk, 0)["start"] == pytest.approx(across, abs=1e-6)
 
 
 def test_the_first_fold_is_not_drawn_red_and_the_reason_is_told(page: Page, cloth: Desk) -> None:
