@@ -2,6 +2,7 @@
 
 import io
 import json
+import re
 import sys
 import zipfile
 from pathlib import Path
@@ -100,6 +101,20 @@ def test_an_archive_in_ros_layout_is_drafted_with_its_meshes(tmp_path: Path) -> 
     assert robot.card.mounts[0].z_m == pytest.approx(0.75 + 0.02), "it stands on the table with its plate"
 
 
+def test_a_gripper_may_have_one_jaw_and_parts_without_a_shape(tmp_path: Path) -> None:
+    urdf = single_urdf(fingers="{}jaw_{}")
+    urdf = urdf.replace('name="jaw_b" type="prismatic"', 'name="jaw_b" type="fixed"')
+    screw = urdf[urdf.index('<joint name="jaw_a"') :].partition("</joint>")[0].replace("jaw_a", "gripper_screw")
+    urdf = urdf.replace("</robot>", f'{screw.replace("a_part", "screw")}</joint><link name="screw"/></robot>')
+    (tmp_path / "one.urdf").write_text(urdf)
+    result = pleat("robot", "draft", str(tmp_path / "one.urdf"), "--out", str(tmp_path / "one"))
+    assert result.exit_code == 0, result.output
+    (arm,) = read_described(tmp_path / "one" / "robot.json").card.arms
+    assert arm.gripper.drive.joint == "jaw_a" and arm.gripper.opening_max_m == pytest.approx(0.04, abs=1e-3)
+    assert arm.tool.approach == (0.0, 0.0, 1.0) and abs(arm.tool.closing[0]) == 1.0
+    assert arm.tool.offset_m == pytest.approx((0.0, 0.0, TOOL_AHEAD_M - 0.005), abs=1e-3)
+
+
 XACRO = ' xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:property name="deep" value="${2*3}"/'
 
 
@@ -128,6 +143,12 @@ def test_xacro_without_the_library_says_how_to_expand_it(tmp_path: Path, monkeyp
     [
         ("a.urdf", single_urdf().replace('type="prismatic"', 'type="fixed"'), "ends in a gripper"),
         ("a.urdf", "<robot", "no XML"),
+        (
+            "a.urdf",
+            re.sub('axis xyz="-?1 0 0"/><limit lower="0.0"', 'axis xyz="0 0 1"/><limit lower="0.0"', single_urdf()),
+            ": no gripper",
+        ),
+        ("a.urdf", single_urdf().replace('upper="0.04"', 'upper="0.001"'), "open by 2 mm: no gripper"),
         ("a.xml", '<mujoco model="arm"><worldbody/></mujoco>', "ends in a gripper"),
         ("a.xml", "<mujoco><worldbody><body><joint type='ball'/><geom size='1'/></body></worldbody></mujoco>", "ball"),
         ("a.xml", "<mujoco><nonsense/></mujoco>", "MuJoCo refuses a.xml"),

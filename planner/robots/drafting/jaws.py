@@ -7,6 +7,7 @@ from xml.etree.ElementTree import Element, SubElement, tostring
 
 import numpy as np
 import pinocchio as pin
+from numpy.typing import NDArray
 
 from planner.errors import RobotError
 from planner.geometry.pose import FloatArray
@@ -20,8 +21,11 @@ _TIP_M = 0.02
 _BEHIND_TIP_M = 0.005
 """How far behind the fingertips the tool point is (m)."""
 
-_A_LITTLE = 0.25
+_A_LITTLE = 0.1
 """Share of the range by which a jaw is opened to see which way it moves."""
+
+OPENING_MIN_M = 0.005
+"""A gripper opens by more (m)."""
 
 _STRAIGHT = np.cos(np.radians(12.0))
 """An axis this near to one of the link's is meant to be that (cosine)."""
@@ -85,14 +89,14 @@ def read_jaws(urdf: Element, hand: Hand) -> Jaws:
     sides, wide, opened_wide = (look.sides(at(share), is_first) for share in (0.0, _A_LITTLE, 1.0))
     if not len(sides[1]):
         raise RobotError("urdf", f"the finger of {driver!r} meets nothing: its hand has no shape")
-    moved = wide[0].mean(axis=0) - sides[0].mean(axis=0)
-    apart = moved - (wide[1].mean(axis=0) - sides[1].mean(axis=0))
+    far = [_farthest(side) for side in sides]
+    ways = [(wider[tip] - side[tip]).mean(axis=0) for side, wider, tip in zip(sides, wide, far, strict=True)]
+    apart = ways[0] - ways[1]
     if not np.linalg.norm(apart) > 1e-4:
         raise RobotError("urdf", f"joint {driver!r} does not open its fingers")
-    ahead = np.vstack(look.fingers(at(0.0)))
-    far = _far(ahead, np.zeros(3)).mean(axis=0)
+    ahead = sum(side[tip].mean(axis=0) for side, tip in zip(sides, far, strict=True))
     closing = _straight(apart)
-    approach = _straight(far - (far @ closing) * closing)
+    approach = _straight(ahead - (ahead @ closing) * closing)
     closing = _unit(closing - (closing @ approach) * approach)
     tips, end = _tips(sides, approach)
     low, high = (tips[1] @ closing).max(), (tips[0] @ closing).min()
@@ -104,7 +108,12 @@ def read_jaws(urdf: Element, hand: Hand) -> Jaws:
     length, width, thickness = np.minimum(size, 0.2).round(3).tolist()
     is_tip = [side @ approach >= (side @ approach).max() - _TIP_M for side in sides]
     gaps = [_apart_m(*(side[tip] for side, tip in zip(now, is_tip, strict=True))) for now in (sides, opened_wide)]
-    opening_m = float(min(max(gaps[1] - gaps[0], 0.001), 0.5))
+    opening_m = min(gaps[1] - gaps[0], 0.5)
+    if opening_m < OPENING_MIN_M:
+        raise RobotError(
+            "urdf",
+            f"from one end of {driver!r} to the other the fingers open by {1000.0 * opening_m:.0f} mm: no gripper",
+        )
     return Jaws(driver, closed, opened, tuple(coupled), approach, closing, tool, opening_m, (length, width, thickness))
 
 
@@ -116,38 +125,44 @@ class _Look:
         self._model = pin.buildModelFromXML(text)
         self._data = self._model.createData()
         self._carrier = self._model.getJointId(hand.arm[-1])
-        self._fingers = [[self._model.getJointId(name) for name in finger] for finger in hand.fingers]
         joints = {joint.get("name", ""): joint for joint in urdf.iterfind("joint")}
+        numbers = {name: self._model.getJointId(name) for finger in hand.fingers for name in finger}
+        shapes = link_shapes(self._model, text, lambda joint: joint in {self._carrier, *numbers.values()})
+        self._shapes: dict[int, list[LinkShape]] = {}
+        for shape in shapes:
+            self._shapes.setdefault(shape.joint, []).append(shape)
+        # What has no shape is no finger but a part of the drive.
+        fingers = [finger for finger in hand.fingers if any(numbers[name] in self._shapes for name in finger)]
+        if not fingers:
+            raise RobotError(
+                "urdf", f"the fingers at {hand.arm[-1]!r} have no shapes, so where they meet cannot be seen"
+            )
+        self._fingers = [[numbers[name] for name in finger] for finger in fingers]
         self._mimics = {
             name: (mimic.get("joint", ""), float(mimic.get("multiplier", "1")), float(mimic.get("offset", "0")))
-            for finger in hand.fingers
+            for finger in fingers
             for name in finger
             if (mimic := joints[name].find("mimic")) is not None
         }
-        self.drivers = tuple(name for finger in hand.fingers for name in finger if name not in self._mimics)
-        if not self.drivers:
-            raise RobotError("urdf", f"no joint drives the fingers at {hand.arm[-1]!r}")
+        driven = (self._mimics[name][0] if name in self._mimics else name for finger in fingers for name in finger)
+        self.drivers = tuple(dict.fromkeys(driven))
         self._limits = {name: limits_of(joints[name]) for name in self.drivers}
         for name, (low, high) in self._limits.items():
             if not -np.inf < low < high < np.inf:
                 raise RobotError("urdf", f"finger joint {name!r} has no limits")
-        wanted = {self._carrier, *(joint for finger in self._fingers for joint in finger)}
-        shapes = link_shapes(self._model, text, lambda joint: joint in wanted)
-        self._shapes: dict[int, list[LinkShape]] = {}
-        for shape in shapes:
-            self._shapes.setdefault(shape.joint, []).append(shape)
-        if not all(any(joint in self._shapes for joint in finger) for finger in self._fingers):
-            raise RobotError("urdf", f"a finger at {hand.arm[-1]!r} has no shape, so where its tip is cannot be seen")
 
     def ends(self, driver: str) -> tuple[float, float]:
         """Return the values of a driver at which its finger is next to the others, and away from them."""
         middle = {name: 0.5 * sum(ends) for name, ends in self._limits.items()}
-        moved = next(n for n, finger in enumerate(self._fingers) if self._model.getJointId(driver) in finger)
+        moves = {driver, *(name for name, (driven_by, _, __) in self._mimics.items() if driven_by == driver)}
+        own = {self._model.getJointId(name) for name in moves}
+        moved = next(number for number, finger in enumerate(self._fingers) if not own.isdisjoint(finger))
         found = []
         for value in self._limits[driver]:
             fingers = self.fingers(middle | {driver: value})
             others = [finger for number, finger in enumerate(fingers) if number != moved] or [self._fixed()]
-            found.append((_apart_m(_far(fingers[moved], self._hinge(moved)), np.vstack(others)), value))
+            tip = fingers[moved][_farthest(fingers[moved], self._hinge(moved))]
+            found.append((_apart_m(tip, np.vstack(others)), value))
         return min(found)[1], max(found)[1]
 
     def _hinge(self, finger: int) -> FloatArray:
@@ -208,10 +223,10 @@ def _tips(sides: tuple[FloatArray, FloatArray], approach: FloatArray) -> tuple[l
     return tips, end
 
 
-def _far(points: FloatArray, start: FloatArray) -> FloatArray:
-    """Return the quarter of some points that is farthest from a place."""
-    away = np.linalg.norm(points - start, axis=1)
-    return np.asarray(points[away.argsort()[-max(len(points) // 4, 1) :]])
+def _farthest(points: FloatArray, start: FloatArray | None = None) -> NDArray[np.int64]:
+    """Return which quarter of some points is farthest from a place, by default from the frame's origin."""
+    away = np.linalg.norm(points if start is None else points - start, axis=1)
+    return np.asarray(away.argsort()[-max(len(points) // 4, 1) :])
 
 
 def _apart_m(one: FloatArray, other: FloatArray) -> float:
