@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.geometry.pose import BoolArray, FloatArray
-from planner.geometry.tolerance import ANGLE_RAD
+from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M
 from planner.motion.answer_memory import RecentAnswers
 from planner.motion.free_postures import FreePostures
 from planner.motion.hand_holds import Holds, edge_holds, opening_of, settles, wide_holds
@@ -157,7 +157,7 @@ class TransferPathFinder:
     ) -> TransferPath:
         """Return the transfer with each hand turned by half a turn if that is nearer to home and collision-free.
 
-        A hand whose last joint does not turn without end stays as it is.
+        A hand stays as it is if its last joint does not turn without end, or if that would move its tool aside.
         """
         layout = self._layout
         if settles(lines.holds):
@@ -169,7 +169,8 @@ class TransferPathFinder:
             last = span.stop - 1
             away = joints[[0, -1], last] - layout.home[last]
             as_is, half = (np.abs(np.remainder(away + turn, 2.0 * np.pi) - np.pi).max() for turn in (np.pi, 0.0))
-            if layout.is_continuous[last] and half < as_is - ANGLE_RAD:
+            is_nearer = layout.is_continuous[last] and half < as_is - ANGLE_RAD
+            if is_nearer and keeps_tool(self._machine, approach.arm, joints[0, span], self._torso_m):
                 turned[:, last] += np.pi
                 if are_free[approach.arm](np.arange(len(turned)), turned[:, span], True).all():
                     half_turns[last] = np.pi
@@ -234,3 +235,20 @@ class TransferPathFinder:
             return answers
 
         return {approach.arm: partial(is_free, approach) for approach in tool_paths.each}
+
+
+def keeps_tool(machine: RobotPort, arm: int, joints: FloatArray, torso_m: float) -> bool:
+    """Return whether half a turn of an arm's last joint leaves its tool where it is, and pointing as it does.
+
+    It does where the joint turns about the approach axis, through the tool, and not beside it.
+
+    Args:
+        machine: the robot.
+        arm: the arm.
+        joints: the arm's joints (rad), shape (joints,).
+        torso_m: how far the lift is raised (m).
+    """
+    turned = joints.copy()
+    turned[-1] += np.pi
+    (place, axes), (other, others) = (machine.tool_pose(arm, one, torso_m) for one in (joints, turned))
+    return bool(np.allclose(place, other, atol=LENGTH_M) and np.allclose(axes[:, 0], others[:, 0], atol=ANGLE_RAD))
