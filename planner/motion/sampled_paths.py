@@ -6,6 +6,7 @@ configurations that are tested are counted, so the same question always has the 
 """
 
 from collections.abc import Callable
+from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
@@ -160,4 +161,10 @@ class _Tree:
 def sampled(start: FloatArray, end: FloatArray, step_rad: float) -> FloatArray:
     """Return the straight line between two configurations, step by step, both included."""
     count = max(1, int(np.ceil(np.abs(end - start).max() / step_rad)))
-    return np.asarray(start + np.linspace(0.0, 1.0, count + 1)[:, None] * (end - start))
+    return np.asarray(start + _shares(count) * (end - start))
+
+
+@lru_cache(256)
+def _shares(count: int) -> FloatArray:
+    """Return even shares from 0 to 1, shape (count + 1, 1)."""
+    return np.linspace(0.0, 1.0, count + 1)[:, None]
