@@ -7,6 +7,7 @@ mirror image of a question has the mirror image of its answer.
 """
 
 from collections.abc import Callable
+from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
@@ -180,4 +181,10 @@ def sampled(start: FloatArray, end: FloatArray, step_rad: float) -> FloatArray:
     """Return the straight line between two configurations, step by step, both included."""
     # Lines of a whole number of steps are frequent: rounding must not give their images one more.
     count = max(1, int(np.ceil(np.abs(end - start).max() / step_rad - 1e-9)))
-    return np.asarray(start + np.linspace(0.0, 1.0, count + 1)[:, None] * (end - start))
+    return np.asarray(start + _shares(count) * (end - start))
+
+
+@lru_cache(256)
+def _shares(count: int) -> FloatArray:
+    """Return even shares from 0 to 1, shape (count + 1, 1)."""
+    return np.linspace(0.0, 1.0, count + 1)[:, None]

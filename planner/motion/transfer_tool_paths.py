@@ -7,15 +7,14 @@ withdraw.
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from planner.geometry.pose import BoolArray, FloatArray
-from planner.geometry.tolerance import LENGTH_M
 from planner.motion.hand_holds import HandHold, Holds, settles
 from planner.motion.lying_cloth import NEAR_GRIP_M, LyingCloth
+from planner.motion.polylines import lengths_along, resampled, stepped
 from planner.motion.waypoints import Waypoints, about_x
 from planner.robots.tool_path import ToolPath
 
@@ -132,8 +131,8 @@ class TransferToolPaths:
         arms = np.flatnonzero(waypoints.is_held.any(axis=1))
         ways = [_way(int(arm), waypoints, lines, rolls_rad, height_m, has_room, cloths) for arm in arms]
         settling = int(settles(lines.holds))
-        before = max(len(_stepped(way.approach)) for way in ways) - 1 + settling
-        after = max(len(_stepped(way.retreat)) for way in ways) - 1 + settling
+        before = max(len(stepped(way.approach, _STEP_M)) for way in ways) - 1 + settling
+        after = max(len(stepped(way.retreat, _STEP_M)) for way in ways) - 1 + settling
         start, end = waypoints.bases[:1].repeat(before, 0), waypoints.bases[-1:].repeat(after, 0)
         bases = np.concatenate([start, waypoints.bases, end])
         return TransferToolPaths(
@@ -160,8 +159,8 @@ class _Way:
         open and close.
         """
         kept = 1 - settling
-        coming = _resampled(_stepped(self.approach), before - settling)[kept:][::-1]
-        leaving = _resampled(_stepped(self.retreat), after - settling)[kept:]
+        coming = resampled(stepped(self.approach, _STEP_M), before - settling)[kept:][::-1]
+        leaving = resampled(stepped(self.retreat, _STEP_M), after - settling)[kept:]
         first, last = self.rotations[:1], self.rotations[-1:]
         rest = steps - before - len(self.positions)
         path = ToolPath(
@@ -171,14 +170,9 @@ class _Way:
             (before, before + len(self.positions)),
         )
         from_grip = np.zeros(steps)
-        from_grip[:before] = _gone_m(self.positions[0], coming[::-1])[::-1]
-        from_grip[steps - rest :] = _gone_m(self.positions[-1], path.positions[steps - rest :])
+        from_grip[:before] = lengths_along(path.positions[before::-1])[:0:-1]
+        from_grip[steps - rest :] = lengths_along(path.positions[steps - rest - 1 :])[1:]
         return TransferToolPath(self.arm, path, from_grip, steps - rest, self.is_coming)
-
-
-def _gone_m(start: FloatArray, points: FloatArray) -> FloatArray:
-    """Return the distance of each point from a start, along the polyline through all of them (m)."""
-    return np.asarray(np.cumsum(np.linalg.norm(np.diff(points, axis=0, prepend=start[None]), axis=1)))
 
 
 def rolled(roll_rad: float) -> FloatArray:
@@ -221,7 +215,7 @@ def _way(
 
 def _is_far(corners: FloatArray) -> bool:
     """Return whether a line leads so far from its grip that a hand at its end must be clear of cloth."""
-    return float(np.linalg.norm(np.diff(corners, axis=0), axis=1).sum()) > NEAR_GRIP_M
+    return float(lengths_along(corners)[-1]) > NEAR_GRIP_M
 
 
 def _corners(position: FloatArray, line: FloatArray, shares: Shares, height_m: float) -> list[FloatArray]:
@@ -230,19 +224,3 @@ def _corners(position: FloatArray, line: FloatArray, shares: Shares, height_m: f
     rises = np.maximum(height_m + CLEAR_M - far[:, 2], 0.0) * np.array(shares)[:, 1]
     tips = far + rises[:, None] * np.array([0.0, 0.0, 1.0])
     return [np.array([position, corner, tip]) for corner, tip in zip(far, tips, strict=True)]
-
-
-def _stepped(corners: FloatArray) -> FloatArray:
-    """Return the points of a polyline, at most one step apart, shape (n, 3), m; at least two."""
-    parts = [corners[:1]]
-    for start, end in pairwise(corners):
-        count = int(np.ceil((np.linalg.norm(end - start) - LENGTH_M) / _STEP_M))
-        parts.append(start + np.linspace(0.0, 1.0, count + 1)[1:, None] * (end - start))
-    points = np.concatenate(parts)
-    return points if len(points) > 1 else points.repeat(2, 0)
-
-
-def _resampled(points: FloatArray, steps: int) -> FloatArray:
-    """Return a polyline's points in `steps` steps, shape (steps + 1, 3); `steps` must be no fewer than it has."""
-    numbers = np.linspace(0.0, len(points) - 1, steps + 1)
-    return np.column_stack([np.interp(numbers, np.arange(len(points)), column) for column in points.T])

@@ -20,6 +20,7 @@ from planner.motion.lying_cloth import NEAR_GRIP_M, LyingCloth
 from planner.motion.opened_collisions import OpenedCollisions
 from planner.motion.pacing import needed_s
 from planner.motion.path_timing import quickest
+from planner.motion.polylines import lengths_on_table
 from planner.motion.robot_port import Collisions, RobotPort
 from planner.motion.sampled_paths import SampledPaths, sampled
 from planner.robots.joint_layout import JointLayout
@@ -184,12 +185,13 @@ class TransitPaths:
             for arm, span in enumerate(layout.spans):
                 if not len(asked := np.flatnonzero(answers)):
                     break
-                # A hand has come at least as far as it is away. How far it came is asked of the whole path.
-                there = self._tools(arm, joints[asked])
-                ends = zip(spared, tools, strict=True)
-                is_near = [np.linalg.norm(there - of[arm], axis=1) < length[arm] for length, of in ends]
-                must = asked[~(is_near[0] | is_near[1])]
-                answers[must] = cloth.arm_clear(arm, base, joints[must, span])
+                ends = [(length[arm], of[arm]) for length, of in zip(spared, tools, strict=True) if length[arm] > 0.0]
+                if ends:
+                    # A hand has come at least as far as it is away. How far it came is asked of the whole path.
+                    there = self._tools(arm, joints[asked])
+                    is_near = [np.linalg.norm(there - end, axis=1) < length for length, end in ends]
+                    asked = asked[~np.logical_or.reduce(is_near)]
+                answers[asked] = cloth.arm_clear(arm, base, joints[asked, span])
             return answers
 
         middle, ends = 0.5 * (start + goal), np.sort([start, goal], axis=0)
@@ -281,12 +283,7 @@ class TransitPaths:
 
     def _gone_m(self, arm: int, bases: FloatArray, joints: FloatArray) -> FloatArray:
         """Return the way of an arm's tool in the table's frame up to each of some configurations, shape (n,), m."""
-        tools = self._tools(arm, joints)
-        cos, sin = np.cos(bases[:, 2]), np.sin(bases[:, 2])
-        x = bases[:, 0] + cos * tools[:, 0] - sin * tools[:, 1]
-        y = bases[:, 1] + sin * tools[:, 0] + cos * tools[:, 1]
-        places = np.column_stack([x, y, tools[:, 2]])
-        return np.append(0.0, np.cumsum(np.linalg.norm(np.diff(places, axis=0), axis=1)))
+        return lengths_on_table(bases, self._tools(arm, joints))
 
     def _roundabout(self, start: FloatArray, goal: FloatArray) -> list[FloatArray]:
         """Return paths that may be free where the straight one is not, the quickest first."""

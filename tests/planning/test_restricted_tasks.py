@@ -62,6 +62,15 @@ def test_a_tighter_task_knows_already_where_the_cloth_stays(monkeypatch: pytest.
         _ = [other.context.unrest(0, place) for place in places]
 
 
+def test_that_cloth_would_slip_is_noted_where_a_step_is_ruled_out_and_not_where_it_is_asked() -> None:
+    context = problem_of(0.0, 1.3).context
+    asked = {place: context.unrest(0, place) for place in ((-0.1 * number, 0.0) for number in range(12))}
+    slips = next(place for place, found in asked.items() if found is not None and found.code == "slips")
+    assert not context.obstacles.has_slipped
+    assert not context.stays(0, slips)
+    assert context.obstacles.has_slipped
+
+
 def test_with_a_narrower_cone_what_is_known_of_transfers_is_not_computed_again(monkeypatch: pytest.MonkeyPatch) -> None:
     garment = load_garment("hand-towel")
     problem = Problem.of(Task.of(garment))

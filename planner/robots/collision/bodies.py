@@ -78,17 +78,19 @@ class Bodies:
 
         Each round runs the compiled pass from the pair after the one that coal has found apart.
         """
-        stands = rows(bases)
-        asked, start = np.arange(len(joints)), np.zeros(len(joints), dtype=np.int64)
+        stands, asked, start = rows(bases), np.arange(len(joints)), np.zeros(len(joints), dtype=np.int64)
         while len(asked):
-            at = stands if len(stands) == 1 else stands[asked]
-            close, places = self.first_close(pairs, at, joints[asked], arms, start)
-            is_open = close >= 0
-            for k in np.flatnonzero(is_open):
+            close, places = self.first_close(pairs, stands, joints, arms, start)
+            apart: list[int] = []
+            for k in (close >= 0).nonzero()[0].tolist():
                 if self._touch(pairs, int(close[k]), places[k]):
-                    is_open[k] = False
                     yield int(asked[k])
-            asked, start = asked[is_open], close[is_open] + 1
+                else:
+                    apart.append(k)
+            if not apart:
+                return
+            stands = stands if len(stands) == 1 else stands[apart]
+            asked, joints, start = asked[apart], joints[apart], close[apart] + 1
 
     def first_close(
         self, pairs: Pairs, bases: FloatArray, joints: FloatArray, arms: Index, start: Index
@@ -98,7 +100,7 @@ class Bodies:
             self.kinematics,
             self.torso_m,
             self.parts,
-            self.poses.copy(),
+            self.poses,
             pairs.numbers,
             np.ascontiguousarray(joints, dtype=np.float64),
             arms,
@@ -121,9 +123,9 @@ class Bodies:
 
     def _gap(self, pairs: Pairs, pair: int) -> float:
         """Return the distance that the hulls of a pair must keep (m): the margin and both roundings."""
-        a, b = pairs.numbers[pair]
-        rounding = self.parts.bounds[:, ROUNDING]
-        return float(pairs.margins[pair] + rounding[a] + rounding[b])
+        a, b = pairs.numbers[pair].tolist()
+        bounds = self.parts.bounds
+        return float(pairs.margins[pair] + bounds[a, ROUNDING] + bounds[b, ROUNDING])
 
     def _posed(
         self, pairs: Pairs, pair: int, poses: FloatArray

@@ -103,13 +103,13 @@ def first_close_pair(
 
 
 @inlined
-def _add_ways(bounds: FloatArray, before: FloatArray, poses: FloatArray, gone: FloatArray) -> None:
-    """Add to the distances (m) that any point of each part has moved those since the last pose, and keep the pose.
+def _add_ways(bounds: FloatArray, before: FloatArray, poses: FloatArray, gone: FloatArray, low: int, high: int) -> None:
+    """Add to the distances (m) that any point of some parts has moved those since the last pose, and keep the pose.
 
     The bound adds the centre's displacement and the radius times the most by which the rotations' difference can
     stretch a vector: its Frobenius norm over the square root of two.
     """
-    for part in range(len(poses)):
+    for part in range(low, high):
         turned = moved = 0.0
         for axis in range(3):
             for row in range(3):
@@ -157,8 +157,7 @@ def first_close(
         kinematics: the arms.
         lift_m: how far the lift is raised (m).
         parts: all parts.
-        poses: the poses of all parts, shape (p, 5, 3); the body's are given, the arms' and table's are overwritten and
-            end as those of the last posture.
+        poses: the poses of all parts, shape (p, 5, 3), of which the body's count.
         pairs: numbers of the parts to be compared, shape (q, 2).
         joints: for each posture the joints of the arms considered, one arm after the other (rad, m), shape (n, joints).
         arms: those arms, shape (k,).
@@ -174,13 +173,16 @@ def first_close(
     corners, spans, bounds, _ = parts
     found, places = np.empty(len(joints), dtype=np.int64), np.empty((len(joints), 2, 5, 3))
     first = len(poses) - len(tables)
+    poses = poses.copy()
     before, gone, apart_until = poses.copy(), np.zeros(len(poses)), np.zeros(len(pairs))
     for i in range(len(joints)):
         if i < len(bases):
             pose_table(bases[i], tables, poses[first:])
             set_middles(bounds[first:], poses[first:])
+            _add_ways(bounds, before, poses, gone, first, len(poses))
         _pose_arms(kinematics, lift_m, parts, arms, joints[i], poses)
-        _add_ways(bounds, before, poses, gone)
+        for arm in arms:
+            _add_ways(bounds, before, poses, gone, parts.arms[arm, FIRST], parts.arms[arm, END])
         found[i] = -1
         for pair in range(start[i], len(pairs)):
             a, b = pairs[pair, 0], pairs[pair, 1]
