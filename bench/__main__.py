@@ -12,6 +12,7 @@ from bench.any_robot import any_robot
 from bench.crowd import crowd
 from bench.environment import environment
 from bench.first_plan import first_plan
+from bench.fold_to_size import fold_to_size
 from bench.frames import frames
 from bench.growth import growth
 from bench.hand import hand
@@ -47,6 +48,7 @@ BENCHMARKS: Final[Mapping[str, Benchmark]] = {
     "any-robot": any_robot,
     "round-a-box": round_a_box,
     "robot-plans": robot_plans,
+    "fold-to-size": fold_to_size,
     "growth": growth,
     "frames": frames,
     "hand": hand,

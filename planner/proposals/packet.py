@@ -1,5 +1,6 @@
 """A garment folded by some moves: its folds, its stack, and how good a packet it is."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TypeAlias
@@ -13,8 +14,8 @@ from planner.proposals.moves import Move, carried_out, turned_over
 from planner.proposals.robot_check import RobotCheck, Stand
 from planner.proposals.target import TOLERANCE_M, Sides
 
-FOLD_EFFORT, _LAYER_EFFORT = 0.15, 0.03
-"""The efforts of a fold and of a layer of the stack, added to those of the moves."""
+FOLD_EFFORT, _LAYER_EFFORT, _TURN_EFFORT = 0.15, 0.03, 1.0
+"""The efforts of a fold, of a layer of the stack and of turning it over, added to those of the moves."""
 
 _ALIKE = {"roll": "thirds", "side": "thirds", "sides": "thirds", "flap": "flaps"}
 """Kinds of moves that count as variants of another one."""
@@ -36,7 +37,7 @@ class Packet:
         folds: all folds, those that stood at the beginning first.
         moves: the moves by which it was folded from there, each by its kind and axis.
         effort: the summed efforts of the moves, and of the robot where one is asked.
-        is_turned: whether it was turned over before them.
+        is_turned: whether it was turned over, before them or after them.
         stand: where robot and cloth are after the folds that a robot was asked about; None before it was.
         asked: the number of those folds.
         doubts: the number of those that the robot probably cannot do.
@@ -114,12 +115,10 @@ class Packet:
         done = carried_out(self.cloth, move, grip_radius_m)
         if done is None:
             return None
-        cloth, folds = done
-        moves, bounds = (*self.moves, (move.kind, move.axis)), self.cloth.silhouette.bounds
-        effort = self.effort + move.effort_on(bounds)
-        after = replace(self, cloth=cloth, folds=(*self.folds, *folds), moves=moves, effort=effort)
-        most_m = move.size_after(bounds)
-        return after if after.size_m[move.axis] <= most_m[move.axis] + TOLERANCE_M else None
+        moves, effort = (*self.moves, (move.kind, move.axis)), self.effort + move.effort
+        after = replace(self, cloth=done[0], folds=(*self.folds, *done[1]), moves=moves, effort=effort)
+        is_in_place = all(side <= most + TOLERANCE_M for side, most in zip(after.size_m, move.size_m, strict=True))
+        return after if is_in_place else None
 
     @property
     def is_checked(self) -> bool:
@@ -132,12 +131,11 @@ class Packet:
         effort, doubts = self.effort + found.effort, self.doubts + found.doubts
         return replace(self, effort=effort, stand=found.stand, asked=len(self.folds), doubts=doubts)
 
-    def turned(self, grip_radius_m: float) -> "Packet | None":
-        """Return the garment turned over, before any move; None if it has no edge for that."""
-        done = turned_over(self.cloth, grip_radius_m)
-        if done is None:
-            return None
-        return replace(self, cloth=done[0], folds=(*self.folds, *done[1]), effort=1.0, is_turned=True)
+    def turned(self, grip_radius_m: float) -> "Iterator[Packet]":
+        """Yield the packet turned over each of its sides that serves."""
+        for cloth, fold in turned_over(self.cloth, grip_radius_m):
+            effort = self.effort + _TURN_EFFORT
+            yield replace(self, cloth=cloth, folds=(*self.folds, fold), effort=effort, is_turned=True)
 
 
 def grid_of(size_m: Sides) -> tuple[int, ...]:

@@ -19,7 +19,7 @@ from itertools import count
 from typing import Literal, NamedTuple, TypeAlias
 
 from planner.cloth.garment import DrawnFold, Garment
-from planner.proposals.moves import Move, flap_moves, inward_moves
+from planner.proposals.moves import Move, flap_moves, inward_moves, slanted_moves
 from planner.proposals.packet import FOLD_EFFORT, Packet, grid_of
 from planner.proposals.robot_check import DOUBT_EFFORT, RobotCheck
 from planner.proposals.target import TOLERANCE_M, Sides, Target, excess_m, is_filling, is_fitting
@@ -104,8 +104,9 @@ class PacketSearch:
 
     def _found(self) -> Iterator[Packet]:
         self._look_at(self._begin)
-        if self._face != "any" and (turned := self._begin.turned(self._radius_m)) is not None:
-            self._wait(0.0, turned, "look")  # cloth that lies front up ends with its back outside, and vice versa
+        if self._face != "any":  # cloth that lies front up ends with its back outside, and the other way round
+            for turned in self._begin.turned(self._radius_m):
+                self._wait(0.0, turned, "look")
         while self._queue:
             waiting = heappop(self._queue)
             packet, step = waiting.packet, waiting.step
@@ -140,9 +141,8 @@ class PacketSearch:
 
     def _is_new(self, packet: Packet, move: Move) -> bool:
         """Return whether few variants of a packet with a move were folded; count it."""
-        size_m = move.size_after(packet.cloth.silhouette.bounds)
-        is_fit = not self._is_for_smallest and is_fitting(size_m, self._target_m)
-        variant = (packet.is_turned, packet.way_with(move), None if is_fit else grid_of(size_m), packet.doubts)
+        is_fit = not self._is_for_smallest and is_fitting(move.size_m, self._target_m)
+        variant = (packet.is_turned, packet.way_with(move), None if is_fit else grid_of(move.size_m), packet.doubts)
         self._folded[variant] += 1
         return self._folded[variant] <= _VARIANTS
 
@@ -156,17 +156,20 @@ class PacketSearch:
             return
         self.nearest_m = min(self.nearest_m, packet.size_m, key=lambda size_m: excess_m(size_m, self._target_m))
         is_fit = self._is_for_smallest or is_fitting(packet.size_m, self._target_m)
-        if is_fit and (self._face == "any" or packet.face == self._face):
+        if is_fit and self._face in ("any", packet.face):
             self._wait(self._rank(packet), packet, "yield")
+        elif is_fit and not (packet.is_turned or self._is_for_smallest):
+            for turned in packet.turned(self._radius_m):
+                self._wait(self._rank(turned), turned, "look")
         if is_fit and not self._is_for_smallest:
             return
         self._met[packet.is_turned, packet.shape] = packet.doubts
         silhouette = packet.cloth.silhouette
         for move in (
             *inward_moves(silhouette.bounds, self._target_m),
-            *(() if packet.moves else flap_moves(silhouette)),
+            *(() if packet.moves else (*flap_moves(silhouette), *slanted_moves(silhouette))),
         ):
-            if len(packet.folds) + len(move.lines) <= self._max_folds:
+            if len(packet.folds) + len(move.creases) <= self._max_folds:
                 self._wait(self._promise(packet, move), packet, move)
 
     def _wait(self, rank: float, packet: Packet, step: "Move | Turn", *, is_blamed: bool = False) -> None:
@@ -183,13 +186,10 @@ class PacketSearch:
 
         For the smallest packet it is the size of the rectangle.
         """
-        bounds = packet.cloth.silhouette.bounds
-        size_m = move.size_after(bounds)
         if self._is_for_smallest:
-            return _bulk_m2(size_m)
-        folds = len(packet.folds) + len(move.lines)
-        left = _moves_left(size_m, self._target_m)
-        return packet.effort + move.effort_on(bounds) + FOLD_EFFORT * (folds + left) + left
+            return _bulk_m2(move.size_m)
+        folds, left = len(packet.folds) + len(move.creases), _moves_left(move.size_m, self._target_m)
+        return packet.effort + move.effort + FOLD_EFFORT * (folds + left) + left
 
 
 def _bulk_m2(size_m: Sides) -> float:

@@ -41,6 +41,9 @@ WORK_LIMIT_S = 1.0
 _FAILURES = 2
 """Packets without a plan for each proposal asked for, after which no more are planned."""
 
+_BRIEF_SHARE = 0.5
+"""The work for the plan of a packet's first folds, as a share of that for all of them."""
+
 _VARIANTS = 3
 """Variants of one way that are planned, at most."""
 
@@ -202,7 +205,7 @@ def _planned(
 ) -> Generator[Proposal, None, Tried]:
     solved: set[Way] = set()
     failed: dict[Way, Proposal] = {}
-    shown = set[object]()
+    shown, fine = set[object](), set[tuple[DrawnFold, ...]]()
     tried = Counter[Way]()
     failures = 0
     for packet in search.packets():
@@ -217,7 +220,9 @@ def _planned(
         if not proposal.plan.is_solved:
             failures += 1
             failed.setdefault(packet.way, proposal)
-            _blame(task, packet, search, should_stop)
+            blamed = _blamed(task, packet, fine, should_stop)
+            if blamed:
+                search.blame(blamed)
             continue
         solved.add(packet.way)
         if (looks := (packet.shape, proposal.cost_s)) not in shown:
@@ -233,12 +238,20 @@ def _proposal(task: Task, packet: Packet, should_stop: Callable[[], bool]) -> Pr
     return Proposal(plan.garment, packet.size_m, packet.layers, packet.face, plan)
 
 
-def _blame(task: Task, packet: Packet, search: PacketSearch, should_stop: Callable[[], bool]) -> None:
-    """Look for the first folds of a packet that have no plan by themselves; others that begin so have none either."""
+def _blamed(
+    task: Task, packet: Packet, fine: set[tuple[DrawnFold, ...]], should_stop: Callable[[], bool]
+) -> tuple[DrawnFold, ...]:
+    """Return the first folds of a packet that have no plan by themselves; none if it takes all of them.
+
+    Others that begin so have no plan either. First folds that have one are added to `fine`.
+    """
+    brief = replace(task, limits=replace(task.limits, work_limit_s=_BRIEF_SHARE * (task.limits.work_limit_s or 0.0)))
     for done in range(len(task.garment.folds) + 1, len(packet.folds)):
-        if not _plan(task, packet.folds[:done], should_stop).is_solved:
-            search.blame(packet.folds[:done])
-            return
+        folds = packet.folds[:done]
+        if folds not in fine and not _plan(brief, folds, should_stop).is_solved:
+            return folds
+        fine.add(folds)
+    return ()
 
 
 def _plan(task: Task, folds: tuple[DrawnFold, ...], should_stop: Callable[[], bool]) -> Plan:

@@ -2,21 +2,47 @@ import pytest
 
 from planner import load_garment
 from planner.cloth.cloth_state import ClothState
-from planner.proposals.moves import Move, carried_out, flap_moves, inward_moves, turned_over
+from planner.geometry.region import Region
+from planner.proposals.moves import Move, carried_out, flap_moves, inward_moves, slanted_moves, turned_over
+from planner.proposals.target import Sides
 from tests.builders import rectangle
 
 BLANKET = ClothState.spread_out(rectangle(0.6, 0.4))
 
 
+def cloth_after(cloth: ClothState, move: Move) -> ClothState:
+    done = carried_out(cloth, move, 0.127)
+    assert done is not None
+    return done[0]
+
+
+def size_after(cloth: ClothState, move: Move) -> Sides:
+    x0, y0, x1, y1 = cloth_after(cloth, move).silhouette.bounds
+    return (x1 - x0, y1 - y0)
+
+
+def side_names(move: Move) -> list[str]:
+    return [crease.name for crease in move.creases]
+
+
 def test_what_a_move_leaves_is_known_before_it_is_made() -> None:
-    bounds = BLANKET.silhouette.bounds
-    moves = list(inward_moves(bounds, (0.25,)))
+    moves = list(inward_moves(BLANKET.silhouette.bounds, (0.25,)))
     assert {move.kind for move in moves} == {"half", "thirds", "roll", "sides", "side"}
     for move in moves:
-        done = carried_out(BLANKET, move, 0.127)
-        assert done is not None
-        x0, y0, x1, y1 = done[0].silhouette.bounds
-        assert (x1 - x0, y1 - y0) == pytest.approx(move.size_after(bounds), abs=1e-5)
+        assert size_after(BLANKET, move) == pytest.approx(move.size_m, abs=1e-5)
+
+
+def test_sides_that_stick_out_are_tucked_back() -> None:
+    move = next(move for move in inward_moves((0.0, 0.0, 0.7, 0.4), (0.2,)) if move.kind == "sides")
+    assert [(crease.kind, crease.name) for crease in move.creases] == [
+        ("blue", "left side"),
+        ("red", "left side back"),
+        ("blue", "right side"),
+        ("red", "right side back"),
+    ]
+    cloth = ClothState.spread_out(rectangle(0.7, 0.4))
+    assert move.size_m == pytest.approx((0.2, 0.4))
+    assert size_after(cloth, move) == pytest.approx((0.2, 0.4), abs=1e-5)
 
 
 def test_a_side_within_the_target_is_not_folded() -> None:
@@ -38,8 +64,8 @@ def test_sleeves_are_folded_in_as_a_pair_at_the_body() -> None:
     cloth = ClothState.spread_out(load_garment("t-shirt").pattern)
     pair = next(move for move in flap_moves(cloth.silhouette) if move.kind == "flaps")
     assert pair.axis == 0
-    assert [place for place, _ in pair.lines] == pytest.approx([0.0, 0.457])
-    assert [is_low for _, is_low in pair.lines] == [True, False]
+    assert [crease.line.start[0] for crease in pair.creases] == pytest.approx([0.0, 0.457])
+    assert side_names(pair) == ["left flap", "right flap"]
     done = carried_out(cloth, pair, 0.127)
     assert done is not None
     assert done[0].silhouette.bounds == pytest.approx((0.0, 0.0, 0.457, 0.61), abs=1e-5)
@@ -49,23 +75,51 @@ def test_a_rectangle_has_no_flaps() -> None:
     assert not list(flap_moves(BLANKET.silhouette))
 
 
+def test_sleeves_at_a_slanted_seam_are_folded_in_as_a_pair() -> None:
+    # The body narrows from 0.3 m at the bottom to 0.2 m at the top; the sleeves are 0.1 m wide parallelograms.
+    half = [(0.15, 0.0), (0.12, 0.3), (0.3, 0.3), (0.3, 0.4), (0.1, 0.5)]
+    cloth = ClothState.spread_out(Region.polygon([*half, *((-x, y) for x, y in reversed(half))]))
+    pairs = [move for move in slanted_moves(cloth.silhouette) if move.kind == "flaps"]
+    assert pairs
+    for pair in pairs:
+        one, other = pair.creases
+        assert one.line.start == pytest.approx((-other.line.end[0], other.line.end[1]))
+        x_m, y_m = size_after(cloth, pair)
+        assert (x_m, y_m) == pytest.approx(pair.size_m, abs=1e-5)
+        assert x_m < 0.6 - 0.1
+
+
+def test_an_edge_of_a_right_triangle_lands_on_the_other() -> None:
+    cloth = ClothState.spread_out(Region.polygon([(0.0, 0.0), (0.4, 0.0), (0.0, 0.4)]))
+    edges = [move for move in slanted_moves(cloth.silhouette) if move.kind == "edges"]
+    halves = [move for move in edges if cloth_after(cloth, move).silhouette.area == pytest.approx(0.04)]
+    (half,) = halves  # over the line from the right angle to the middle of the long edge
+    assert half.size_m == pytest.approx((0.2, 0.4)) or half.size_m == pytest.approx((0.4, 0.2))
+    for move in edges:
+        assert size_after(cloth, move) == pytest.approx(move.size_m, abs=1e-5)
+
+
+def test_a_rectangle_has_no_slanted_moves() -> None:
+    assert not list(slanted_moves(BLANKET.silhouette))
+
+
 def test_wide_swings_take_more_effort() -> None:
     def half(width_m: float) -> float:
-        bounds = (0.0, 0.0, width_m, 0.1)
-        return Move("half", 1.0, "half", 0, ((width_m / 2, True),)).effort_on(bounds)
+        move = next(iter(inward_moves((0.0, 0.0, width_m, 0.1), (width_m / 2,))))
+        assert move.kind == "half"
+        return move.effort
 
     assert half(0.8) == pytest.approx(1.0)
     assert half(1.2) > half(0.9) > 1.0
 
 
-def test_turned_over_a_long_edge_the_back_looks_up() -> None:
-    done = turned_over(BLANKET, 0.127)
-    assert done is not None
-    cloth, (fold,) = done
-    assert fold.kind == "turn"
-    assert [layer.face for layer in cloth.layers] == ["back"]
-    assert abs(fold.end[0] - fold.start[0]) == pytest.approx(0.6)
+def test_cloth_is_turned_over_each_side_the_longest_first() -> None:
+    turned = list(turned_over(BLANKET, 0.127))
+    assert [abs(fold.end[0] - fold.start[0]) for _, fold in turned] == pytest.approx([0.6, 0.6, 0.0, 0.0])
+    for cloth, fold in turned:
+        assert fold.kind == "turn"
+        assert [layer.face for layer in cloth.layers] == ["back"]
 
 
 def test_cloth_without_a_long_edge_is_not_turned_over() -> None:
-    assert turned_over(ClothState.spread_out(rectangle(0.04, 0.04)), 0.127) is None
+    assert not list(turned_over(ClothState.spread_out(rectangle(0.04, 0.04)), 0.127))

@@ -107,6 +107,12 @@ def test_the_front_looks_up_after_a_fold_if_the_cloth_is_turned_over_before() ->
     assert FoldSequence.of(replace(BLANKET, folds=shown.folds)).final.layers[-1].face == "front"
 
 
+def test_a_packet_that_shows_the_wrong_face_is_turned_over_at_the_end() -> None:
+    # Two strips folded in leave most of the front to be seen between them; the side below is the back.
+    kinds = [[fold.kind for fold in packet.folds] for packet in packets(BLANKET, "50x40cm", face="back")]
+    assert ["blue", "blue", "turn"] in kinds
+
+
 def test_halves_are_half_as_long_and_wide() -> None:
     first = next(packets(BLANKET, "halves"))
     assert first.size_m == pytest.approx((0.3, 0.2), abs=1e-5)
