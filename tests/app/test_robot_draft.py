@@ -42,6 +42,7 @@ def pair(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
 def test_arms_are_the_chains_that_end_in_grippers_from_left_to_right(pair: tuple[Path, str]) -> None:
     card = read_described(pair[0] / "robot.json").card
     assert (card.name, card.title, card.base.kind) == ("two-arms", "Two arms", "fixed")
+    assert (card.lift, card.scene.torso_m) == ("rise", 0.01)
     assert [arm.name for arm in card.arms] == ["left", "right"]
     for arm, before in zip(card.arms, "lr", strict=True):
         assert arm.joints == tuple(f"{before}_{name}" for name in ("pan", "lift", "bow", "bend", "tilt", "roll"))
@@ -67,7 +68,7 @@ def test_every_finger_moves_with_the_gripper_though_the_urdf_does_not_say_so(pai
 
 def test_at_home_nothing_touches_and_the_base_stands_clear_of_the_table(pair: tuple[Path, str]) -> None:
     robot = read_described(pair[0] / "robot.json")
-    collisions = CardRobot(robot).collisions(robot.card.scene.table, 0.0)
+    collisions = CardRobot(robot).collisions(robot.card.scene.table, robot.card.scene.torso_m)
     ((_, station),) = robot.card.scene.stations
     homes = np.concatenate([np.array(arm.home) for arm in robot.card.arms])
     assert np.abs(homes).max() > 0.1
@@ -113,6 +114,18 @@ def test_a_gripper_may_have_one_jaw_and_parts_without_a_shape(tmp_path: Path) ->
     assert arm.gripper.drive.joint == "jaw_a" and arm.gripper.opening_max_m == pytest.approx(0.04, abs=1e-3)
     assert arm.tool.approach == (0.0, 0.0, 1.0) and abs(arm.tool.closing[0]) == 1.0
     assert arm.tool.offset_m == pytest.approx((0.0, 0.0, TOOL_AHEAD_M - 0.005), abs=1e-3)
+
+
+def test_more_than_two_fingers_are_two_jaws_with_a_doubt(tmp_path: Path) -> None:
+    urdf = single_urdf(fingers="{}finger_{}")
+    third = urdf[urdf.index('<joint name="finger_b"') : urdf.index("</robot>")]
+    (tmp_path / "one.urdf").write_text(
+        urdf.replace("</robot>", re.sub("finger_b|b_part", r"\g<0>_too", third) + "</robot>")
+    )
+    result = pleat("robot", "draft", str(tmp_path / "one.urdf"), "--out", str(tmp_path / "one"))
+    assert result.exit_code == 0, result.output
+    assert "Not known: whether the 3 fingers at 'roll'" in result.stdout
+    assert "with 'finger_a' move 'finger_b', 'finger_b_too'" in result.stdout
 
 
 XACRO = ' xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:property name="deep" value="${2*3}"/'

@@ -39,10 +39,13 @@ def arm(before: str, parent: str, y_m: float, z_m: float, *, fingers: str = "{}f
 
 
 def pair_urdf() -> str:
-    """Return a column on the floor with two arms, the right one first."""
-    column = _LINK.format(name="column", at="0 0 0.45", size="0.2 0.2 0.9")
-    arms = arm("r_", "column", -0.25, 0.85) + arm("l_", "column", 0.25, 0.85)
-    return f'<robot name="pair">{column}{arms}</robot>'
+    """Return a column on the floor, a lift that ends 1 cm over its foot, and two arms on it, the right one first."""
+    column = _LINK.format(name="column", at="0 0 0.4", size="0.2 0.2 0.8")
+    numbers = {"axis": "0 0 1", "low": 0.01, "high": 0.3, "speed": 0.1}
+    lift = _JOINT.format(name="rise", kind="prismatic", parent="column", child="torso", at="0 0 0.8", **numbers)
+    torso = _LINK.format(name="torso", at="0 0 0.05", size="0.2 0.2 0.1")
+    arms = arm("r_", "torso", -0.25, 0.05) + arm("l_", "torso", 0.25, 0.05)
+    return f'<robot name="pair">{column}{lift}{torso}{arms}</robot>'
 
 
 def single_urdf(*, fingers: str = "{}slide_{}", speed: float = 2.0, before: str = "") -> str:

@@ -153,7 +153,8 @@ class _Drafting:
         self._unknown.append("where it looks: x of its URDF's root is taken as ahead; yaw_rad of the mount turns it")
         mount = Mount(z_m=round(z_m, 4))
         base = BaseFile(self._base_kind(stands), 0.5, (0.5, 0.5))
-        scene = SuitableScene(Table(), (("front", Pose2(-1.0, 0.0, 0.0)),), Pose2(0.0, 0.0, 0.0))
+        torso_m = 0.0 if lift is None else max(limits_of(self._joints[lift])[0], 0.0)
+        scene = SuitableScene(Table(), (("front", Pose2(-1.0, 0.0, 0.0)),), Pose2(0.0, 0.0, 0.0), torso_m)
         card = CardFile(VERSION, name, title, urdf, arms, base, scene, (mount,), lift=lift)
         card = self._at_tips(card)
         card = self._at_table(card, self._described(card), stands)
@@ -205,6 +206,8 @@ class _Drafting:
             f"the gripper of {joints[-1]!r}: {jaws.driver!r} closes it at {jaws.closed:g} and opens it at "
             f"{jaws.opened:g}, the ends of its range, by {1000.0 * jaws.opening_m:.0f} mm"
         )
+        if len(hand.fingers) > 2:
+            self._unknown.append(f"whether the {len(hand.fingers)} fingers at {joints[-1]!r} hold cloth as two jaws do")
         link = _attribute(self._joints[joints[-1]], "child", "link", "")
         way = abs(jaws.opened - jaws.closed)
         gripper = GripperFile(
@@ -269,7 +272,7 @@ class _Drafting:
         table = Table(depth_m=depth_m, width_m=table_width_m, height_m=height_m)
         x_m = round(-(0.5 * table.depth_m + max(float(high[0]), 0.0) + _GAP_M), 2)
         station = ("front", Pose2(x_m, 0.0, 0.0))
-        collisions = CardRobot(robot).collisions(table, 0.0)
+        collisions = CardRobot(robot).collisions(table, card.scene.torso_m)
         for found in stations_in_table((station,), collisions):
             if found.back_m is not None:
                 station = ("front", Pose2(round(x_m - found.back_m, 2), 0.0, 0.0))
@@ -281,7 +284,7 @@ class _Drafting:
         return replace(
             card,
             base=replace(card.base, radius_m=radius, size_m=(length_m, width_m)),
-            scene=SuitableScene(table, (station,), near),
+            scene=SuitableScene(table, (station,), near, card.scene.torso_m),
         )
 
     def _at_home(self, card: CardFile, robot: DescribedRobot) -> CardFile:

@@ -27,7 +27,7 @@ _A_LITTLE = 0.1
 OPENING_MIN_M = 0.005
 """A gripper opens by more (m)."""
 
-_STRAIGHT = np.cos(np.radians(12.0))
+_STRAIGHT = np.cos(np.radians(20.0))
 """An axis this near to one of the link's is meant to be that (cosine)."""
 
 _Values: TypeAlias = Mapping[str, float]
