@@ -74,7 +74,7 @@ class PacketSearch:
         self._full_m = tuple(min(most, begun) for most, begun in ordered)
         self._max_folds = max_folds
         self._face = face
-        self._robot = robot
+        self._robot = None if target.is_smallest else robot  # all are folded before the first is told
         self._queue: list[_Waiting] = []
         self._serial = count()
         self._met: dict[object, int] = {}
@@ -92,9 +92,9 @@ class PacketSearch:
             best: dict[int, Packet] = {}
             for packet in self._found():
                 known = best.setdefault(len(packet.folds), packet)
-                if (packet.doubts, _bulk_m2(packet.size_m)) < (known.doubts, _bulk_m2(known.size_m)):
+                if _bulk_m2(packet.size_m) < _bulk_m2(known.size_m):
                     best[len(packet.folds)] = packet
-            yield from sorted(best.values(), key=lambda packet: (packet.doubts, _bulk_m2(packet.size_m)))
+            yield from sorted(best.values(), key=lambda packet: _bulk_m2(packet.size_m))
         else:
             yield from self._found()
 

@@ -197,12 +197,16 @@ def propose_folds(
         raise RequestError("face", f"expected one of {', '.join(FACES)}; got {face!r:.80}")
     task = task_for(garment, scene, robot=robot, work_limit_s=work_limit_s, **options)
     search = PacketSearch(garment, target, max_folds, face, RobotCheck(task))
-    return _planned(task, search, count, should_stop or _never)
+    alone = PacketSearch(garment, target, max_folds, face)
+    return _planned(task, search, None if target.is_smallest else alone, count, should_stop or _never)
 
 
 def _planned(
-    task: Task, search: PacketSearch, count: int, should_stop: Callable[[], bool]
+    task: Task, search: PacketSearch, alone: PacketSearch | None, count: int, should_stop: Callable[[], bool]
 ) -> Generator[Proposal, None, Tried]:
+    """Propose what a search finds that the robot can do, unless the same search without a robot finds nothing."""
+    if alone is not None and next(alone.packets(), None) is None:
+        return Tried(alone.enumerated, alone.nearest_m)
     solved: set[Way] = set()
     failed: dict[Way, Proposal] = {}
     shown, fine = set[object](), set[tuple[DrawnFold, ...]]()
