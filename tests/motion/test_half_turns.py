@@ -6,7 +6,7 @@ import pytest
 from planner.geometry.pose import FloatArray
 from planner.motion.transfer_path_finder import keeps_tool
 from planner.robots.load_robot import load_robot
-from planner.robots.pr2 import Pr2
+from planner.robots.pr2.robot import Pr2
 
 
 class ToolElsewhere:
