@@ -14,6 +14,7 @@ from bench.environment import environment
 from bench.first_plan import first_plan
 from bench.fold_to_size import fold_to_size
 from bench.frames import frames
+from bench.goals import goals
 from bench.growth import growth
 from bench.hand import hand
 from bench.heuristics import heuristics
@@ -37,6 +38,7 @@ from bench.yes_and_no import PAIRS, yes_and_no
 Benchmark = Callable[[Sequence[str], int], Report]
 
 BENCHMARKS: Final[Mapping[str, Benchmark]] = {
+    "goals": goals,
     "table-1": table_1,
     "table-2": table_2,
     "heuristics": heuristics,

@@ -25,6 +25,7 @@ DOOR = (
     "planner.robots.collision.link_shapes",
     "planner.robots.collision.shape_files",
     "planner.robots.described_robot",
+    "planner.robots.drafting.draft",
     "planner.robots.joint_layout",
     "planner.robots.known_robots",
     "planner.robots.load_robot",
@@ -36,6 +37,7 @@ DOOR = (
     "planner.robots.table_reach",
     "planner.robots.tool_path",
     "planner.robots.tool_point",
+    "planner.robots.urdf_shapes",
     "planner.robots.varied_card",
 )
 """What others may import of the robots: descriptions, the way to load one, types of questions and answers."""
@@ -52,6 +54,7 @@ ALLOWED: Mapping[str, tuple[str, str]] = {
     "app/cli/study.py": (r"left", "the time that is left"),
     "app/rehearsal/vision/outline_edges.py": (r"right", "a side of numpy's searchsorted"),
     "planner/proposals/moves.py": (r"left|right", "names of parts of a garment"),
+    "app/drivers/ur_arms.py": (r"shoulder_pan_joint", "the first joint of the arms that the driver is for"),
     "app/templates/mirrored.py": (r"left|right", "names of folds on the halves of a garment"),
     "static/js/board/edits.js": (r"left|right", "names of folds on the halves of a garment"),
     "static/js/messages/changes.js": (r"left|right", "ways to turn the cloth"),

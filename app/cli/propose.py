@@ -54,8 +54,6 @@ def propose(
     """Propose folds that bring a garment to a size, each planned for a robot.
 
     Folds that the garment has are kept as the beginning.
-
-    Exit status: 0 where one can be done, 3 where none can.
     """
     source = garment_of(garment)
     chosen = replace(source, folds=()) if anew else source

@@ -55,10 +55,7 @@ def rehearse_command(
     json_to: JsonOption = None,
     data: DataOption = None,
 ) -> None:
-    """Perform a plan in simulated physics, and say of every step whether it holds.
-
-    Exit status: 0 where all runs held, 3 where not, or where there is no plan.
-    """
+    """Perform a plan in simulated physics, and say of every step whether it holds."""
     with blaming(source):
         options = RehearsalOptions(runs, seed, noise.value, feedback is Switch.ON)
         found = load_source(source)

@@ -43,7 +43,7 @@ def run(
 ) -> None:
     """Perform a plan: lead the arms to its first pose, then do step by step, each confirmed.
 
-    Ctrl-C stops the arms. Exit status: 0 done; 2 bad input; 3 stopped, or the robot was lost.
+    Ctrl-C stops the arms.
     """
     from app.drivers.recording import Recording
     from app.drivers.run import run_plan

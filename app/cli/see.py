@@ -58,10 +58,7 @@ def see(
     ] = None,
     json_to: JsonOption = None,
 ) -> None:
-    """Read a garment from a picture: its outline, where it lies, how sure that is; or how far it is folded.
-
-    Exit status: 0 read; 2 bad input, or no scale; 3 nothing can be told from the picture.
-    """
+    """Read a garment from a picture: its outline, where it lies, how sure that is; or how far it is folded."""
     if like is not None and state is not None:
         raise failure("--like and --state-of cannot be given together")
     if state is not None:

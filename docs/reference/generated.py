@@ -23,14 +23,14 @@ def _command_line() -> Iterator[str]:
 
     yield "# Command line"
     yield ""
-    yield "Exit status: 0 done; 2 bad input, with the option or field that is wrong; 3 there is no plan, or what was"
-    yield "tried does not hold; 4 the search ended before its answer."
+    yield "`pleat --install-completion` has the shell complete commands and options."
     for name in COMMANDS:
         yield from _command(f"pleat {name}", loaded(name))
 
 
 def _command(name: str, command: click.Command) -> Iterator[str]:
     yield from ("", f"## {name}", "", _plain(command.help))
+    yield from ("", *(command.epilog or "").splitlines())
     if isinstance(command, click.Group):
         for inner, below in command.commands.items():
             yield from _command(f"{name} {inner}", below)

@@ -36,8 +36,7 @@ def all_have_ended(sheet: Sheet) -> bool:
 def test_a_way_is_looked_at_and_taken_by_keyboard_and_is_one_step(page: Page, new_sheet: NewSheet) -> None:
     sheet = new_sheet(TOWEL)
     page.goto(sheet.page_url)
-    expect(page.get_by_role("button", name="Fold it for me")).to_be_visible()
-    page.keyboard.press("a")
+    page.get_by_role("button", name="Fold it for me").press("a")
     panel = page.get_by_role("region", name="Fold it for me")
     expect(panel.get_by_role("button", name="Shop shelf")).to_be_focused()
     panel.get_by_role("button", name="Halves").press("Enter")

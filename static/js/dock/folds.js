@@ -39,6 +39,7 @@ export class Folds {
     this.switch = toggle(say("dag.title"), (isOn) => this.showGraph(isOn));
     this.propose = button("chip", () => store.tell("propose"), say("proposal.do"));
     this.propose.title = say("proposal.hint");
+    this.propose.hidden = true;
     const head = element("header", "dock-head", element("h2", "", say("folds.title")), this.propose, this.switch);
     this.root = element("section", "dock-folds", head, this.list, this.empty, this.dag.root);
     this.list.addEventListener("keydown", (event) => this.onKey(event));
