@@ -1,7 +1,8 @@
 """The cloth in the 3D view: its two faces in two colours, and the outline of every layer.
 
 A face of cloth has no thickness, so it is drawn twice from the same triangles: one mesh is seen from the front, the
-other from behind. Neither casts a shadow, because it would fall on the other.
+other from behind. Neither casts a shadow, because it would fall on the other. A third one, which nobody sees, casts it
+from just below: cloth in the air shades the table and the cloth under it, and never itself.
 """
 
 import numpy as np
@@ -16,6 +17,8 @@ from planner.motion.sample import ClothSurface
 ROOT = "/cloth"
 
 _EDGE_PX = 1.5
+_SHADE_M = (0.0, 0.0, -0.03)
+"""Where the mesh that casts the shadow is, beside the cloth (m): lying cloth has it inside the table."""
 _SIDES = np.array([[0, 1], [1, 2], [2, 0]])
 _NO_POINTS = np.zeros((3, 3))
 _NO_TRIANGLES = np.zeros((1, 3), dtype=np.int64)
@@ -25,10 +28,13 @@ class ClothView:
     """Shows one cloth surface at a time."""
 
     def __init__(self, scene: viser.SceneApi, root: str = ROOT) -> None:
-        """Build the nodes ``front``, ``back`` and ``edges`` below a root, without cloth at first."""
+        """Build the nodes ``front``, ``back``, ``shade`` and ``edges`` below a root, without cloth at first."""
         add_mesh = scene.add_mesh_simple
         self._front = add_mesh(f"{root}/front", _NO_POINTS, _NO_TRIANGLES, side="front", cast_shadow=False)
         self._back = add_mesh(f"{root}/back", _NO_POINTS, _NO_TRIANGLES, side="back", cast_shadow=False)
+        self._shade = add_mesh(
+            f"{root}/shade", _NO_POINTS, _NO_TRIANGLES, side="double", opacity=0.0, position=_SHADE_M
+        )
         self._edges = scene.add_line_segments(
             f"{root}/edges",
             np.zeros((1, 2, 3)),
@@ -45,7 +51,7 @@ class ClothView:
 
     def set_visible(self, *, is_visible: bool) -> None:
         """Show or hide the cloth."""
-        for node in (self._front, self._back, self._edges):
+        for node in (self._front, self._back, self._shade, self._edges):
             node.visible = is_visible
 
     def show(self, cloth: ClothSurface) -> None:
@@ -55,7 +61,7 @@ class ClothView:
             return
         is_recut = before is None or not np.array_equal(cloth.triangles, before.triangles)
         vertices = cloth.vertices.astype(np.float32)
-        for mesh in (self._front, self._back):
+        for mesh in (self._front, self._back, self._shade):
             mesh.vertices = vertices
             if is_recut:
                 mesh.faces = cloth.triangles.astype(np.uint32)

@@ -1,10 +1,11 @@
 """The lights of the 3D view, and surface colours that look as intended under them.
 
 The browser maps light to screen colours by a tone curve (the ACES fit of three.js), which greys and darkens: cream
-looks cold white. The lights here are white, and their sum on level surfaces is known, so the curve can be inverted:
-`paint` is the surface colour that looks like the colour wanted on a level surface in this light, and `ink` that of a
-line, on which no light falls. Colours brighter than the curve can show are approximated as closely as possible. Upright
-surfaces get less light and look darker, which shows their form.
+looks cold white. The lights here are white: the sky, viser's own sun overhead, which casts the shadows, a key light
+from where cameras mostly are, and a rim light from behind the robot. Their sum on level surfaces is known, so the curve
+can be inverted: `paint` is the surface colour that looks like the colour wanted on a level surface in this light, and
+`ink` that of a line, on which no light falls. Colours brighter than the curve can show are approximated as closely as
+possible. Upright surfaces get less light and look darker, which shows their form.
 """
 
 import functools
@@ -16,16 +17,22 @@ import viser
 from numpy.typing import NDArray
 
 from app.ui.colours import Rgb
-from planner.geometry.pose import FloatArray
+from planner.geometry.pose import FloatArray, Point3
 
 SKY = "/sky"
 
-_SKY_INTENSITY = 4.4
+_SKY_INTENSITY = 2.6
 _GROUND_COLOUR = (120, 120, 122)
+_LAMPS: tuple[tuple[str, Point3, float], ...] = (
+    ("/key", (2.0, 2.6, 2.2), 1.5),
+    ("/rim", (-2.6, -1.6, 1.3), 1.9),
+)
+"""Lights that cast no shadows: name, direction they shine from (table frame), intensity."""
 _SUN_INTENSITY = 3.0  # of viser's default light, which is nearly overhead and casts the shadows
 _SUN_COSINE = 1.0 / math.hypot(1.0, 0.2, 0.2)
 _SHEEN = 0.011  # reflection of the lights in a surface of any colour, measured from where cameras mostly are
-_LEVEL_LIGHT = (_SKY_INTENSITY + _SUN_INTENSITY * _SUN_COSINE) / math.pi
+_LAMPS_LEVEL = sum(intensity * at[2] / math.hypot(*at) for _, at, intensity in _LAMPS)
+_LEVEL_LIGHT = (_SKY_INTENSITY + _SUN_INTENSITY * _SUN_COSINE + _LAMPS_LEVEL) / math.pi
 
 _EXPOSURE = 1.0 / 0.6
 _FIRST_STEP = 32
@@ -35,12 +42,14 @@ _SHOULDER = (0.0245786, 0.000090537, 0.983729, 0.4329510, 0.238081)
 
 
 def add_lights(server: viser.ViserServer) -> None:
-    """Add white light from all round, more of it from above, and viser's own overhead light."""
+    """Add white light from all round, more of it from above, viser's own overhead light, a key and a rim light."""
     server.scene.configure_environment_map(None)
     server.scene.configure_default_lights(enabled=True, cast_shadow=True)
     server.scene.add_light_hemisphere(
         SKY, sky_color=(255, 255, 255), ground_color=_GROUND_COLOUR, intensity=_SKY_INTENSITY, position=(0.0, 0.0, 1.0)
     )
+    for name, position, intensity in _LAMPS:
+        server.scene.add_light_directional(name, position=position, intensity=intensity)
 
 
 def paint(wanted: Rgb) -> Rgb:

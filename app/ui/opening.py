@@ -35,7 +35,6 @@ def opening(
     aspect: float,
     base: Pose2 | None = None,
     *,
-    is_from_right: bool = False,
     card: RobotCard | None = None,
 ) -> Viewpoint:
     """Return a viewpoint that shows the table and the robot whole, also while the robot stands back from the table.
@@ -44,7 +43,6 @@ def opening(
         scene: table and stations.
         aspect: the picture's width divided by its height; a picture narrower than a fifth of its height is not filled.
         base: where the robot stands, table frame; None: at the first station.
-        is_from_right: look from the other side, as a robot between table and camera hides the cloth.
         card: the robot; None for one that drives.
     """
     aspect = max(aspect, _NARROWEST)
@@ -56,11 +54,9 @@ def opening(
     if card is not None and card.is_fixed:
         return _at_bench(bench(scene, stands, card), back, aspect)
     look_at = np.array(_LOOK_AT)
-    seen = Pose2(stands.x_m, -stands.y_m, -stands.yaw_rad) if is_from_right else stands
-    away_m = _distance(whole(scene, seen) - look_at, back, aspect)
+    away_m = _distance(whole(scene, stands) - look_at, back, aspect)
     x, y, z = (look_at + max(_NEAREST_M, _MARGIN * away_m) * back).tolist()
-    u, v, w = _LOOK_AT
-    return Viewpoint((x, -y, z), (u, -v, w)) if is_from_right else Viewpoint((x, y, z), _LOOK_AT)
+    return Viewpoint((x, y, z), _LOOK_AT)
 
 
 def _at_bench(points: FloatArray, back: FloatArray, aspect: float) -> Viewpoint:

@@ -44,12 +44,22 @@ class TableView:
 
     def recolour(self, palette: Palette) -> None:
         """Change to other colours."""
-        self._floor.cell_color, self._floor.section_color = palette.floor_cell, palette.floor_section
+        floor = self._floor
+        floor.plane_color, floor.cell_color, floor.section_color = (
+            palette.floor,
+            palette.floor_cell,
+            palette.floor_section,
+        )
         self._top.color = paint(palette.table)
         for leg in self._legs:
             leg.color = paint(palette.table_foot)
         for station in self._stations:
             station.color = paint(palette.station)
+
+    def mark_stations(self, *, is_marked: bool) -> None:
+        """Show or hide the stations' arrows and names."""
+        for station in self._stations:
+            station.visible = is_marked
 
     def speak(self, language: Language) -> None:
         """Name the stations in another language."""
@@ -62,12 +72,13 @@ class TableView:
             plane="xy",
             position=(0.0, 0.0, self._floor_z_m),
             infinite_grid=True,
-            fade_distance=9.0,
+            fade_distance=12.0,
             cell_size=0.25,
             section_size=1.0,
             cell_thickness=0.4,
             section_thickness=0.7,
-            shadow_opacity=0.25,
+            shadow_opacity=0.4,
+            plane_opacity=1.0,
         )
 
     def _add_table(self, scene: Scene) -> list[viser.BoxHandle]:

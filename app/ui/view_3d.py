@@ -222,6 +222,7 @@ class View3D:
     def _take_up(self, steps: tuple[PlanStep, ...]) -> None:
         self._steps = steps
         self._marked = None
+        self._table.mark_stations(is_marked=not steps)
         self._grips.show(None)
         self._simulated.show(None, steps, 0.0)
 

@@ -19,8 +19,7 @@ import { mountOffline } from "./offline.js";
 import { mountPhone } from "./phone.js";
 import { mountRobots } from "./robots.js";
 import { mountSplitter } from "./splitter.js";
-import { mountView3DPlay } from "./view3d.js";
-import { mountView3D } from "./view3d.js";
+import { mountView3D, mountView3DEnd, mountView3DPlay } from "./view3d.js";
 import { Rehearsal } from "./rehearsal/rehearsal.js";
 import { Proposing } from "./proposals/proposing.js";
 import { Repair } from "./repair/repair.js";
@@ -64,6 +63,7 @@ const verbs = {
 mountHistory(store, verbs);
 mountOffline(store);
 mountView3DPlay(store, togglePlay);
+mountView3DEnd(store);
 const looking = { play: togglePlay, help: dialogs.help };
 mountView3D(store, keyHandler(isViewOnly ? looking : verbs), board); // letters move the camera there
 

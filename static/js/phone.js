@@ -1,7 +1,11 @@
-/** On a phone one of board and 3D view is large and the other a small inset; the dock is a sheet that pulls up. */
+/**
+ * On a phone one of board and 3D view is large and the other a small inset; the dock is a sheet that pulls up. Who came
+ * by a link for looking sees the 3D view first.
+ */
 
 import { byId } from "./dom.js";
 import { say } from "./language/say.js";
+import { isViewOnly } from "./view_only.js";
 
 export const PHONE = "(max-width: 720px)";
 const PULL_PX = 24;
@@ -25,6 +29,7 @@ export function mountPhone() {
   };
   const isOpen = () => document.body.classList.contains("is-sheet-open");
 
+  work.classList.toggle("is-view3d-large", isViewOnly);
   swap.addEventListener("click", () => {
     work.classList.toggle("is-view3d-large");
     show();

@@ -3,11 +3,15 @@
  * says that it is ready a quiet picture covers it.
  */
 
+import { boxOf } from "./board/geometry.js";
 import { svg } from "./board/sheet.js";
 import { Surface3D } from "./board/surface_3d.js";
 import { icon } from "./dock/icons.js";
+import { seconds } from "./dock/words.js";
 import { button, byId, element } from "./dom.js";
 import { say } from "./language/say.js";
+import { inWords } from "./proposals/cards.js";
+import { isViewOnly } from "./view_only.js";
 
 /** What the frame says when it is ready, see app/api/view_3d_routes.py. */
 const READY = "pleat-ready";
@@ -119,5 +123,32 @@ export function mountView3DPlay(store, togglePlay) {
   };
   made.addEventListener("click", togglePlay);
   for (const name of ["playback", "connection"]) store.addEventListener(name, show);
+  show();
+}
+
+/** So near to its end a plan counts as played: the timeline's slider goes in steps (s). */
+const AT_END_S = 0.05;
+
+/**
+ * A card over the 3D view once the plan has been played to its end: the packet's size, the plan's time, a way to share it.
+ * @param {import("./store.js").Store} store
+ */
+export function mountView3DEnd(store) {
+  const words = element("span", "");
+  const share = button("chip", () => byId("share").click(), say("bar.share"));
+  share.hidden = isViewOnly;
+  const card = element("div", "view3d-end", words, share);
+  card.setAttribute("role", "status");
+  const show = () => {
+    const { playing = false, t_s: now = 0, duration_s: duration = 0 } = store.playback ?? {};
+    const plan = store.plan?.plan;
+    const box = boxOf((plan?.final_layers ?? []).flatMap(({ polygon }) => polygon));
+    card.hidden = !plan || !box || playing || duration <= 0 || now < duration - AT_END_S;
+    if (card.hidden || !plan || !box) return;
+    const size = inWords([box.high[0] - box.low[0], box.high[1] - box.low[1]]);
+    words.textContent = `${size}, ${seconds(plan.cost_s ?? duration)}`;
+  };
+  byId("view3d-pane").append(card);
+  for (const name of ["playback", "plan"]) store.addEventListener(name, show);
   show();
 }

@@ -64,11 +64,11 @@ def test_without_cloth_the_robot_waits_as_it_does_with_cloth(view: View3D, plan:
     view.show(Timeline.of(plan).at(Timeline.of(plan).duration_s))
     view.show_bare(base)
     handle = view._server.scene.get_handle_by_name
-    assert [required(handle(f"/cloth/{part}")).visible for part in ("front", "back", "edges")] == [False] * 3
+    assert [required(handle(f"/cloth/{part}")).visible for part in ("front", "back", "shade", "edges")] == [False] * 4
     assert handle("/folds/0") is None
     waiting = shown_pose(view, "/robot/l_gripper_tool_frame")
     view.show_garment(garment, lying_cloth(garment, scene.table), base)
-    assert [required(handle(f"/cloth/{part}")).visible for part in ("front", "back", "edges")] == [True] * 3
+    assert [required(handle(f"/cloth/{part}")).visible for part in ("front", "back", "shade", "edges")] == [True] * 4
     assert handle("/folds/0") is not None
     np.testing.assert_allclose(shown_pose(view, "/robot/l_gripper_tool_frame"), waiting, atol=1e-9)
 
@@ -92,6 +92,32 @@ def test_all_parts_of_the_scene_have_their_nodes(view: View3D, plan: Plan) -> No
     view.show(Timeline.of(plan).at(0.0))
     for node in ("/floor", "/table/top", "/stations/front", "/cloth/front", "/cloth/back", "/folds/4", "/robot"):
         assert view._server.scene.get_handle_by_name(node) is not None, node
+
+
+def test_stations_are_marked_until_there_is_a_plan(view: View3D, plan: Plan) -> None:
+    def is_marked() -> bool:
+        return bool(required(view._server.scene.get_handle_by_name("/stations/front")).visible)
+
+    view.show_bare(Scene().stations[0][1])
+    assert is_marked()
+    view.show_plan(plan)
+    assert not is_marked()
+    view.show_garment(plan.garment, lying_cloth(plan.garment, Scene().table), Scene().stations[0][1])
+    assert is_marked()
+
+
+def test_cloth_that_lies_casts_its_shadow_from_inside_the_table_and_raised_cloth_from_the_air(
+    view: View3D, plan: Plan
+) -> None:
+    shade = view._server.scene.get_handle_by_name("/cloth/shade")
+    assert isinstance(shade, viser.MeshHandle) and shade.cast_shadow and shade.opacity == 0.0
+    fold = next(step for step in plan.steps if step.fold is not None)
+    highest_m = []
+    view.show_plan(plan)
+    for t_s in (0.0, fold.start_s + fold.duration_s / 2):
+        view.show(Timeline.of(plan).at(t_s))
+        highest_m.append(float(shade.vertices[:, 2].max() + shade.position[2]))
+    assert highest_m[0] < 0.0 < highest_m[1]
 
 
 def test_fold_lines_go_as_folds_are_done(view: View3D, plan: Plan) -> None:

@@ -1,5 +1,6 @@
 """The dock on windows of all sizes, for fingers, and for readers who want no motion."""
 
+import re
 from collections.abc import Callable, Iterator
 
 import pytest
@@ -126,3 +127,21 @@ def test_until_the_3d_view_is_there_a_quiet_picture_lies_over_it(phone: Page) ->
     told = "{ data: 'pleat-ready', source: document.getElementById('view3d').contentWindow }"
     phone.evaluate(f"dispatchEvent(new MessageEvent('message', {told}))")
     expect(phone.locator(".view3d-cover")).to_have_attribute("hidden", "")
+
+
+def test_at_the_plans_end_a_card_over_the_3d_view_tells_the_packets_size_and_shares_it(wide: Page) -> None:
+    wide.set_viewport_size({"width": 1280, "height": 800})
+    card = wide.locator(".view3d-end")
+    expect(card).to_be_hidden()
+    slider = wide.get_by_role("slider", name="Time")
+    for place, is_shown in (("max", True), ("min", False), ("max", True)):
+        slider.evaluate(
+            "(slider, place) => { slider.value = slider[place];"
+            " slider.dispatchEvent(new Event('input', { bubbles: true })); }",
+            place,
+        )
+        expect(card).to_be_visible(visible=is_shown)
+    expect(card).to_contain_text(re.compile(r"^[\d.]+ \S [\d.]+ cm, [\d.]+ s"))
+    card.get_by_role("button", name="Share").click()
+    expect(wide.get_by_role("dialog", name="Share")).to_be_visible()
+    wide.keyboard.press("Escape")

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from playwright.sync_api import Browser, Page, expect
 
 from tests.app.conftest import REST
-from tests.browser.conftest import Garment, Sheet, new_view_page
+from tests.browser.conftest import Garment, Sheet, new_view_page, windows
 
 NewSheet = Callable[[Garment], Sheet]
 
@@ -54,3 +54,13 @@ def test_the_3d_view_of_a_link_shows_the_robot_without_the_viewers_own_panel(
 
     page.close()
     assert refused == []
+
+
+def test_on_a_phone_a_link_shows_the_3d_view_first_with_play(chromium: Browser, new_sheet: NewSheet) -> None:
+    sheet = new_sheet("scarf")
+    link = REST.post(f"{sheet.path}/share").raise_for_status().json()["path"]
+    with windows(chromium, viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True) as context:
+        page = context.new_page()
+        page.goto(f"{sheet.page_url.partition('/d/')[0]}{link}")
+        expect(page.get_by_role("button", name="Play in the 3D view")).to_be_visible()
+        expect(page.get_by_role("button", name="Show the board large")).to_be_visible()

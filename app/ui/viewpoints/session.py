@@ -24,7 +24,7 @@ class Session:
     """The camera of one browser; the 3D view's own thread uses it, viser's thread only adds requests."""
 
     def __init__(self, client: viser.ClientHandle, document: Document, opening: Viewpoint, ask: Ask) -> None:
-        """Show table and robot.
+        """Show cloth and hands.
 
         Args:
             client: the browser.
@@ -35,9 +35,9 @@ class Session:
         self._client = client
         self._document = document
         self._ask = ask
-        self._is_from_right = False
         self._robot = document.state.drawing.robot
-        self._following: Following | None = None
+        self._following = Following()
+        self._is_robots_eye = False
         with client.atomic():
             self._choice = ViewpointChoice(client, opening, lambda preset: ask(lambda: self._look(preset)))
         self._open()
@@ -50,23 +50,21 @@ class Session:
         self._client.flush()
 
     def _open(self) -> None:
-        """Show table and robot whole, whatever the picture's shape, until the visitor moves the camera."""
-        state = self._document.state
-        scene, choice = state.drawing.scene, self._choice
-        base, card = self._starting_base(state), shown_robot(state.drawing.robot)
-        choice.open_on(opening_of(scene, choice.lens.aspect, base, is_from_right=self._is_from_right, card=card))
+        """Show cloth and hands, or all of a bench, whatever the picture's shape, until the visitor moves the camera."""
+        state, choice = self._document.state, self._choice
+        card = shown_robot(state.drawing.robot)
+        if card.is_fixed:
+            choice.open_on(opening_of(state.drawing.scene, choice.lens.aspect, self._starting_base(state), card=card))
+        else:
+            choice.open_on(self._view_of_work(state))
 
     def _follow(self, state: DocumentState) -> None:
-        """Move the camera with the robot's head, or to the side of the table where the robot does not stand."""
+        """Move the camera with the robot's head, or with the work; before the work begins it stands still."""
         if self._choice.is_riding:
             self._choice.ride(self._moving_view(state))
             return
-        if state.drawing.robot != self._robot:
+        if state.drawing.robot != self._robot or (state.shown is not None and self._document.t_s > 0.0):
             self._robot = state.drawing.robot
-            self._open()
-        aside_m, beside_m = self._base(state).y_m, state.drawing.scene.table.width_m / 2
-        if abs(aside_m) > beside_m and self._is_from_right != (aside_m > 0.0):
-            self._is_from_right = aside_m > 0.0
             self._open()
 
     def _look(self, preset: Preset) -> None:
@@ -80,17 +78,22 @@ class Session:
             case Preset.SIDE:
                 choice.go_to(side(choice.lens, scene.table))
             case Preset.ROBOT | Preset.FOLLOW:
-                self._following = Following() if preset is Preset.FOLLOW else None
+                self._is_robots_eye = preset is Preset.ROBOT
+                self._following = Following()
                 choice.ride(self._moving_view(state))
 
     def _moving_view(self, state: DocumentState) -> Viewpoint:
         """Return where the camera that follows the work, or that rides on the robot's head, is now."""
-        if self._following is None:
-            return self._robots_eye(state)
+        return self._robots_eye(state) if self._is_robots_eye else self._view_of_work(state)
+
+    def _view_of_work(self, state: DocumentState) -> Viewpoint:
+        """Return the next viewpoint of the camera that follows the work."""
         points = on_table(state.drawing, ring_of(state.drawing.outline).points) or state.drawing.scene.table.corners
         x, y = np.array(points).mean(axis=0)
-        work = (float(x), float(y)) if state.shown is None else work_of(state.shown, self._document.t_s)
-        return self._following.view(self._base(state), work, self._choice.lens)
+        shown, t_s = state.shown, self._document.t_s
+        work = (float(x), float(y)) if shown is None else work_of(shown, t_s)
+        is_over = shown is not None and 0.0 < shown.timeline.duration_s <= t_s
+        return self._following.view(self._base(state), work, self._choice.lens, is_over=is_over)
 
     def _robots_eye(self, state: DocumentState) -> Viewpoint:
         """Return the view from the robot's head where it stands now."""
@@ -113,3 +116,5 @@ class Session:
     async def _camera_changed(self, _: viser.CameraHandle) -> None:
         if self._choice.is_opening:
             self._ask(self._open)
+        elif self._choice.is_riding:
+            self._ask(lambda: self._follow(self._document.state))

@@ -18,11 +18,8 @@ from app.ui.viewpoints.presets import Lens, Preset
 CHANNEL = "/session/"
 """The beginning of the name of a session's scene node; the rest is viser's name for the choice of a viewpoint."""
 
-_REMEMBERED = 8
-"""Number of opening viewpoints remembered, because a browser reports its camera with a delay."""
-
-_RIDDEN = 90
-"""Number of viewpoints remembered while the camera follows the robot: three seconds of them."""
+_REMEMBERED = 90
+"""Number of viewpoints remembered, because a browser reports its camera with a delay: three seconds of following."""
 
 OnPreset = Callable[[Preset], None]
 
@@ -45,7 +42,7 @@ class ViewpointChoice:
         self._openings = deque([opening], _REMEMBERED)
         self._has_begun = self._is_left = False
         self._preset: Viewpoint | None = None
-        self._ridden: deque[Viewpoint] = deque(maxlen=_RIDDEN)
+        self._ridden: deque[Viewpoint] = deque(maxlen=_REMEMBERED)
         buttons = client.gui.add_button_group("", tuple(Preset), visible=False)
         buttons.on_click(self._pressed)
         client.scene.add_frame(f"{CHANNEL}{buttons._impl.uuid}", show_axes=False)  # it has no other name

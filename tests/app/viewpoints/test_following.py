@@ -38,15 +38,17 @@ def test_the_camera_goes_after_the_work_without_a_jump() -> None:
     assert now == pytest.approx(Following().view(BASES[1], WORK[2], LENS).position, abs=0.01)
 
 
-def test_the_work_is_where_the_hands_are_and_at_the_end_still_there() -> None:
+def test_the_work_is_where_the_hands_are_and_at_the_end_on_the_packet() -> None:
     plan: Plan = shipped_plan("hand-towel")
     shown = ShownPlan(1, plan, Timeline.of(plan))
     for step in plan.steps:
         if step.grips:
             points = np.array([point[:2] for grip in step.grips for point in (grip.pick, grip.place)])
             assert work_of(shown, step.start_s) == pytest.approx(tuple(points.mean(axis=0)))
-    assert plan.cost_s is not None
-    assert work_of(shown, plan.cost_s + 1.0) == work_of(shown, plan.steps[-1].start_s)
+    assert plan.cost_s is not None and plan.final_placement is not None
+    corners = np.array([point for layer in plan.final_layers for point in layer.region.coordinates])
+    middle = (corners.min(axis=0) + corners.max(axis=0)) / 2
+    assert work_of(shown, plan.cost_s) == pytest.approx(tuple(plan.final_placement.to_outer(middle[None])[0]))
 
 
 def _parts(following: Following, base: Pose2, work: Point2) -> tuple[Point3, Point3, float]:

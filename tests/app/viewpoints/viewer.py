@@ -68,6 +68,19 @@ class Viewer:
             assert time.monotonic() < deadline
             self._read()
 
+    def glide_until(self, condition: Callable[[], Any]) -> None:
+        """Read on until a condition holds, and report the camera wherever it is sent, as a browser does."""
+        reported = 0
+
+        def is_met() -> bool:
+            nonlocal reported
+            if len(self.camera) > reported:
+                reported = len(self.camera)
+                self.look(self.camera[-1], (800, 500))
+            return bool(condition())
+
+        self.until(is_met)
+
     def choose(self, preset: Preset) -> None:
         """Choose a viewpoint, as the page does."""
         self.until(lambda: self.channel is not None)
