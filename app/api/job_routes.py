@@ -64,7 +64,10 @@ for _kind in BY_JSON:
 async def list_jobs(
     request: Request, limit: Annotated[int, Query(ge=1, le=LISTED_MAX)] = 20, before: str | None = None
 ) -> JSONResponse:
-    """Return the newest jobs, or the newest of those older than the job `before`."""
+    """Return the newest jobs, or the newest of those older than the job `before`.
+
+    Searches for proposals that were cancelled are left out.
+    """
     found = await run_in_threadpool(workspace_of(request).jobs.newest, limit, before)
     return JSONResponse(
         {"jobs": [job_entry(job) for job in found], "before": found[-1].id if len(found) == limit else None}

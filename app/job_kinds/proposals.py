@@ -145,4 +145,5 @@ PROPOSALS = JobKind(
     about=lambda asked: asked.garment.title,
     path="/api/proposals",
     may_begin_anew=True,
+    is_listed_cancelled=False,
 )

@@ -147,8 +147,9 @@ class JobDesk:
             return self._open[job_id].found if job_id in self._open else ()
 
     def newest(self, most: int, before: str | None = None) -> list[StoredJob]:
-        """Return the newest jobs, or the newest of those older than the job `before`."""
-        found = self._repository.newest(most, before)
+        """Return the newest jobs that are listed, or the newest of those older than the job `before`."""
+        unlisted = [kind.name for kind in self._kinds.values() if not kind.is_listed_cancelled]
+        found = self._repository.newest(most, before, unlisted)
         with self._lock:
             return [self._open[job.id].stored if job.id in self._open else job for job in found]
 

@@ -79,6 +79,8 @@ class JobKind(Generic[Body, Asked, Answer]):
         path: the path of the route that starts such jobs; by default `/api/jobs/{name}`.
         largest_body: the largest body (bytes).
         may_begin_anew: whether a job that the server's end interrupted is done again at the next start.
+        is_listed_cancelled: whether a job that was cancelled is listed; not where a page cancels one with each change
+            of what it looks for, and begins the next.
     """
 
     name: str
@@ -93,6 +95,7 @@ class JobKind(Generic[Body, Asked, Answer]):
     path: str | None = None
     largest_body: int = LARGEST_BODY
     may_begin_anew: bool = False
+    is_listed_cancelled: bool = True
 
     @cached_property
     def form(self) -> JsonForm[Body]:

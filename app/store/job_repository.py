@@ -3,10 +3,11 @@
 import json
 import time
 import uuid
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from typing import Any, Literal, TypeAlias
 
-from sqlalchemy import delete, func, select, update
+from sqlalchemy import and_, delete, func, not_, select, update
 
 from app.store.database import Database
 from app.store.presence import has_ended
@@ -118,9 +119,16 @@ class JobRepository:
             text = session.scalar(select(JobRow.result).where(JobRow.id == job_id))
         return None if text is None else json.loads(text)
 
-    def newest(self, most: int, before: str | None = None) -> list[StoredJob]:
-        """Return the newest jobs, or the newest of those older than the job `before`."""
-        wanted = select(*_COLUMNS).order_by(JobRow.number.desc()).limit(most)
+    def newest(self, most: int, before: str | None = None, without_cancelled: Sequence[str] = ()) -> list[StoredJob]:
+        """Return the newest jobs, or the newest of those older than the job `before`.
+
+        Args:
+            most: the most jobs.
+            before: the id of a job; None for all.
+            without_cancelled: the names of the kinds whose cancelled jobs are left out.
+        """
+        is_left_out = and_(JobRow.status == "cancelled", JobRow.kind.in_(without_cancelled))
+        wanted = select(*_COLUMNS).where(not_(is_left_out)).order_by(JobRow.number.desc()).limit(most)
         with self._database.reading("the jobs could not be read") as session:
             if before is not None:
                 number = session.scalar(select(JobRow.number).where(JobRow.id == before))

@@ -80,8 +80,8 @@ def suggest_and_hang(caller: Caller, _: Task, __: Plan | None) -> bool:
     return True
 
 
-def kind(name: str, work: object, *, may_begin_anew: bool = False) -> AnyKind:
-    return JobKind(name, "", Number, {"number": 1}, _number, work, as_it_is, may_begin_anew=may_begin_anew)  # type: ignore[arg-type]
+def kind(name: str, work: object, **traits: bool) -> AnyKind:
+    return JobKind(name, "", Number, {"number": 1}, _number, work, as_it_is, **traits)  # type: ignore[arg-type]
 
 
 KINDS: Mapping[str, AnyKind] = {
@@ -91,6 +91,7 @@ KINDS: Mapping[str, AnyKind] = {
         kind("fail", fail),
         kind("crash", crash),
         kind("wait", wait_with_a_child),
+        kind("look", wait_with_a_child, is_listed_cancelled=False),
         kind("not-json", not_json),
     )
 }

@@ -65,6 +65,17 @@ def test_a_job_that_waits_can_be_cancelled_and_one_that_has_ended_stays_as_it_is
         assert jobs.cancel(done.id) == done
 
 
+def test_a_search_is_listed_until_it_is_cancelled(tmp_path: Path) -> None:
+    with desk(tmp_path, workers=1) as jobs:
+        first, look, last = submitted(jobs, "wait"), submitted(jobs, "look"), submitted(jobs, "halve")
+        assert [job.id for job in jobs.newest(10)] == [last.id, look.id, first.id]
+        assert jobs.cancel(look.id).status == "cancelled"
+        assert jobs.cancel(first.id).status == "cancelled"
+        assert [job.id for job in jobs.newest(10)] == [last.id, first.id]
+        assert [job.id for job in jobs.newest(1, before=last.id)] == [first.id]
+        assert jobs.job(look.id).status == "cancelled"
+
+
 def test_jobs_that_the_end_of_the_server_interrupted_are_begun_anew_or_marked(tmp_path: Path) -> None:
     with desk(tmp_path, workers=1) as jobs:
         running, waiting = told(jobs, submitted(jobs, "wait")), submitted(jobs, "halve", 9)

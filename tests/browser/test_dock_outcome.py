@@ -210,7 +210,8 @@ def test_how_far_the_cloth_was_dragged_by_then_is_said_where_there_is_room(page:
         }"""
     )
     brief = "Half: the left hand is 2 cm short."
-    assert told == ["Half: the left hand is 2 cm short, after the cloth was dragged 50 cm.", brief, brief, brief]
+    way = "30 cm towards the robot and 40 cm to the left"
+    assert told == [f"{brief[:-1]}, after the cloth was dragged {way}.", brief, brief, brief]
 
 
 def test_a_reason_without_words_is_not_shown(page: Page, designer: Served) -> None:

@@ -21,9 +21,9 @@ def lying_at(new_sheet: NewSheet, x_m: float, y_m: float) -> Sheet:
     ("place", "said", "by", "lines"),
     [
         # 0.3 m of towel from 0.38 m on: 0.19 m of it are beyond the left edge, more than half.
-        ((-0.5, 0.38), "The cloth would slip off the table", "19.0 cm over the edge", 1),
+        ((-0.5, 0.38), "The cloth would slip off the table", "19 cm over the edge", 1),
         # All of it is beyond the left edge, its near side 0.11 m.
-        ((-0.5, 0.6), "The cloth lies 11 cm beside the table.", "11.0 cm beside the table", 0),
+        ((-0.5, 0.6), "The cloth lies 11 cm beside the table.", "11 cm beside the table", 0),
     ],
 )
 def test_cloth_over_the_edge_is_a_sentence_and_a_picture(

@@ -9,7 +9,7 @@ import { dimension } from "./draw_dimension.js";
 import { crossAt, double } from "./draw_findings.js";
 import { between, crossings, distance, edgesOf, isInside, leftPart, toInner, toOuter } from "./geometry.js";
 import { path } from "./sheet.js";
-import { length } from "./units.js";
+import { length } from "../messages/lengths.js";
 
 /** @import { Drawing, Plan, Point, Reason, Table } from "pleat" */
 /** @import { Items } from "./sheet.js" */

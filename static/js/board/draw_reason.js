@@ -10,9 +10,10 @@ import { dimension } from "./draw_dimension.js";
 import { crossAt } from "./draw_findings.js";
 import { minus, plus, times, toInner } from "./geometry.js";
 import { path } from "./sheet.js";
-import { length } from "./units.js";
-import { toldReason } from "../messages/reasons.js";
+import { length } from "../messages/lengths.js";
+import { draggedBy, shortBy, toldReason } from "../messages/reasons.js";
 import { armLetter } from "../messages/arms.js";
+import { moved } from "../messages/directions.js";
 import { word } from "../messages/names.js";
 
 /** @import { Point, Point3, Reason } from "pleat" */
@@ -25,8 +26,6 @@ const CROSS_PX = 8;
 const ON_TABLE_M = 0.05;
 /** A direction with less of it along the table than this is not shown on the board. */
 const LEVEL = 0.5;
-/** A shorter drag is not shown (m). */
-const DRAGGED_M = 1e-3;
 /** How far words are below the hatching, and half as far as below the cross; how wide a letter is at most (px). */
 const BELOW_PX = 14;
 const LETTER_PX = 7.5;
@@ -121,9 +120,9 @@ function beyondReach({ overlays, state, view }, { cause }) {
  * @param {(point: Point) => Point} toPx
  * @returns {Items}
  */
-function shortfall(view, { point, towards, short_by_m: short, is_at_least: isAtLeast }, from, toPx) {
+function shortfall(view, { point, towards, short_by_m: short, is_at_least }, from, toPx) {
   if (!towards || !short) return [];
-  const by = isAtLeast ? say("amount.at_least", { length: length(short) }) : length(short);
+  const by = shortBy({ short_by_m: short, is_at_least });
   const up = point[2] >= ON_TABLE_M ? say("reason.up", { length: length(point[2]) }) : "";
   if (Math.hypot(towards[0], towards[1]) < LEVEL) {
     const text = say(towards[2] < 0 ? "reason.too_high" : "reason.too_low", { by, up });
@@ -141,15 +140,12 @@ function shortfall(view, { point, towards, short_by_m: short, is_at_least: isAtL
  * @param {Point} from px
  * @returns {Items}
  */
-function dragged({ drawing, view }, { point, offset_m: offset }, from) {
-  if (!offset || Math.hypot(...offset) < DRAGGED_M) return [];
-  const tip = view.toPx(toInner(drawing.placement, flat(point)));
-  const [arrow, words] = dimension(
-    "dragged",
-    from,
-    tip,
-    say("reason.dragged", { length: length(Math.hypot(...offset)) }),
-  );
+function dragged({ drawing, view }, reason, from) {
+  const way = moved(reason.offset_m ?? [0, 0]);
+  if (!way) return [];
+  const tip = view.toPx(toInner(drawing.placement, flat(reason.point)));
+  const told = draggedBy(reason);
+  const [arrow, words] = dimension("dragged", from, tip, told && say("reason.dragged", { way: told }));
   const where = isOn(tip, view) ? {} : below(from, words.text, view, 3);
   const [shaft, ...head] = String(arrow.d).split(/(?=M)/);
   return [

@@ -1,11 +1,10 @@
 /** Why there is no plan, as one short sentence; `details` has all the numbers. */
 
-import { shortest } from "../language/numeral.js";
 import { say } from "../language/say.js";
 import { inWords } from "../messages/in_words.js";
 import { enough, length } from "../messages/lengths.js";
 import { called, place, word } from "../messages/names.js";
-import { causeInWords, SMALL_M, toldReason } from "../messages/reasons.js";
+import { causeInWords, draggedBy, roundedUp, shortBy, SMALL_M, toldReason } from "../messages/reasons.js";
 import { foldName } from "./step_kinds.js";
 import { capital, seconds } from "./words.js";
 
@@ -19,8 +18,6 @@ const of = ({ fold }, folds) => (fold === null ? "" : `${called(folds, fold)}: `
 export const NO_PLAN = new Set(["infeasible", "budget_exceeded", "illegal", "failed"]);
 
 const UP_DOWN = 0.5;
-/** A shorter drag need not be told (m). */
-const DRAGGED_M = 1e-3;
 
 /** @type {Record<string, (reason: Reason) => string>} */
 const SAYS = {
@@ -31,10 +28,12 @@ const SAYS = {
   red_needs_hold: ({ needed_grip_radius_m: radius }) => say(radius ? "why.red_held_too_far" : "why.red_unheld"),
   not_a_g_state: atRest,
   slips: ({ needed_friction: friction }) =>
-    friction ? say("why.slips.unless", { friction: shortest(Math.ceil(100 * friction) / 100) }) : say("why.slips"),
+    friction ? say("why.slips.unless", { friction: roundedUp(friction) }) : say("why.slips"),
   collision: () => say("why.collision"),
-  line_off_table: ({ short_by_m: short }) =>
-    short ? say("why.line_off_table.by", { length: length(short) }) : say("why.line_off_table"),
+  line_off_table: ({ short_by_m: short, says }) => {
+    if (says?.code === "turn_off_table") return ""; // it is no line that folds, and the message says so
+    return short ? say("why.line_off_table.by", { length: length(short) }) : say("why.line_off_table");
+  },
   waits_for_fold: () => say("why.waits_for_fold"),
 };
 
@@ -69,8 +68,9 @@ export function headline(message, state) {
  */
 export function explanation(message, state) {
   if (message.status === "budget_exceeded") return told(message);
-  const by_m = message.status === "infeasible" ? Math.hypot(...(firstReason(message)?.offset_m ?? [0, 0])) : 0;
-  const after = by_m < DRAGGED_M ? "" : say("why.after_drag", { length: length(by_m) });
+  const first = message.status === "infeasible" ? firstReason(message) : undefined;
+  const way = first ? draggedBy(first) : "";
+  const after = way && say("why.after_drag", { way });
   return headline(message, state).replace(/\.$/, `${after}.`);
 }
 
@@ -146,18 +146,17 @@ function resting({ code, edge, beyond_m: beyond, off_m: off }) {
 
 /** @param {Reason} reason */
 function outOfReach(reason) {
-  const { arm, station, short_by_m: short, is_at_least: isAtLeast } = reason;
+  const { arm, station, short_by_m: short } = reason;
   const from = station ? say("why.best_from", { station: place(station) }) : "";
   if (reason.cause === "comfort_only") {
     const why = limit(reason) || say("cause.too_far");
     const { comfort_m: comfort } = /** @type {Says} */ (reason.says);
-    return say("why.comfort_only", { from, comfort: length(comfort ?? 0), why });
+    return say("why.comfort_only", { from, comfort: length(comfort ?? 0), by: shortBy(reason), why });
   }
   const causes = [cause(reason), limit(reason)].filter(Boolean).join(", ");
   const told = { hand: word("hand", arm ?? "nearest"), why: causes ? ` (${causes})` : "", from };
   if (!short) return say("why.hand_out_of_reach", told);
-  const by = isAtLeast ? say("amount.at_least", { length: length(short) }) : length(short);
-  return say("why.hand_short", { ...told, by });
+  return say("why.hand_short", { ...told, by: shortBy(reason) });
 }
 
 /** How much too close two hands would be; nothing where only wider grips help, which the message says. @param {Reason} reason */

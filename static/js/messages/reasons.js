@@ -6,7 +6,7 @@ import { moved } from "./directions.js";
 import { area, enough, height, length, listed, onGarment, onTable, percent, point } from "./lengths.js";
 import { called, counted, stand, word } from "./names.js";
 
-/** @import { Says } from "pleat" */
+/** @import { Reason, Says } from "pleat" */
 
 const OBLIQUE = 0.5;
 const LISTED_MAX = 4;
@@ -143,7 +143,7 @@ export const REASONS = {
 /** By how much a point is out of reach, and why. @param {Says} says */
 function lack({ cause, joint, demand: asked, towards, comfort_m, wanted_comfort_m, ...says }) {
   const limit = joint ? say("joint.limit", { joint: word("joint", joint) }) : "";
-  const by = says.is_at_least ? say("amount.at_least", { length: length(says.short_by_m) }) : length(says.short_by_m);
+  const by = shortBy(says);
   const demand = DEMANDS[asked];
   if (cause === "comfort_only") {
     const [comfort, wanted] = [length(comfort_m ?? 0), length(wanted_comfort_m)];
@@ -153,6 +153,19 @@ function lack({ cause, joint, demand: asked, towards, comfort_m, wanted_comfort_
   const why = causeInWords(cause, isUpright ? (towards[2] > 0 ? "down" : "up") : "");
   return say("lack.reach", { by, demand, why: [why, limit].filter(Boolean).join(", ") });
 }
+
+/** How much is missing, as strip, board and panel say it. @param {Says|Pick<Reason, "short_by_m"|"is_at_least">} data */
+export function shortBy({ short_by_m: short, is_at_least: isAtLeast }) {
+  const by = length(short ?? 0);
+  return isAtLeast ? say("amount.at_least", { length: by }) : by;
+}
+
+/**
+ * The way that the cloth had been dragged by then; empty for none. Of a drag in which the arms collide the reason's
+ * message tells all of it, so that how far the hand had come is not told.
+ * @param {Pick<Reason, "offset_m"|"says">} reason
+ */
+export const draggedBy = ({ offset_m: offset, says }) => (offset && !says?.drag ? moved(offset) : "");
 
 /** @param {string} cause @param {"up"|"down"|""} upright where it is too far or too near, if that is straight there */
 export function causeInWords(cause, upright) {
@@ -237,7 +250,7 @@ function slips({ hanging_m2: hanging, lying_m2: lying, friction, needed_friction
 }
 
 /** A friction that will do. @param {number} friction */
-const roundedUp = (friction) => hundredths(Math.ceil(100 * friction - 1e-6) / 100);
+export const roundedUp = (friction) => hundredths(Math.ceil(100 * friction - 1e-6) / 100);
 
 /** The reason that is told first, in words and on the board. @template {{message: string}} R @param {R[]} reasons */
 export const toldReason = (reasons) => reasons.find((reason) => reason.message);

@@ -47,10 +47,13 @@ export class Cards {
   /**
    * @param {Suggestion[]} quickFixes
    * @param {SuggestionEvent[]} found
+   * @param {Suggestion[]} named by reasons; of one kind with what was found that comes instead, with its plan
    * @param {boolean} isRunning
    */
-  show(quickFixes, found, isRunning) {
-    this.order = [...quickFixes, ...ranked(found)];
+  show(quickFixes, found, named, isRunning) {
+    const [changed, assumed] = [false, true].map((is) => found.filter((one) => (groupOf(one) === "assume") === is));
+    const others = named.filter(({ kind }) => found.every((one) => one.kind !== kind));
+    this.order = [...quickFixes, ...ranked(changed), ...others, ...ranked(assumed)];
     this.isRunning = isRunning;
     if (!this.order.length) this.isAll = false;
     if (!this.isUnderHand()) this.draw();

@@ -14,8 +14,9 @@ import { icon } from "../icons.js";
 import { say } from "../language/say.js";
 import { inWords } from "../messages/in_words.js";
 import { Cards } from "./cards.js";
+import { namedChanges } from "./named_changes.js";
 
-/** @import { DocumentState, PlanMessage } from "pleat" */
+/** @import { DocumentState, PlanMessage, Reason } from "pleat" */
 
 /** How long a drawing rests before help is looked for (ms). */
 const REST_MS = 300;
@@ -35,6 +36,10 @@ export class Repair extends EventTarget {
     this.chosen = null;
     this.search = new SuggestionSearch();
     this.quickFixes = new QuickFixes(store);
+    /** @type {Reason[]|undefined} the reasons of the answer */
+    this.reasons = undefined;
+    /** What they name as enough. @type {import("../dock/suggestion_search.js").Suggestion[]} */
+    this.named = [];
     /** @type {number|null|undefined} the version that is searched for; undefined before any is known */
     this.searched = undefined;
     /** Whether more time was given to the search. */
@@ -94,11 +99,24 @@ export class Repair extends EventTarget {
     if (message && state) this.show(message, state);
     const resting = isAnswered && SEARCHABLE.has(message.status) ? state : null;
     const wanted = resting && resting.version;
-    if (wanted === this.searched) return;
+    const isNamedAnew = this.takeNamed(resting && message);
+    if (wanted === this.searched) {
+      if (isNamedAnew) this.showFound();
+      return;
+    }
     this.searched = wanted;
     this.isLong = false;
     if (resting) this.search.start(resting, { delay_ms: REST_MS, known: this.known });
     else this.search.stop();
+  }
+
+  /** Whether the reasons of an answer are others than before; what they name is offered. @param {PlanMessage|null} message */
+  takeNamed(message) {
+    const reasons = message?.plan?.reasons;
+    if (reasons === this.reasons) return false;
+    this.reasons = reasons;
+    this.named = namedChanges(message, this.store.state);
+    return true;
   }
 
   /** While the next answer is being worked out, what was said before stays. @param {PlanMessage} message @param {DocumentState} state */
@@ -125,7 +143,7 @@ export class Repair extends EventTarget {
 
   showFound() {
     const { found, isRunning, fault } = this.search;
-    this.cards.show(this.quickFixes.found, found, isRunning);
+    this.cards.show(this.quickFixes.found, found, this.named, isRunning);
     this.note.show(this.cards.count, typeof this.searched === "number");
     const isNothing = !isRunning && !this.cards.count && typeof this.searched === "number";
     this.longer.hidden = !isNothing || (this.isLong && !fault);
