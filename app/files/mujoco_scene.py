@@ -2,19 +2,23 @@
 
 Cloth and table are those of a rehearsal. The robot's links are bodies without contacts, moved by the joints that the
 plan moves; all other joints are fixed where they rest. The robot's joints come first in a state of the model, in the
-order of the motion's columns.
+order of the motion's columns. A grip ties the cloth's vertices that fingers pinch to the tool, while it is closed.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Mapping
 from xml.etree.ElementTree import Element, SubElement, fromstring, indent, tostring
 
 import numpy as np
 
 from app.files.folder_file import zipped
 from app.files.mjcf import stl_file
+from app.rehearsal.camera.robot_shape import RobotShape
 from app.rehearsal.physics.fabric import Fabric, Resolution
-from app.rehearsal.physics.model import model_xml
+from app.rehearsal.physics.hand_way import pinched_by
+from app.rehearsal.physics.model import HELD, model_xml
 from app.rehearsal.planned_cloth import planned_positions
+from app.rehearsal.step_motions import posture_at, step_motions
+from app.rehearsal.world import GripMotion
 from app.ui.colours import LIGHT, Rgb
 from app.ui.robot_model import Pose3, Visual, load_robot_model
 from app.ui.robot_view import link_colour
@@ -22,6 +26,7 @@ from app.ui.rotation import yaw
 from planner.errors import UnsolvedPlanError
 from planner.geometry.pose import FloatArray
 from planner.geometry.table_parts import table_parts
+from planner.geometry.table_top import TableTop
 from planner.geometry.woven_mesh import woven_mesh
 from planner.motion.motion_limits import BASE_NAMES, MotionLimits
 from planner.motion.motion_values import positions_at
@@ -29,6 +34,7 @@ from planner.robots.card import RobotCard
 from planner.robots.load_robot import load_robot
 from planner.task.plan import Plan
 from planner.task.trajectory import Trajectory
+from planner.task.world_state import WorldState
 
 _SEEN = {"contype": "0", "conaffinity": "0", "group": "1"}
 """What a shape has that is seen and touches nothing."""
@@ -40,7 +46,7 @@ _BASE_AXES = (("slide", "1 0 0"), ("slide", "0 1 0"), ("hinge", "0 0 1"))
 
 
 def mujoco_scene(plan: Plan) -> bytes:
-    """Return a solved plan as a zipped folder with `scene.xml`, its meshes and `motion.csv`.
+    """Return a solved plan as a zipped folder with `scene.xml`, its meshes, `motion.csv` and `grips.csv`.
 
     Raises:
         UnsolvedPlanError: the plan is not solved.
@@ -61,17 +67,42 @@ def mujoco_scene(plan: Plan) -> bytes:
     robot = _Robot(card, plan, path)
     _found(scene, "worldbody").insert(0, robot.root)
     scene.append(robot.assets)
+
+    def planned(world: WorldState) -> FloatArray:
+        return planned_positions(plan.sequence, pattern, world.done, world.placement, table, fabric.layer_m)
+
+    ties = ["equality,from_s,to_s"]
+    for grip, world, from_s, to_s in _grips(plan, path):
+        cloth = planned(world)
+        held = pinched_by(grip, cloth, triangles, TableTop.of(table), plan.scene.edge_clear_m)
+        for name in robot.tie(_found(scene, "equality"), grip.arm, from_s, {one: cloth[one] for one in held}):
+            ties.append(f"{name},{from_s:.9g},{to_s:.9g}")
     keys = SubElement(scene, "keyframe")
     worlds = {"start": (0.0, plan.task.start)}
     worlds |= {f"after_step_{number}": (step.end_s, step.after) for number, step in enumerate(plan.steps)}
     for name, (t_s, world) in worlds.items():
-        cloth = planned_positions(plan.sequence, pattern, world.done, world.placement, table, fabric.layer_m) - rest
-        state = np.concatenate([robot.positions(np.array([t_s]))[0], cloth.ravel()])
+        state = np.concatenate([robot.positions(np.array([t_s]))[0], (planned(world) - rest).ravel()])
         SubElement(keys, "key", name=name, time=f"{t_s:.9g}", qpos=_text(state.tolist()))
     indent(scene, " ")
     times_s = np.append(np.arange(0.0, path.duration_s, resolution.step_s), path.duration_s)
     rows = np.column_stack([times_s, robot.positions(times_s)])
-    return zipped({"scene.xml": tostring(scene), "motion.csv": _csv(("t_s", *robot.names), rows), **robot.meshes})
+    tables = {
+        "motion.csv": _csv(("t_s", *robot.names), rows),
+        "grips.csv": "".join(f"{tie}\n" for tie in ties).encode(),
+    }
+    return zipped({"scene.xml": tostring(scene), **tables, **robot.meshes})
+
+
+def _grips(plan: Plan, path: Trajectory) -> Iterator[tuple[GripMotion, WorldState, float, float]]:
+    """Yield each grip as it begins, with the world before it and the times between which it is closed (s)."""
+    closed: dict[str, tuple[GripMotion, WorldState, float]] = {}
+    for step, motion in zip(plan.steps, step_motions(plan), strict=True):
+        for grip in motion.grips:
+            closed.setdefault(grip.arm, (grip, step.before, step.start_s + grip.times_s[0]))
+            if grip.opens:
+                yield *closed.pop(grip.arm), step.start_s + grip.times_s[-1]
+    for begun in closed.values():
+        yield *begun, path.duration_s
 
 
 def _found(scene: Element, name: str) -> Element:
@@ -117,7 +148,8 @@ class _Robot:
         SubElement(self.root, "inertial", _INERTIA)
         still = card.still_values(path.torso_m) | path.resting
         bodies = {"": self.root}
-        for link in load_robot_model(card.urdf_path, card.package_dir):
+        links = load_robot_model(card.urdf_path, card.package_dir)
+        for link in links:
             above = bodies[link.node.rpartition("/")[0]]
             if link.joint in self._sources and link.own_joint is not None:
                 body = _body(link.name, link.origin)
@@ -132,6 +164,9 @@ class _Robot:
             for visual in link.visuals:
                 self._add_visual(body, visual, link_colour(link.name, LIGHT))
 
+        self._shape = RobotShape(links, floor_m, {})
+        self._tools = {arm.name: arm.tool_frame for arm in card.arms}
+        self._bodies = {link.name: bodies[link.node] for link in links}
         self.names = tuple(joint.attrib["name"] for joint in self.root.iter("joint"))
 
     def positions(self, times_s: FloatArray) -> FloatArray:
@@ -139,6 +174,23 @@ class _Robot:
         values = dict(zip(self._sources, positions_at(self._path, times_s).T, strict=True))
         told = (self._joints.get(name, (name, 1.0, 0.0)) for name in self.names)
         return np.column_stack([factor * values[source] + offset for source, factor, offset in told])
+
+    def tie(self, ties: Element, arm: str, t_s: float, vertices: Mapping[int, FloatArray]) -> Iterator[str]:
+        """Tie vertices of the cloth to where the tool of an arm has them at a time (s); yield the ties' names.
+
+        Args:
+            ties: where the ties are added, none of them active.
+            arm: the arm's name.
+            t_s: when the gripper closes (s).
+            vertices: where each vertex is then, table frame, shape (3,), m.
+        """
+        tool = self._tools[arm]
+        pose = self._shape.frames(posture_at(self._path, t_s))[tool]
+        for vertex, place in vertices.items():
+            name = f"{arm}_{len(ties)}"
+            SubElement(self._bodies[tool], "site", name=name, pos=_text((place - pose[:3, 3]) @ pose[:3, :3]))
+            ties.append(fromstring(f'<connect name="{name}" site1="{name}" site2="p{vertex}" active="false" {HELD}/>'))
+            yield name
 
     def _add_visual(self, body: Element, visual: Visual, colour: Rgb) -> None:
         content = stl_file(visual.vertices[visual.triangles])

@@ -43,7 +43,7 @@ _NEAR_M = 0.0015
 Half of that is about what cloth falls in a time step that has lost a contact, and beyond half it is on the far side.
 """
 
-_HELD = 'solref="0.01 1" solimp="0.9999 0.9999 0.001"'
+HELD = 'solref="0.01 1" solimp="0.9999 0.9999 0.001"'
 """Grips must be stiffer than contacts: softer ones let the cloth lag by 12 to 18 mm."""
 
 
@@ -103,7 +103,7 @@ def model_xml(
         for (i, j), width in _kept_apart(pattern, triangles, fabric)
     )
     holders = "".join(f'<body name="s{i}" mocap="true" pos="0 0 -9"/>' for i in range(sockets))
-    ties = "".join(f'<connect body1="s{i}" body2="v0" anchor="0 0 0" active="false" {_HELD}/>' for i in range(sockets))
+    ties = "".join(f'<connect body1="s{i}" body2="v0" anchor="0 0 0" active="false" {HELD}/>' for i in range(sockets))
     return f"""<mujoco>
 <compiler autolimits="true" boundmass="1e-9"/>
 <option timestep="{resolution.step_s}" integrator="discrete" solver="CG" iterations="{resolution.iterations}"

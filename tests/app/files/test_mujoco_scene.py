@@ -1,5 +1,9 @@
 """A plan as a MuJoCo scene: MuJoCo reads it, and has robot and cloth where the plan has them."""
 
+import csv
+import sys
+import textwrap
+import types
 from pathlib import Path
 from typing import Any
 
@@ -12,9 +16,12 @@ from app.files.mujoco_scene import mujoco_scene
 from planner.errors import UnsolvedPlanError
 from planner.geometry.pose import FloatArray
 from planner.motion.timeline import Timeline
+from tests.required import required
 from tests.small_plan import CARD, small_plan, unsolved
 
 mujoco = pytest.importorskip("mujoco")
+
+ROOT = Path(__file__).parents[3]
 
 
 @pytest.fixture(scope="module")
@@ -91,6 +98,74 @@ def test_keyframes_have_robot_and_cloth_as_each_step_leaves_them(model: Any, row
         row_m = 0.018  # a crease runs between two rows of the mesh
         np.testing.assert_allclose(seen.min(axis=0), wanted.min(axis=0), atol=row_m)
         np.testing.assert_allclose(seen.max(axis=0), wanted.max(axis=0), atol=row_m)
+
+
+def grips_of(folder: Path) -> list[dict[str, str]]:
+    with (folder / "grips.csv").open() as file:
+        return list(csv.DictReader(file))
+
+
+def test_ties_have_the_cloth_where_the_tool_is_when_it_closes(folder: Path, model: Any, rows: FloatArray) -> None:
+    data, grips = mujoco.MjData(model), grips_of(folder)
+    assert {grip["equality"].partition("_")[0] for grip in grips} == {arm.name for arm in CARD.arms}
+    assert len(grips) == model.neq and not model.eq_active0.any()
+    for grip in grips:
+        t_s = float(grip["from_s"])
+        assert 0.0 < t_s < float(grip["to_s"]) <= required(small_plan().cost_s)
+        mujoco.mj_resetDataKeyframe(model, data, 0)
+        row = rows[np.abs(rows[:, 0] - t_s).argmin()]
+        data.qpos[: len(row) - 1] = row[1:]
+        mujoco.mj_forward(model, data)
+        tie = model.equality(grip["equality"]).id
+        ends = data.site_xpos[[model.eq_obj1id[tie], model.eq_obj2id[tie]]]
+        assert np.linalg.norm(ends[0] - ends[1]) < 1e-3
+
+
+def cloth_of(model: Any, keyframe: int) -> FloatArray:
+    data = mujoco.MjData(model)
+    mujoco.mj_resetDataKeyframe(model, data, keyframe)
+    mujoco.mj_forward(model, data)
+    return np.array(data.flexvert_xpos)
+
+
+class Viewer:
+    """Stands in for MuJoCo's window; ends the replay at a time of the simulation."""
+
+    class EndError(Exception):
+        pass
+
+    def __init__(self, data: Any, end_s: float) -> None:
+        self.data, self.end_s = data, end_s
+
+    def __enter__(self) -> "Viewer":
+        return self
+
+    def __exit__(self, *_: object) -> None: ...
+
+    def sync(self) -> None:
+        if self.data.time >= self.end_s:
+            raise Viewer.EndError
+
+
+@pytest.mark.slow
+def test_the_replay_of_the_documentation_folds_the_cloth(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    code = (ROOT / "docs/exports.md").read_text().split("This folds the cloth:")[1].split("The robot touches")[0]
+    shown: list[Viewer] = []
+
+    def launch_passive(_model: Any, data: Any) -> Viewer:
+        shown.append(Viewer(data, small_plan().steps[0].end_s))
+        return shown[0]
+
+    viewer = types.ModuleType("mujoco.viewer")
+    monkeypatch.setitem(sys.modules, "mujoco.viewer", viewer)
+    monkeypatch.setattr(viewer, "launch_passive", launch_passive, raising=False)
+    monkeypatch.setattr(mujoco, "viewer", viewer, raising=False)
+    monkeypatch.chdir(folder)
+    with pytest.raises(Viewer.EndError):
+        exec(textwrap.dedent(code), {})
+    found = shown[0].data.flexvert_xpos.copy()
+    flat, folded = (cloth_of(shown[0].data.model, number) for number in (0, 1))
+    assert np.linalg.norm(found - folded, axis=1).mean() < 0.25 * np.linalg.norm(flat - folded, axis=1).mean()
 
 
 def test_a_plan_that_is_not_solved_has_no_scene() -> None:
