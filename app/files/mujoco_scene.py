@@ -5,6 +5,8 @@ plan moves; all other joints are fixed where they rest. The robot's joints come 
 order of the motion's columns. A grip ties the cloth's vertices that fingers pinch to the tool, while it is closed.
 """
 
+import math
+import re
 from collections.abc import Iterable, Iterator, Mapping
 from xml.etree.ElementTree import Element, SubElement, fromstring, indent, tostring
 
@@ -27,6 +29,7 @@ from planner.errors import UnsolvedPlanError
 from planner.geometry.pose import FloatArray
 from planner.geometry.table_parts import table_parts
 from planner.geometry.table_top import TableTop
+from planner.geometry.tolerance import TIME_S
 from planner.geometry.woven_mesh import woven_mesh
 from planner.motion.motion_limits import BASE_NAMES, MotionLimits
 from planner.motion.motion_values import positions_at
@@ -41,6 +44,9 @@ _SEEN = {"contype": "0", "conaffinity": "0", "group": "1"}
 
 _INERTIA = {"pos": "0 0 0", "mass": "1", "diaginertia": "0.01 0.01 0.01"}
 """Each link's: the motion is given, and links are only so heavy that cloth does not move them."""
+
+_TAKEN = re.compile(r"world|robot|v\d+")
+"""The names of MuJoCo's root, the robot's, and the cloth's vertices: links with one of them get another."""
 
 _BASE_AXES = (("slide", "1 0 0"), ("slide", "0 1 0"), ("hinge", "0 0 1"))
 
@@ -84,7 +90,8 @@ def mujoco_scene(plan: Plan) -> bytes:
         state = np.concatenate([robot.positions(np.array([t_s]))[0], (planned(world) - rest).ravel()])
         SubElement(keys, "key", name=name, time=f"{t_s:.9g}", qpos=_text(state.tolist()))
     indent(scene, " ")
-    times_s = np.append(np.arange(0.0, path.duration_s, resolution.step_s), path.duration_s)
+    count = math.ceil((path.duration_s - TIME_S) / resolution.step_s) + 1
+    times_s = np.minimum(np.arange(count) * resolution.step_s, path.duration_s)
     rows = np.column_stack([times_s, robot.positions(times_s)])
     tables = {
         "motion.csv": _csv(("t_s", *robot.names), rows),
@@ -152,12 +159,12 @@ class _Robot:
         for link in links:
             above = bodies[link.node.rpartition("/")[0]]
             if link.joint in self._sources and link.own_joint is not None:
-                body = _body(link.name, link.origin)
+                body = _link_body(link.name, link.origin)
                 kind = "slide" if link.is_prismatic else "hinge"
                 SubElement(body, "joint", name=link.own_joint, type=kind, axis=_text(link.axis.tolist()))
                 self._joints[link.own_joint] = link.joint, link.factor, link.offset
             else:
-                body = _body(link.name, link.pose_at(still.get(link.joint or "", 0.0)))
+                body = _link_body(link.name, link.pose_at(still.get(link.joint or "", 0.0)))
             SubElement(body, "inertial", _INERTIA)
             above.append(body)
             bodies[link.node] = body
@@ -203,6 +210,10 @@ class _Robot:
 
 def _body(name: str, pose: Pose3) -> Element:
     return Element("body", {"name": name} | _placed(pose))
+
+
+def _link_body(name: str, pose: Pose3) -> Element:
+    return _body(f"{name}_link" if _TAKEN.fullmatch(name) else name, pose)
 
 
 def _placed(pose: Pose3) -> dict[str, str]:

@@ -4,6 +4,7 @@ import csv
 import sys
 import textwrap
 import types
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -11,11 +12,15 @@ import numpy as np
 import pinocchio as pin
 import pytest
 
+import app.files.mujoco_scene as mujoco_scene_module
 from app.files.folder_file import unpack
 from app.files.mujoco_scene import mujoco_scene
+from app.ui.robot_model import load_robot_model
+from planner import make_plan
 from planner.errors import UnsolvedPlanError
 from planner.geometry.pose import FloatArray
 from planner.motion.timeline import Timeline
+from tests.builders import garment
 from tests.required import required
 from tests.small_plan import CARD, small_plan, unsolved
 
@@ -166,6 +171,22 @@ def test_the_replay_of_the_documentation_folds_the_cloth(folder: Path, monkeypat
     found = shown[0].data.flexvert_xpos.copy()
     flat, folded = (cloth_of(shown[0].data.model, number) for number in (0, 1))
     assert np.linalg.norm(found - folded, axis=1).mean() < 0.25 * np.linalg.norm(flat - folded, axis=1).mean()
+
+
+def test_a_link_may_be_called_as_mujoco_calls_its_root(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    root, *others = load_robot_model(CARD.urdf_path, CARD.package_dir)
+    monkeypatch.setattr(mujoco_scene_module, "load_robot_model", lambda *_: (replace(root, name="world"), *others))
+    unpack(mujoco_scene(small_plan()), tmp_path)
+    model = mujoco.MjModel.from_xml_path(str(tmp_path / "scene.xml"))
+    assert model.body(model.body("world_link").parentid[0]).name == "robot"
+
+
+def test_a_plan_without_steps_is_a_scene_at_rest(tmp_path: Path) -> None:
+    plan = make_plan(garment([(0.0, 0.0), (0.2, 0.0), (0.2, 0.16), (0.0, 0.16)]))
+    unpack(mujoco_scene(plan), tmp_path)
+    model = mujoco.MjModel.from_xml_path(str(tmp_path / "scene.xml"))
+    assert (model.nkey, model.neq) == (1, 0)
+    assert np.loadtxt(tmp_path / "motion.csv", delimiter=",", skiprows=1, ndmin=2).shape[0] == 1
 
 
 def test_a_plan_that_is_not_solved_has_no_scene() -> None:
