@@ -11,8 +11,8 @@ CODEC: Final = "h264"
 PIXELS: Final = "yuv420p"
 """The form of its pixels: width and height must be even."""
 
-_OPTIONS: Final = {"crf": "18", "g": "2", "bf": "0"}
-"""Little loss, and every second frame whole: learning reads frames in any order."""
+_OPTIONS: Final = {"crf": "23", "g": "2", "bf": "0"}
+"""A quarter of the size of JPEGs, and every second frame whole: learning reads frames in any order."""
 
 
 def can_encode() -> bool:
