@@ -8,7 +8,7 @@ from typing import Literal
 NAME = "pleat-fold"
 """The distribution: on the package index `pleat` is another project."""
 
-Extra = Literal["physics", "cluster", "postgres"]
+Extra = Literal["physics", "cluster", "postgres", "video"]
 
 _PROJECT = Path(__file__).parents[1] / "pyproject.toml"
 

@@ -75,6 +75,7 @@ LIBRARY_HOMES: Mapping[str, tuple[str, ...]] = {
     "sqlalchemy": ("app.store",),
     "alembic": ("app.store",),
     "prometheus_client": ("app.api",),
+    "av": ("app.files",),
     "pyarrow": ("app.studies", "app.files"),
     "distributed": ("app.studies",),
     "mujoco": ("app.rehearsal.physics", "app.files.mjcf"),

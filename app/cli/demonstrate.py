@@ -21,6 +21,8 @@ from app.cli.program import (
 )
 from app.demonstrations.dataset import DemonstrationDataset
 from app.demonstrations.demonstrate import demonstrate
+from app.distribution import installing
+from app.files.video import can_encode
 from planner import Plan
 from planner.planning.robot_task import task_for
 from planner.robots.load_robot import load_robot
@@ -51,7 +53,10 @@ def demonstrate_command(
         if robot is not None and robot != task.robot:
             task = task_for(task.garment, robot=robot)
         asked = {"garment": task.garment.to_dict(), "robot": task.robot, "scene": task.scene.to_dict(), "seed": seed}
-        dataset = DemonstrationDataset.opened(out, load_robot(task.robot).card, asked, seed, resume=resume)
+        card = load_robot(task.robot).card
+        dataset = DemonstrationDataset.opened(out, card, asked, seed, resume=resume, as_video=can_encode())
+        if not can_encode():
+            errors.print(f"Pictures are images, not videos, without PyAV: {installing('video')}", markup=False)
         tell_of_compiling(task.robot)
         columns = (BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
         with Progress(TextColumn("{task.description}"), *columns, console=errors, transient=True) as bar:

@@ -5,12 +5,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from app.distribution import installing
 from app.files.lerobot_dataset import (
     EPISODES,
     Episode,
-    data_path,
-    episode_data,
+    episode_files,
     episode_row,
+    has_video,
     meta_files,
     read_episode_rows,
 )
@@ -29,22 +30,32 @@ class DemonstrationDataset:
         card: the robot.
         asked: what the demonstrations are of, as JSON: another run must ask for the same to go on.
         next_seed: the first seed that has not been tried.
+        as_video: whether pictures are videos.
     """
 
     folder: Path
     card: RobotCard
     asked: dict[str, Any]
     next_seed: int
+    as_video: bool
     _rows: list[dict[str, Any]] = field(default_factory=list)
 
     @staticmethod
     def opened(
-        folder: Path, card: RobotCard, asked: dict[str, Any], seed: int, *, resume: bool
+        folder: Path, card: RobotCard, asked: dict[str, Any], seed: int, *, resume: bool, as_video: bool
     ) -> "DemonstrationDataset":
-        """Begin a dataset in a new or empty folder, or go on with one.
+        """Begin a dataset in a new or empty folder, or go on with one, as it began.
+
+        Args:
+            folder: the folder.
+            card: the robot.
+            asked: what the demonstrations are of.
+            seed: the first seed.
+            resume: whether to go on with what is there.
+            as_video: whether pictures can be made videos.
 
         Raises:
-            RequestError: the folder has something else in it, or other demonstrations.
+            RequestError: the folder has something else in it, other demonstrations, or videos that cannot be made here.
             OSError: the system refuses to read or write.
         """
         state = folder / _STATE
@@ -52,7 +63,7 @@ class DemonstrationDataset:
             if folder.exists() and any(folder.iterdir()):
                 raise RequestError("out", f"{folder} is not empty; --resume goes on with demonstrations in it")
             folder.mkdir(parents=True, exist_ok=True)
-            dataset = DemonstrationDataset(folder, card, asked, seed)
+            dataset = DemonstrationDataset(folder, card, asked, seed, as_video)
             dataset._note()
             return dataset
         kept = json.loads(state.read_text(encoding="utf-8"))
@@ -61,7 +72,10 @@ class DemonstrationDataset:
             raise RequestError("out", f"{folder} has demonstrations of another {', '.join(differs)}")
         table = folder / EPISODES
         rows = read_episode_rows(table.read_bytes()) if table.is_file() else []
-        return DemonstrationDataset(folder, card, asked, int(kept["next_seed"]), rows)
+        began_as_video = has_video(rows[0]) if rows else as_video
+        if began_as_video and not as_video:
+            raise RequestError("out", f"{folder} has videos, which PyAV makes: {installing('video')}")
+        return DemonstrationDataset(folder, card, asked, int(kept["next_seed"]), began_as_video, rows)
 
     @property
     def count(self) -> int:
@@ -72,8 +86,8 @@ class DemonstrationDataset:
         """Note that the next seed was tried, and keep its episode, if it has one."""
         if episode is not None:
             first = int(self._rows[-1]["dataset_to_index"]) if self._rows else 0
-            row = episode_row(episode, self.count, first)
-            files = {data_path(self.count): episode_data(episode, self.count, first)}
+            row = episode_row(episode, self.count, first, as_video=self.as_video)
+            files = episode_files(episode, self.count, first, as_video=self.as_video)
             for path, data in (files | meta_files(self.card, [*self._rows, row])).items():
                 self._write(path, data)
             self._rows.append(row)

@@ -19,7 +19,8 @@ _DENSITY, _FRICTION, _BENDING_M = (0.7, 1.4), (0.85, 1.15), (0.013, 0.023)
 """The shares of the garment's density and of the scene's friction, and bending lengths (m)."""
 
 _CAMERA_M, _CAMERA_RAD = 0.03, 0.02
-_PICTURE_PX = (320, 240)
+_WIDTH_PX = 320
+"""The width of pictures; it is even, and so is their height, as videos need it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +63,7 @@ class Variation:
             roll_rad=given.roll_rad + float(off_rad[0]),
             pitch_rad=given.pitch_rad + float(off_rad[1]),
             yaw_rad=given.yaw_rad + float(off_rad[2]),
-            width_px=_PICTURE_PX[0],
-            height_px=math.ceil(_PICTURE_PX[0] * given.height_px / given.width_px),
+            width_px=_WIDTH_PX,
+            height_px=2 * math.ceil(_WIDTH_PX * given.height_px / given.width_px / 2.0),
         )
         return Variation(moved, fabric, camera, random_look(rng))

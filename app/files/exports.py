@@ -100,6 +100,12 @@ def _glb(state: DocumentState, _: float, should_stop: ShouldStop) -> bytes:
     return animation_glb(plan_in(state), should_stop)
 
 
+def _mjcf(state: DocumentState, _: float, __: ShouldStop) -> bytes:
+    from app.files.mujoco_scene import mujoco_scene
+
+    return mujoco_scene(plan_in(state))
+
+
 def _lerobot(state: DocumentState, _: float, __: ShouldStop) -> bytes:
     from app.files.lerobot_dataset import lerobot_folder
 
@@ -224,6 +230,16 @@ EXPORTS = (
         "model/gltf-binary",
         no_plan,
         _glb,
+    ),
+    Export(
+        "mjcf",
+        "Scene (MuJoCo)",
+        "Robot, table and cloth as MuJoCo's XML, and the joints over time beside it, for simulations of your own.",
+        "-mjcf.zip",
+        "application/zip",
+        no_plan,
+        _mjcf,
+        is_folder=True,
     ),
     Export(
         "lerobot",

@@ -3,7 +3,7 @@
 A frame's state is where arms, fingers and base are, its action where they are to be at the next frame, as a leader arm
 would ask. The motion is the one that a controller is sent. Names and units are those of LeRobot for the arms that it
 drives itself, and otherwise the robot's own (`app.files.lerobot_features`). Each episode is a file; pictures are JPEGs
-in its rows.
+in its rows, or a video beside it.
 """
 
 import io
@@ -19,6 +19,7 @@ import pyarrow.parquet as pq
 
 from app.files.folder_file import zipped
 from app.files.lerobot_features import Part, parts_of
+from app.files.video import CODEC, PIXELS, mp4_video
 from planner.errors import UnsolvedPlanError
 from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import TIME_S
@@ -38,7 +39,11 @@ EPISODES = "meta/episodes/chunk-000/file-000.parquet"
 """The table of all episodes."""
 
 _FORMAT = "v3.0"
-_FILE = "chunk-{chunk_index:03d}/file-{file_index:03d}.parquet"
+_FILE = "chunk-{chunk_index:03d}/file-{file_index:03d}"
+_DATA_PATH = f"data/{_FILE}.parquet"
+_VIDEO_PATH = "videos/{video_key}/" + f"{_FILE}.mp4"
+_VIDEO = f"videos/{CAMERA}/"
+"""What the columns begin with that say where an episode's video is."""
 _FILES_A_CHUNK = 1000
 _QUANTILES = {"q01": 0.01, "q10": 0.1, "q50": 0.5, "q90": 0.9, "q99": 0.99}
 
@@ -95,47 +100,58 @@ def lerobot_folder(plan: Plan) -> bytes:
     card = load_robot(plan.task.robot).card
     episode = Episode.of(plan, card)
     row = episode_row(episode, 0, 0)
-    return zipped({data_path(0): episode_data(episode, 0, 0), **meta_files(card, [row])})
+    return zipped({**episode_files(episode, 0, 0), **meta_files(card, [row])})
 
 
-def data_path(number: int) -> str:
-    """Return the path of an episode's frames in a dataset."""
-    return f"data/{_FILE.format(chunk_index=number // _FILES_A_CHUNK, file_index=number % _FILES_A_CHUNK)}"
-
-
-def episode_data(episode: Episode, number: int, first: int) -> bytes:
-    """Return an episode's frames as a parquet file.
+def episode_files(episode: Episode, number: int, first: int, *, as_video: bool = False) -> dict[str, bytes]:
+    """Return an episode's files by path: its frames, and its video.
 
     Args:
         episode: the episode.
         number: its number in the dataset.
         first: how many frames the episodes before it have.
+        as_video: whether its pictures are a video beside the frames, for which PyAV must be installed.
     """
     table = {name: _column(values) for name, values in _columns(episode, number, first).items()}
-    if episode.pictures is not None:
-        jpegs = episode.pictures.jpegs
+    files, pictures = dict[str, bytes](), episode.pictures
+    place = _place(number)
+    if pictures is not None and as_video:
+        files[_VIDEO_PATH.format(video_key=CAMERA, **place)] = mp4_video(pictures.jpegs, pictures.size_px, FPS)
+    elif pictures is not None:
+        jpegs = pictures.jpegs
         parts = [pa.array(jpegs, pa.binary()), pa.array([None] * len(jpegs), pa.string())]
         table[CAMERA] = pa.StructArray.from_arrays(parts, ["bytes", "path"])
-    return _parquet(pa.table(table))
+    return {_DATA_PATH.format(**place): _parquet(pa.table(table)), **files}
 
 
-def episode_row(episode: Episode, number: int, first: int) -> dict[str, Any]:
-    """Return the row that says where an episode's frames are, with their statistics; see `episode_data`."""
+def _place(number: int) -> dict[str, int]:
+    return {"chunk_index": number // _FILES_A_CHUNK, "file_index": number % _FILES_A_CHUNK}
+
+
+def has_video(row: Mapping[str, Any]) -> bool:
+    """Return whether an episode has a video, from its row."""
+    return f"{_VIDEO}file_index" in row
+
+
+def episode_row(episode: Episode, number: int, first: int, *, as_video: bool = False) -> dict[str, Any]:
+    """Return the row that says where an episode's frames are, with their statistics; see `episode_files`."""
     stats = {name: _stats(values) for name, values in _columns(episode, number, first).items()}
     if episode.pictures is not None:
         stats[CAMERA] = dict(episode.pictures.stats)
     width, height = (0, 0) if episode.pictures is None else episode.pictures.size_px
+    ends = {"from_timestamp": 0.0, "to_timestamp": len(episode.states) / FPS}
+    video = {f"{_VIDEO}{name}": value for name, value in (_place(number) | ends).items()} if as_video else {}
     return {
         "episode_index": number,
         "tasks": [episode.task],
         "length": len(episode.states),
-        "data/chunk_index": number // _FILES_A_CHUNK,
-        "data/file_index": number % _FILES_A_CHUNK,
+        **{f"data/{name}": index for name, index in _place(number).items()},
         "dataset_from_index": first,
         "dataset_to_index": first + len(episode.states),
         "meta/episodes/chunk_index": 0,
         "meta/episodes/file_index": 0,
         **({} if episode.pictures is None else {"pictures/width_px": width, "pictures/height_px": height}),
+        **video,
         **{f"stats/{name}/{kind}": row for name, told in stats.items() for kind, row in told.items()},
     }
 
@@ -193,8 +209,11 @@ def _info(card: RobotCard, rows: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
         for name, values in columns.items()
     }
     if (width := rows[0].get("pictures/width_px")) is not None:
-        shape = [rows[0]["pictures/height_px"], width, 3]
-        features[CAMERA] = {"dtype": "image", "shape": shape, "names": ["height", "width", "channels"]}
+        height = rows[0]["pictures/height_px"]
+        names = ["height", "width", "channels"]
+        features[CAMERA] = {"dtype": "image", "shape": [height, width, 3], "names": names}
+        if has_video(rows[0]):
+            features[CAMERA] |= {"dtype": "video", "info": _video_info(width, height)}
     return {
         "codebase_version": _FORMAT,
         "robot_type": card.name,
@@ -206,10 +225,15 @@ def _info(card: RobotCard, rows: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
         "video_files_size_in_mb": 200,
         "fps": FPS,
         "splits": {"train": f"0:{len(rows)}"},
-        "data_path": f"data/{_FILE}",
-        "video_path": None,
+        "data_path": _DATA_PATH,
+        "video_path": _VIDEO_PATH if has_video(rows[0]) else None,
         "features": features,
     }
+
+
+def _video_info(width_px: int, height_px: int) -> dict[str, Any]:
+    told = {"height": height_px, "width": width_px, "channels": 3, "codec": CODEC, "pix_fmt": PIXELS, "fps": FPS}
+    return {f"video.{name}": value for name, value in told.items()} | {"video.is_depth_map": False, "has_audio": False}
 
 
 def _stats(values: np.ndarray[Any, Any]) -> dict[str, Any]:

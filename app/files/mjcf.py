@@ -135,7 +135,7 @@ class _Conversion:
             corners = model.mesh_vert[first : first + model.mesh_vertnum[mesh]]
             triangles = corners[model.mesh_face[faces : faces + model.mesh_facenum[mesh]]]
             (self._folder / path).parent.mkdir(exist_ok=True)
-            (self._folder / path).write_bytes(_stl(triangles))
+            (self._folder / path).write_bytes(stl_file(triangles))
         return path.as_posix()
 
     def _add_mimics(self) -> None:
@@ -189,7 +189,7 @@ def _rpy(quat: FloatArray) -> FloatArray:
     return np.array([np.arctan2(turn[2, 1], turn[2, 2]), pitch, np.arctan2(turn[1, 0], turn[0, 0])])
 
 
-def _stl(triangles: FloatArray) -> bytes:
+def stl_file(triangles: FloatArray) -> bytes:
     """Return triangles, shape (n, 3, 3), as a binary STL."""
     rows = np.zeros(len(triangles), dtype=[("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("rest", "<u2")])
     rows["corners"] = triangles

@@ -53,6 +53,7 @@ class Link:
         node: its scene node's path below the robot's own: the names of all links down to it.
         origin: its pose in the parent's frame while the joint is at zero.
         joint: the actuated joint that moves it, or None when it is fixed.
+        own_joint: the name of the joint that connects it; another than `joint` if it mimics that; None for the root.
         factor: the factor on joint positions (a finger that mimics another has one).
         offset: what is added to them then (rad; m for a joint that slides).
         axis: the joint's axis in the link's own frame, shape (3,).
@@ -64,6 +65,7 @@ class Link:
     node: str
     origin: Pose3
     joint: str | None
+    own_joint: str | None
     factor: float
     offset: float
     axis: FloatArray
@@ -121,7 +123,7 @@ def _parents_first(urdf: yourdfpy.URDF) -> list[str]:
 
 def _link(name: str, node: str, joint: yourdfpy.Joint | None, visuals: tuple[Visual, ...]) -> Link:
     if joint is None:
-        return Link(name, node, Pose3(), None, 1.0, 0.0, np.zeros(3), False, visuals)
+        return Link(name, node, Pose3(), None, None, 1.0, 0.0, np.zeros(3), False, visuals)
     is_fixed = joint.type == "fixed"
     moved_by = joint.mimic.joint if joint.mimic else joint.name
     return Link(
@@ -129,6 +131,7 @@ def _link(name: str, node: str, joint: yourdfpy.Joint | None, visuals: tuple[Vis
         node=node,
         origin=_pose(joint.origin),
         joint=None if is_fixed else moved_by,
+        own_joint=joint.name,
         factor=_or(joint.mimic and joint.mimic.multiplier, 1.0),
         offset=_or(joint.mimic and joint.mimic.offset, 0.0),
         axis=np.array(joint.axis if joint.axis is not None else (1.0, 0.0, 0.0), dtype=float),

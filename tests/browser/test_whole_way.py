@@ -198,7 +198,7 @@ def test_with_the_mouse_and_all_of_it_is_found_again_and_leaves_as_files(
         assert saved.pop("untitled-steps.pdf").startswith("%PDF-")
         assert "Vest" in saved.pop("untitled-steps.svg")
         drawing = saved.pop("untitled.svg")
-        for ending in (".mcap", ".glb", "-rosbag2.zip", "-lerobot.zip", "-poses.yaml"):
+        for ending in (".mcap", ".glb", "-mjcf.zip", "-rosbag2.zip", "-lerobot.zip", "-poses.yaml"):
             assert saved.pop(f"untitled{ending}")
         assert json.loads(saved.pop("untitled-poses.json"))["version"] == 1
         ((name, recording),) = saved.items()

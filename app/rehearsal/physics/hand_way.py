@@ -5,11 +5,12 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from app.rehearsal.finger_ends import reach_ahead
 from app.rehearsal.physics.fingers import Box, FingerSize, around
 from app.rehearsal.physics.held_cloth import HeldCloth
-from app.rehearsal.physics.pinch import fingertip
+from app.rehearsal.physics.pinch import clamped, fingertip, pinched
 from app.rehearsal.world import GripMotion, way_done
 from planner.geometry.pose import FloatArray
 from planner.geometry.table_top import TableTop
@@ -102,6 +103,15 @@ class HandWay:
     @cached_property
     def _ends_hanging(self) -> bool:
         return not self.top.covers(np.array(self.grip.points[-1])[None])
+
+
+def pinched_by(
+    grip: GripMotion, positions: FloatArray, triangles: NDArray[np.int64], top: TableTop, clear_m: float
+) -> dict[int, FloatArray]:
+    """Return the vertices that a hand holds once it has closed at the start of its motion; see `pinched`."""
+    tool, way = grip.at(grip.times_s[0]), ahead(grip)
+    found = pinched(positions, triangles, tool, top, clear_m)
+    return found if way is None else clamped(found, positions, triangles, fingertip(tool), way)
 
 
 def ahead(grip: GripMotion) -> FloatArray | None:

@@ -15,7 +15,6 @@ import itertools
 import math
 from collections.abc import Sequence
 
-import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
@@ -44,7 +43,7 @@ _NEAR_M = 0.0015
 Half of that is about what cloth falls in a time step that has lost a contact, and beyond half it is on the far side.
 """
 
-_HELD = 'solref="0.01 1" solimp="0.9999 0.9999 0.001"'
+HELD = 'solref="0.01 1" solimp="0.9999 0.9999 0.001"'
 """Grips must be stiffer than contacts: softer ones let the cloth lag by 12 to 18 mm."""
 
 
@@ -76,6 +75,7 @@ def model_xml(
     resolution: Resolution,
     table: Table | None,
     fingers: Sequence[FingerSize] = (),
+    sockets: int = SOCKETS,
 ) -> str:
     """Return the model as MJCF.
 
@@ -87,6 +87,7 @@ def model_xml(
         resolution: the time step and the solver's effort.
         table: the table; None for none.
         fingers: the size of each hand's two fingers.
+        sockets: how many vertices grips can hold.
     """
     ball, contact = 0.5 * fabric.layer_m, _contact(fabric)
     masses = fabric.density_kg_m2 * vertex_areas(rest, triangles)
@@ -101,14 +102,14 @@ def model_xml(
         f'<site site="p{i}"/><site site="p{j}"/></spatial>'
         for (i, j), width in _kept_apart(pattern, triangles, fabric)
     )
-    sockets = "".join(f'<body name="s{i}" mocap="true" pos="0 0 -9"/>' for i in range(SOCKETS))
-    ties = "".join(f'<connect body1="s{i}" body2="v0" anchor="0 0 0" active="false" {_HELD}/>' for i in range(SOCKETS))
+    holders = "".join(f'<body name="s{i}" mocap="true" pos="0 0 -9"/>' for i in range(sockets))
+    ties = "".join(f'<connect body1="s{i}" body2="v0" anchor="0 0 0" active="false" {HELD}/>' for i in range(sockets))
     return f"""<mujoco>
 <compiler autolimits="true" boundmass="1e-9"/>
 <option timestep="{resolution.step_s}" integrator="discrete" solver="CG" iterations="{resolution.iterations}"
  tolerance="{resolution.tolerance}" cone="elliptic" impratio="10"/>
 <size memory="400M"/>
-<worldbody>{"" if table is None else _board(table, fabric, resolution)}{vertices}{sockets}{_boxes(fingers)}</worldbody>
+<worldbody>{"" if table is None else _board(table, fabric, resolution)}{vertices}{holders}{_boxes(fingers)}</worldbody>
 <deformable><flex name="cloth" dim="2" radius="{ball}" body="{" ".join(f"v{i}" for i in range(len(rest)))}"
  element="{" ".join(map(str, triangles.ravel().tolist()))}">
 <contact contype="0" conaffinity="{_CLOTH}" condim="3" friction="{fabric.self_friction} 0 0" {contact} priority="1"
@@ -172,13 +173,6 @@ def _kept_apart(
     pairs = two_rows_apart(pattern, triangles)
     gaps = np.linalg.norm(pattern[pairs[:, 0]] - pattern[pairs[:, 1]], axis=1).tolist()
     return [((i, j), loop_width(gap, fabric)) for (i, j), gap in zip(pairs.tolist(), gaps, strict=True)]
-
-
-def compiled(xml: str) -> mujoco.MjModel:
-    """Return the compiled model; its ties pull a vertex onto its socket, whatever the distance at the start was."""
-    model = mujoco.MjModel.from_xml_string(xml)
-    model.eq_data[:, :6] = 0.0
-    return model
 
 
 def vertex_areas(points: FloatArray, triangles: NDArray[np.int64]) -> FloatArray:

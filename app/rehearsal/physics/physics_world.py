@@ -7,9 +7,9 @@ import numpy as np
 
 from app.rehearsal.physics.fabric import Fabric, Resolution
 from app.rehearsal.physics.fingers import DRAWN_M_S, Box, FingerSize, lowest
-from app.rehearsal.physics.hand_way import HandWay, ahead
+from app.rehearsal.physics.hand_way import HandWay, pinched_by
 from app.rehearsal.physics.held_cloth import HeldCloth
-from app.rehearsal.physics.pinch import OPENING_M, PAD_M, clamped, fingertip, pinched
+from app.rehearsal.physics.pinch import OPENING_M, PAD_M, fingertip
 from app.rehearsal.physics.simulation import ClothSimulation
 from app.rehearsal.planned_cloth import planned_positions
 from app.rehearsal.world import GripMotion, Observation, Performed, StepMotion, Truth
@@ -114,9 +114,7 @@ class PhysicsWorld:
         if grip.arm in self._grips and not grip.closes:
             return True
         tool, now = grip.at(grip.times_s[0]), self.simulation.positions
-        triangles, tip, way = self.simulation.triangles, fingertip(tool), ahead(grip)
-        found = pinched(now, triangles, tool, self._top, self._clear_m)
-        found = found if way is None else clamped(found, now, triangles, tip, way)
+        found, tip = pinched_by(grip, now, self.simulation.triangles, self._top, self._clear_m), fingertip(tool)
         taken = {vertex: point for vertex, point in found.items() if vertex not in self.simulation.held}
         if not taken:
             return False

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from app.rehearsal.physics.fabric import Fabric, Resolution
 from app.rehearsal.physics.fingers import Box, FingerSize
-from app.rehearsal.physics.model import FREE, IN_HAND, SOCKETS, compiled, model_xml
+from app.rehearsal.physics.model import FREE, IN_HAND, SOCKETS, model_xml
 from app.rehearsal.physics.weave import Weave
 from planner.geometry.pose import FloatArray
 from planner.geometry.table import Table
@@ -41,7 +41,9 @@ class ClothSimulation:
         self.triangles = triangles
         self.step_s = resolution.step_s
         self._rest = rest
-        self._model = compiled(model_xml(rest, pattern, triangles, fabric, resolution, table, fingers))
+        xml = model_xml(rest, pattern, triangles, fabric, resolution, table, fingers)
+        self._model = mujoco.MjModel.from_xml_string(xml)
+        self._model.eq_data[:, :6] = 0.0  # ties pull a vertex onto its socket, whatever the distance at the start was
         self._weave = Weave.of(pattern, triangles, fabric, resolution.edge_m)
         self._data = mujoco.MjData(self._model)
         self._vertex_bodies = np.array([self._model.body(f"v{i}").id for i in range(len(rest))])

@@ -13,6 +13,7 @@ from PIL import Image
 from typer.testing import CliRunner
 
 from app.cli import cli
+from app.cli import demonstrate as command
 from app.demonstrations import demonstrate as demonstrations
 from app.demonstrations import episode as episodes
 from app.demonstrations.dataset import DemonstrationDataset
@@ -101,8 +102,9 @@ def made(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     return tried
 
 
-def opened(folder: Path, *, resume: bool = False, robot: str = "pr2") -> DemonstrationDataset:
-    return DemonstrationDataset.opened(folder, load_robot("pr2").card, {"robot": robot}, 0, resume=resume)
+def opened(folder: Path, *, resume: bool = False, robot: str = "pr2", as_video: bool = False) -> DemonstrationDataset:
+    card = load_robot("pr2").card
+    return DemonstrationDataset.opened(folder, card, {"robot": robot}, 0, resume=resume, as_video=as_video)
 
 
 def read(folder: Path, path: str) -> Any:
@@ -160,6 +162,49 @@ def test_a_run_that_was_stopped_goes_on_as_if_it_had_not_been(tmp_path: Path, ma
     for path in (tmp_path / "whole").rglob("*.*"):
         if path.is_file():
             assert (tmp_path / "parts" / path.relative_to(tmp_path / "whole")).read_bytes() == path.read_bytes()
+
+
+def test_with_pyav_the_pictures_of_an_episode_are_a_video(tmp_path: Path, made: list[int]) -> None:
+    av = pytest.importorskip("av")
+    demonstrate(task(), opened(tmp_path, as_video=True), 2, 1, lambda _count, _tried: None)
+    info = read(tmp_path, "meta/info.json")
+    feature = info["features"][CAMERA]
+    assert (feature["dtype"], feature["shape"]) == ("video", [24, 32, 3])
+    for number, row in enumerate(pq.read_table(tmp_path / "meta/episodes/chunk-000/file-000.parquet").to_pylist()):
+        place = {name: row[f"videos/{CAMERA}/{name}"] for name in ("chunk_index", "file_index")}
+        with av.open(str(tmp_path / info["video_path"].format(video_key=CAMERA, **place))) as video:
+            stream = video.streams.video[0]
+            told = {name: feature["info"][f"video.{name}"] for name in ("height", "width", "codec", "pix_fmt", "fps")}
+            assert told == {
+                "height": stream.height,
+                "width": stream.width,
+                "codec": stream.codec.canonical_name,
+                "pix_fmt": stream.pix_fmt,
+                "fps": stream.base_rate,
+            }
+            frames = list(video.decode(stream))
+        assert [frame.time for frame in frames] == pytest.approx([n / FPS for n in range(row["length"])])
+        assert row[f"videos/{CAMERA}/to_timestamp"] == pytest.approx(row["length"] / FPS)
+        assert frames[-1].to_ndarray(format="rgb24").mean(axis=(0, 1)) == pytest.approx((2 * number + 1, 0, 0), abs=6)
+        table = pq.read_table(tmp_path / info["data_path"].format(chunk_index=0, file_index=number))
+        assert CAMERA not in table.column_names and table.num_rows == row["length"]
+    with pytest.raises(RequestError, match=r"has videos, which PyAV makes: pip install .*\[video\]"):
+        opened(tmp_path, resume=True)
+    assert not (opened(tmp_path / "images").as_video or opened(tmp_path / "images", resume=True).as_video)
+
+
+@pytest.mark.parametrize("is_installed", (False, True))
+def test_images_instead_of_videos_are_said_once(
+    tmp_path: Path, made: list[int], monkeypatch: pytest.MonkeyPatch, is_installed: bool
+) -> None:
+    if is_installed:
+        pytest.importorskip("av")
+    monkeypatch.setattr(command, "can_encode", lambda: is_installed)
+    arguments = ["demonstrate", "letter-towel", "--episodes", "2", "--out", str(tmp_path), "--workers", "1"]
+    result = CliRunner().invoke(cli, arguments)
+    assert result.exit_code == 0 and result.stderr.count("PyAV") == (0 if is_installed else 1)
+    kind = read(tmp_path, "meta/info.json")["features"][CAMERA]["dtype"]
+    assert kind == ("video" if is_installed else "image")
 
 
 def test_another_folder_and_other_demonstrations_are_left_alone(tmp_path: Path, made: list[int]) -> None:

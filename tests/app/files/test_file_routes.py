@@ -25,6 +25,7 @@ FILES = [
     "poses.json",
     "poses.yaml",
     "glb",
+    "mjcf",
     "lerobot",
 ]
 SVG = (
