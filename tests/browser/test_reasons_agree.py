@@ -33,6 +33,20 @@ REASONS: dict[str, dict[str, Any]] = {
         "offset_m": [-0.0412, 0.0],
         "says": {**COLLISION, **TOUCHED},
     },
+    "turned about an edge off the table": {
+        **REASON,
+        "code": "line_off_table",
+        "short_by_m": 0.1234,
+        "offset_m": [-0.4, 0.1],
+        "says": {"code": "turn_off_table", "off_m": 0.1234, "dragged": [-0.4, 0.1], "is_held": False},
+    },
+    "behind the line": {
+        **REASON,
+        "code": "not_a_g_state",
+        "short_by_m": 0.1234,
+        "offset_m": [-0.4, 0.1],
+        "says": {"code": "behind_line", "behind_m": 0.1234, "dragged": [-0.4, 0.1], "is_held": False},
+    },
     "slips": {
         **REASON,
         "code": "slips",
@@ -96,3 +110,9 @@ def test_the_amount_that_is_missing_and_the_way_of_a_drag_have_one_wording(page:
         for words in told(page, REASONS[name], "cm"):
             assert by in words
             assert way in words
+
+
+@pytest.mark.parametrize("name", ["turned about an edge off the table", "behind the line", "short"])
+def test_strip_and_panel_tell_the_drag_once(page: Page, name: str) -> None:
+    strip, _, panel = told(page, REASONS[name], "cm")
+    assert (strip.count("dragged"), panel.count("dragged")) == (1, 1)

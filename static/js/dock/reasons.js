@@ -38,12 +38,13 @@ const SAYS = {
 };
 
 /**
+ * A reason without the drag before it, for which there may be no room.
  * @param {Reason} reason
  * @param {Named[]} folds
  */
 export function sentence(reason, folds) {
-  const says = SAYS[reason.code];
-  const told = says?.(reason) || inWords(reason, folds).split(". ")[0];
+  const here = { ...reason, says: reason.says && { ...reason.says, dragged: null } };
+  const told = SAYS[reason.code]?.(reason) || inWords(here, folds).split(". ")[0];
   return `${reason.fold === null ? capital(told) : `${capital(foldName(folds[reason.fold], reason.fold))}: ${told}`}.`;
 }
 
