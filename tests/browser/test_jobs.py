@@ -30,7 +30,7 @@ def test_jobs_are_listed_cancelled_by_keyboard_and_lead_to_their_results(page: P
     expect(rows.nth(0).get_by_role("progressbar")).to_be_visible()
     expect(rows.nth(0)).to_have_text(re.compile(r"Placements, Child's long-sleeved shirt, .*Running\s*\d+\s%\s*Stop"))
     rows.nth(1).get_by_role("button", name="Result").press("Enter")
-    result = page.get_by_role("dialog", name=re.compile("Placements, Hand towel"))
+    result = page.get_by_role("dialog", name=re.compile("Placements, Napkin"))
     expect(result.get_by_role("columnheader", name="cost (s)")).to_be_visible()
     expect(result.get_by_role("link", name="As JSON")).to_have_attribute("href", f"..{done}")
     page.keyboard.press("Escape")

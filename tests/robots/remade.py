@@ -186,6 +186,11 @@ class RemadeRobot:
         one = self.arms[arm]
         return self.pr2.tool_places(one.of, one.bent(joints), self.raised(torso_m)) + one.mount
 
+    def tool_pose(self, arm: int, joints: FloatArray, torso_m: float) -> tuple[FloatArray, FloatArray]:
+        one = self.arms[arm]
+        place, rotation = self.pr2.tool_pose(one.of, one.bent(joints[None])[0], self.raised(torso_m))
+        return place + one.mount, rotation
+
     @staticmethod
     def _seen(arm: Mounted, path: ToolPath) -> ToolPath:
         return replace(path, positions=path.positions - arm.mount)
