@@ -1,5 +1,6 @@
 """Pleat as it is installed: its distribution and version, and the extras that a library belongs to."""
 
+import sys
 import tomllib
 from collections.abc import Mapping
 from importlib.metadata import PackageNotFoundError, version
@@ -48,8 +49,10 @@ def own_version() -> str:
 
 def installing(extra: Extra) -> str:
     """Return the command that installs an extra: from the checkout, if Pleat runs from one, else from the index."""
-    is_checkout = _PROJECT.is_file()
-    return f"pip install -e '.[{extra}]'" if is_checkout else f"pip install '{NAME}[{extra}]'"
+    if not _PROJECT.is_file():
+        return f"pip install '{NAME}[{extra}]'"
+    own = Path(".venv") / "bin" / "pip"  # of `make run`, which nobody needs to have activated
+    return f"{own if Path(sys.prefix) == _PROJECT.parent / '.venv' else 'pip'} install -e '.[{extra}]'"
 
 
 def is_installed(module: str) -> bool:

@@ -33,7 +33,10 @@ def licence_of(package: Distribution) -> str:
     about = package.metadata
     classifiers = [one.rpartition(" :: ")[2] for one in about.get_all("Classifier") or () if one.startswith("License")]
     named = [one for one in classifiers if one != "OSI Approved"]
-    return about.get("License-Expression") or " AND ".join(named) or (about.get("License") or "").partition("\n")[0]
+    (first, *_) = (
+        about.get_all("License-Expression") or (named and [" AND ".join(named)]) or about.get_all("License") or [""]
+    )
+    return str(first).partition("\n")[0]
 
 
 def is_known(licence: str) -> bool:
