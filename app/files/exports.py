@@ -166,6 +166,7 @@ EXPORTS = (
         "application/pdf",
         no_plan,
         _sheet_pdf,
+        needs=("matplotlib",),
     ),
     Export(
         "sheet.svg",
@@ -193,6 +194,7 @@ EXPORTS = (
         "application/octet-stream",
         no_plan,
         _mcap,
+        needs=("rosbags",),
     ),
     Export(
         "rosbag2",
@@ -203,6 +205,7 @@ EXPORTS = (
         no_plan,
         _rosbag2,
         is_folder=True,
+        needs=("rosbags",),
     ),
     Export(
         "poses.json",
@@ -221,6 +224,7 @@ EXPORTS = (
         "application/yaml",
         no_plan,
         _poses_yaml,
+        needs=("ruamel",),
     ),
     Export(
         "glb",
@@ -250,6 +254,7 @@ EXPORTS = (
         no_plan,
         _lerobot,
         is_folder=True,
+        needs=("pyarrow",),
     ),
 )
 """All exports, in the order shown."""

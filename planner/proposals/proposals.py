@@ -143,7 +143,7 @@ class Proposals:
 
 
 def all_proposals(found: Generator[Proposal, None, Tried], hear: Callable[[Proposal], None] | None = None) -> Proposals:
-    """Return all that `propose_folds` finds, in order; `hear` is told each one as it is found."""
+    """Return all proposals of `propose_folds`, in order; call `hear` with each when it is found."""
     proposals: list[Proposal] = []
     while True:
         try:
