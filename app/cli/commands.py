@@ -96,6 +96,11 @@ COMMANDS = {
         "pleat see shirt.jpg --json -",
         "0 read, 2 bad input, or no scale, 3 nothing can be told from the picture",
     ),
+    "camera": _Command(
+        "camera",
+        "Print a board of markers, and calibrate a camera over the table with pictures of it.",
+        "pleat camera calibrate *.jpg --out camera.json",
+    ),
     "robots": _Command(
         "robots",
         "Print the robots that are shipped, and your own.",

@@ -38,17 +38,29 @@ class RehearsalRequest:
     feedback: bool = True
 
 
-def _prepare(stores: Stores, wanted: RehearsalRequest) -> tuple[Plan, RehearsalOptions]:
-    options = RehearsalOptions(wanted.runs, wanted.seed, wanted.noise, wanted.feedback, traced=TRACED)
-    if isinstance(wanted.plan, str):
-        plan = stores.plans.plan(wanted.plan)
+def solved_plan(stores: Stores, given: str | dict[str, Any]) -> Plan:
+    """Return the plan of a request's field `plan`, by id or as a plan file's content; it is solved.
+
+    Raises:
+        UnknownPlanError: there is no such plan.
+        FieldError: the content is no plan.
+        UnsolvedPlanError: the plan is not solved.
+    """
+    if isinstance(given, str):
+        plan = stores.plans.plan(given)
     else:
         try:
-            plan = Plan.from_dict(wanted.plan)
+            plan = Plan.from_dict(given)
         except FieldError as error:
             raise error.within("plan") from None
     if not plan.is_solved:
         raise UnsolvedPlanError(plan.status)
+    return plan
+
+
+def _prepare(stores: Stores, wanted: RehearsalRequest) -> tuple[Plan, RehearsalOptions]:
+    options = RehearsalOptions(wanted.runs, wanted.seed, wanted.noise, wanted.feedback, traced=TRACED)
+    plan = solved_plan(stores, wanted.plan)
     require_physics()
     return plan, options
 
