@@ -1,4 +1,4 @@
-"""The commands by name. A command's module is imported when the command is run; to list them takes none."""
+"""The commands by name. A command's module is imported when it is run, not when it is listed."""
 
 import gc
 from importlib import import_module
@@ -126,6 +126,11 @@ COMMANDS = {
         "Serve the designer until Ctrl-C.",
         "pleat serve --port 8000",
     ),
+    "cache": _Command(
+        "cache",
+        "Print what is kept for later runs, and how large it is.",
+        "pleat cache --clear",
+    ),
     "backup": _Command(
         "backup",
         "Write a data folder and its database to one file; the server may be running.",
@@ -179,7 +184,7 @@ def _program(
         bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Print Pleat's version.")
     ] = False,
 ) -> None:
-    """Have commands, none of which is imported yet."""
+    """Take the options of the program itself."""
 
 
 def loaded(name: str) -> Any:  # noqa: ANN401

@@ -1,4 +1,4 @@
-"""``pleat run``: perform a plan with a robot, or with none."""
+"""``pleat run``: perform a plan with a real robot or a simulated one."""
 
 from enum import StrEnum
 from pathlib import Path

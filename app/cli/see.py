@@ -21,12 +21,11 @@ from app.cli.program import (
     write_json,
 )
 from app.rehearsal.camera.calibration import Calibration, CalibrationError
-from app.rehearsal.vision.picture import LARGEST_PICTURE
 from app.rehearsal.vision.seen_garment import Seen
 from app.rehearsal.vision.seen_garment import see as see_garment
 from app.rehearsal.vision.seen_state import SeenState, see_state
 from app.rehearsal.vision.stack_fit import FoldFit
-from app.rehearsal.vision.vision_errors import NothingToldError, PictureError, ScaleNeededError
+from app.rehearsal.vision.vision_errors import LARGEST_PICTURE, NothingToldError, PictureError, ScaleNeededError
 from app.templates.catalogue import find_template
 from planner.cloth.garment import Garment
 from planner.task.plan import Plan
@@ -119,7 +118,7 @@ def picture_file(path: Path) -> bytes:
 
 @contextmanager
 def telling(source: Path) -> Iterator[None]:
-    """Exit the program where a picture is bad input, or nothing can be told from it."""
+    """Exit the program if a picture is bad input or shows nothing that can be recognised."""
     with blaming(source):
         try:
             yield

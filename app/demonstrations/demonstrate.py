@@ -39,7 +39,7 @@ def demonstrate(
         has_wrists: whether there are cameras on the wrists.
 
     Raises:
-        PhysicsMissingError: MuJoCo is not installed.
+        RequestError: MuJoCo or OpenCV is not installed.
         OSError: the system refuses to write.
     """
     require_physics()

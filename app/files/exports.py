@@ -8,7 +8,7 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING, Any
 
-from app.files.export import Export, as_drawn, garment_in, no_answer, no_outline, no_plan, not_legal, plan_in
+from app.files.export import Export, as_drawn, garment_in, no_answer, no_film, no_outline, no_plan, not_legal, plan_in
 
 if TYPE_CHECKING:
     from app.document_state import DocumentState
@@ -54,6 +54,24 @@ def _recording(state: DocumentState, rate_hz: float, should_stop: ShouldStop) ->
     from app.files.recording import recording
 
     return recording(plan_in(state), rate_hz, should_stop, is_dark=state.is_dark)
+
+
+def _mp4(state: DocumentState, rate_hz: float, should_stop: ShouldStop) -> bytes:
+    from app.files.film import mp4_film
+
+    return mp4_film(plan_in(state), rate_hz, should_stop, state.language, is_dark=state.is_dark)
+
+
+def _gif(state: DocumentState, rate_hz: float, should_stop: ShouldStop) -> bytes:
+    from app.files.film import gif_film
+
+    return gif_film(plan_in(state), rate_hz, should_stop, state.language, is_dark=state.is_dark)
+
+
+def _picture(state: DocumentState, _: float, __: ShouldStop) -> bytes:
+    from app.files.film import still
+
+    return still(plan_in(state), state.language, is_dark=state.is_dark)
 
 
 def _sheet_pdf(state: DocumentState, _: float, __: ShouldStop) -> bytes:
@@ -166,6 +184,7 @@ EXPORTS = (
         "application/pdf",
         no_plan,
         _sheet_pdf,
+        needs=("matplotlib",),
     ),
     Export(
         "sheet.svg",
@@ -186,6 +205,33 @@ EXPORTS = (
         _recording,
     ),
     Export(
+        "mp4",
+        "Film (MP4)",
+        "The animation with title and captions as a video, painted without a browser.",
+        ".mp4",
+        "video/mp4",
+        no_film,
+        _mp4,
+    ),
+    Export(
+        "gif",
+        "Film (GIF)",
+        "The same in small as a GIF, for pages and messages.",
+        ".gif",
+        "image/gif",
+        no_plan,
+        _gif,
+    ),
+    Export(
+        "picture.png",
+        "Picture (PNG)",
+        "Robot and cloth in the middle of the last fold, with title, time and the packet's size.",
+        ".png",
+        "image/png",
+        no_plan,
+        _picture,
+    ),
+    Export(
         "mcap",
         "Robot motion (ROS 2, MCAP)",
         "A joint trajectory for each step and controller, its speeds and accelerations bounded; opens in Foxglove.",
@@ -193,6 +239,7 @@ EXPORTS = (
         "application/octet-stream",
         no_plan,
         _mcap,
+        needs=("rosbags",),
     ),
     Export(
         "rosbag2",
@@ -203,6 +250,7 @@ EXPORTS = (
         no_plan,
         _rosbag2,
         is_folder=True,
+        needs=("rosbags",),
     ),
     Export(
         "poses.json",
@@ -221,6 +269,7 @@ EXPORTS = (
         "application/yaml",
         no_plan,
         _poses_yaml,
+        needs=("ruamel",),
     ),
     Export(
         "glb",
@@ -250,6 +299,7 @@ EXPORTS = (
         no_plan,
         _lerobot,
         is_folder=True,
+        needs=("pyarrow",),
     ),
 )
 """All exports, in the order shown."""

@@ -5,14 +5,12 @@ from typing import Annotated, Any
 
 from pydantic import Field
 
-from app.distribution import installing
 from app.files.import_file import LARGEST_PLAN_FILE
 from app.jobs.job_kind import JobKind, Progress, Stores
 from app.rehearsal.noise import NOISE
-from app.rehearsal.rehearse import RUNS_MAX, PhysicsMissingError, RehearsalOptions, rehearse, require_physics
-from planner.errors import FieldError, RequestError, UnsolvedPlanError
+from app.rehearsal.rehearse import RUNS_MAX, RehearsalOptions, rehearse, require_physics
+from planner.errors import FieldError, UnsolvedPlanError
 from planner.json_form import STRICT
-from planner.message import Message
 from planner.task.plan import Plan
 
 TRACED = 10
@@ -63,10 +61,7 @@ def solved_plan(stores: Stores, given: str | dict[str, Any]) -> Plan:
 def _prepare(stores: Stores, wanted: RehearsalRequest) -> tuple[Plan, RehearsalOptions]:
     options = RehearsalOptions(wanted.runs, wanted.seed, wanted.noise, wanted.feedback, traced=TRACED)
     plan = solved_plan(stores, wanted.plan)
-    try:
-        require_physics()
-    except PhysicsMissingError as error:
-        raise RequestError("", Message("physics_missing", str(error), {"install": installing("physics")})) from None
+    require_physics()
     return plan, options
 
 

@@ -4,6 +4,8 @@ Packets come from a search that asks the robot about single folds, those that pe
 turn, with little work, until enough of them have plans. Where one has none, its first folds are planned alone, to learn
 which of them are to blame. Of variants of one way (the same moves in another order, or mirrored) only the first is
 proposed that can be done: the order and the side decide much for a robot and nothing for the packet.
+
+Instead of a size another garment may be given: then its folds, fitted to this one, are the only way.
 """
 
 import math
@@ -21,6 +23,7 @@ from planner.geometry.tolerance import DECIMALS
 from planner.planning.events import Blocked
 from planner.planning.robot_task import task_for
 from planner.plans import plan as plan_events
+from planner.proposals.likeness import LikenessSearch
 from planner.proposals.packet import Packet, Way
 from planner.proposals.packet_search import PacketSearch
 from planner.proposals.robot_check import RobotCheck
@@ -140,7 +143,7 @@ class Proposals:
 
 
 def all_proposals(found: Generator[Proposal, None, Tried], hear: Callable[[Proposal], None] | None = None) -> Proposals:
-    """Return all that `propose_folds` finds, in order; `hear` is told each one as it is found."""
+    """Return all proposals of `propose_folds`, in order; call `hear` with each when it is found."""
     proposals: list[Proposal] = []
     while True:
         try:
@@ -154,7 +157,7 @@ def all_proposals(found: Generator[Proposal, None, Tried], hear: Callable[[Propo
 
 def propose_folds(
     garment: Garment,
-    to: str | Sequence[float] | Target,
+    to: str | Sequence[float] | Target | Garment,
     *,
     robot: str = DEFAULT_ROBOT,
     count: int = 6,
@@ -165,11 +168,11 @@ def propose_folds(
     should_stop: Callable[[], bool] | None = None,
     **options: Unpack[ProposalOptions],
 ) -> Generator[Proposal, None, Tried]:
-    """Propose ways to fold a garment to a size, each with its plan.
+    """Propose ways to fold a garment to a size, or like another one, each with its plan.
 
     Args:
         garment: the garment; folds that it has are kept as the beginning.
-        to: the size, see `Target.of`.
+        to: the size, see `Target.of`; or a garment that is folded like this one is to be.
         robot: the robot's name.
         count: the most proposals.
         max_folds: the most folds of a proposal, those that the garment has included.
@@ -190,19 +193,26 @@ def propose_folds(
         FoldError: a fold of the garment is not legal.
         RequestError: an argument is out of range.
     """
-    target = Target.of(to)
+    target = to if isinstance(to, Garment) else Target.of(to)
     _require("count", count, COUNT_MAX)
     _require("max_folds", max_folds, FOLDS_MAX)
     if face not in FACES:
         raise RequestError("face", f"expected one of {', '.join(FACES)}; got {face!r:.80}")
     task = task_for(garment, scene, robot=robot, work_limit_s=work_limit_s, **options)
+    stops = should_stop or _never
+    if isinstance(target, Garment):
+        return _planned(task, LikenessSearch(garment, target), None, count, stops)
     search = PacketSearch(garment, target, max_folds, face, RobotCheck(task))
     alone = PacketSearch(garment, target, max_folds, face)
-    return _planned(task, search, None if target.is_smallest else alone, count, should_stop or _never)
+    return _planned(task, search, None if target.is_smallest else alone, count, stops)
 
 
 def _planned(
-    task: Task, search: PacketSearch, alone: PacketSearch | None, count: int, should_stop: Callable[[], bool]
+    task: Task,
+    search: PacketSearch | LikenessSearch,
+    alone: PacketSearch | None,
+    count: int,
+    should_stop: Callable[[], bool],
 ) -> Generator[Proposal, None, Tried]:
     """Propose what a search finds that the robot can do, unless the same search without a robot finds nothing."""
     if alone is not None and next(alone.packets(), None) is None:
@@ -224,8 +234,7 @@ def _planned(
         if not proposal.plan.is_solved:
             failures += 1
             failed.setdefault(packet.way, proposal)
-            blamed = _blamed(task, packet, fine, should_stop)
-            if blamed:
+            if isinstance(search, PacketSearch) and (blamed := _blamed(task, packet, fine, should_stop)):
                 search.blame(blamed)
             continue
         solved.add(packet.way)

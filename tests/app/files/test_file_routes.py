@@ -5,6 +5,7 @@ from typing import Any
 import httpx
 import pytest
 
+from app.files.video import can_encode
 from planner import Plan, load_garment
 from tests.app.samples import towel
 from tests.app.test_garbage import BODIES, assert_problem
@@ -20,6 +21,9 @@ FILES = [
     "sheet.pdf",
     "sheet.svg",
     "recording.html",
+    "mp4",
+    "gif",
+    "picture.png",
     "mcap",
     "rosbag2",
     "poses.json",
@@ -141,8 +145,11 @@ async def test_all_files_of_a_planned_document_can_be_saved(client: httpx.AsyncC
     entries = (await client.get(f"/api/documents/{document_id}/files")).json()
     assert [entry["what"] for entry in entries] == FILES
     for entry in entries:
+        if entry["what"] == "mp4" and not can_encode():
+            assert (entry["available"], entry["says"]) == (False, {"code": "no_video"})
+            continue
         assert (entry["available"], entry["reason"]) == (True, None)
-        query = "?rate_hz=2" if entry["what"] == "recording.html" else ""
+        query = "?rate_hz=1" if entry["what"] in ("recording.html", "mp4", "gif") else ""
         answer = await fetched(client, document_id, entry["what"], query)
         assert answer.status_code == 200
         assert answer.headers["content-type"] == entry["media_type"]
