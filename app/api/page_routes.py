@@ -12,6 +12,7 @@ from starlette.staticfiles import NotModifiedResponse, StaticFiles
 
 from app.api.request_parsing import workspace_of
 from app.api.shared import is_shared
+from app.files.exports import find_export
 from app.page_files import scripts, static_dir, styles
 from app.workspace import Workspace
 from planner.errors import FoldingError
@@ -20,6 +21,7 @@ router = APIRouter(include_in_schema=False)
 
 _FRESH = {"cache-control": "no-cache"}
 _HEAD_END = "  </head>"
+_PICTURE = find_export("picture.png")
 
 
 @router.get("/")
@@ -77,8 +79,8 @@ def _with_preview(request: Request, document_id: str) -> str:
     state = workspace_of(request).opened(document_id).document.state
     title = f"{state.drawing.title or state.drawing.name} - Pleat"
     told = {"og:type": "website", "og:title": title}
-    if state.answer is not None and state.answer.plan.is_solved:
-        told["og:image"] = f"{str(request.base_url).rstrip('/')}/api/documents/{document_id}/files/picture.png"
+    if _PICTURE is not None and _PICTURE.reason(state) is None:
+        told["og:image"] = f"{str(request.base_url).rstrip('/')}/api/documents/{document_id}/files/{_PICTURE.what}"
         told["twitter:card"] = "summary_large_image"
     lines = [f'    <meta property="{name}" content="{escape(content)}">\n' for name, content in told.items()]
     page = (static_dir() / "index.html").read_text(encoding="utf-8")

@@ -36,7 +36,7 @@ def demonstrate(
         resolution: how finely the world is simulated; None as finely as suits the article's size.
 
     Raises:
-        PhysicsMissingError: MuJoCo is not installed.
+        RequestError: MuJoCo or OpenCV is not installed.
         OSError: the system refuses to write.
     """
     require_physics()

@@ -8,7 +8,7 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING, Any
 
-from app.files.export import Export, as_drawn, garment_in, no_answer, no_film, no_outline, no_plan, not_legal, plan_in
+from app.files.export import Export, as_drawn, garment_in, no_answer, no_outline, no_plan, not_legal, plan_in
 
 if TYPE_CHECKING:
     from app.document_state import DocumentState
@@ -184,6 +184,7 @@ EXPORTS = (
         "application/pdf",
         no_plan,
         _sheet_pdf,
+        needs=("matplotlib",),
     ),
     Export(
         "sheet.svg",
@@ -209,8 +210,9 @@ EXPORTS = (
         "The animation with title and captions as a video, painted without a browser.",
         ".mp4",
         "video/mp4",
-        no_film,
+        no_plan,
         _mp4,
+        needs=("av", "matplotlib"),
     ),
     Export(
         "gif",
@@ -220,6 +222,7 @@ EXPORTS = (
         "image/gif",
         no_plan,
         _gif,
+        needs=("matplotlib",),
     ),
     Export(
         "picture.png",
@@ -229,6 +232,7 @@ EXPORTS = (
         "image/png",
         no_plan,
         _picture,
+        needs=("matplotlib",),
     ),
     Export(
         "mcap",
@@ -238,6 +242,7 @@ EXPORTS = (
         "application/octet-stream",
         no_plan,
         _mcap,
+        needs=("rosbags",),
     ),
     Export(
         "rosbag2",
@@ -248,6 +253,7 @@ EXPORTS = (
         no_plan,
         _rosbag2,
         is_folder=True,
+        needs=("rosbags",),
     ),
     Export(
         "poses.json",
@@ -266,6 +272,7 @@ EXPORTS = (
         "application/yaml",
         no_plan,
         _poses_yaml,
+        needs=("ruamel",),
     ),
     Export(
         "glb",
@@ -295,6 +302,7 @@ EXPORTS = (
         no_plan,
         _lerobot,
         is_folder=True,
+        needs=("pyarrow",),
     ),
 )
 """All exports, in the order shown."""

@@ -84,7 +84,7 @@ class PathFinder(Protocol):
         are_free: Mapping[int, IsFree],
         together: Together,
     ) -> FloatArray | NoPath:
-        """Return the calmest collision-free joints of arms on their tool paths, or that there are none.
+        """Return the smoothest collision-free joints of arms along their tool paths, or that none exist.
 
         Args:
             paths: each arm's tool path, in rising order of the arms, of equal length.

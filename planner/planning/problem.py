@@ -160,7 +160,7 @@ class Problem:
         return self._with_reach(UnlimitedReach(self.context.reach, more_hands))
 
     def anew(self) -> "Problem":
-        """Return this problem with nothing computed yet; what the arms reach as far as asked is known to it."""
+        """Return this problem with nothing computed yet but the answers to reach queries."""
         self.context.reach.memory.share()
         return self._with_reach(self.robot.reach(self.context.scene.torso_m, self.context.reach.comfort_m))
 
@@ -221,7 +221,7 @@ def _searched(task: Task, sequence: FoldSequence, machine: RobotPort) -> tuple[S
 
 
 def _as_given(scene: Scene, given: Scene) -> Scene:
-    """Return a scene that was derived from the search's without the nameless station, for a base at none.
+    """Return the scene without the nameless station that stands for a base away from all stations.
 
     The base that does not move has that one alone; it gets the stations of the task's scene back.
     """
@@ -256,8 +256,9 @@ def _require_folds_in_order(start: WorldState, sequence: FoldSequence) -> None:
     """Raise `RequestError` unless the dependencies allow the folds done in this order."""
     done = 0
     for number, fold in enumerate(start.folds_done):
-        if fold not in sequence.dag.available(done):
-            raise RequestError(f"start.folds_done[{number}]", f"fold {fold} cannot come there: it waits for others")
+        if fold not in (next_ones := sequence.dag.available(done)):
+            expected = f"one of folds {', '.join(map(str, next_ones))}" if next_ones else "no more folds"
+            raise RequestError(f"start.folds_done[{number}]", f"expected {expected}; got {fold}")
         done |= 1 << fold
 
 

@@ -12,13 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.rehearsal.vision.table_plane import USUAL_FOCAL, Focal
-from app.rehearsal.vision.vision_errors import PictureError
+from app.rehearsal.vision.vision_errors import LARGEST_PICTURE, PictureError
 from planner.message import Message
 
 Image: TypeAlias = NDArray[np.uint8]
-
-LARGEST_PICTURE = 16 << 20
-"""Largest size of a picture's file (bytes)."""
 
 LEAST_SIDE, MOST_SIDE, MOST_PIXELS = 160, 12_000, 50_000_000
 """Least and most pixels of a side, and of the whole picture; more is not decoded."""

@@ -20,6 +20,7 @@ export const files = (inWords) => ({
   seam_allowance: ({ line, width_m: width }) =>
     say(line === "cut" ? "message.seam_allowance.cut" : "message.seam_allowance.seam", { width: length(width) }),
   graded_sizes: ({ size: taken, sizes }) => say("message.graded_sizes", { size: taken, sizes: sizes.join(", ") }),
+  library_missing: ({ library, install }) => say("message.library_missing", { library, install }),
   piece_unfolded: () => say("message.piece_unfolded"),
   halves_joined: () => say("message.halves_joined"),
   fold_unknown: () => say("message.fold_unknown"),
@@ -46,7 +47,6 @@ export const files = (inWords) => ({
     const about = fold === null ? "" : `${called(folds, fold)}: `;
     return say("message.no_plan", { why: about + inWords({ says, message }, folds) });
   },
-  no_video: () => say("message.no_video"),
   garment_of_plan: ({ folds_done: done }) =>
     done ? say("message.garment_of_plan.after", { count: done }) : say("message.garment_of_plan"),
   short_lines: ({ shorter_m: shorter, lines }) => say("message.short_lines", { shorter: length(shorter), lines }),
