@@ -49,7 +49,7 @@ _BRIEF_SHARE = 0.4
 """The work for the plan of a packet's first folds, and for any plan until there is a proposal, as a share of all."""
 
 _ASIDE = 3
-"""How many packets without a plan at that work are put aside, until one of them is planned with all of it."""
+"""How many ways without a plan at that work are put aside, until one of them is planned with all of it."""
 
 _VARIANTS = 3
 """Variants of one way that are planned, at most."""
@@ -228,7 +228,7 @@ def _planned(
     failures = 0
     packets, aside = search.packets(), deque[Packet]()
     while True:
-        is_aside = bool(aside) and (bool(shown) or len(aside) == _ASIDE)
+        is_aside = bool(aside) and (bool(shown) or len({one.way for one in aside}) == _ASIDE)
         packet = None if is_aside else next(packets, None)
         if packet is None:
             if not aside:
@@ -240,6 +240,9 @@ def _planned(
             continue
         tried[packet.way] += not is_aside
         is_brief = not (is_aside or shown)
+        if is_brief and any(one.way == packet.way for one in aside):
+            aside.append(packet)
+            continue
         proposal = _proposal(_brief(task) if is_brief else task, packet, should_stop)
         if should_stop():
             break
