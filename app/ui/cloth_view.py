@@ -65,8 +65,8 @@ class ClothView:
             mesh.vertices = vertices
             if is_recut:
                 mesh.faces = np.arange(len(vertices), dtype=np.uint32).reshape(-1, 3)
-        vertices, triangles = thick.hem
-        self._hem.vertices = vertices.astype(np.float32)
+        hem, triangles = thick.hem
+        self._hem.vertices = hem.astype(np.float32)
         if len(triangles) != len(self._hem.faces):
             self._hem.faces = triangles.astype(np.uint32)
         self._edges.points = thick.edges.astype(np.float32)

@@ -61,7 +61,7 @@ class Part:
         a, b, c = vertices[triangles].transpose(1, 0, 2)
         facing, corners = np.repeat(np.cross(b - a, c - a), 3, axis=0), triangles.ravel()
         summed = [np.bincount(corners, facing[:, axis], len(vertices)) for axis in range(3)]
-        normals = np.stack(summed, axis=1)
+        normals = np.stack(summed, axis=1).astype(float)
         inside_out = float((np.cross(a, b) * c).sum()) < 0.0 and len(triangles) > _CLOSED
         normals *= (-1.0 if inside_out else 1.0) / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
         return Part(vertices, normals, triangles, colour)

@@ -53,7 +53,7 @@ def test_seeds_vary_place_cloth_look_and_cameras_within_bounds() -> None:
         [world.look for world in worlds],
         *([world.cameras[name] for world in worlds] for name in ("table", "left_wrist", "right_wrist")),
     ):
-        assert len(set(map(repr, varied))) == len(worlds)
+        assert len({repr(one) for one in varied}) == len(worlds)
 
 
 @pytest.fixture(scope="module")
