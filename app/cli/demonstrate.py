@@ -21,8 +21,7 @@ from app.cli.program import (
 )
 from app.demonstrations.dataset import DemonstrationDataset
 from app.demonstrations.demonstrate import demonstrate
-from app.distribution import installing
-from app.files.video import can_encode
+from app.distribution import installing, is_installed
 from planner import Plan
 from planner.planning.robot_task import task_for
 from planner.robots.load_robot import load_robot
@@ -56,8 +55,8 @@ def demonstrate_command(
         asked = {"garment": task.garment.to_dict(), "robot": task.robot, "scene": task.scene.to_dict()}
         asked |= {"seed": seed, "wrists": wrists}
         card = load_robot(task.robot).card
-        dataset = DemonstrationDataset.opened(out, card, asked, seed, resume=resume, as_video=can_encode())
-        if not can_encode():
+        dataset = DemonstrationDataset.opened(out, card, asked, seed, resume=resume, as_video=is_installed("av"))
+        if not is_installed("av"):
             errors.print(f"Pictures are images, not videos, without PyAV: {installing('video')}", markup=False)
         tell_of_compiling(task.robot)
         columns = (BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())

@@ -206,7 +206,7 @@ def test_images_instead_of_videos_are_said_once(
 ) -> None:
     if is_installed:
         pytest.importorskip("av")
-    monkeypatch.setattr(command, "can_encode", lambda: is_installed)
+    monkeypatch.setattr(command, "is_installed", lambda _: is_installed)
     arguments = ["demonstrate", "letter-towel", "--episodes", "2", "--out", str(tmp_path), "--workers", "1"]
     result = CliRunner().invoke(cli, arguments)
     assert result.exit_code == 0 and result.stderr.count("PyAV") == (0 if is_installed else 1)
