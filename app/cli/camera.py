@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from app.cli.program import blaming, cli, failure, output, refusing, write_text
-from app.rehearsal.camera.calibration import SQUARE_M, CalibrationError, board_page, calibrated
+from app.rehearsal.camera.calibration import SQUARE_M, CalibrationError, Image, board_page, calibrated
 from app.rehearsal.vision.picture import read_picture
 from app.rehearsal.vision.vision_errors import PictureError
 from planner.geometry.pose import Pose2
@@ -58,7 +58,7 @@ def calibrate(
     )
 
 
-def _picture(path: Path):  # noqa: ANN202
+def _picture(path: Path) -> Image:
     from app.cli.see import picture_file
 
     try:

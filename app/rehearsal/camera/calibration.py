@@ -167,6 +167,8 @@ def calibrated(pictures: list[Image], square_m: float, board: Pose2) -> Calibrat
 def _corners(number: int, picture: Image, square_m: float) -> tuple[FloatArray, FloatArray]:
     """Return the board's corners in a picture: in its frame, shape (n, 3), m, and in pixels, shape (n, 2)."""
     board = _board(square_m)
+    found: Any
+    ids: Any  # None where there is none, whatever OpenCV's types say
     found, ids, _, _ = cv2.aruco.CharucoDetector(board).detectBoard(cv2.cvtColor(picture, cv2.COLOR_BGR2GRAY))
     count = 0 if ids is None else len(ids)
     if count < _CORNERS_MIN:

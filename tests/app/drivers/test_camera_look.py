@@ -1,6 +1,5 @@
 """The step that a run goes on with, as a camera over the table shows it."""
 
-import json
 from dataclasses import replace
 from pathlib import Path
 
@@ -13,12 +12,14 @@ from app.cli import cli
 from app.drivers.camera_look import step_seen
 from app.drivers.driver import LostError
 from app.rehearsal.camera.calibration import Calibration
+from app.rehearsal.camera.camera import Camera
 from app.rehearsal.camera.look import PLAIN
 from app.rehearsal.camera.mounted import hung, overhead
 from app.rehearsal.camera.picture import ClothSeen, picture
 from app.rehearsal.camera.posture import Posture
 from app.rehearsal.camera.robot_shape import robot_shape
 from app.rehearsal.planned_cloth import planned_positions
+from app.rehearsal.vision.seen_state import see_state
 from planner import Plan
 from planner.geometry.woven_mesh import woven_mesh
 from planner.robots.card import RobotCard
@@ -29,8 +30,7 @@ from tests.required import required
 LAYER_M = 0.002
 
 
-def calibration(plan: Plan) -> Calibration:
-    camera = hung(overhead(plan.scene.table))
+def calibration(camera: Camera) -> Calibration:
     width, height = camera.size_px
     middle = ((width - 1) / 2.0, (height - 1) / 2.0)
     focal = (camera.focal_px, camera.focal_px)
@@ -54,7 +54,9 @@ def test_of_each_state_of_the_plan_the_camera_tells_the_step_that_is_next(plan: 
     steps = [step for step, world in enumerate(worlds) if not world.held and lies[step] not in lies[:step]]
     assert {0, len(plan.steps)} < set(steps)
     for step in steps:
-        found = step_seen(plan, seen(plan, card, worlds[step]), calibration(plan), card.home_values(0.0))
+        found = step_seen(
+            plan, seen(plan, card, worlds[step]), calibration(hung(overhead(plan.scene.table))), card.home_values(0.0)
+        )
         assert found.step == step
         assert found.off_m < 0.006 and abs(found.turned_rad) < 0.03
 
@@ -63,14 +65,14 @@ def test_cloth_that_lies_elsewhere_or_is_none_of_the_states_ends_the_run(plan: P
     start, joints = plan.task.start, card.home_values(0.0)
     moved = replace(start, placement=start.placement.moved(0.05, 0.0))
     with pytest.raises(LostError, match=r"the cloth lies \d\.\d cm beside and .* before step 0: move it, or plan anew"):
-        step_seen(plan, seen(plan, card, moved), calibration(plan), joints)
+        step_seen(plan, seen(plan, card, moved), calibration(hung(overhead(plan.scene.table))), joints)
     crumpled = seen(plan, card, start)
     middle = hung(overhead(plan.scene.table)).pixels(
         np.array([[*start.placement.to_outer(np.array([0.1, 0.08])), 0.0]])
     )
     cv2.circle(crumpled, tuple(np.round(middle[0]).astype(int).tolist()), 90, (90, 90, 90), -1)
     with pytest.raises(LostError, match="the camera shows none of the plan's states"):
-        step_seen(plan, crumpled, calibration(plan), joints)
+        step_seen(plan, crumpled, calibration(hung(overhead(plan.scene.table))), joints)
 
 
 def test_a_run_whose_cloth_is_folded_already_is_done_without_a_motion(
@@ -79,7 +81,7 @@ def test_a_run_whose_cloth_is_folded_already_is_done_without_a_motion(
     files = {name: tmp_path / name for name in ("towel.plan.json", "now.png", "camera.json")}
     write_plan(plan, files["towel.plan.json"])
     cv2.imwrite(str(files["now.png"]), seen(plan, card, plan.end))
-    files["camera.json"].write_text(calibration(plan).file())
+    files["camera.json"].write_text(calibration(hung(overhead(plan.scene.table))).file())
     told = ["run", str(files["towel.plan.json"]), "--auto", "--camera", str(files["now.png"])]
     result = CliRunner().invoke(cli, told)
     assert result.exit_code == 2 and "--camera and --calibration need each other" in result.stderr
@@ -91,9 +93,18 @@ def test_a_run_whose_cloth_is_folded_already_is_done_without_a_motion(
     count = len(plan.steps)
     assert result.exit_code == 0, result.output
     assert f"Seen: step {count} of {count} is next" in result.stderr and f"Done: {count} of {count}" in result.stdout
-    state = ["see", str(files["now.png"]), "--calibration", str(files["camera.json"]), "--json", "-"]
-    result = CliRunner().invoke(cli, [*state, "--state-of", str(files["towel.plan.json"])])
-    assert result.exit_code == 0, result.output
-    found = json.loads(result.stdout)
-    assert found["folds_done"] == [0, 1] and found["frame"] == "table"
-    assert found["neatness"]["iou"] > 0.9 and found["neatness"]["off_m"] < 0.01
+
+
+def test_a_stack_on_the_table_is_compared_with_where_the_plan_has_it(plan: Plan) -> None:
+    end, table = plan.end, plan.scene.table
+    pattern, triangles = woven_mesh(plan.garment.pattern, 0.01)
+    lies = end.placement.moved(0.006, 0.0)
+    positions = planned_positions(plan.sequence, pattern, end.done, lies, table, LAYER_M)
+    x_m, y_m, _ = positions.mean(axis=0).tolist()
+    camera = hung(replace(overhead(table), x_m=x_m, y_m=y_m, z_m=0.35))
+    image = picture(camera, table, ClothSeen(pattern, positions, triangles.astype(np.int64)), [], PLAIN, 0)
+    _, png = cv2.imencode(".png", image)
+    found = see_state(bytes(png), calibration(camera), plan.garment, plan)
+    assert found.folds == (0, 1) and (found.frame, found.scale_from) == ("table", "camera")
+    assert found.neatness.iou > 0.9
+    assert required(found.neatness.off_m) == pytest.approx(0.006, abs=0.004)

@@ -87,7 +87,8 @@ def test_a_straightened_picture_shows_points_of_the_table_where_they_are(
     pictures: list[np.ndarray], found: Calibration
 ) -> None:
     for size in (SIZE, (640, 480)):
-        image, camera = found.view(cv2.resize(pictures[0], size, interpolation=cv2.INTER_AREA))
+        smaller = np.asarray(cv2.resize(pictures[0], size, interpolation=cv2.INTER_AREA), np.uint8)
+        image, camera = found.view(smaller)
         grey = cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)
         corner = BOARD.to_outer(np.array([[0.5 * SQUARE_M, 0.5 * SQUARE_M], [-1.5 * SQUARE_M, -0.5 * SQUARE_M]]))
         expected = camera.pixels(np.column_stack([corner, np.zeros(2)]))
