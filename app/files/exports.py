@@ -212,7 +212,7 @@ EXPORTS = (
         "video/mp4",
         no_plan,
         _mp4,
-        needs=("av", "matplotlib"),
+        needs=("matplotlib", "av"),
     ),
     Export(
         "gif",

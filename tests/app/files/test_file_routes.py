@@ -4,7 +4,7 @@ from typing import Any
 import httpx
 import pytest
 
-from app.files.video import can_encode
+from app.distribution import installing, is_installed
 from planner import Plan, load_garment
 from tests.app.document_requests import planned
 from tests.app.samples import towel
@@ -134,8 +134,9 @@ async def test_all_files_of_a_planned_document_can_be_saved(client: httpx.AsyncC
     entries = (await client.get(f"/api/documents/{document_id}/files")).json()
     assert [entry["what"] for entry in entries] == FILES
     for entry in entries:
-        if entry["what"] == "mp4" and not can_encode():
-            assert (entry["available"], entry["says"]["code"]) == (False, "library_missing")
+        if entry["what"] == "mp4" and not is_installed("av"):
+            says = {"code": "library_missing", "library": "PyAV", "install": installing("video")}
+            assert (entry["available"], entry["says"]) == (False, says)
             continue
         assert (entry["available"], entry["reason"]) == (True, None)
         query = "?rate_hz=1" if entry["what"] in ("recording.html", "mp4", "gif") else ""
