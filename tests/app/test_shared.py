@@ -16,7 +16,7 @@ from app.settings import Settings
 from app.store.access_token import AccessToken
 from app.store.schema import ShareRow
 from tests.app.conftest import OWN_URL
-from tests.app.document_requests import created, moved, put
+from tests.app.document_requests import created, moved, planned, put
 from tests.app.test_garbage import assert_problem
 from tests.app.websocket import Listener
 from tests.patience import PATIENCE_S
@@ -33,6 +33,18 @@ async def link_to(client: httpx.AsyncClient, document_id: str) -> str:
     path: str = answer.json()["path"]
     assert re.fullmatch(rf"/s/[\w-]{{32}}/d/{document_id}", path)
     return path.removesuffix(f"/d/{document_id}")
+
+
+async def test_a_preview_of_a_link_shows_the_title_and_a_picture_of_the_plan(client: httpx.AsyncClient) -> None:
+    document_id = await planned(client, title='A "small" towel')
+    link = await link_to(client, document_id)
+    page = (await client.get(f"{link}/d/{document_id}")).text
+    told = dict(re.findall(r'<meta property="([^"]+)" content="([^"]*)">', page))
+    assert told["og:title"] == "A &quot;small&quot; towel - Pleat"
+    assert told["og:image"] == f"{OWN_URL}{link}/api/documents/{document_id}/files/picture.png"
+    picture = await client.get(told["og:image"])
+    assert (picture.status_code, picture.headers["content-type"]) == (200, "image/png")
+    assert "og:image" not in (await client.get(f"/d/{document_id}")).text
 
 
 async def test_with_a_link_the_document_can_be_seen_and_played_and_not_changed(client: httpx.AsyncClient) -> None:
