@@ -6,6 +6,8 @@ NODE := $(CURDIR)/$(BIN)/node
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 # Bytecode is written by whoever first imports a module: most of the modules installed are never imported.
 INSTALL := $(PIP) install --no-compile
+# The pins are complete, and leave out what nothing imports (see UNUSED).
+PINNED := --no-deps --require-hashes -r
 PYTEST := $(BIN)/python -m pytest --rerun-show-tracebacks
 # How many tests run at once: two more than cores, for tests of servers and browsers wait for a third of their time.
 # Each wants some 2 GB with its server and its browser; where that is too much: make test JOBS=2
@@ -23,7 +25,7 @@ READY_BENCH := $(VENV)/.ready-bench
 READY_DOCS := $(VENV)/.ready-docs
 
 .DEFAULT_GOAL := help
-.PHONY: help run check docs format lint types page-types imports kernels test-quick test test-long browser nginx bench figures lock clean
+.PHONY: help run check docs format lint types page-types imports kernels test-quick test test-long browser nginx bench figures pictures licences release-check lock clean
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1 ~\2/p' Makefile | while IFS='~' read -r target text; do \
@@ -74,6 +76,16 @@ docs: $(READY_DOCS) ## write the documents as a site to site/, which needs no ne
 figures: $(READY) $(KERNELS) ## draw the figures of docs/model.md from the planner
 	$(BIN)/python -m docs.figures.draw
 
+pictures: $(READY_DEV) $(KERNELS) browser ## take the pictures of the documents from the page
+	$(BIN)/python -m docs.pictures.take
+
+licences: $(READY_DEV) ## list the licence of each package that is installed; fail on one that is not known
+	$(BIN)/python -m tests.licences
+
+release-check: check docs licences test-long ## all that a release must pass; its wheel is in dist/
+	$(BIN)/python -m pip --disable-pip-version-check wheel --quiet --no-deps --no-build-isolation --wheel-dir dist .
+	@ls dist
+
 # The browser tests take Debian's Chromium where there is one, Playwright's own otherwise.
 browser: $(READY_DEV)
 	@test -x /usr/bin/chromium && exit 0; \
@@ -94,11 +106,19 @@ nginx: | $(BIN)/python browser
 COMPILE := $(BIN)/pip-compile --quiet --strip-extras --allow-unsafe --build-deps-for editable --generate-hashes \
     --no-header --no-emit-options --no-emit-index-url --no-emit-trusted-host --no-emit-find-links
 
+# yourdfpy asks for all that trimesh can use, of which meshes of robots need pycollada alone.
+UNUSED := colorlog embreex manifold3d mapbox-earcut rtree svg-path vhacdx xxhash
+UNUSED_BESIDE_TESTS := $(UNUSED) attrs httpcore httpx jsonschema jsonschema-specifications referencing rpds-py
+leave-out = awk -v names=" $(2) " '/^[a-z]/ { split($$1, one, "=="); drops = index(names, " " one[1] " ") } !drops' $(1) > $(1).new && mv $(1).new $(1)
+
 lock: $(READY_DEV) ## pin the newest versions that pyproject.toml allows
 	$(PIP) install pip-tools
 	$(COMPILE) --upgrade --extra test --output-file requirements-dev.txt pyproject.toml
 	$(COMPILE) --upgrade --constraint requirements-dev.txt --extra physics --output-file requirements.txt pyproject.toml
 	$(COMPILE) --upgrade --constraint requirements-dev.txt --extra bench --output-file requirements-bench.txt pyproject.toml
+	$(call leave-out,requirements-dev.txt,$(UNUSED))
+	$(call leave-out,requirements.txt,$(UNUSED_BESIDE_TESTS))
+	$(call leave-out,requirements-bench.txt,$(UNUSED_BESIDE_TESTS))
 	@printf '%s\n' 'mkdocs>=1.6,<2' 'mkdocs-material>=9.7' 'mkdocstrings[python]>=0.29' | \
 	    $(COMPILE) --upgrade --constraint requirements-dev.txt --output-file requirements-docs.txt -
 	@PATH="$(CURDIR)/$(BIN):$$PATH" && cd tests/js && rm -rf package-lock.json node_modules && npm install --package-lock-only \
@@ -119,7 +139,7 @@ $(BIN)/python:
 
 $(READY): requirements.txt pyproject.toml | $(BIN)/python
 	@echo "Installing what Pleat needs into $(VENV) (once, about a minute)"
-	@$(BIN)/python -m pip --disable-pip-version-check install --no-compile --require-hashes -r requirements.txt
+	@$(BIN)/python -m pip --disable-pip-version-check install --no-compile $(PINNED) requirements.txt
 	@$(INSTALL) --no-deps --no-build-isolation -e .
 	@touch $@
 
@@ -133,7 +153,7 @@ $(KERNELS): $(VENV)/.kernels-%: $(READY) $(shell find planner -name '*.py')
 
 $(READY_DEV): requirements-dev.txt $(READY)
 	@echo "Setting up the tools for tests"
-	@$(INSTALL) --require-hashes -r requirements-dev.txt
+	@$(INSTALL) $(PINNED) requirements-dev.txt
 	@touch $@
 
 # Scripts of packages are not run: none of these needs one.
@@ -150,5 +170,5 @@ $(READY_DOCS): requirements-docs.txt $(READY_DEV)
 # What Pleat is compared with. Only the benchmark wants it, and does without where there is no wheel for this machine.
 $(READY_BENCH): requirements-bench.txt $(READY)
 	@echo "Setting up what Pleat is compared with"
-	@if $(INSTALL) --require-hashes --only-binary :all: -r requirements-bench.txt; then touch $@; \
+	@if $(INSTALL) --only-binary :all: $(PINNED) requirements-bench.txt; then touch $@; \
 	else echo "Left out: what Pleat is compared with cannot be installed here"; fi

@@ -196,7 +196,7 @@ class Document(Played):
         self._state.change(lambda state: replace(state, failure=failure) if version == state.version else state)
 
     def prepare(self, share: float | None) -> None:
-        """Store how far the robot's arms are mapped (0 to 1), in steps of a hundredth; None: they are."""
+        """Store the progress of the robot's reach maps (0 to 1), in steps of 0.01; None when they are complete."""
         prepared = None if share is None else round(share, 2)
         self._state.change(lambda state: state if state.prepared == prepared else replace(state, prepared=prepared))
 
@@ -255,7 +255,7 @@ class Document(Played):
         self._state.change(lambda state: replace(state, work_s=work_s))
 
     def preview(self, plan: Plan | None) -> None:
-        """Have the 3D view show the plan of a change that is pointed at; None shows the document's own again."""
+        """Show the plan of a change in the 3D view while it is pointed at; None shows the document's own plan."""
         self._state.change(lambda state: state.previewing(plan))
 
     def show_trace(self, trace: RunTrace | None) -> None:

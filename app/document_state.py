@@ -242,7 +242,7 @@ class DocumentState:
         return replace(self, preview=ShownPlan(self.version, plan, Timeline.of(plan)))
 
     def tracing(self, trace: RunTrace | None) -> "DocumentState":
-        """Return the state in which the 3D view shows a run of the plan on show; None: none."""
+        """Return the state in which the 3D view shows this rehearsed run; None shows the plan."""
         if trace is None or self.shown is None:
             return self if self.rehearsed is None else replace(self, rehearsed=None)
         return replace(self, rehearsed=Rehearsed(self.shown.plan, trace))

@@ -10,9 +10,6 @@ from collections.abc import Mapping
 from functools import cache
 from typing import Literal, TypeAlias, get_args
 
-from babel import Locale
-from babel.numbers import format_decimal
-
 from app.page_files import static_dir
 
 Language: TypeAlias = Literal["en", "de", "es"]
@@ -20,15 +17,14 @@ LANGUAGES: tuple[Language, ...] = get_args(Language)
 ENGLISH: Language = "en"
 
 Text: TypeAlias = str | Mapping[str, str]
-"""Words with places; where they depend on a number, a form for each kind of number that the language tells apart."""
+"""Words with places; where they depend on a number, a form for one and a form for others."""
 
 
 def say(language: Language, key: str, **values: str | int) -> str:
     """Return the words of a key with values in its places; `count` chooses the form."""
     text = catalogue(language)[key]
     if not isinstance(text, str):
-        kind = Locale.parse(language).plural_form(int(values["count"]))
-        text = text.get(kind, text["other"])
+        text = text["one" if int(values["count"]) == 1 else "other"]
     return re.sub(r"\{(\w+)\}", lambda place: str(values[place[1]]), text)
 
 
@@ -40,7 +36,7 @@ def translated(language: Language, text: str) -> str:
 
 def numeral(language: Language, value: float, digits: int = 1) -> str:
     """Return a number with so many digits behind the language's decimal mark."""
-    return format_decimal(round(value, digits), f"0.{'0' * digits}", locale=language)
+    return f"{round(value, digits):.{digits}f}".replace(".", "." if language == ENGLISH else ",")
 
 
 def named(language: Language, kind: str, name: str) -> str:

@@ -56,7 +56,7 @@ class Found:
 
 @dataclass(frozen=True, slots=True)
 class Lasting:
-    """News: what is found soon has been told; the search goes on."""
+    """News: the quick answers have been sent, and the search continues."""
 
 
 _known: OrderedDict[str, KnownPlans] = OrderedDict()
@@ -105,7 +105,7 @@ def plan_live(caller: Caller, document: str, task: Task, shown: str | None, work
 
 
 def _soon(caller: Caller, task: Task, like: list[FoundPlan]) -> FoundPlan | None:
-    """Return a plan derived from known ones with the same number of folds; None if there is none soon.
+    """Return a plan adapted from known ones with as many folds; None if that does not succeed quickly.
 
     With another number of folds, a full search usually finds the quickest plan just as soon.
     """

@@ -39,7 +39,7 @@ class Observable(Generic[T]):
         return unsubscribe
 
     def change(self, change: Callable[[T], T]) -> T:
-        """Put what a function makes of the value in its place, and return it; the same value is no change."""
+        """Replace the value by a function of it, and return it; observers hear only of a different value."""
         with self._lock:
             before, self._value = self._value, change(self._value)
             after, listeners = self._value, tuple(self._listeners)

@@ -71,7 +71,7 @@ class OpenDocument:
             return self._shown[0]
 
     def show_to_visitors(self) -> View3D:
-        """Return the 3D view of those who have a link, on which nothing can be edited; the first call builds it."""
+        """Return the read-only 3D view for visitors with a link; the first call builds it."""
         with self._lock:
             if self._shown_to_visitors is None:
                 drawing = self.document.state.drawing

@@ -239,7 +239,7 @@ class Replanner:
 
 
 def _is_needless(search: Searching, now: DocumentState) -> bool:
-    """Return whether a search has nothing more to give: it has failed, or somebody keeps what it has shown."""
+    """Return whether a search may be dropped: it has failed, or its result is kept elsewhere."""
     version, answer = search.asked.version, now.answer
     shown = answer if answer is not None and answer.version == version else None
     if search.is_behind and shown is not None:

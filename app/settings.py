@@ -1,14 +1,14 @@
 """The server's settings, from the command line or from variables such as ``PLEAT_HOST`` and ``PLEAT_DATA``."""
 
+import os
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 from platformdirs import user_data_path
-from pydantic import Field
-from pydantic_settings import BaseSettings, SettingsConfigDict
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 
-class Settings(BaseSettings):
+class Settings(BaseModel):
     """The server's settings.
 
     Attributes:
@@ -27,7 +27,7 @@ class Settings(BaseSettings):
         database: the URL of a PostgreSQL database; None: SQLite in the data folder.
     """
 
-    model_config = SettingsConfigDict(env_prefix="PLEAT_", frozen=True)
+    model_config = ConfigDict(extra="forbid", frozen=True)
 
     host: str = "127.0.0.1"
     origin: Annotated[str, Field(pattern=r"^https?://[^/?#@\s]+$")] | None = None
@@ -42,3 +42,10 @@ class Settings(BaseSettings):
     port: int = Field(default=8000, ge=0, le=65535)
     data: Path = Field(default_factory=lambda: user_data_path("pleat"))
     database: str | None = None
+
+    @model_validator(mode="before")
+    @classmethod
+    def _or_of_the_environment(cls, given: dict[str, Any]) -> dict[str, Any]:
+        """Take what is not given from the environment."""
+        variables = {name: os.environ.get(f"PLEAT_{name.upper()}") for name in cls.model_fields}
+        return {name: value for name, value in variables.items() if value is not None} | given

@@ -28,7 +28,7 @@ class StepKind:
 
 
 def step_kind(name: str) -> StepKind:
-    """Return a kind of step by its name; one that moves nothing and has no words where none has the name."""
+    """Return a kind of step by its name; for an unknown name, a kind without motion and words."""
     return STEP_KINDS.get(name, _OTHER)
 
 

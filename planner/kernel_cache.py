@@ -11,9 +11,7 @@ import re
 from contextlib import suppress
 from pathlib import Path
 
-from platformdirs import user_cache_path
-
-from planner.user_cache import use
+from planner.user_cache import cache_folder, use
 
 _IS_KERNEL = re.compile(r"^from planner.kernels import", re.MULTILINE)
 """The mark of a module that has kernels."""
@@ -21,18 +19,15 @@ _IS_KERNEL = re.compile(r"^from planner.kernels import", re.MULTILINE)
 _IMPORTED = re.compile(r"^from (planner[\w.]*) import", re.MULTILINE)
 """The modules of ours that a module imports: a kernel calls their kernels, and their constants are part of it."""
 
-_KEPT_MAX = 4
-"""Folders that stay, the one in use among them: a checkout or two, and the state before an update."""
-
 
 def use_kernel_cache() -> None:
     """Have Numba keep kernels in the folder for these sources, unless `NUMBA_CACHE_DIR` says where; call it first."""
     if "NUMBA_CACHE_DIR" in os.environ:
         return
-    folder = user_cache_path("pleat") / "kernels" / _digest(Path(__file__).parent)
+    folder = cache_folder() / "kernels" / _digest(Path(__file__).parent)
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        use(folder, _KEPT_MAX)
+        use(folder)
     except OSError:
         return  # nowhere to keep them: Numba finds a place of its own, or compiles each time
     os.environ["NUMBA_CACHE_DIR"] = str(folder)

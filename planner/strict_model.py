@@ -65,7 +65,7 @@ def _tag(detail: Mapping[str, Any]) -> tuple[str, ...]:
 
 
 def _told(detail: Mapping[str, Any]) -> FieldError | None:
-    """Return the error that a value raised itself; None if it raised none."""
+    """Return the error that a value's own validation raised, if any."""
     found = detail.get("ctx", {}).get("error")
     return found if isinstance(found, FieldError) else None
 

@@ -180,7 +180,7 @@ MESSAGES: list[dict[str, Any]] = [
     {"code": "looks_alike", "placements": 2},
     {"code": "outline_hidden"},
     {"code": "no_cloth_seen"},
-    {"code": "physics_missing", "install": "pip install this"},
+    {"code": "library_missing", "library": "MuJoCo", "install": "pip install this"},
 ]
 
 

@@ -18,7 +18,7 @@ def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
         (tmp_path / "planner" / room / "other.py").write_text("one = 1\n")
     (tmp_path / "planner" / "units.py").write_text("STEP = 1\n")
     monkeypatch.setattr(kernel_cache, "__file__", str(tmp_path / "planner" / "kernel_cache.py"))
-    monkeypatch.setattr(kernel_cache, "user_cache_path", lambda name: tmp_path / "cache" / name)
+    monkeypatch.setattr(kernel_cache, "cache_folder", lambda: tmp_path / "cache" / "pleat")
     monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
     return tmp_path / "planner"
 

@@ -61,6 +61,9 @@ def test_the_wheel_plans(pleat: Path) -> None:
 
 
 def test_an_extra_is_installed_from_where_pleat_is(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("sys.prefix", str(ROOT / ".venv"))
+    assert installing("physics") == ".venv/bin/pip install -e '.[physics]'"
+    monkeypatch.setattr("sys.prefix", str(tmp_path))
     assert installing("physics") == "pip install -e '.[physics]'"
     monkeypatch.setattr("app.distribution._PROJECT", tmp_path / "pyproject.toml")
     assert installing("physics") == f"pip install '{NAME}[physics]'"

@@ -109,7 +109,7 @@ class ClientLimits:
 
 
 def _limited(scope: Scope) -> str | None:
-    """Return the client's address; None for this machine, and where nobody asks."""
+    """Return the client's address; None for this machine and for requests that name no client."""
     if scope["type"] not in ("http", "websocket"):
         return None
     client: str = scope["client"][0] if scope.get("client") else ""

@@ -7,6 +7,7 @@ from functools import cache
 from fastapi import APIRouter, FastAPI
 from fastapi.concurrency import run_in_threadpool
 from fastapi_offline import FastAPIOffline
+from starlette.exceptions import HTTPException
 
 from app.api import (
     document_routes,
@@ -15,7 +16,6 @@ from app.api import (
     job_answers,
     job_routes,
     live,
-    metrics,
     page_routes,
     plan_routes,
     rehearsal_routes,
@@ -30,12 +30,11 @@ from app.api.client_limits import ClientLimits
 from app.api.described import describe
 from app.api.guard import OwnNamesOnly
 from app.api.live_answers import LiveCommand, LiveMessage
-from app.api.metrics import Measured, Metrics
 from app.api.middleware import BelowPrefix, HeadAsGet, WholeRequests
 from app.api.problems import FailuresAsProblems, Problem, install_problems
 from app.api.shared import Shared
 from app.api.token_only import TokenOnly
-from app.distribution import own_version
+from app.distribution import missing, own_version
 from app.job_kinds.kinds import KINDS
 from app.server.request_id import RequestIds
 from app.settings import Settings
@@ -69,13 +68,12 @@ def create_app(settings: Settings, token: AccessToken | None = None) -> FastAPI:
         lifespan=lifespan,
     )
     app.state.workspace = workspace
-    app.state.metrics = Metrics(workspace)
     app.router.routes.extend(_routes().routes)
     page_routes.mount_files(app)
     install_problems(app)
     describe(app, LiveCommand, Problem, LiveMessage, *suggestion_routes.EVENTS, *job_answers.EVENTS)
     app.add_middleware(FailuresAsProblems)
-    app.add_middleware(Measured, metrics=app.state.metrics)
+    _measure(app, workspace)
     if token is not None:
         app.add_middleware(TokenOnly, token=token, port=settings.port)
     app.add_middleware(Shared, shares=workspace.shares)
@@ -86,6 +84,21 @@ def create_app(settings: Settings, token: AccessToken | None = None) -> FastAPI:
     app.add_middleware(WholeRequests)
     app.add_middleware(RequestIds)
     return app
+
+
+def _measure(app: FastAPI, workspace: Workspace) -> None:
+    """Measure the server for `/metrics`; without the library for it, that says what to install."""
+    if (lacking := missing("prometheus_client")) is None:
+        from app.api.metrics import Measured, Metrics, router
+
+        app.state.metrics = Metrics(workspace)
+        app.router.routes.extend(router.routes)
+        app.add_middleware(Measured, metrics=app.state.metrics)
+        return
+
+    @app.get("/metrics", include_in_schema=False)
+    async def read_metrics() -> None:
+        raise HTTPException(501, lacking.text)
 
 
 @cache
@@ -106,7 +119,6 @@ def _routes() -> APIRouter:
         file_routes,
         live,
         view_3d_routes,
-        metrics,
         page_routes,
     ):
         every.include_router(routes.router)

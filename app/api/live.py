@@ -174,7 +174,7 @@ def _object(text: str) -> dict[str, Any]:
 
 
 def _number(data: dict[str, Any]) -> int | None:
-    """Take the number out of what a page has sent; None if it has none."""
+    """Remove the number from a page's message and return it; None without a number."""
     number = data.pop("ask", None)
     if number is not None and (type(number) is not int or number < 0):
         raise RequestError("ask", "should be a whole number that is not negative")

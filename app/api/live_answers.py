@@ -91,7 +91,7 @@ class Result(BaseModel):
 
 
 class Refusal(Problem):
-    """What was refused: the problem, and the number of what the page has sent, null if that has none."""
+    """A refusal: the problem, and the number of the page's message, null if it has no number."""
 
     kind: Literal["problem"]
     ask: int | None

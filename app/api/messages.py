@@ -27,7 +27,7 @@ def leaves_out(*names: str) -> dict[str, Any]:
 
 
 def either(*conditions: dict[str, Any]) -> dict[str, Any]:
-    """Return what to add to the schema of an object of which at least one condition has to hold."""
+    """Return the schema's addition that requires at least one of these conditions."""
     return {"anyOf": list(conditions)}
 
 

@@ -29,7 +29,7 @@ class Metrics:
     """
 
     def __init__(self, workspace: Workspace) -> None:
-        """Count from nought."""
+        """Start all counters at zero."""
         self.registry = CollectorRegistry()
         ProcessCollector(registry=self.registry)
         self.registry.register(_Work(workspace))

@@ -92,7 +92,7 @@ class HeadAsGet:
 
 
 def _told(headers: Iterable[tuple[bytes, bytes]], otherwise: str) -> str:
-    """Return the prefix of the proxy's header, or none if it would lead to another host."""
+    """Return the prefix in the proxy's header; empty if it would lead to another host."""
     for name, value in headers:
         prefix = value.decode("latin-1").strip().rstrip("/")
         if name == _HEADER and PREFIX_PATTERN.fullmatch(prefix):

@@ -206,7 +206,7 @@ async def _problem(_: Request, error: Exception) -> Response:
 
 
 def problem_of(error: Exception) -> ProblemResponse | None:
-    """Return the answer to what has raised an error; None for a bug.
+    """Return the answer that reports an error; None for a bug.
 
     A refusal of the operating system is logged; an `OSError` of a library's own making is a bug.
     """

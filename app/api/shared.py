@@ -69,7 +69,7 @@ def is_shared(scope: Scope) -> bool:
 
 
 async def until_revoked(websocket: WebSocket, shares: ShareRepository) -> None:
-    """Wait until the link by which a page came is taken back; for ever if it came by none."""
+    """Wait until the page's link is revoked; forever for a page that was not opened by a link."""
     token = websocket.scope.get(_TOKEN)
     while token is None or await run_in_threadpool(shares.document_of, token) is not None:
         await asyncio.sleep(_LOOK_EVERY_S)

@@ -231,7 +231,7 @@ class SuggestionSearch:
 
 
 def _still_kept(workspace: Workspace, plan_id: str) -> Plan | None:
-    """Return a plan by its id; None if it was dropped, as one is when a document has a better answer."""
+    """Return a plan by its id; None if it was dropped because its document has a better one."""
     try:
         return workspace.plans.plan(plan_id)
     except UnknownPlanError:

@@ -81,7 +81,7 @@ class TokenOnly:
 
 
 def _is_https(scope: Scope) -> bool:
-    """Return whether the browser came by HTTPS, as far as the proxy says so."""
+    """Return whether the proxy says that the browser uses HTTPS."""
     return scope["scheme"] == "https" or Headers(scope=scope).get("x-forwarded-proto", "").lower() == "https"
 
 

@@ -1,6 +1,7 @@
 """The command line: ``pleat serve``, ``plan``, ``show``, ``timeline``, ``export``, ``dag``, ``check``, ``see``..."""
 
 import os
+import sys
 
 from app.cli.commands import cli
 
@@ -13,4 +14,11 @@ def main() -> None:
     Processes that it starts run none of the current folder's modules: Python would look for any module there first.
     """
     os.environ["PYTHONSAFEPATH"] = "1"
-    cli()
+    try:
+        cli()
+    except ModuleNotFoundError as error:
+        from app.distribution import explained
+
+        if (message := explained(error)) is None:
+            raise
+        sys.exit(message.text)

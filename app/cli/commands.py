@@ -1,4 +1,4 @@
-"""The commands by name. A command's module is imported when the command is run; to list them takes none."""
+"""The commands by name. A command's module is imported when it is run, not when it is listed."""
 
 import gc
 from importlib import import_module
@@ -96,6 +96,11 @@ COMMANDS = {
         "pleat see shirt.jpg --json -",
         "0 read, 2 bad input, or no scale, 3 nothing can be told from the picture",
     ),
+    "camera": _Command(
+        "camera",
+        "Print a board of markers, and calibrate a camera over the table with pictures of it.",
+        "pleat camera calibrate *.jpg --out camera.json",
+    ),
     "robots": _Command(
         "robots",
         "Print the robots that are shipped, and your own.",
@@ -120,6 +125,11 @@ COMMANDS = {
         "serve",
         "Serve the designer until Ctrl-C.",
         "pleat serve --port 8000",
+    ),
+    "cache": _Command(
+        "cache",
+        "Print what is kept for later runs, and how large it is.",
+        "pleat cache --clear",
     ),
     "backup": _Command(
         "backup",
@@ -174,7 +184,7 @@ def _program(
         bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Print Pleat's version.")
     ] = False,
 ) -> None:
-    """Have commands, none of which is imported yet."""
+    """Take the options of the program itself."""
 
 
 def loaded(name: str) -> Any:  # noqa: ANN401

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 BAD_INPUT, NO_PLAN, OUT_OF_BUDGET = 2, 3, 4
 STANDARD_OUTPUT = "-"
 
-_OPTION_OF = {"start_station": "start"}
+_OPTION_OF = {"start_station": "start", "to.like": "like"}
 
 errors = Console(stderr=True, highlight=False, soft_wrap=True, markup=False)
 output = Console(highlight=False, markup=False)

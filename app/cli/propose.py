@@ -15,6 +15,7 @@ from app.cli.program import (
     blaming,
     cli,
     errors,
+    failure,
     garment_of,
     output,
     tell_of_compiling,
@@ -38,11 +39,14 @@ class FaceName(StrEnum):
 def propose(
     garment: SourceArgument,
     to: Annotated[
-        str,
+        str | None,
         typer.Option(
             metavar="SIZE", help="25x30cm, 0.25x0.30 (m), shelf, drawer, suitcase, halves, thirds or smallest."
         ),
-    ],
+    ] = None,
+    like: Annotated[
+        str | None, typer.Option(metavar="GARMENT", help="Instead of a size: a garment whose folds are fitted.")
+    ] = None,
     robot: Annotated[str, typer.Option(help="The robot: its name, or the file of its card.")] = DEFAULT_ROBOT,
     count: Annotated[int, typer.Option(help="The most proposals.")] = 6,
     max_folds: Annotated[int, typer.Option(help="The most folds of a proposal.")] = 8,
@@ -51,20 +55,25 @@ def propose(
     json_to: JsonOption = None,
     data: DataOption = None,
 ) -> None:
-    """Propose folds that bring a garment to a size, each planned for a robot.
+    """Propose folds that bring a garment to a size, or fold it like another one, each planned for a robot.
 
     Folds that the garment has are kept as the beginning.
     """
     source = garment_of(garment)
     chosen = replace(source, folds=()) if anew else source
+    if (to is None) == (like is None):
+        raise failure("Expected either --to SIZE or --like GARMENT.")
+    target = to or garment_of(like or "")
     with blaming(garment):
-        found = propose_folds(chosen, to, robot=robot, count=count, max_folds=max_folds, face=face.value)
+        found = propose_folds(chosen, target, robot=robot, count=count, max_folds=max_folds, face=face.value)
         tell_of_compiling(robot)
         answer = all_proposals(found)
     write_json(answer.to_dict(), json_to)
     if json_to != STANDARD_OUTPUT:
         output.print(proposals_table(chosen, answer))
-    if not answer.proposals:
+    if not answer.proposals and like is not None:
+        errors.print(f"--like: no fold of {like} fits the outline of {garment}.")
+    elif not answer.proposals:
         wide, long = (f"{100.0 * side_m:.0f}" for side_m in sorted(answer.tried.nearest_m))
         errors.print(
             f"--to: nothing fits {to}: the smallest found is {wide} x {long} cm, of {answer.tried.enumerated} ways "

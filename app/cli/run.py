@@ -1,4 +1,4 @@
-"""``pleat run``: perform a plan with a robot, or with none."""
+"""``pleat run``: perform a plan with a real robot or a simulated one."""
 
 from enum import StrEnum
 from pathlib import Path
@@ -11,9 +11,10 @@ from app.cli.plan import PlanFileArgument
 from app.cli.program import NO_PLAN, DataOption, blaming, cli, errors, failure, output, refusing
 
 if TYPE_CHECKING:
-    from app.drivers.driver import Driver
-    from app.drivers.run import Leg
+    from app.drivers.driver import Driver, Joints
+    from app.drivers.run import Leg, Look
     from planner.robots.card import RobotCard
+    from planner.task.plan import Plan
 
 
 class DriverName(StrEnum):
@@ -39,6 +40,15 @@ def run(
         str | None,
         typer.Option(help="Where the robot is: ARM=PORT or ARM=HOST for each arm, a comma between; a URL for ros2."),
     ] = None,
+    camera: Annotated[
+        str | None,
+        typer.Option(
+            metavar="IMAGE|NUMBER", help="Go on with the step that a picture, or the camera NUMBER, shows to be next."
+        ),
+    ] = None,
+    calibration: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="The camera, as `pleat camera calibrate` found it.")
+    ] = None,
     data: DataOption = None,
 ) -> None:
     """Perform a plan: lead the arms to its first pose, then do step by step, each confirmed.
@@ -55,20 +65,57 @@ def run(
         require_speed(speed)
         plan = read_plan(file)
         card = load_robot(plan.task.robot).card
+        look = _look(plan, camera, calibration)
         kept = Recording(card)
         with _Told(auto) as told:
             ended = run_plan(
-                plan, card, _driver(driver, card, address), told.confirm, told.progress, kept, from_step, speed
+                plan,
+                card,
+                _driver(driver, card, address),
+                told.confirm,
+                told.progress,
+                kept,
+                from_step,
+                speed,
+                look=look,
             )
     if record is not None:
         about = {"garment": plan.garment.name, "robot": card.name, "driver": driver.value, "speed": speed}
         with refusing(record):
-            record.write_bytes(kept.mcap({**about, "from_step": from_step, "ended": ended.how, "why": ended.why}))
+            record.write_bytes(
+                kept.mcap({**about, "from_step": from_step, "camera": camera, "ended": ended.how, "why": ended.why})
+            )
     if ended.how == "done":
         output.print(f"Done: {ended.done} of {len(plan.steps)} steps")
         return
     errors.print(f"{ended.how.capitalize()} after {ended.done} of {len(plan.steps)} steps: {ended.why}")
     raise typer.Exit(NO_PLAN)
+
+
+def _look(plan: "Plan", camera: str | None, calibration: Path | None) -> "Look | None":
+    """Return what finds the step that a camera shows to be next; None without one."""
+    if camera is None and calibration is None:
+        return None
+    if camera is None or calibration is None:
+        raise failure("--camera and --calibration need each other")
+    from app.cli.see import calibration_file, picture_file
+    from app.drivers.camera_look import step_seen
+    from app.rehearsal.vision.picture import device_image, read_picture
+    from app.rehearsal.vision.vision_errors import PictureError
+
+    known = calibration_file(calibration)
+
+    def look(joints: "Joints") -> int:
+        try:
+            image = device_image(int(camera)) if camera.isdigit() else read_picture(picture_file(Path(camera))).image
+        except PictureError as error:
+            raise failure(f"--camera: {camera}: {error.message}") from None
+        found = step_seen(plan, image, known, joints)
+        place = f"{1000 * found.off_m:.0f} mm and {found.turned_rad:.3f} rad from where the plan has it"
+        errors.print(f"Seen: step {found.step} of {len(plan.steps)} is next; the cloth lies {place}")
+        return found.step
+
+    return look
 
 
 class _Told:

@@ -16,17 +16,19 @@ from app.cli.program import (
     errors,
     failure,
     garment_of,
+    load_source,
     output,
     write_json,
 )
-from app.rehearsal.vision.picture import LARGEST_PICTURE
+from app.rehearsal.camera.calibration import Calibration, CalibrationError
 from app.rehearsal.vision.seen_garment import Seen
 from app.rehearsal.vision.seen_garment import see as see_garment
 from app.rehearsal.vision.seen_state import SeenState, see_state
 from app.rehearsal.vision.stack_fit import FoldFit
-from app.rehearsal.vision.vision_errors import NothingToldError, PictureError, ScaleNeededError
+from app.rehearsal.vision.vision_errors import LARGEST_PICTURE, NothingToldError, PictureError, ScaleNeededError
 from app.templates.catalogue import find_template
 from planner.cloth.garment import Garment
+from planner.task.plan import Plan
 
 
 @cli.command()
@@ -52,21 +54,29 @@ def see(
         str | None,
         typer.Option(
             "--state-of",
-            metavar="GARMENT",
-            help="Say which of this garment's folds are done in the picture, and how far off the last crease is.",
+            metavar="GARMENT|PLAN",
+            help="Say which of this garment's folds are done in the picture, how far off the last crease is, and how "
+            "neat the stack is.",
         ),
+    ] = None,
+    calibration: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="The camera that took it, as `pleat camera calibrate` found it: no --scale."),
     ] = None,
     json_to: JsonOption = None,
 ) -> None:
     """Read a garment from a picture: its outline, where it lies, how sure that is; or how far it is folded."""
     if like is not None and state is not None:
         raise failure("--like and --state-of cannot be given together")
+    if calibration is not None and scale is not None:
+        raise failure("--scale and --calibration cannot be given together")
+    scaled = scale if calibration is None else calibration_file(calibration)
     if state is not None:
-        _see_state(image, scale, garment_of(state), json_to)
+        _see_state(image, scaled, load_source(state), json_to)
         return
     kind = None if like is None else find_template(like) or garment_of(like)
     with telling(image):
-        found = see_garment(picture_file(image), image.stem, scale, kind)
+        found = see_garment(picture_file(image), image.stem, scaled, kind)
     write_json(found.to_dict(), json_to)
     if json_to != STANDARD_OUTPUT:
         output.print(_told(found))
@@ -74,15 +84,26 @@ def see(
         errors.print(f"{image}: not sure: {found.sure.unknown.text}")
 
 
-def _see_state(image: Path, scale: str | None, garment: Garment, json_to: str | None) -> None:
+def _see_state(image: Path, scale: str | Calibration | None, of: Garment | Plan, json_to: str | None) -> None:
     """Print and write which state of a garment's folds a picture shows."""
+    garment, plan = (of.garment, of) if isinstance(of, Plan) else (of, None)
     with telling(image):
-        found = see_state(picture_file(image), scale, garment)
+        found = see_state(picture_file(image), scale, garment, plan)
     write_json(found.to_dict(), json_to)
     if json_to != STANDARD_OUTPUT:
         output.print(_state_told(found))
     if found.unknown is not None:
         errors.print(f"{image}: not sure: {found.unknown.text}")
+
+
+def calibration_file(path: Path) -> Calibration:
+    """Return the calibration in a file; exit the program if it is none."""
+    try:
+        return Calibration.read(path)
+    except OSError as error:
+        raise failure(f"{path}: {error.strerror}") from None
+    except CalibrationError as error:
+        raise failure(f"{path}: {error}") from None
 
 
 def picture_file(path: Path) -> bytes:
@@ -97,7 +118,7 @@ def picture_file(path: Path) -> bytes:
 
 @contextmanager
 def telling(source: Path) -> Iterator[None]:
-    """Exit the program where a picture is bad input, or nothing can be told from it."""
+    """Exit the program if a picture is bad input or shows nothing that can be recognised."""
     with blaming(source):
         try:
             yield
@@ -125,6 +146,7 @@ def _state_told(found: SeenState) -> str:
     place = found.found.stack.placement
     lines.append(f"it lies in the frame of the {found.frame} at ({place.x_m:.3f}, {place.y_m:.3f}) m, ")
     lines[-1] += f"turned by {place.yaw_rad:.3f} rad"
+    lines.append(found.neatness.text)
     return "\n".join(lines)
 
 

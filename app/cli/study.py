@@ -18,7 +18,7 @@ from app.studies.results import Results
 from app.studies.run_study import Progress, run_study
 from app.studies.study import Study
 from app.studies.study_file import read_study
-from app.studies.table import CSV, PARQUET
+from app.studies.table import written_files
 from app.studies.workers import InProcess, Workers, planner
 from planner.task.plan_files import write_plan
 
@@ -60,7 +60,7 @@ def study(
                 errors.print(f"Stopped. The answers so far are in {out}; the same command goes on from there.")
                 raise typer.Exit(INTERRUPTED) from None
     output.print(f"{end.count:,} cells, {end.failed:,} of those planned now failed.")
-    output.print(f"Table: {out / PARQUET} and {out / CSV}; report: {out / REPORT}", soft_wrap=True)
+    output.print(f"{out}: {', '.join((REPORT, *written_files()))}", soft_wrap=True)
 
 
 @cli.command()

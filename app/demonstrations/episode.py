@@ -17,6 +17,7 @@ from app.rehearsal.physics.fabric import Resolution
 from app.rehearsal.physics.physics_world import PhysicsWorld
 from app.rehearsal.step_motions import posture_at
 from app.rehearsal.trace import RunTrace, traced
+from planner.geometry.pose import FloatArray
 from planner.plans import make_plan
 from planner.robots.load_robot import load_robot
 from planner.task.plan import Plan
@@ -32,7 +33,12 @@ class StopError(Exception):
 
 
 def demonstration(
-    task: Task, seed: int, should_stop: Callable[[], bool], resolution: Resolution | None = None
+    task: Task,
+    seed: int,
+    should_stop: Callable[[], bool],
+    resolution: Resolution | None = None,
+    *,
+    has_wrists: bool = True,
 ) -> Episode | None:
     """Return the demonstration that a seed makes of a task; None where there is no plan, or a step does not hold.
 
@@ -41,7 +47,7 @@ def demonstration(
     Raises:
         StopError: it was stopped.
     """
-    varied = Variation.of(task, seed)
+    varied = Variation.of(task, seed, has_wrists=has_wrists)
     plan = make_plan(varied.task, should_stop=should_stop)
     if should_stop():
         raise StopError
@@ -80,15 +86,23 @@ def _filmed(plan: Plan, varied: Variation, seed: int, trace: RunTrace, pattern: 
     card, table, path = load_robot(plan.task.robot).card, plan.scene.table, plan.trajectory
     assert path is not None
     shape = robot_shape(card, -table.height_m)
-    jpegs, colours = [], []
+    jpegs = {name: list[bytes]() for name in varied.cameras}
+    colours = {name: list[FloatArray]() for name in varied.cameras}
     for number, t_s in enumerate(frame_times_s(plan).tolist()):
         posture = posture_at(path, min(t_s, path.duration_s))
-        camera = camera_of(varied.camera, shape, posture)
         cloth = ClothSeen(pattern, trace.at(t_s), trace.triangles.astype(np.int64))
-        image = picture(camera, table, cloth, shape.parts(posture), varied.look, seed, number)
-        jpegs.append(coded(image, _QUALITY))
-        if number % _COLOURS_EVERY == 0:
-            colours.append(image[::4, ::4, ::-1].reshape(-1, 3) / 255.0)
-    size_px = (varied.camera.width_px, varied.camera.height_px)
-    pictures = Pictures(tuple(jpegs), size_px, picture_stats(np.vstack(colours), len(jpegs)))
+        parts = shape.parts(posture)
+        for name, given in varied.cameras.items():
+            image = picture(camera_of(given, shape, posture), table, cloth, parts, varied.look, seed, number)
+            jpegs[name].append(coded(image, _QUALITY))
+            if number % _COLOURS_EVERY == 0:
+                colours[name].append(image[::4, ::4, ::-1].reshape(-1, 3) / 255.0)
+    pictures = {
+        name: Pictures(
+            tuple(jpegs[name]),
+            (given.width_px, given.height_px),
+            picture_stats(np.vstack(colours[name]), len(jpegs[name])),
+        )
+        for name, given in varied.cameras.items()
+    }
     return Episode.of(plan, card, pictures)

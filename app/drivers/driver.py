@@ -58,7 +58,7 @@ class Clock(Protocol):
         ...
 
     def wait_until(self, t_s: float) -> None:
-        """Return when it is that late (s), or at once where it is later."""
+        """Wait until a time of the clock (s); return immediately if it has passed."""
         ...
 
 

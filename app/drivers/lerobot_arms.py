@@ -5,6 +5,7 @@ from contextlib import suppress
 from functools import partial
 from typing import Any, Protocol
 
+from app.distribution import missing
 from app.drivers.driver import Clock, DriverError, Joints, LostError, RealClock
 from app.drivers.streamed import StreamedDriver
 from app.files.lerobot_dataset import FPS
@@ -13,10 +14,10 @@ from planner.robots.card import RobotCard
 
 
 class Follower(Protocol):
-    """A LeRobot robot, as far as it is used."""
+    """The part of a LeRobot robot's interface that is used."""
 
     def connect(self) -> None:
-        """Connect; ask for the calibration where there is none."""
+        """Connect, and calibrate if the arm has not been calibrated."""
         ...
 
     def get_observation(self) -> Mapping[str, Any]:
@@ -109,10 +110,10 @@ def so_followers(ports: Mapping[str, str]) -> dict[str, Follower]:
     Raises:
         DriverError: LeRobot is not installed.
     """
-    try:
-        from lerobot.robots.so_follower import SO101Follower, SO101FollowerConfig
-    except ImportError:
-        raise DriverError("the driver lerobot needs LeRobot: pip install 'lerobot[feetech]'") from None
+    if (lacking := missing("lerobot")) is not None:
+        raise DriverError(lacking.text)
+    from lerobot.robots.so_follower import SO101Follower, SO101FollowerConfig
+
     return {
         name: SO101Follower(SO101FollowerConfig(port=port, id=name, use_degrees=True)) for name, port in ports.items()
     }

@@ -3,8 +3,6 @@
 from typing import Any
 
 from app.drivers.driver import Clock, Joints, RealClock
-from app.files.ros_bag import mcap_of
-from app.files.ros_messages import JointMessages, RosMessage, RosMotion, message_types
 from app.files.step_motion import StepMotion
 from planner.robots.card import RobotCard
 
@@ -19,20 +17,28 @@ class Recording:
     def __init__(self, card: RobotCard, clock: Clock | None = None) -> None:
         """Begin a recording of a robot."""
         self._card, self._clock = card, clock or RealClock()
-        self._messages = JointMessages(message_types())
-        self._start_s, self._kept = self._clock.now_s(), list[RosMessage]()
+        self._start_s, self._kept = self._clock.now_s(), list[tuple[int, StepMotion | Joints]]()
 
     def sent(self, motion: StepMotion) -> None:
         """Keep a motion."""
-        self._kept.extend(self._messages.trajectories(motion, self._card, self._now_ns()))
+        self._kept.append((self._now_ns(), motion))
 
     def read(self, joints: Joints) -> None:
         """Keep joints as they were read."""
-        self._kept.append(self._messages.state(joints, self._now_ns()))
+        self._kept.append((self._now_ns(), dict(joints)))
 
     def mcap(self, about: dict[str, Any]) -> bytes:
         """Return all of it as a file; `about` says what it is of."""
-        return mcap_of(RosMotion(tuple(self._kept), about))
+        from app.files.ros_bag import mcap_of
+        from app.files.ros_messages import JointMessages, RosMessage, RosMotion, message_types
+
+        written, messages = JointMessages(message_types()), list[RosMessage]()
+        for stamp_ns, kept in self._kept:
+            if isinstance(kept, StepMotion):
+                messages.extend(written.trajectories(kept, self._card, stamp_ns))
+            else:
+                messages.append(written.state(kept, stamp_ns))
+        return mcap_of(RosMotion(tuple(messages), about))
 
     def _now_ns(self) -> int:
         return round((self._clock.now_s() - self._start_s) * 1e9)

@@ -14,8 +14,7 @@ import numpy as np
 
 from app.drivers.driver import Clock, DriverError, Joints, LostError, RealClock, Seen
 from app.drivers.streamed import FINGERS_S
-from app.files.ros_messages import controller_name
-from app.files.step_motion import StepMotion, controllers
+from app.files.step_motion import StepMotion, controller_name, controllers
 from planner.robots.card import RobotCard
 
 ADDRESS = "ws://localhost:9090"

@@ -11,7 +11,7 @@ from app.files.slowed import slowed
 from app.files.step_motion import StepMotion
 from app.step_kinds import step_words
 from planner.errors import UnsolvedPlanError
-from planner.planning.way_to_step import WayToStep
+from planner.planning.way_to_step import WayToStep, require_beginning
 from planner.robots.card import RobotCard
 from planner.task.plan import Plan
 
@@ -55,6 +55,9 @@ class Ended:
 Confirm = Callable[[Leg], bool]
 """Asks whether a part is to be performed."""
 
+Look = Callable[[Joints], int]
+"""Returns the step that is next, from where the joints are; raises `LostError` where that is not to be told."""
+
 Progress = Callable[[Leg, float], None]
 """Is told how far a part is (s)."""
 
@@ -68,6 +71,8 @@ def run_plan(
     recording: Recording,
     from_step: int = 0,
     speed: float = 1.0,
+    until_step: int | None = None,
+    look: Look | None = None,
 ) -> Ended:
     """Perform a plan; stop the arms whatever ends it early, Ctrl-C (`KeyboardInterrupt`) too.
 
@@ -80,6 +85,9 @@ def run_plan(
         recording: keeps what is sent and read.
         from_step: the first step that is performed.
         speed: the share of the planned speed.
+        until_step: the step before which the run is done; None: it goes on to the plan's end.
+
+        look: finds the first step in place of `from_step`, before anything moves.
 
     Raises:
         UnsolvedPlanError: the plan is not solved.
@@ -87,11 +95,16 @@ def run_plan(
         DriverError: the driver cannot be used.
     """
     run = _Run(slowed(plan, speed), card, driver, recording, speed)
-    way = WayToStep.of(plan, from_step)
+    require_beginning(plan, from_step)
     done = from_step
     try:
         driver.connect()
-        for leg, motion in run.legs(way, from_step):
+        if look is not None:
+            done = from_step = look(driver.read())
+        if from_step == len(plan.steps) > 0:
+            return Ended("done", done)
+        way = WayToStep.of(plan, from_step)
+        for leg, motion in run.legs(way, from_step, until_step):
             if not confirm(leg):
                 return Ended("stopped", done, "not confirmed")
             run.perform(motion, partial(progress, leg))
@@ -116,7 +129,7 @@ class _Run:
         self._plan, self._path, self._card, self._speed = plan, plan.trajectory, card, speed
         self._driver, self._recording = driver, recording
 
-    def legs(self, way: WayToStep, from_step: int) -> Iterator[tuple[Leg, StepMotion]]:
+    def legs(self, way: WayToStep, from_step: int, until_step: int | None) -> Iterator[tuple[Leg, StepMotion]]:
         """Yield the parts of the run, each when the one before is done."""
         here = self._read()
         if max(abs(here[name] - q) for name, q in zip(way.names, way.goal.tolist(), strict=True)) > THERE:
@@ -125,7 +138,7 @@ class _Run:
                 raise LostError("no way leads from where the joints are to the first pose; move the arms by hand")
             motion = StepMotion.along(way.names, found, self._speed)
             yield Leg("to the first pose", motion.duration_s), motion
-        for number, step in enumerate(self._plan.steps[from_step:], start=from_step):
+        for number, step in enumerate(self._plan.steps[from_step:until_step], start=from_step):
             motion = StepMotion.of(self._path, step, self._card, self._plan.scene)
             words = step_words(step, self._plan.garment)
             yield Leg(f"{step.kind} {words}".strip(), motion.duration_s, number), motion

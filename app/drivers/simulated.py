@@ -8,14 +8,18 @@ _RATE_HZ = 50.0
 
 
 class SimulatedDriver(StreamedDriver):
-    """A robot in this process, at first at home with open grippers; it follows exactly, in real time."""
+    """A robot in this process; it follows exactly, in real time."""
 
-    def __init__(self, card: RobotCard, clock: Clock | None = None) -> None:
-        """Take the robot's card, and a clock other than this machine's."""
+    def __init__(self, card: RobotCard, clock: Clock | None = None, at: Joints | None = None) -> None:
+        """Take the robot's card, a clock other than this machine's, and where joints are at first.
+
+        Those that `at` does not name are at home, grippers open.
+        """
         super().__init__(_RATE_HZ, clock or RealClock())
         at_home = {name: q for arm in card.arms for name, q in zip(arm.joint_names, arm.home, strict=True)}
         fingers = {arm.gripper.joint_name: arm.gripper.angle(arm.gripper.opening_max_m) for arm in card.arms}
         self.joints: dict[str, float] = at_home | fingers
+        self.joints |= {name: q for name, q in (at or {}).items() if name in self.joints}
 
     def connect(self) -> None:
         """Do nothing: it is there."""

@@ -22,7 +22,7 @@ class StreamedDriver(ABC):
 
     @abstractmethod
     def put(self, joints: Joints) -> None:
-        """Have joints go somewhere that is near, at once."""
+        """Move joints to nearby positions without delay."""
 
     @abstractmethod
     def read(self) -> Joints:

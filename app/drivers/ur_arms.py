@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from contextlib import suppress
 from typing import Any, Protocol
 
+from app.distribution import missing
 from app.drivers.driver import Clock, DriverError, Joints, LostError, RealClock
 from app.drivers.streamed import StreamedDriver
 from planner.robots.card import ArmCard, RobotCard
@@ -34,7 +35,7 @@ class Arm(Protocol):
         ...
 
     def grip(self, closed: float) -> None:
-        """Have its gripper go somewhere, 0 to 1; return at once."""
+        """Move the gripper to an opening, 0 to 1, without waiting for it."""
         ...
 
     def stop(self) -> None:
@@ -88,7 +89,7 @@ class UrDriver(StreamedDriver):
         return found
 
     def put(self, joints: Joints) -> None:
-        """Have arms follow on; a gripper is told where that has changed."""
+        """Stream the next joints to the arms; command a gripper only if its target has changed."""
         for card in self._cards:
             arm = self._arms[card.name]
             try:
@@ -122,11 +123,11 @@ def _closed_share(card: ArmCard, value: float) -> float:
 
 def connected(address: str) -> Arm:
     """Return the arm at an address; raises `DriverError` where ur-rtde is not installed."""
-    try:
-        import rtde_control
-        import rtde_receive
-    except ImportError:
-        raise DriverError("the driver ur needs ur-rtde: pip install ur-rtde") from None
+    if (lacking := missing("rtde_control")) is not None:
+        raise DriverError(lacking.text)
+    import rtde_control
+    import rtde_receive
+
     return _UrArm(
         rtde_control.RTDEControlInterface(address),
         rtde_receive.RTDEReceiveInterface(address),

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from app.distribution import missing
 from planner.errors import FoldingError, GarmentError
 from planner.message import Message
 
@@ -42,6 +43,7 @@ class Export:
         why_not: returns the reason why a state cannot be exported now; None if it can.
         make: makes the file from a state that can be exported.
         is_folder: whether the file is a zipped folder, which the command line unpacks.
+        needs: the modules of optional libraries that make it.
     """
 
     what: str
@@ -52,11 +54,16 @@ class Export:
     why_not: Callable[[DocumentState], Message | None]
     make: Make
     is_folder: bool = False
+    needs: tuple[str, ...] = ()
 
     @property
     def needs_plan(self) -> bool:
         """Whether the file needs a plan, and not only the garment."""
         return self.why_not in (no_answer, no_plan)
+
+    def reason(self, state: DocumentState) -> Message | None:
+        """Return why the file cannot be made here and now; None if it can."""
+        return missing(*self.needs) or self.why_not(state)
 
     def filename(self, state: DocumentState) -> str:
         """Return the name of the file."""
@@ -64,13 +71,13 @@ class Export:
 
     def file(self, state: DocumentState, rate_hz: float, should_stop: ShouldStop) -> bytes:
         """Return the file; raise `UnavailableFileError` if it cannot be made now."""
-        if (reason := self.why_not(state)) is not None:
+        if (reason := self.reason(state)) is not None:
             raise UnavailableFileError(reason.text)
         return self.make(state, rate_hz, should_stop)
 
     def to_dict(self, state: DocumentState) -> dict[str, Any]:
         """Return the entry for the list of exports, as JSON."""
-        reason = self.why_not(state)
+        reason = self.reason(state)
         return {
             "what": self.what,
             "title": self.title,

@@ -56,6 +56,24 @@ def _recording(state: DocumentState, rate_hz: float, should_stop: ShouldStop) ->
     return recording(plan_in(state), rate_hz, should_stop, is_dark=state.is_dark)
 
 
+def _mp4(state: DocumentState, rate_hz: float, should_stop: ShouldStop) -> bytes:
+    from app.files.film import mp4_film
+
+    return mp4_film(plan_in(state), rate_hz, should_stop, state.language, is_dark=state.is_dark)
+
+
+def _gif(state: DocumentState, rate_hz: float, should_stop: ShouldStop) -> bytes:
+    from app.files.film import gif_film
+
+    return gif_film(plan_in(state), rate_hz, should_stop, state.language, is_dark=state.is_dark)
+
+
+def _picture(state: DocumentState, _: float, __: ShouldStop) -> bytes:
+    from app.files.film import still
+
+    return still(plan_in(state), state.language, is_dark=state.is_dark)
+
+
 def _sheet_pdf(state: DocumentState, _: float, __: ShouldStop) -> bytes:
     from app.files.instruction_sheet import instruction_sheet
     from app.files.sheet_pdf import page_pdf
@@ -166,6 +184,7 @@ EXPORTS = (
         "application/pdf",
         no_plan,
         _sheet_pdf,
+        needs=("matplotlib",),
     ),
     Export(
         "sheet.svg",
@@ -186,6 +205,36 @@ EXPORTS = (
         _recording,
     ),
     Export(
+        "mp4",
+        "Film (MP4)",
+        "The animation with title and captions as a video, painted without a browser.",
+        ".mp4",
+        "video/mp4",
+        no_plan,
+        _mp4,
+        needs=("matplotlib", "av"),
+    ),
+    Export(
+        "gif",
+        "Film (GIF)",
+        "The same in small as a GIF, for pages and messages.",
+        ".gif",
+        "image/gif",
+        no_plan,
+        _gif,
+        needs=("matplotlib",),
+    ),
+    Export(
+        "picture.png",
+        "Picture (PNG)",
+        "Robot and cloth in the middle of the last fold, with title, time and the packet's size.",
+        ".png",
+        "image/png",
+        no_plan,
+        _picture,
+        needs=("matplotlib",),
+    ),
+    Export(
         "mcap",
         "Robot motion (ROS 2, MCAP)",
         "A joint trajectory for each step and controller, its speeds and accelerations bounded; opens in Foxglove.",
@@ -193,6 +242,7 @@ EXPORTS = (
         "application/octet-stream",
         no_plan,
         _mcap,
+        needs=("rosbags",),
     ),
     Export(
         "rosbag2",
@@ -203,6 +253,7 @@ EXPORTS = (
         no_plan,
         _rosbag2,
         is_folder=True,
+        needs=("rosbags",),
     ),
     Export(
         "poses.json",
@@ -221,6 +272,7 @@ EXPORTS = (
         "application/yaml",
         no_plan,
         _poses_yaml,
+        needs=("ruamel",),
     ),
     Export(
         "glb",
@@ -250,6 +302,7 @@ EXPORTS = (
         no_plan,
         _lerobot,
         is_folder=True,
+        needs=("pyarrow",),
     ),
 )
 """All exports, in the order shown."""

@@ -4,35 +4,19 @@ glTF's quaternions have w last, its colours are shares of light, and an animatio
 keyframes. Whatever is given as an array here is in its numbers and its order.
 """
 
+import json
+import struct
 from collections.abc import Sequence
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
-from pygltflib import (
-    ELEMENT_ARRAY_BUFFER,
-    FLOAT,
-    GLTF2,
-    UNSIGNED_INT,
-    Accessor,
-    Animation,
-    AnimationChannel,
-    AnimationChannelTarget,
-    AnimationSampler,
-    Asset,
-    Attributes,
-    Buffer,
-    BufferView,
-    Material,
-    Mesh,
-    Node,
-    PbrMetallicRoughness,
-    Primitive,
-    Scene,
-)
 
 from planner.geometry.pose import FloatArray
 
-_KINDS = {1: "SCALAR", 3: "VEC3", 4: "VEC4"}
+_KINDS: Final = {1: "SCALAR", 3: "VEC3", 4: "VEC4"}
+_FLOAT, _UNSIGNED_INT, _ELEMENT_ARRAY_BUFFER = 5126, 5125, 34963
+_MAGIC, _VERSION, _JSON, _BIN = 0x46546C67, 2, 0x4E4F534A, 0x004E4942
 _ROUGHNESS = 0.8
 
 
@@ -42,9 +26,11 @@ class GltfWriter:
     def __init__(self, title: str) -> None:
         """Begin a file with an empty scene and an animation without channels."""
         self._data = bytearray()
-        self._gltf = GLTF2(asset=Asset(generator="Pleat"), scene=0, scenes=[Scene(name=title, nodes=[])])
-        self._animation = Animation(name=title)
-        self._gltf.animations.append(self._animation)
+        self._scene: dict[str, Any] = {"name": title, "nodes": []}
+        self._animation: dict[str, Any] = {"name": title, "channels": [], "samplers": []}
+        self._lists: dict[str, list[Any]] = {
+            name: [] for name in ("accessors", "bufferViews", "materials", "meshes", "nodes")
+        }
 
     def numbers(self, values: FloatArray, *, is_bounded: bool = False) -> int:
         """Store numbers, shape (n,), (n, 3) or (n, 4), and return their accessor.
@@ -55,36 +41,31 @@ class GltfWriter:
         """
         stored = np.ascontiguousarray(values, dtype=np.float32)
         rows = stored.reshape(len(stored), -1)
-        accessor = Accessor(bufferView=self._view(stored, None), componentType=FLOAT, count=len(rows))
-        accessor.type = _KINDS[rows.shape[1]]
-        if is_bounded:
-            accessor.min, accessor.max = rows.min(axis=0).tolist(), rows.max(axis=0).tolist()
-        return self._add(self._gltf.accessors, accessor)
+        bounds = {"min": rows.min(axis=0).tolist(), "max": rows.max(axis=0).tolist()} if is_bounded else {}
+        return self._accessor(self._view(stored), _FLOAT, len(rows), _KINDS[rows.shape[1]], **bounds)
 
     def indices(self, triangles: NDArray[np.int64]) -> int:
         """Store triangles, shape (n, 3), and return their accessor."""
         stored = np.ascontiguousarray(triangles.reshape(-1), dtype=np.uint32)
-        view = self._view(stored, ELEMENT_ARRAY_BUFFER)
-        accessor = Accessor(bufferView=view, componentType=UNSIGNED_INT, count=len(stored), type="SCALAR")
-        return self._add(self._gltf.accessors, accessor)
+        view = self._view(stored, target=_ELEMENT_ARRAY_BUFFER)
+        return self._accessor(view, _UNSIGNED_INT, len(stored), "SCALAR")
 
     def material(self, name: str, rgb: tuple[int, int, int]) -> int:
         """Add a dull material of a colour (screen values, 0..255) and return it."""
         screen = np.array(rgb) / 255.0
         light = np.where(screen <= 0.04045, screen / 12.92, ((screen + 0.055) / 1.055) ** 2.4)
-        surface = PbrMetallicRoughness(
-            baseColorFactor=[*light.tolist(), 1.0], metallicFactor=0.0, roughnessFactor=_ROUGHNESS
-        )
-        return self._add(self._gltf.materials, Material(name=name, pbrMetallicRoughness=surface, alphaMode="OPAQUE"))
+        factors = {"baseColorFactor": [*light.tolist(), 1.0], "metallicFactor": 0.0, "roughnessFactor": _ROUGHNESS}
+        return self._add("materials", {"name": name, "pbrMetallicRoughness": factors})
 
-    def mesh(self, parts: Sequence[Primitive]) -> int:
+    def mesh(self, parts: Sequence[dict[str, Any]]) -> int:
         """Add a mesh of parts and return it."""
-        return self._add(self._gltf.meshes, Mesh(primitives=list(parts)))
+        return self._add("meshes", {"primitives": list(parts)})
 
     @staticmethod
-    def part(positions: int, indices: int, material: int, normals: int | None = None) -> Primitive:
+    def part(positions: int, indices: int, material: int, normals: int | None = None) -> dict[str, Any]:
         """Return a part of a mesh; without normals it is shaded flat."""
-        return Primitive(attributes=Attributes(POSITION=positions, NORMAL=normals), indices=indices, material=material)
+        attributes = {"POSITION": positions} | ({} if normals is None else {"NORMAL": normals})
+        return {"attributes": attributes, "indices": indices, "material": material}
 
     def node(
         self,
@@ -97,32 +78,48 @@ class GltfWriter:
     ) -> int:
         """Add a node below another, or to the scene, and return it."""
         w, x, y, z = wxyz
-        made = Node(name=name, translation=list(position), rotation=[x, y, z, w], scale=list(scale), mesh=mesh)
-        added = self._add(self._gltf.nodes, made)
-        (self._gltf.scenes[0].nodes if parent is None else self._gltf.nodes[parent].children).append(added)
+        made = {"name": name, "translation": list(position), "rotation": [x, y, z, w], "scale": list(scale)}
+        added = self._add("nodes", made if mesh is None else made | {"mesh": mesh})
+        above = self._scene if parent is None else self._lists["nodes"][parent]
+        above.setdefault("nodes" if parent is None else "children", []).append(added)
         return added
 
     def animate(self, node: int, path: str, times: int, values: int, interpolation: str = "LINEAR") -> None:
         """Let a node's `translation`, `rotation` or `scale` go through values at times, given as accessors."""
-        sampler = self._add(
-            self._animation.samplers, AnimationSampler(input=times, interpolation=interpolation, output=values)
-        )
-        target = AnimationChannelTarget(node=node, path=path)
-        self._animation.channels.append(AnimationChannel(sampler=sampler, target=target))
+        samplers = self._animation["samplers"]
+        samplers.append({"input": times, "interpolation": interpolation, "output": values})
+        channel = {"sampler": len(samplers) - 1, "target": {"node": node, "path": path}}
+        self._animation["channels"].append(channel)
 
     def file(self) -> bytes:
         """Return the file."""
-        self._gltf.buffers = [Buffer(byteLength=len(self._data))]
-        self._gltf.set_binary_blob(bytes(self._data))
-        return b"".join(self._gltf.save_to_bytes())
+        content = {
+            "asset": {"version": "2.0", "generator": "Pleat"},
+            "scene": 0,
+            "scenes": [self._scene],
+            "animations": [self._animation] if self._animation["channels"] else [],
+            "buffers": [{"byteLength": len(self._data)}],
+            **self._lists,
+        }
+        # The format allows no empty lists.
+        text = json.dumps({name: value for name, value in content.items() if value != []}).encode("ascii")
+        chunks = b"".join(
+            struct.pack("<II", len(chunk), kind) + chunk
+            for kind, chunk in ((_JSON, text.ljust(-(-len(text) // 4) * 4)), (_BIN, bytes(self._data)))
+        )
+        return struct.pack("<III", _MAGIC, _VERSION, 12 + len(chunks)) + chunks
 
-    def _view(self, stored: NDArray[np.float32] | NDArray[np.uint32], target: int | None) -> int:
+    def _view(self, stored: NDArray[np.float32] | NDArray[np.uint32], **target: int) -> int:
         """Append numbers, which all have four bytes, so that each view is aligned."""
-        view = BufferView(buffer=0, byteOffset=len(self._data), byteLength=stored.nbytes, target=target)
+        view = {"buffer": 0, "byteOffset": len(self._data), "byteLength": stored.nbytes, **target}
         self._data += stored.tobytes()
-        return self._add(self._gltf.bufferViews, view)
+        return self._add("bufferViews", view)
 
-    @staticmethod
-    def _add(things: list[object], thing: object) -> int:
-        things.append(thing)
-        return len(things) - 1
+    def _accessor(self, view: int, component: int, count: int, kind: str, **bounds: list[float]) -> int:
+        return self._add(
+            "accessors", {"bufferView": view, "componentType": component, "count": count, "type": kind, **bounds}
+        )
+
+    def _add(self, name: str, thing: dict[str, Any]) -> int:
+        self._lists[name].append(thing)
+        return len(self._lists[name]) - 1

@@ -27,7 +27,7 @@ _EDGES_MAX = 24
 
 
 def fold_edge(ring: FloatArray, mirror: MirrorLine, unit_m: float) -> Segment | None:
-    """Return the straight stretch of a piece's edge that a fold line means; None if it means none of this piece.
+    """Return the straight part of a piece's edge that a fold line lies on; None if it lies on no edge of it.
 
     A fold line that runs through a piece means nothing here: the piece is drawn whole.
 
@@ -58,7 +58,7 @@ def unfolded(ring: FloatArray, line: Segment) -> FloatArray | None:
 
 
 def joined_halves(one: FloatArray, other: FloatArray) -> FloatArray | None:
-    """Return two pieces as one where each is the mirror image of the other over an edge that they share; or None."""
+    """Return two pieces joined at a shared edge if they are mirror images over it; else None."""
     slim = corners(one)
     following = after(slim)
     lengths = np.hypot(*(following - slim).T)
@@ -132,7 +132,7 @@ def whole_line(ends: FloatArray, line: Segment) -> FloatArray | None:
 
 
 def joined(rings: Sequence[FloatArray]) -> tuple[int, int, FloatArray] | None:
-    """Return the first two of some rings that are halves of one piece, by number, and the whole piece; or None."""
+    """Return the indices of the first two rings that are halves of one piece, and the piece; else None."""
     areas = [_area(ring) for ring in rings]
     for one in range(len(rings)):
         for other in range(one + 1, len(rings)):

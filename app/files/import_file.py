@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from pathlib import PurePath
 from typing import Any
 
+from app.distribution import missing
 from app.files.crease_reading import Creases
 from app.files.garment_json import read_garment_json
 from app.files.graded_sizes import Graded
@@ -14,9 +15,7 @@ from app.files.sketch import Sketch
 from app.files.sketch_garment import garment_of
 from app.files.sketch_size import UNITS_M, Sizes
 from app.files.svg_sketch import read_svg
-from app.rehearsal.vision.picture import LARGEST_PICTURE
-from app.rehearsal.vision.seen_garment import see
-from app.rehearsal.vision.vision_errors import NothingToldError, PictureError, ScaleNeededError
+from app.rehearsal.vision.vision_errors import LARGEST_PICTURE, NothingToldError, PictureError, ScaleNeededError
 from app.templates.catalogue import find_template
 from planner.cloth.garment import Garment
 from planner.message import Message
@@ -41,6 +40,9 @@ def _read_dxf(data: bytes) -> Sketch:
 
 _SKETCHES: dict[str, Callable[[bytes], Sketch]] = {"svg": read_svg, "dxf": _read_dxf}
 _JSON = "json"
+_NEEDS = {"dxf": "ezdxf", "png": "cv2", "jpg": "cv2", "jpeg": "cv2"}
+"""The modules of the optional libraries that read files, by the ending of their names."""
+
 _PICTURES = {"png": "png", "jpg": "jpeg", "jpeg": "jpeg"}
 
 ENDINGS = (_JSON, *_SKETCHES, *_PICTURES)
@@ -117,6 +119,8 @@ def import_file(
         raise ImportedFileError("units", f"expected one of {', '.join(UNITS_M)}; got {units[:40]!r}")
     if not SCALES[0] <= scale <= SCALES[1]:
         raise ImportedFileError("scale", f"{scale} is not between {SCALES[0]:g} and {SCALES[1]:g}")
+    if ending in _NEEDS and (lacking := missing(_NEEDS[ending])) is not None:
+        raise ImportedFileError("filename", lacking)
     if ending == _JSON:
         return Imported(_JSON, *read_garment_json(data))
     if ending in _PICTURES:
@@ -142,6 +146,8 @@ def _ending(filename: str) -> str:
 
 def _picture(kind: str, name: str, data: bytes, measured: str | None, like: str | Garment | None) -> Imported:
     """Return the garment in a picture."""
+    from app.rehearsal.vision.seen_garment import see  # here, because only pictures need OpenCV
+
     known = find_template(like) if isinstance(like, str) else like
     if like is not None and known is None:
         raise ImportedFileError("like", f"there is no template {like!r}")

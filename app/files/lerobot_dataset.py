@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
+from PIL import Image
 
 from app.files.folder_file import zipped
 from app.files.lerobot_features import Part, parts_of
@@ -32,8 +33,8 @@ from planner.task.plan import Plan
 FPS = 30
 """Frames a second."""
 
-CAMERA = "observation.images.table"
-"""The feature of the pictures."""
+CAMERAS = "observation.images."
+"""What the features of pictures begin with; a camera's name ends them."""
 
 EPISODES = "meta/episodes/chunk-000/file-000.parquet"
 """The table of all episodes."""
@@ -42,9 +43,9 @@ _FORMAT = "v3.0"
 _FILE = "chunk-{chunk_index:03d}/file-{file_index:03d}"
 _DATA_PATH = f"data/{_FILE}.parquet"
 _VIDEO_PATH = "videos/{video_key}/" + f"{_FILE}.mp4"
-_VIDEO = f"videos/{CAMERA}/"
-"""What the columns begin with that say where an episode's video is."""
 _FILES_A_CHUNK = 1000
+_SIZE = "pictures/size_px/"
+"""What the columns begin with that have the width and height of a camera's pictures."""
 _QUANTILES = {"q01": 0.01, "q10": 0.1, "q50": 0.5, "q90": 0.9, "q99": 0.99}
 
 Stats = Mapping[str, Any]
@@ -53,7 +54,7 @@ Stats = Mapping[str, Any]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Pictures:
-    """The pictures of an episode.
+    """The pictures that a camera took of an episode.
 
     Attributes:
         jpegs: one for each frame.
@@ -73,19 +74,18 @@ class Episode:
     Attributes:
         task: what is done, in words.
         states: where the robot's parts are at each frame, shape (frames, parts).
-        pictures: what a camera saw; None without one.
+        pictures: what was seen, by the names of cameras.
     """
 
     task: str
     states: FloatArray
-    pictures: Pictures | None = field(default=None)
+    pictures: Mapping[str, Pictures] = field(default_factory=dict)
 
     @staticmethod
-    def of(plan: Plan, card: RobotCard, pictures: Pictures | None = None) -> "Episode":
+    def of(plan: Plan, card: RobotCard, pictures: Mapping[str, Pictures] | None = None) -> "Episode":
         """Return the episode of a plan; raises `UnsolvedPlanError`."""
-        return Episode(
-            f"fold: {plan.garment.title or plan.garment.name}", _states(plan, card, parts_of(card)), pictures
-        )
+        task = f"fold: {plan.garment.title or plan.garment.name}"
+        return Episode(task, _states(plan, card, parts_of(card)), pictures or {})
 
 
 def frame_times_s(plan: Plan) -> FloatArray:
@@ -103,24 +103,30 @@ def lerobot_folder(plan: Plan) -> bytes:
     return zipped({**episode_files(episode, 0, 0), **meta_files(card, [row])})
 
 
+def _video(pictures: Pictures) -> bytes:
+    """Return pictures as a video of which every second frame is whole: learning reads frames in any order."""
+    opened = (Image.open(io.BytesIO(jpeg)) for jpeg in pictures.jpegs)
+    return mp4_video(opened, pictures.size_px, FPS, whole_every=2)
+
+
 def episode_files(episode: Episode, number: int, first: int, *, as_video: bool = False) -> dict[str, bytes]:
-    """Return an episode's files by path: its frames, and its video.
+    """Return an episode's files by path: its frames, and its videos.
 
     Args:
         episode: the episode.
         number: its number in the dataset.
         first: how many frames the episodes before it have.
-        as_video: whether its pictures are a video beside the frames, for which PyAV must be installed.
+        as_video: whether its pictures are videos beside the frames, for which PyAV must be installed.
     """
     table = {name: _column(values) for name, values in _columns(episode, number, first).items()}
-    files, pictures = dict[str, bytes](), episode.pictures
-    place = _place(number)
-    if pictures is not None and as_video:
-        files[_VIDEO_PATH.format(video_key=CAMERA, **place)] = mp4_video(pictures.jpegs, pictures.size_px, FPS)
-    elif pictures is not None:
-        jpegs = pictures.jpegs
+    files, place = dict[str, bytes](), _place(number)
+    for name, pictures in episode.pictures.items():
+        jpegs, feature = pictures.jpegs, CAMERAS + name
+        if as_video:
+            files[_VIDEO_PATH.format(video_key=feature, **place)] = _video(pictures)
+            continue
         parts = [pa.array(jpegs, pa.binary()), pa.array([None] * len(jpegs), pa.string())]
-        table[CAMERA] = pa.StructArray.from_arrays(parts, ["bytes", "path"])
+        table[feature] = pa.StructArray.from_arrays(parts, ["bytes", "path"])
     return {_DATA_PATH.format(**place): _parquet(pa.table(table)), **files}
 
 
@@ -129,18 +135,20 @@ def _place(number: int) -> dict[str, int]:
 
 
 def has_video(row: Mapping[str, Any]) -> bool:
-    """Return whether an episode has a video, from its row."""
-    return f"{_VIDEO}file_index" in row
+    """Return whether an episode has videos, from its row."""
+    return any(name.startswith("videos/") for name in row)
 
 
 def episode_row(episode: Episode, number: int, first: int, *, as_video: bool = False) -> dict[str, Any]:
     """Return the row that says where an episode's frames are, with their statistics; see `episode_files`."""
     stats = {name: _stats(values) for name, values in _columns(episode, number, first).items()}
-    if episode.pictures is not None:
-        stats[CAMERA] = dict(episode.pictures.stats)
-    width, height = (0, 0) if episode.pictures is None else episode.pictures.size_px
     ends = {"from_timestamp": 0.0, "to_timestamp": len(episode.states) / FPS}
-    video = {f"{_VIDEO}{name}": value for name, value in (_place(number) | ends).items()} if as_video else {}
+    seen: dict[str, Any] = {}
+    for name, pictures in episode.pictures.items():
+        stats[CAMERAS + name] = dict(pictures.stats)
+        seen[f"{_SIZE}{CAMERAS}{name}"] = list(pictures.size_px)
+        if as_video:
+            seen |= {f"videos/{CAMERAS}{name}/{key}": value for key, value in (_place(number) | ends).items()}
     return {
         "episode_index": number,
         "tasks": [episode.task],
@@ -150,8 +158,7 @@ def episode_row(episode: Episode, number: int, first: int, *, as_video: bool = F
         "dataset_to_index": first + len(episode.states),
         "meta/episodes/chunk_index": 0,
         "meta/episodes/file_index": 0,
-        **({} if episode.pictures is None else {"pictures/width_px": width, "pictures/height_px": height}),
-        **video,
+        **seen,
         **{f"stats/{name}/{kind}": row for name, told in stats.items() for kind, row in told.items()},
     }
 
@@ -208,12 +215,11 @@ def _info(card: RobotCard, rows: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
         }
         for name, values in columns.items()
     }
-    if (width := rows[0].get("pictures/width_px")) is not None:
-        height = rows[0]["pictures/height_px"]
-        names = ["height", "width", "channels"]
-        features[CAMERA] = {"dtype": "image", "shape": [height, width, 3], "names": names}
+    for key in (key for key in rows[0] if key.startswith(_SIZE)):
+        feature, (width, height) = key.removeprefix(_SIZE), rows[0][key]
+        features[feature] = {"dtype": "image", "shape": [height, width, 3], "names": ["height", "width", "channels"]}
         if has_video(rows[0]):
-            features[CAMERA] |= {"dtype": "video", "info": _video_info(width, height)}
+            features[feature] |= {"dtype": "video", "info": _video_info(width, height)}
     return {
         "codebase_version": _FORMAT,
         "robot_type": card.name,

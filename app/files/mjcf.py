@@ -13,6 +13,7 @@ from xml.etree.ElementTree import Element, SubElement, tostring
 
 import numpy as np
 
+from app.distribution import missing
 from planner.errors import RobotError
 from planner.geometry.pose import FloatArray
 
@@ -29,11 +30,10 @@ def urdf_of_mjcf(path: Path, folder: Path) -> Path:
         RobotError: MuJoCo is not installed or refuses the file, or the robot has a joint that no URDF has.
         OSError: the system refuses to write.
     """
-    try:
-        import mujoco
-    except ImportError:
-        told = f"{path.name} is MuJoCo's XML, which MuJoCo reads: pip install 'pleat[physics]', or convert it to a URDF"
-        raise RobotError("FILE", told) from None
+    if (lacking := missing("mujoco")) is not None:
+        raise RobotError("FILE", f"{path.name} is MuJoCo's XML: convert it to a URDF. {lacking.text}")
+    import mujoco
+
     try:
         model = mujoco.MjModel.from_xml_path(str(path))
     except ValueError as error:

@@ -5,6 +5,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
+from app.distribution import missing
 from app.files.mjcf import urdf_of_mjcf
 from app.files.robot_archive import unpack_archive
 from planner.errors import RobotError
@@ -86,12 +87,11 @@ def _below(root: Path, beside: Path, quoted: str) -> str:
 
 def _expanded(path: Path, tops: Iterable[Path]) -> str:
     """Return what xacro makes of a file; packages are looked for above it."""
-    try:
-        import xacro
-        from xacro import substitution_args
-    except ImportError:
-        told = f"write a URDF with 'xacro {path.name} > robot.urdf', or install xacro (pip install xacro)"
-        raise RobotError("FILE", f"{path.name} must be expanded with xacro first: {told}") from None
+    if (lacking := missing("xacro")) is not None:
+        raise RobotError("FILE", f"{path.name} must be expanded by xacro. {lacking.text}")
+    import xacro
+    from xacro import substitution_args
+
     folders = list(tops)
 
     def find(package: str) -> str:

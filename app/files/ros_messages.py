@@ -6,7 +6,6 @@ one, so that whoever wants a series of `PoseStamped` has it too.
 """
 
 import math
-import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
@@ -16,7 +15,7 @@ import numpy as np
 from rosbags.typesys import Stores, get_typestore
 from rosbags.typesys.store import Typestore
 
-from app.files.step_motion import StepMotion, controllers
+from app.files.step_motion import StepMotion, controller_name, controllers
 from app.step_kinds import step_words
 from planner.errors import UnsolvedPlanError
 from planner.geometry.pose import FloatArray
@@ -188,9 +187,3 @@ def _about(plan: Plan, card: RobotCard, limits: MotionLimits) -> dict[str, Any]:
 
 def _ns(time_s: float) -> int:
     return round(time_s * _NS)
-
-
-def controller_name(name: str) -> str:
-    """Return the name of the controller of a part of a robot, as ROS allows it in a topic."""
-    allowed = re.sub(r"[^a-z0-9]+", "_", name.lower()).strip("_")
-    return f"{allowed if allowed[:1].isalpha() else f'arm_{allowed}'}_controller"

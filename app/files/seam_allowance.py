@@ -38,7 +38,7 @@ class Allowance:
 
 
 def allowance_m(cut: FloatArray, inner: FloatArray) -> float | None:
-    """Return how far a closed line runs inside another one (m); None where it is not everywhere as far.
+    """Return the distance of a closed line inside another (m); None if that distance varies.
 
     Args:
         cut: the corners of the outer line, shape (n, 2).
@@ -56,7 +56,7 @@ def allowance_m(cut: FloatArray, inner: FloatArray) -> float | None:
 
 
 def seam_line(rings: Sequence[FloatArray]) -> tuple[int, float] | None:
-    """Return which of the rings, the largest first, is the seam line of the first, and its allowance (m); or None.
+    """Return the index of the first ring's seam line, rings sorted by size, and its allowance (m); else None.
 
     None too if that ring has another one inside it as evenly: three lines inside each other are graded sizes.
     """

@@ -1,6 +1,7 @@
 """A step's motion as it is sent: all joints at even times, from rest to rest."""
 
 import math
+import re
 from dataclasses import dataclass
 
 import numpy as np
@@ -89,3 +90,9 @@ def controllers(card: RobotCard) -> tuple[tuple[str, tuple[str, ...]], ...]:
         for part in ((f"{arm.name}_arm", arm.joint_names), (f"{arm.name}_gripper", (arm.gripper.joint_name,)))
     )
     return tuple(parts)
+
+
+def controller_name(name: str) -> str:
+    """Return the name of the controller of a part of a robot, as ROS allows it in a topic."""
+    allowed = re.sub(r"[^a-z0-9]+", "_", name.lower()).strip("_")
+    return f"{allowed if allowed[:1].isalpha() else f'arm_{allowed}'}_controller"

@@ -1,8 +1,7 @@
 """Pictures as an MP4 video, where PyAV is installed."""
 
 import io
-from collections.abc import Sequence
-from importlib.util import find_spec
+from collections.abc import Iterable
 from typing import Final
 
 from PIL import Image
@@ -11,25 +10,20 @@ CODEC: Final = "h264"
 PIXELS: Final = "yuv420p"
 """The form of its pixels: width and height must be even."""
 
-_OPTIONS: Final = {"crf": "23", "g": "2", "bf": "0"}
-"""A quarter of the size of JPEGs, and every second frame whole: learning reads frames in any order."""
+_OPTIONS: Final = {"crf": "23", "bf": "0"}
+"""A quarter of the size of JPEGs."""
 
 
-def can_encode() -> bool:
-    """Return whether PyAV is installed."""
-    return find_spec("av") is not None
-
-
-def mp4_video(jpegs: Sequence[bytes], size_px: tuple[int, int], fps: int) -> bytes:
-    """Return JPEG pictures of an even width and height as a video, so many frames a second."""
+def mp4_video(pictures: Iterable[Image.Image], size_px: tuple[int, int], fps: int, whole_every: int) -> bytes:
+    """Return pictures of an even width and height as a video, so many frames a second, each so many-th one whole."""
     import av
 
     written = io.BytesIO()
     with av.open(written, "w", format="mp4") as file:
-        stream = file.add_stream(CODEC, rate=fps, options=dict(_OPTIONS))
+        stream = file.add_stream(CODEC, rate=fps, options={**_OPTIONS, "g": str(whole_every)})
         stream.width, stream.height = size_px
         stream.pix_fmt = PIXELS
-        for jpeg in jpegs:
-            file.mux(stream.encode(av.VideoFrame.from_image(Image.open(io.BytesIO(jpeg)))))
+        for picture in pictures:
+            file.mux(stream.encode(av.VideoFrame.from_image(picture)))
         file.mux(stream.encode())
     return written.getvalue()

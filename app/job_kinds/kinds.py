@@ -7,6 +7,7 @@ from app.job_kinds.placements import PLACEMENTS
 from app.job_kinds.proposals import PROPOSALS
 from app.job_kinds.rehearsals import REHEARSALS
 from app.job_kinds.robots import ROBOTS
+from app.job_kinds.runs import RUNS
 from app.job_kinds.studies import STUDIES
 from app.job_kinds.suggestions import SUGGESTIONS
 from app.jobs.job_kind import AnyKind
@@ -16,6 +17,7 @@ BY_JSON: tuple[AnyKind, ...] = (
     PLACEMENTS,
     PROPOSALS,
     REHEARSALS,
+    RUNS,
     STUDIES,
     SUGGESTIONS,
 )

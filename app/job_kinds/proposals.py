@@ -40,22 +40,33 @@ class SizeField(StrictModel):
     length_m: Side
 
 
-_SIZES = JsonForm(SizeField)
+class LikeField(StrictModel):
+    """A garment whose folds are to be fitted."""
+
+    like: GarmentField
 
 
-def _to(value: Any) -> str | SizeField:  # noqa: ANN401
+_SIZES, _LIKE = JsonForm(SizeField), JsonForm(LikeField)
+
+
+def _to(value: Any) -> str | SizeField | LikeField:  # noqa: ANN401
     if isinstance(value, str):
         return value
     if isinstance(value, dict):
-        return _SIZES.read(value)
-    raise PydanticCustomError("size_type", "should be a size's name, or an object with width_m and length_m")
+        return _LIKE.read(value) if "like" in value else _SIZES.read(value)
+    raise PydanticCustomError(
+        "size_type", "should be a size's name, or an object with width_m and length_m, or with a garment as like"
+    )
+
+
+To = str | SizeField | LikeField
 
 
 class ProposalsRequest(StrictModel):
-    """A request for ways to fold a garment to a size; only `garment` and `to` are required."""
+    """A request for ways to fold a garment to a size, or like another one; only `garment` and `to` are required."""
 
     garment: GarmentField
-    to: Annotated[str | SizeField, PlainValidator(_to, json_schema_input_type=str | SizeField)]
+    to: Annotated[To, PlainValidator(_to, json_schema_input_type=To)]
     robot: str = DEFAULT_ROBOT
     count: Annotated[int, Field(ge=1, le=COUNT_MAX)] = 6
     max_folds: Annotated[int, Field(ge=1, le=FOLDS_MAX)] = 8
@@ -77,7 +88,7 @@ class ProposalsTask:
     """What proposals are asked for; the arguments of `propose_folds`."""
 
     garment: Garment
-    to: Target
+    to: Target | Garment
     robot: str
     count: int
     max_folds: int
@@ -94,7 +105,7 @@ def _prepare(stores: Stores, wanted: ProposalsRequest) -> ProposalsTask:
         options["start_station"] = wanted.start_station
     asked = ProposalsTask(
         requested_garment(stores, wanted.garment),
-        Target.of(wanted.to if isinstance(wanted.to, str) else (wanted.to.width_m, wanted.to.length_m)),
+        _target(stores, wanted.to),
         wanted.robot,
         wanted.count,
         wanted.max_folds,
@@ -105,6 +116,12 @@ def _prepare(stores: Stores, wanted: ProposalsRequest) -> ProposalsTask:
     )
     _begun(asked)  # checks the rest
     return asked
+
+
+def _target(stores: Stores, to: To) -> Target | Garment:
+    if isinstance(to, LikeField):
+        return requested_garment(stores, to.like)
+    return Target.of(to if isinstance(to, str) else (to.width_m, to.length_m))
 
 
 def _begun(asked: ProposalsTask) -> Generator[Proposal, None, Tried]:
@@ -136,7 +153,7 @@ def propose(asked: ProposalsTask, progress: Progress) -> dict[str, Any]:
 
 PROPOSALS = JobKind(
     name="proposals",
-    does="Propose folds that bring a garment to a size, each planned for a robot, as a job.",
+    does="Propose folds that bring a garment to a size, or fold it like another, each planned for a robot, as a job.",
     body=ProposalsRequest,
     example={"garment": "hand-towel", "to": {"width_m": 0.25, "length_m": 0.3}, "count": 2},
     prepare=_prepare,

@@ -5,14 +5,12 @@ from typing import Annotated, Any
 
 from pydantic import Field
 
-from app.distribution import installing
 from app.files.import_file import LARGEST_PLAN_FILE
 from app.jobs.job_kind import JobKind, Progress, Stores
 from app.rehearsal.noise import NOISE
-from app.rehearsal.rehearse import RUNS_MAX, PhysicsMissingError, RehearsalOptions, rehearse, require_physics
-from planner.errors import FieldError, RequestError, UnsolvedPlanError
+from app.rehearsal.rehearse import RUNS_MAX, RehearsalOptions, rehearse, require_physics
+from planner.errors import FieldError, UnsolvedPlanError
 from planner.json_form import STRICT
-from planner.message import Message
 from planner.task.plan import Plan
 
 TRACED = 10
@@ -40,21 +38,30 @@ class RehearsalRequest:
     feedback: bool = True
 
 
-def _prepare(stores: Stores, wanted: RehearsalRequest) -> tuple[Plan, RehearsalOptions]:
-    options = RehearsalOptions(wanted.runs, wanted.seed, wanted.noise, wanted.feedback, traced=TRACED)
-    if isinstance(wanted.plan, str):
-        plan = stores.plans.plan(wanted.plan)
+def solved_plan(stores: Stores, given: str | dict[str, Any]) -> Plan:
+    """Return the plan of a request's field `plan`, by id or as a plan file's content; it is solved.
+
+    Raises:
+        UnknownPlanError: there is no such plan.
+        FieldError: the content is no plan.
+        UnsolvedPlanError: the plan is not solved.
+    """
+    if isinstance(given, str):
+        plan = stores.plans.plan(given)
     else:
         try:
-            plan = Plan.from_dict(wanted.plan)
+            plan = Plan.from_dict(given)
         except FieldError as error:
             raise error.within("plan") from None
     if not plan.is_solved:
         raise UnsolvedPlanError(plan.status)
-    try:
-        require_physics()
-    except PhysicsMissingError as error:
-        raise RequestError("", Message("physics_missing", str(error), {"install": installing("physics")})) from None
+    return plan
+
+
+def _prepare(stores: Stores, wanted: RehearsalRequest) -> tuple[Plan, RehearsalOptions]:
+    options = RehearsalOptions(wanted.runs, wanted.seed, wanted.noise, wanted.feedback, traced=TRACED)
+    plan = solved_plan(stores, wanted.plan)
+    require_physics()
     return plan, options
 
 

@@ -14,7 +14,7 @@ from app.studies.study import Study
 from app.studies.study_fields import StudyFields
 from app.studies.study_file import study_of
 from app.studies.study_job import do_study
-from app.studies.table import CSV, PARQUET, TIMING
+from app.studies.table import CSV, PARQUET, TIMING, written_files
 from planner.errors import RequestError
 from planner.robots.known_robots import require_name
 
@@ -44,7 +44,7 @@ def _prepare(stores: Stores, wanted: StudyFields) -> tuple[Study, Path]:
 def _finish(stores: Stores, answer: dict[str, Any]) -> dict[str, Any]:
     study_id = answer["study_id"]
     keep_study(stores.studies, study_id)
-    paths = {name.replace(".", "_"): f"/api/studies/{study_id}/{name}" for name in STUDY_FILES}
+    paths = {name.replace(".", "_"): f"/api/studies/{study_id}/{name}" for name in (_REPORT, *written_files())}
     return {**answer, "files": paths}
 
 
@@ -56,12 +56,12 @@ def keep_study(studies: StudyStore, study_id: str) -> bool:
         StudyFolderError: the folder holds no results of a study, or they are in use.
     """
     folder = studies.folder / study_id
-    if not all((folder / name).is_file() for name in STUDY_FILES):
+    if not all((folder / name).is_file() for name in (_REPORT, CSV, TIMING)):
         return False
     with storing(f"study {study_id} could not be kept"):
         with Results(folder) as results:
             study = results.study()
-        files = {name: (folder / name).read_bytes() for name in STUDY_FILES}
+        files = {name: (folder / name).read_bytes() for name in STUDY_FILES if (folder / name).is_file()}
     if study is None:
         return False
     studies.keep(study_id, study.title, json.dumps(study.to_dict()), files)

@@ -57,7 +57,7 @@ class ForeignJobError(FoldingError):
 
 @dataclass
 class _OpenJob:
-    """A job that has not ended, as far as this server knows."""
+    """A job that this server has not seen end."""
 
     stored: StoredJob
     job: Job[None] | None = None

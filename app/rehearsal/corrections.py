@@ -146,7 +146,7 @@ def still_beside(seen: StepSeen, made: StepMotion) -> dict[str, Point2]:
 
 
 def seen_after_drag(motion: StepMotion, ought: Pose2, sight: Sight | None, radius_m: float) -> Isometry:
-    """Return how far from where it should be a stack was seen after a drag by hands that hold on, table frame.
+    """Return the seen offset of a stack from its planned pose, after a drag by hands that keep holding; table frame.
 
     What was seen is not believed where a grip would be further than a radius from the hand that holds it.
 

@@ -142,9 +142,7 @@ class Eyes:
 
     def withdrawn(self, posture: Posture) -> Posture:
         """Return how the robot stands with its arms at home."""
-        arms = self._card.arms
-        joints = self._card.joint_values(self._torso_m, [np.array(arm.home) for arm in arms], [0.0] * len(arms))
-        return Posture(posture.base, joints)
+        return Posture(posture.base, self._card.home_values(self._torso_m))
 
 
 def kept(step: int, before: WorldState, seen: Observation, sight: Sight, *, is_clear: bool) -> Picture | None:

@@ -161,7 +161,7 @@ class Performer:
         self.progress(self._number / len(self._motions))
 
     def _after_drag(self, seen: StepSeen) -> Isometry:
-        """Return how far from where it should be a stack lies after a drag; hands that hold on are beside it then.
+        """Return the stack's offset from its planned pose after a drag; move the hands that keep holding with it.
 
         A drag ends where it should, but the stack swings behind a single hand, and is pulled straight by it.
         """

@@ -5,12 +5,11 @@ from collections.abc import Callable
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass, field, replace
 from functools import partial
-from importlib.util import find_spec
 from time import process_time
 
 import numpy as np
 
-from app.distribution import installing
+from app.distribution import require
 from app.rehearsal.judge import Gate
 from app.rehearsal.noise import NOISE, Noise
 from app.rehearsal.physics.fabric import Fabric, Resolution
@@ -26,13 +25,6 @@ from planner.task.task import Task
 RUNS_MAX = 1000
 _LOOK_S = 0.2
 """The interval at which a rehearsal looks for progress and for its cancellation (s)."""
-
-
-class PhysicsMissingError(FoldingError):
-    """A rehearsal was asked for where MuJoCo is not installed."""
-
-    def __str__(self) -> str:
-        return f"rehearsals need MuJoCo: {installing('physics')}"
 
 
 class CancelledError(FoldingError):
@@ -77,9 +69,8 @@ class RehearsalOptions:
 
 
 def require_physics() -> None:
-    """Raise `PhysicsMissingError` where MuJoCo is not installed."""
-    if find_spec("mujoco") is None:
-        raise PhysicsMissingError
+    """Raise a `RequestError` that says what to install, unless rehearsals can be made here."""
+    require("mujoco", "cv2")
 
 
 def rehearse(
@@ -98,7 +89,7 @@ def rehearse(
 
     Raises:
         UnsolvedPlanError: the plan has no steps to rehearse.
-        PhysicsMissingError: MuJoCo is not installed.
+        RequestError: MuJoCo or OpenCV is not installed.
         CancelledError: it was cancelled.
     """
     if plan.trajectory is None:

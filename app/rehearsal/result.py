@@ -1,13 +1,15 @@
 """The result of a rehearsal: the verdicts of each run, and the share of runs that held."""
 
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from scipy.special import betaincinv
 
-from app.rehearsal.eyes import Picture
 from app.rehearsal.judge import StepVerdict
 from app.rehearsal.trace import RunTrace
+
+if TYPE_CHECKING:
+    from app.rehearsal.eyes import Picture
 
 _CONFIDENCE = 0.95
 
@@ -52,7 +54,7 @@ class Run:
     reason: str = ""
     simulated_s: float = 0.0
     cpu_s: float = 0.0
-    pictures: tuple[Picture, ...] = ()
+    pictures: tuple["Picture", ...] = ()
     trace: RunTrace | None = None
 
     @property

@@ -70,7 +70,7 @@ def serve(settings: Settings, announce: Callable[[str, str | None], None]) -> No
         UnusableFolderError: the data folder cannot be used.
         HeldFolderError: another server uses the data folder.
         BadDatabaseUrlError: the database's URL names none that can be used.
-        NoDriverError: its library is not installed.
+        RequestError: its library is not installed.
         OtherDatabaseError: another version of Pleat has made its tables.
     """
     sys.setswitchinterval(_SWITCH_S)

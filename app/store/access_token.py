@@ -35,7 +35,7 @@ class WeakTokenError(FoldingError):
 
 @dataclass(frozen=True, slots=True)
 class AccessToken:
-    """A token, as far as the server knows it.
+    """What the server keeps of a token.
 
     Attributes:
         digest: its SHA-256.

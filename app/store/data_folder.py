@@ -4,6 +4,7 @@ Two servers on one folder would not see each other's changes, so a server locks 
 lock when the process ends, however it ends. A file beside the lock says who holds it, for the error of a second server.
 """
 
+import fcntl
 import json
 import logging
 import os
@@ -13,8 +14,6 @@ from contextlib import contextmanager, suppress
 from dataclasses import asdict, dataclass
 from datetime import UTC, datetime
 from pathlib import Path
-
-from filelock import FileLock, Timeout
 
 from app.store.database_error import try_writing
 from app.store.durable_file import write_at_once
@@ -102,10 +101,9 @@ class DataFolder:
             HeldFolderError: another server uses it.
         """
         self._make()
-        lock = FileLock(self.path / "server.lock", blocking=False)
         try:
-            lock.acquire()
-        except Timeout:
+            lock = _locked(self.path / "server.lock")
+        except BlockingIOError:
             raise HeldFolderError(self.path, self._known_holder()) from None
         except OSError as error:
             if not self._is_read_only(error):
@@ -126,7 +124,7 @@ class DataFolder:
         finally:
             with suppress(OSError):
                 self._holder.unlink()
-            lock.release()
+            os.close(lock)
 
     def problem(self) -> str | None:
         """Return why nothing can be saved here now; None if saving works."""
@@ -163,3 +161,14 @@ class DataFolder:
             return str(Holder(**json.loads(self._holder.read_text(encoding="utf-8"))))
         except (OSError, ValueError, TypeError):
             return "another server"
+
+
+def _locked(path: Path) -> int:
+    """Lock a file until its descriptor, which is returned, is closed; raise `BlockingIOError` if another has it."""
+    lock = os.open(path, os.O_RDWR | os.O_CREAT, 0o644)
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        os.close(lock)
+        raise
+    return lock

@@ -12,14 +12,13 @@ import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from importlib.util import find_spec
 from pathlib import Path
 
 from sqlalchemy import Engine, make_url, select, text
 from sqlalchemy.exc import ArgumentError, DBAPIError
 from sqlalchemy.orm import Session
 
-from app.distribution import installing
+from app.distribution import require
 from app.store.database_error import database_error
 from app.store.engines import IS_SYNCED, IS_WRITING, copied_engine, postgresql_engine, sqlite_engine
 from app.store.presence import Presence
@@ -50,13 +49,6 @@ class BadDatabaseUrlError(FoldingError):
         return "the database must be a URL as in postgresql+psycopg://user@host/name; leave it out for SQLite"
 
 
-class NoDriverError(FoldingError):
-    """The library that speaks with PostgreSQL is not installed."""
-
-    def __str__(self) -> str:
-        return f"PostgreSQL needs the library psycopg: {installing('postgres')}"
-
-
 class Database:
     """The database of a server; safe to use from any thread.
 
@@ -74,7 +66,7 @@ class Database:
 
         Raises:
             BadDatabaseUrlError: the URL names no such database.
-            NoDriverError: PostgreSQL's library is not installed.
+            RequestError: PostgreSQL's library is not installed.
         """
         self.path = path if url is None else None
         self._url = None
@@ -85,8 +77,7 @@ class Database:
                 raise BadDatabaseUrlError from None
             if self._url.get_backend_name() != _POSTGRESQL:
                 raise BadDatabaseUrlError
-            if find_spec(_DRIVER) is None:
-                raise NoDriverError
+            require(_DRIVER)
             self._url = self._url.set(drivername=f"{_POSTGRESQL}+{_DRIVER}")
         self._engine: Engine | None = None
         self._engines: dict[bool | None, Engine] = {}

@@ -59,7 +59,7 @@ class DocumentKeeper:
     """
 
     def __init__(self, database: Database, document_id: str, kept: Kept | None = None) -> None:
-        """Go on from what is saved; None: nothing is."""
+        """Continue from what is saved; None if nothing is."""
         self._database = database
         self.id = document_id
         self.kept = kept

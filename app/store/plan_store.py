@@ -104,7 +104,7 @@ class PlanStore:
                 self._passing.pop(plan_id, None)
 
     def let_go(self, plan_id: str) -> None:
-        """Say that a plan, if it is one in passing, need not be written when it is no longer among the newest."""
+        """Let a plan of a gesture be dropped unwritten once it is no longer among the newest."""
         with self._lock:
             self._let_go.add(plan_id)
             self._let_go &= self._passing.keys()

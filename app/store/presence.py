@@ -35,7 +35,7 @@ class Presence:
 
 
 def has_ended(session: Session, number: int) -> bool:
-    """Return whether a server has ended; until the end of the transaction no other one is told so."""
+    """Return whether a server has ended; only one server learns it within a transaction."""
     if number == 0:
         return True
     lock = text("SELECT pg_try_advisory_xact_lock(:number)")

@@ -8,7 +8,7 @@ from collections.abc import Generator, Iterable, Iterator, Sequence
 from concurrent.futures import Executor
 from contextlib import contextmanager
 
-from app.distribution import installing
+from app.distribution import require
 from app.studies.answer import Answer, MakePlan, answered
 from app.studies.cell import Cell
 from app.studies.handing_out import answers_of
@@ -58,12 +58,12 @@ def cluster(address: str) -> Iterator[ExecutorWorkers]:
         address: the scheduler's, such as ``tcp://host:8786``.
 
     Raises:
-        StudyError: there is no such scheduler, it has no workers, or the library is not installed.
+        StudyError: there is no such scheduler, or it has no workers.
+        RequestError: the library is not installed.
     """
-    try:
-        from distributed import Client
-    except ImportError:
-        raise StudyError("", f"a cluster needs the library distributed: {installing('cluster')}") from None
+    require("distributed")
+    from distributed import Client
+
     try:
         client = Client(address, timeout=_CONNECT_S, set_as_default=False)
     except (OSError, ValueError) as error:

@@ -121,7 +121,7 @@ class Findings:
         return Tally(solved.reshape(shape), cells.reshape(shape), cost_s.reshape(shape))
 
     def held_by(self, *axes: int) -> Tally:
-        """Return the runs that held of those rehearsed, over some axes, as `tally` does for cells; without costs."""
+        """Count the rehearsed runs that held, over some axes, as `tally` counts cells; without costs."""
         shape = tuple(len(self.axes[n].values) for n in axes)
         flat = np.ravel_multi_index(tuple(self.digits[list(axes)]), shape)
         is_rehearsed = self.held != _NOT_REHEARSED

@@ -140,7 +140,7 @@ def _random(field: str, entry: Mapping[str, Any], _: Sources) -> Iterator[Garmen
 
 
 def _checked(field: str, read: Callable[[Any], Any], given: object) -> Any:  # noqa: ANN401
-    """Return what a function reads; an error of its own is told of the field."""
+    """Return what a function reads; report its error at the field."""
     try:
         return read(given)
     except FieldError as error:

@@ -6,11 +6,12 @@ from statistics import mean
 from typing import Any
 
 from app.rehearsal.noise import NOISE
-from app.rehearsal.rehearse import RUNS_MAX, PhysicsMissingError, RehearsalOptions, rehearse, require_physics
+from app.rehearsal.rehearse import RUNS_MAX, RehearsalOptions, rehearse, require_physics
 from app.rehearsal.result import success_bounds
 from app.studies.axis import Axis
 from app.studies.fields import require_known, text, truth, whole
 from app.studies.study_error import StudyError
+from planner.errors import RequestError
 from planner.task.plan import Plan
 
 NOISE_AXIS = "rehearsal.noise"
@@ -63,8 +64,8 @@ def read_rehearsal(given: Mapping[str, Any]) -> tuple[StudyRehearsal, Axis]:
             raise StudyError(f"rehearsal.noise[{number}]", f"expected one of {', '.join(NOISE)}; got {name!r}")
     try:
         require_physics()
-    except PhysicsMissingError as error:
-        raise StudyError("rehearsal", str(error)) from None
+    except RequestError as error:
+        raise StudyError("rehearsal", error.says or error.message) from None
     found = StudyRehearsal(
         whole("rehearsal.runs", given.get("runs", 1), 1, RUNS_MAX),
         whole("rehearsal.seed", given.get("seed", 0), 0, _SEED_MAX),

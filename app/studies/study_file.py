@@ -221,7 +221,7 @@ def _sample(content: Mapping[str, Any]) -> Sample | None:
 
 
 def _told(field: str, read: Callable[..., Any], *given: object) -> Any:  # noqa: ANN401
-    """Return what a function reads; its error is told as the study's, at a field."""
+    """Return what a function reads; report its error as the study's, at a field."""
     try:
         return read(*given)
     except FieldError as error:

@@ -1,12 +1,12 @@
-"""The table of a study: one row for each cell, as Parquet and as CSV; the times beside it in a file of their own."""
+"""The table of a study: one row for each cell, as CSV and, where PyArrow is installed, as Parquet; times in a file."""
 
 import csv
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from itertools import islice
+from pathlib import Path
 from typing import Any
 
-import pyarrow as pa
-from pyarrow import parquet
-
+from app.distribution import is_installed
 from app.studies.answer import COMFORT_MARGIN, RESULT_COLUMNS, TIMING_COLUMNS
 from app.studies.rehearsed import REHEARSAL_COLUMNS
 from app.studies.results import Results
@@ -18,7 +18,6 @@ _ROWS_A_GROUP = 10_000
 """Rows of the Parquet file that are held at once."""
 
 _SEED, _MEASURE = "garment_seed", "measure."
-_TYPES = {float: pa.float64(), int: pa.int64(), bool: pa.bool_(), str: pa.string()}
 
 
 def columns_of(study: Study) -> dict[str, type]:
@@ -46,30 +45,38 @@ def axis_values(study: Study, index: int) -> dict[str, Any]:
     return {"cell": index, GARMENT: case.label, _SEED: case.seed, **measures, **values}
 
 
+def written_files() -> tuple[str, ...]:
+    """Return the files that `write_tables` writes here: Parquet needs PyArrow."""
+    return (CSV, TIMING, PARQUET) if is_installed("pyarrow") else (CSV, TIMING)
+
+
 def write_tables(study: Study, results: Results) -> None:
-    """Write the three files into the results' folder; the table is the same whatever way it came about.
+    """Write `written_files` into the results' folder; the table is the same whatever way it came about.
 
     Raises:
         OSError: a file cannot be written.
     """
     columns, folder = columns_of(study), results.folder
-    schema = pa.schema([(name, _TYPES[kind]) for name, kind in columns.items()])
-    with (
-        parquet.ParquetWriter(folder / PARQUET, schema) as tables,
-        (folder / CSV).open("w", encoding="utf-8", newline="") as text,
-    ):
+    times = ({"cell": index, **timing} for index, _, timing in results.rows())
+    _write_csv(folder / CSV, columns, table_rows(study, results))
+    _write_csv(folder / TIMING, ["cell", *TIMING_COLUMNS], times)
+    if PARQUET in written_files():
+        _write_parquet(folder / PARQUET, columns, table_rows(study, results))
+
+
+def _write_csv(path: Path, columns: Iterable[str], rows: Iterable[Mapping[str, Any]]) -> None:
+    with path.open("w", encoding="utf-8", newline="") as text:
         lines = csv.DictWriter(text, list(columns), lineterminator="\n")
         lines.writeheader()
-        group: list[Mapping[str, Any]] = []
-        for row in table_rows(study, results):
-            lines.writerow(row)
-            group.append(row)
-            if len(group) == _ROWS_A_GROUP:
-                tables.write_table(pa.Table.from_pylist(group, schema))
-                group.clear()
-        tables.write_table(pa.Table.from_pylist(group, schema))
-    with (folder / TIMING).open("w", encoding="utf-8", newline="") as text:
-        lines = csv.DictWriter(text, ["cell", *TIMING_COLUMNS], lineterminator="\n")
-        lines.writeheader()
-        for index, _, timing in results.rows():
-            lines.writerow({"cell": index, **timing})
+        lines.writerows(rows)
+
+
+def _write_parquet(path: Path, columns: Mapping[str, type], rows: Iterator[Mapping[str, Any]]) -> None:
+    import pyarrow as pa
+    from pyarrow import parquet
+
+    types = {float: pa.float64(), int: pa.int64(), bool: pa.bool_(), str: pa.string()}
+    schema = pa.schema([(name, types[kind]) for name, kind in columns.items()])
+    with parquet.ParquetWriter(path, schema) as table:
+        while group := list(islice(rows, _ROWS_A_GROUP)):
+            table.write_table(pa.Table.from_pylist(group, schema))

@@ -25,6 +25,7 @@ class Palette:
     cloth_front: Rgb = rgb("F0E6D2")
     cloth_back: Rgb = rgb("B4C3D6")
     cloth_edge: Rgb = rgb("6E6453")
+    cloth_hem: Rgb = rgb("D8CCB4")
     cloth_simulated: Rgb = rgb("8C929B")
     cloth_off: Rgb = rgb("2E3238")
     folds: Mapping[str, Rgb] = field(
@@ -49,6 +50,7 @@ DARK = Palette(
     cloth_front=rgb("5A5142"),
     cloth_back=rgb("2C3B50"),
     cloth_edge=rgb("B5A98F"),
+    cloth_hem=rgb("6B604F"),
     cloth_simulated=rgb("8E959E"),
     cloth_off=rgb("E4E4DF"),
     folds={kind: rgb(look.dark) for kind, look in FOLD_LOOKS.items()},

@@ -65,7 +65,7 @@ class FoldView:
     def place(
         self, placement: Pose2, cloth: ClothSurface, top: TableTop, done: frozenset[int], current: int | None
     ) -> None:
-        """Draw the folds that are not done on a cloth that lies on a top and hangs beside it."""
+        """Draw the remaining folds on cloth that lies on a table top and hangs over its edges."""
         seen = (placement, cloth, top, done, current)
         if seen == self._seen:
             return

@@ -70,6 +70,7 @@ class View3D:
         self._caption: viser.LabelHandle | None = None
         self._steps: tuple[PlanStep, ...] = ()
         self._marked: PlanStep | None = None
+        self._layer_m = 0.0
         self._lock = threading.Lock()
         self._by_software = 0
         self.set_theme(is_dark=False)
@@ -154,7 +155,7 @@ class View3D:
         with self._server.atomic():
             self._begin(garment, ())
             self._robot.pose(base, self._waiting_joints())
-            self._cloth.show(cloth)
+            self._cloth.show(cloth, garment.layer_m)
             self._folds.place(garment.placement, cloth, TableTop.of(self.scene.table), frozenset(), None)
         self._server.flush()
 
@@ -167,7 +168,7 @@ class View3D:
         """Show one sample of the plan, and the cloth of a rehearsed run of it at that time."""
         with self._server.atomic():
             self._robot.pose(frame.base, frame.joints)
-            self._cloth.show(frame.cloth)
+            self._cloth.show(frame.cloth, self._layer_m)
             self._simulated.show(trace, self._steps, frame.t_s)
             if self._steps:
                 self._show_step(frame)
@@ -218,6 +219,7 @@ class View3D:
         self._take_up(steps)
         self._cloth.set_visible(is_visible=True)
         self._folds.show_garment(garment)
+        self._layer_m = garment.layer_m
 
     def _take_up(self, steps: tuple[PlanStep, ...]) -> None:
         self._steps = steps

@@ -119,7 +119,7 @@ class Bisection:
         return math.floor(middle) if self.is_whole else middle
 
     def note(self, amount: float, needed: float | None) -> None:
-        """Note how much of an amount was needed; None where it was not enough."""
+        """Record how much of an amount was needed; None if it was insufficient."""
         self.is_near = False
         if needed is None:
             self.fails = amount

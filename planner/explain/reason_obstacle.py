@@ -208,7 +208,7 @@ def _touching(contact: BlockingContact) -> dict[str, Any]:
 
 
 def _way(obstacle: Obstacle, state: State) -> list[float] | None:
-    """Return the drag in which the arms collide (m); None where they collide in the fold."""
+    """Return the drag (m) during which the arms collide; None if they collide during the fold."""
     if obstacle.dragged_to is None:
         return None
     return [to - before + 0.0 for to, before in zip(obstacle.dragged_to, state.offset, strict=True)]

@@ -129,7 +129,7 @@ class _Reasons:
         return found or (self._nothing_known(fold),)
 
     def _nothing_known(self, fold: int) -> Reason:
-        """Return the reason for a fold of which nothing is known but that it was not done."""
+        """Return the reason for a fold that was not done for an unknown cause."""
         says = worded("not_with_the_others", {}, self._context.sequence.folds, fold)
         return Reason(fold, Code.WAITS_FOR_FOLD, says)
 

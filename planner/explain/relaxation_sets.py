@@ -98,7 +98,7 @@ def _collision(reason: Reason) -> _Member:
 
 
 class _RelaxationSets:
-    """The relaxation sets for one fold; for None, of the whole garment.
+    """The relaxation sets of one fold, or of the whole garment (None).
 
     Attributes:
         is_but_touching: whether all places are in reach, so that only what the arms touch stands in the way.

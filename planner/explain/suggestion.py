@@ -139,7 +139,7 @@ Smallest: TypeAlias = Generator[SuggestionTrial | Suggestion, Plan | None, tuple
 
 
 def proven(trial: SuggestionTrial | None) -> Proving:
-    """Have a trial planned; return the proof that it helps, or None, as where the change cannot be made."""
+    """Plan a trial and return the proof that it helps; None if it does not, or cannot be made."""
     plan = None if trial is None else (yield trial)
     return None if trial is None or plan is None or plan.cost_s is None else Suggestion(trial, plan, plan.cost_s)
 

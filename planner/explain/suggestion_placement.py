@@ -121,7 +121,7 @@ def _nearer(
 def _shortened(
     task: Task, place: _Place, part: _Place, by_folds_alone: bool, distance_m: float
 ) -> SuggestionTrial | None:
-    """Return the trial of a place with a part of its move made so long (m); None where more would hang over an edge."""
+    """Return the trial of a shortened move (m); None if more cloth would then hang over an edge."""
     nearer = place.without(part, 1.0 - distance_m / part.distance_m)
     if not _room(task, nearer.quarters).hangs_no_more(nearer.dx_m, nearer.dy_m):
         return None

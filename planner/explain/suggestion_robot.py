@@ -105,7 +105,7 @@ def robots(task: Task, names: Iterable[str], on_map: Callable[[float], None]) ->
 
 
 def _placement(task: Task, robot: str) -> Pose2 | None:
-    """Return where the garment would lie; None for where the robot's card says, which the default robot's does not."""
+    """Return where the garment would lie; None for the place in the robot's card."""
     if robot != DEFAULT_ROBOT:
         return None
     return near_placement(task.garment, default_scene(robot).table, task.start.placement.yaw_rad)

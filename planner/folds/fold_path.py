@@ -114,7 +114,7 @@ class FoldPath:
         return self.rising_top if sweep < 1.0 else self.top
 
     def is_continuous(self, grips: FloatArray) -> bool:
-        """Return whether the apexes of grips are above the table, or none was held out beyond an edge.
+        """Return whether all grips peak above the table, or no grip was held out beyond an edge.
 
         Cloth held out beyond an edge rises in the plane; it can come down over the table only if the fold line is on
         the table there.

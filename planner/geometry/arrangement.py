@@ -40,7 +40,7 @@ def enclosing_rings(lines: Sequence[FloatArray], gap_m: float) -> list[FloatArra
 
 
 def are_tangled(lines: Sequence[FloatArray], crossings_max: int) -> bool:
-    """Return whether lines, each shape (n, 2), cross more often than a number: cells of so many would take long."""
+    """Return whether lines, each shape (n, 2), cross more than a number of times, too many to find cells fast."""
     segments = np.concatenate([np.stack([line[:-1], line[1:]], axis=1) for line in lines])
     strings = shapely.linestrings(segments)
     tree, left = shapely.STRtree(strings), 2 * crossings_max + 3 * len(strings)

@@ -190,6 +190,11 @@ class Region:
         """The corners of `rings` that make their shape, see `traced`."""
         return tuple(ring[traced(ring)] for ring in self.rings)
 
+    @property
+    def main_shape(self) -> FloatArray:
+        """The corners of the largest part that make its shape."""
+        return self.shapes[self._largest]
+
     @cached_property
     def hull(self) -> FloatArray:
         """The corners of the convex hull, counter-clockwise, shape (n, 2), m."""

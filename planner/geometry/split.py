@@ -94,7 +94,7 @@ def cut_like(region: Region, segment: Segment, is_moving: Callable[[Point2], boo
 
 
 def _through_corners(region: Region, segment: Segment) -> Segment:
-    """Return the segment with ends near a corner of the region moved onto it; a cut beside it would leave a neck."""
+    """Return the segment with its ends snapped to nearby corners of the region, so that a cut leaves no neck."""
     return Segment(_corner_at(region, segment.start), _corner_at(region, segment.end))
 
 

@@ -21,7 +21,7 @@ class RecentAnswers(Generic[K, V]):
     """
 
     def __init__(self, most: int) -> None:
-        """Start without answers; so many are kept."""
+        """Start empty, with room for a number of answers."""
         self._most = most
         self._lock = Lock()
         self._known: OrderedDict[K, V] = OrderedDict()

@@ -13,6 +13,7 @@ from planner.motion.opened_collisions import OpenedCollisions
 from planner.motion.transit_paths import TransitPaths
 from planner.planning.problem import Problem
 from planner.task.plan import Plan
+from planner.task.trajectory import Trajectory
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,16 +39,8 @@ class WayToStep:
             UnsolvedPlanError: the plan is not solved.
             RequestError: there is no such step, or cloth is held as it begins.
         """
-        if plan.trajectory is None:
-            raise UnsolvedPlanError(plan.status)
-        if not 0 <= step < max(len(plan.steps), 1):
-            raise RequestError("from_step", f"{step} is not between 0 and {len(plan.steps) - 1}")
-        if plan.state_after(step - 1).held:
-            free = max((n for n in range(step) if not plan.state_after(n - 1).held), default=None)
-            other = "" if free is None else f"; step {free} begins with free grippers"
-            raise RequestError("from_step", f"step {step} begins with cloth in the grippers{other}")
+        path = require_beginning(plan, step)
         at_s = plan.steps[step].start_s if plan.steps else 0.0
-        path = plan.trajectory
         return WayToStep(path.arms.names, path.arms.at(at_s), Problem.of(plan.task), step, plan)
 
     def way(self, joints: Mapping[str, float]) -> Keyframes | None:
@@ -65,6 +58,19 @@ class WayToStep:
         base = path.segment_at(at_s).base_at(at_s)
         found = transits.way(base, start, self.goal, cloth, transits.at_grips)
         return None if found is None else _timed(transits, found)
+
+
+def require_beginning(plan: Plan, step: int) -> Trajectory:
+    """Return a plan's trajectory; raise as `WayToStep.of` does where nothing can begin with that step."""
+    if plan.trajectory is None:
+        raise UnsolvedPlanError(plan.status)
+    if not 0 <= step < max(len(plan.steps), 1):
+        raise RequestError("from_step", f"{step} is not between 0 and {len(plan.steps) - 1}")
+    if plan.state_after(step - 1).held:
+        free = max((n for n in range(step) if not plan.state_after(n - 1).held), default=None)
+        other = "" if free is None else f"; step {free} begins with free grippers"
+        raise RequestError("from_step", f"step {step} begins with cloth in the grippers{other}")
+    return plan.trajectory
 
 
 def _timed(transits: TransitPaths, way: FloatArray) -> Keyframes:

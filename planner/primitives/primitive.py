@@ -81,7 +81,7 @@ class Varied(Protocol):
 
 
 class Step(Motion, Keyed, Varied, Protocol):
-    """A primitive as a step of a plan: where it starts, where it leads, what it takes."""
+    """A primitive as a step of a plan: the states before and after it, and its duration."""
 
     @property
     def kind(self) -> str:

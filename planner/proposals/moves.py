@@ -21,7 +21,7 @@ from planner.folds.fold import snapped_line
 from planner.folds.fold_cloth import fold_cloth
 from planner.geometry.chord import chords
 from planner.geometry.isometry import Isometry
-from planner.geometry.pose import FloatArray, Point2
+from planner.geometry.pose import BoolArray, FloatArray, Point2
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 from planner.geometry.split import split_along
@@ -115,7 +115,7 @@ def inward_moves(bounds: Bounds, sides_m: Iterable[float]) -> Iterator[Move]:
 
 def flap_moves(silhouette: Region) -> Iterator[Move]:
     """Yield the moves that fold flaps in: along lines through corners that point inwards, as pairs where they are."""
-    inward = np.concatenate([_inward_corners(ring) for ring in silhouette.shapes])
+    inward = np.concatenate([ring[is_inward(ring)] for ring in silhouette.shapes])
     for axis in (0, 1):
         low, high = silhouette.bounds[axis], silhouette.bounds[axis + 2]
         middle = (low + high) / 2
@@ -165,7 +165,7 @@ def carried_out(cloth: ClothState, move: Move, grip_radius_m: float) -> tuple[Cl
             return None
         for chord in stretches:
             try:
-                fold = DrawnFold(crease.name, kind.name, _rounded(chord.start), _rounded(chord.end), grip_radius_m)
+                fold = DrawnFold(crease.name, kind.name, rounded(chord.start), rounded(chord.end), grip_radius_m)
                 before, line = line, snapped_line(fold, kind.silhouette(cloth))
                 cloth = fold_cloth(cloth, line, kind.name, before if kind.is_red else None).cloth
             except FieldError:
@@ -183,7 +183,7 @@ def turned_over(cloth: ClothState, grip_radius_m: float) -> Iterator[tuple[Cloth
         try:
             drawn = DrawnFold("turn over", "turn", edge.start, edge.end, grip_radius_m)
             line = snapped_line(drawn, cloth.silhouette)
-            fold = DrawnFold("turn over", "turn", _rounded(line.start), _rounded(line.end), grip_radius_m)
+            fold = DrawnFold("turn over", "turn", rounded(line.start), rounded(line.end), grip_radius_m)
             yield fold_cloth(cloth, snapped_line(fold, cloth.silhouette), "turn", None).cloth, fold
         except FieldError:
             continue
@@ -235,7 +235,7 @@ def _slanted(silhouette: Region, kind: str, effort: float, *creases: Crease) -> 
 def _slanted_chords(silhouette: Region) -> Iterator[Segment]:
     """Yield the slanted lines from a corner that points inwards to another corner, the smaller part to their left."""
     for ring in silhouette.shapes:
-        inward = {(x, y) for x, y in _inward_corners(ring).tolist()}
+        inward = {(x, y) for x, y in ring[is_inward(ring)].tolist()}
         corners = [(x, y) for x, y in ring.tolist()]
         for i, j in combinations(range(len(corners)), 2):
             start, end = corners[i], corners[j]
@@ -291,10 +291,10 @@ def _is_along_axis(start: Point2, end: Point2) -> bool:
     return min(abs(start[0] - end[0]), abs(start[1] - end[1])) <= SNAP_M
 
 
-def _inward_corners(ring: FloatArray) -> FloatArray:
-    """Return the corners of a counter-clockwise ring that point inwards, shape (n, 2), m."""
+def is_inward(ring: FloatArray) -> BoolArray:
+    """Return which corners of a counter-clockwise ring point inwards, shape (n,)."""
     before, after = ring - np.roll(ring, 1, axis=0), np.roll(ring, -1, axis=0) - ring
-    return np.asarray(ring[before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0] < 0.0])
+    return np.asarray(before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0] < 0.0)
 
 
 def _stretches(silhouette: Region, line: Segment) -> list[Segment]:
@@ -330,5 +330,6 @@ def _line(axis: int, place: float, is_low: bool) -> Segment:
     return Segment((0.0, place), (-1.0 if is_low else 1.0, place))
 
 
-def _rounded(point: Point2) -> Point2:
+def rounded(point: Point2) -> Point2:
+    """Return a fold's end on the grid on which cloth lies (m)."""
     return (round(point[0], _DECIMALS), round(point[1], _DECIMALS))

@@ -147,7 +147,7 @@ class PacketSearch:
         return self._folded[variant] <= _VARIANTS
 
     def _is_met(self, packet: Packet) -> bool:
-        """Return whether a packet that looks like this one, and is no harder for the robot, was looked at."""
+        """Return whether an equal packet that is as easy for the robot has been examined."""
         return self._met.get((packet.is_turned, packet.shape), packet.doubts + 1) <= packet.doubts
 
     def _look_at(self, packet: Packet) -> None:

@@ -2,12 +2,15 @@
 
 Packets come from a search that asks the robot about single folds, those that people like first. Each is planned in
 turn, with little work, until enough of them have plans. Where one has none, its first folds are planned alone, to learn
-which of them are to blame. Of variants of one way (the same moves in another order, or mirrored) only the first is
-proposed that can be done: the order and the side decide much for a robot and nothing for the packet.
+which of them are to blame. Until there is a proposal, what takes much work is put aside: something easier may follow.
+Of variants of one way (the same moves in another order, or mirrored) only the first is proposed that can be done: the
+order and the side decide much for a robot and nothing for the packet.
+
+Instead of a size another garment may be given: then its folds, fitted to this one, are the only way.
 """
 
 import math
-from collections import Counter
+from collections import Counter, deque
 from collections.abc import Callable, Generator, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
@@ -21,6 +24,7 @@ from planner.geometry.tolerance import DECIMALS
 from planner.planning.events import Blocked
 from planner.planning.robot_task import task_for
 from planner.plans import plan as plan_events
+from planner.proposals.likeness import LikenessSearch
 from planner.proposals.packet import Packet, Way
 from planner.proposals.packet_search import PacketSearch
 from planner.proposals.robot_check import RobotCheck
@@ -41,8 +45,11 @@ WORK_LIMIT_S = 1.0
 _FAILURES = 2
 """Packets without a plan for each proposal asked for, after which no more are planned."""
 
-_BRIEF_SHARE = 0.5
-"""The work for the plan of a packet's first folds, as a share of that for all of them."""
+_BRIEF_SHARE = 0.4
+"""The work for the plan of a packet's first folds, and for any plan until there is a proposal, as a share of all."""
+
+_ASIDE = 3
+"""How many ways without a plan at that work are put aside, until one of them is planned with all of it."""
 
 _VARIANTS = 3
 """Variants of one way that are planned, at most."""
@@ -140,7 +147,7 @@ class Proposals:
 
 
 def all_proposals(found: Generator[Proposal, None, Tried], hear: Callable[[Proposal], None] | None = None) -> Proposals:
-    """Return all that `propose_folds` finds, in order; `hear` is told each one as it is found."""
+    """Return all proposals of `propose_folds`, in order; call `hear` with each when it is found."""
     proposals: list[Proposal] = []
     while True:
         try:
@@ -154,7 +161,7 @@ def all_proposals(found: Generator[Proposal, None, Tried], hear: Callable[[Propo
 
 def propose_folds(
     garment: Garment,
-    to: str | Sequence[float] | Target,
+    to: str | Sequence[float] | Target | Garment,
     *,
     robot: str = DEFAULT_ROBOT,
     count: int = 6,
@@ -165,11 +172,11 @@ def propose_folds(
     should_stop: Callable[[], bool] | None = None,
     **options: Unpack[ProposalOptions],
 ) -> Generator[Proposal, None, Tried]:
-    """Propose ways to fold a garment to a size, each with its plan.
+    """Propose ways to fold a garment to a size, or like another one, each with its plan.
 
     Args:
         garment: the garment; folds that it has are kept as the beginning.
-        to: the size, see `Target.of`.
+        to: the size, see `Target.of`; or a garment that is folded like this one is to be.
         robot: the robot's name.
         count: the most proposals.
         max_folds: the most folds of a proposal, those that the garment has included.
@@ -190,19 +197,26 @@ def propose_folds(
         FoldError: a fold of the garment is not legal.
         RequestError: an argument is out of range.
     """
-    target = Target.of(to)
+    target = to if isinstance(to, Garment) else Target.of(to)
     _require("count", count, COUNT_MAX)
     _require("max_folds", max_folds, FOLDS_MAX)
     if face not in FACES:
         raise RequestError("face", f"expected one of {', '.join(FACES)}; got {face!r:.80}")
     task = task_for(garment, scene, robot=robot, work_limit_s=work_limit_s, **options)
+    stops = should_stop or _never
+    if isinstance(target, Garment):
+        return _planned(task, LikenessSearch(garment, target), None, count, stops)
     search = PacketSearch(garment, target, max_folds, face, RobotCheck(task))
     alone = PacketSearch(garment, target, max_folds, face)
-    return _planned(task, search, None if target.is_smallest else alone, count, should_stop or _never)
+    return _planned(task, search, None if target.is_smallest else alone, count, stops)
 
 
 def _planned(
-    task: Task, search: PacketSearch, alone: PacketSearch | None, count: int, should_stop: Callable[[], bool]
+    task: Task,
+    search: PacketSearch | LikenessSearch,
+    alone: PacketSearch | None,
+    count: int,
+    should_stop: Callable[[], bool],
 ) -> Generator[Proposal, None, Tried]:
     """Propose what a search finds that the robot can do, unless the same search without a robot finds nothing."""
     if alone is not None and next(alone.packets(), None) is None:
@@ -212,20 +226,33 @@ def _planned(
     shown, fine = set[object](), set[tuple[DrawnFold, ...]]()
     tried = Counter[Way]()
     failures = 0
-    for packet in search.packets():
+    packets, aside = search.packets(), deque[Packet]()
+    while True:
+        is_aside = bool(aside) and (bool(shown) or len({one.way for one in aside}) == _ASIDE)
+        packet = None if is_aside else next(packets, None)
+        if packet is None:
+            if not aside:
+                break
+            packet, is_aside = aside.popleft(), True
         if len(shown) == count or failures >= _FAILURES * count or (packet.doubts and len(failed) >= count):
             break
-        if packet.way in solved or tried[packet.way] >= (1 if packet.doubts else _VARIANTS):
+        if packet.way in solved or (not is_aside and tried[packet.way] >= (1 if packet.doubts else _VARIANTS)):
             continue
-        tried[packet.way] += 1
-        proposal = _proposal(task, packet, should_stop)
+        tried[packet.way] += not is_aside
+        is_brief = not (is_aside or shown)
+        if is_brief and any(one.way == packet.way for one in aside):
+            aside.append(packet)
+            continue
+        proposal = _proposal(_brief(task) if is_brief else task, packet, should_stop)
         if should_stop():
             break
+        if is_brief and proposal.status == "budget_exceeded":
+            aside.append(packet)
+            continue
         if not proposal.plan.is_solved:
             failures += 1
             failed.setdefault(packet.way, proposal)
-            blamed = _blamed(task, packet, fine, should_stop)
-            if blamed:
+            if isinstance(search, PacketSearch) and (blamed := _blamed(task, packet, fine, should_stop)):
                 search.blame(blamed)
             continue
         solved.add(packet.way)
@@ -249,13 +276,18 @@ def _blamed(
 
     Others that begin so have no plan either. First folds that have one are added to `fine`.
     """
-    brief = replace(task, limits=replace(task.limits, work_limit_s=_BRIEF_SHARE * (task.limits.work_limit_s or 0.0)))
+    brief = _brief(task)
     for done in range(len(task.garment.folds) + 1, len(packet.folds)):
         folds = packet.folds[:done]
         if folds not in fine and not _plan(brief, folds, should_stop).is_solved:
             return folds
         fine.add(folds)
     return ()
+
+
+def _brief(task: Task) -> Task:
+    """Return a task with less work."""
+    return replace(task, limits=replace(task.limits, work_limit_s=_BRIEF_SHARE * (task.limits.work_limit_s or 0.0)))
 
 
 def _plan(task: Task, folds: tuple[DrawnFold, ...], should_stop: Callable[[], bool]) -> Plan:

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
+import numpy as np
+
 from planner.geometry.pose import FloatArray
 
 RISE_S = 0.25
@@ -195,6 +197,10 @@ class RobotCard:
         """Return the joints that do not move in a plan by name, with the lift raised (m): rad; m for the lift."""
         lift = {} if self.lift_joint is None else {self.lift_joint: float(torso_m)}
         return lift | dict(self.resting)
+
+    def home_values(self, torso_m: float) -> dict[str, float]:
+        """Return every actuated joint by name (rad; m for the lift) with the arms at home and the grippers closed."""
+        return self.joint_values(torso_m, [np.array(arm.home) for arm in self.arms], [0.0] * len(self.arms))
 
     def joint_values(
         self, torso_m: float, arm_joints: Sequence[FloatArray], openings_m: Sequence[float]

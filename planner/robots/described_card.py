@@ -9,13 +9,13 @@ from pathlib import Path
 from xml.etree.ElementTree import Element, fromstring
 
 import pinocchio as pin
-from platformdirs import user_cache_path
 
 from planner.robots.card import ArmCard, GripperCard, LinearGripper, ParallelogramGripper, RobotCard
 from planner.robots.card_file import ArmFile, CardFile
 from planner.robots.card_parts import GripperFile, ParallelogramDrive
 from planner.robots.described_robot import DescribedRobot
 from planner.robots.soft_limits import keep_soft_limits, limits_of
+from planner.user_cache import cache_folder, use
 
 _MOVING = ("revolute", "continuous", "prismatic")
 
@@ -103,7 +103,7 @@ def _resting(urdf: Element, moved: set[str | None], given: Mapping[str, float]) 
 def _kept_urdf(urdf: str) -> Path:
     """Return the path of a file that holds a composed URDF."""
     name = f"{blake2b(urdf.encode(), digest_size=12).hexdigest()}.urdf"
-    for folder in (user_cache_path("pleat") / "urdf", Path(tempfile.gettempdir())):
+    for folder in (cache_folder() / "urdf", Path(tempfile.gettempdir())):
         path = folder / name
         try:
             folder.mkdir(parents=True, exist_ok=True)
@@ -111,6 +111,8 @@ def _kept_urdf(urdf: str) -> Path:
                 part = path.with_suffix(f".{id(urdf)}")
                 part.write_text(urdf, encoding="utf-8")
                 part.replace(path)
+            if folder.parent == cache_folder():
+                use(path)
         except OSError:
             continue
         return path

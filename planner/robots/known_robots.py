@@ -28,7 +28,7 @@ def shipped_robots() -> tuple[str, ...]:
 
 
 def shipped_card(name: str) -> CardFile:
-    """Return the card of a shipped robot, without a look at its URDF; raise `UnknownRobotError` if there is none."""
+    """Return a shipped robot's card without reading its URDF; raise `UnknownRobotError` for another name."""
     if name not in shipped_robots():
         raise UnknownRobotError(name)
     return read_card(shipped_path(name))

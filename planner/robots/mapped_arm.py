@@ -67,7 +67,7 @@ class MappedArm:
 
     @property
     def known(self) -> ReachMap:
-        """The reach map, as far as it was asked."""
+        """The part of the reach map that queries have filled."""
         return self._known
 
     def take(self, known: ReachMap, same: ReachMap) -> None:
@@ -138,7 +138,7 @@ class MappedArm:
     def joints_near(
         self, position: FloatArray, rotation: FloatArray, near: FloatArray, torso_m: float = 0.0
     ) -> FloatArray | None:
-        """Return joints that bring the tool to a pose, roll included, led there from joints nearby; or None."""
+        """Return joints that bring the tool to a pose, roll included, found from nearby joints; else None."""
         rows = self._chain.rows if self.asks_pitch_only else WHOLE
         point = np.ascontiguousarray(position - self.shoulder(torso_m))
         found, joints = solve_from(self._chain, point[None], np.ascontiguousarray(rotation)[None], rows, near[None])
@@ -230,7 +230,7 @@ def all_arms(robot: DescribedRobot, progress: Progress | None = None) -> tuple[M
 
 
 def _part(progress: Progress | None, number: int, count: int) -> Progress | None:
-    """Return what is told the progress of one arm of several."""
+    """Return the progress callback of one arm among several."""
     return None if progress is None else lambda share: progress((number + share) / count)
 
 

@@ -56,7 +56,7 @@ def _layer(grid: Grid, low_m: float) -> Grid:
 
 
 def _stacked(lower: ReachMap, upper: ReachMap) -> ReachMap:
-    """Return one map of two of which the second begins where the first ends."""
+    """Return two maps as one; the second begins at the height where the first ends."""
     below, above = _by_column(lower), _by_column(upper)
     grid = lower.grid
     counts = np.concatenate([below, above], axis=1)

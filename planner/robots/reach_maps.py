@@ -9,14 +9,13 @@ from pathlib import Path
 from zipfile import BadZipFile
 
 import numpy as np
-from platformdirs import user_cache_path
 
 from planner.deadline import left_out
 from planner.geometry.pose import Approach
 from planner.robots.chain import Chain
 from planner.robots.reach_map import Grid, ReachMap
 from planner.robots.reach_map_building import APART, FEW, FRINGE, OUTER, ReachMapBuilding, finished, grow, sow
-from planner.user_cache import use
+from planner.user_cache import cache_folder, use
 
 CELL_M = 0.075
 """The largest edge of a cell (m), but for arms that are longer than any person's."""
@@ -42,12 +41,9 @@ _SLICE = 50_000
 _FORMAT = 5
 """Version of the cache; raise it whenever maps are made or stored differently."""
 
-_KEPT_MAX = 64
-"""Maps that stay in the cache: of all shipped robots several times, and of robots whose cards were varied."""
-
 
 Progress = Callable[[float], None]
-"""Is told now and then what share of the work is done, roughly (0 to 1)."""
+"""Called from time to time with the share of the work that is done (0 to 1)."""
 
 
 def reach_map(
@@ -65,7 +61,7 @@ def reach_map(
         chain: the arm.
         approaches: the approaches that will mostly be asked.
         heights_m: the lowest and the highest point that will be asked, seen from the arm's root (m).
-        progress: is told how far the work is.
+        progress: called with the share of the work that is done.
         directory: the cache directory; None: the platform's own.
     """
     return kept_map(chain, grid_of(chain, approaches, heights_m), progress, directory)
@@ -73,7 +69,7 @@ def reach_map(
 
 def kept_map(chain: Chain, grid: Grid, progress: Progress | None = None, directory: Path | None = None) -> ReachMap:
     """Return an arm's map of some cells, read from the cache or built and kept; see `reach_map`."""
-    path = (directory or user_cache_path("pleat")) / "postures" / f"{_digest(chain, grid)}.npz"
+    path = (directory or cache_folder()) / "postures" / f"{_digest(chain, grid)}.npz"
     try:
         with path.open("rb") as file, np.load(file, allow_pickle=False) as arrays:
             found = ReachMap(grid, arrays["starts"], arrays["postures"])
@@ -83,7 +79,7 @@ def kept_map(chain: Chain, grid: Grid, progress: Progress | None = None, directo
         with contextlib.suppress(OSError):
             _write(path, found)
     with contextlib.suppress(OSError):
-        use(path, _KEPT_MAX)
+        use(path)
     return found
 
 

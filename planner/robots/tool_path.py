@@ -55,7 +55,7 @@ class NoPath:
 
     @property
     def is_hopeless(self) -> bool:
-        """Whether there is no path whatever leads there and away."""
+        """Whether no approach and retreat can give a path."""
         return self.is_core or len(self.blocked) > 0
 
 

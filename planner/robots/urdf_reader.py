@@ -89,7 +89,7 @@ _HARMLESS = ("xacro:arg", "xacro:property")
 
 
 def _unexpanded(robot: Element) -> str | None:
-    """Return the first of a URDF that only the program xacro understands: an element, or a text; None without any."""
+    """Return the first element or text of a URDF that needs xacro; None if there is none."""
     for element in robot.iter():
         if element.tag in _HARMLESS:
             continue

@@ -1,4 +1,4 @@
-"""The shapes of a URDF's links: their meshes found within one folder, those that are none left out."""
+"""The shapes of a URDF's links: meshes are found within one folder, shapes without volume left out."""
 
 import math
 from collections.abc import Iterator

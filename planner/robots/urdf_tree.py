@@ -93,7 +93,7 @@ def _complete_limit(name: str, joint: Element, field: str) -> None:
 
 
 def _check_connected(links: list[str], joints: dict[str, Element], field: str) -> None:
-    """Refuse what is no tree."""
+    """Raise `RobotError` unless the links form a tree."""
     carried: dict[str, str] = {}
     inner: dict[str, str] = {}
     for name, joint in joints.items():
@@ -128,7 +128,7 @@ def _end(joint: Element, tag: str) -> str:
 
 
 def _resolve_mimic(name: str, joint: Element, joints: dict[str, Element], field: str) -> None:
-    """Have a joint that mimics another name one that mimics none, with the factor and offset from there.
+    """Make a mimicking joint name the joint at the end of its chain, with the combined factor and offset.
 
     A joint that mimics what does not move rests.
     """

@@ -14,7 +14,7 @@ Values: TypeAlias = Mapping[str, Any]
 
 
 class Named(Protocol):
-    """A fold, as far as sentences need it."""
+    """What sentences need of a fold."""
 
     @property
     def name(self) -> str:

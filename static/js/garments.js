@@ -34,8 +34,7 @@ export function mountGarments(store) {
     const wanted = JSON.stringify([drawn, garments]);
     if (wanted === shown) return; // a list that somebody has open stays as it is
     shown = wanted;
-    const counts = new Map();
-    for (const entry of drawn) counts.set(titleOf(entry), (counts.get(titleOf(entry)) ?? 0) + 1);
+    const counts = counted(drawn);
     select.replaceChildren(
       group(
         say("garments.documents"),
@@ -66,10 +65,18 @@ export function mountGarments(store) {
 }
 
 /** @param {string} label @param {HTMLOptionElement[]} options */
-function group(label, options) {
+export function group(label, options) {
   const made = /** @type {HTMLOptGroupElement} */ (element("optgroup", "", ...options));
   made.label = label;
   return made;
+}
+
+/** How many documents have each title. @param {Entry[]} entries */
+export function counted(entries) {
+  /** @type {Map<string, number>} */
+  const counts = new Map();
+  for (const entry of entries) counts.set(titleOf(entry), (counts.get(titleOf(entry)) ?? 0) + 1);
+  return counts;
 }
 
 /**
@@ -77,7 +84,7 @@ function group(label, options) {
  * @param {Entry} entry
  * @param {Map<string, number>} counts
  */
-function called(entry, counts) {
+export function called(entry, counts) {
   const shown = titleOf(entry);
   const isAlone = (counts.get(shown) ?? 0) < 2;
   return isAlone || !entry.changed_at ? shown : `${shown}, ${when(entry.changed_at)}`;

@@ -35,6 +35,20 @@ def test_folds_that_the_garment_has_are_kept() -> None:
     assert only["folds"] == load_garment("hand-towel").to_dict()["folds"]
 
 
+def test_the_folds_of_another_garment_are_fitted(tmp_path: Path) -> None:
+    towel = tmp_path / "towel.json"
+    towel.write_text(json.dumps({**load_garment("hand-towel").to_dict(), "folds": [], "grip_radius_m": 0.2}))
+    result = propose(str(towel), "--like", "hand-towel", "--json", "-")
+    assert result.exit_code == 0
+    (only,) = json.loads(result.stdout)["proposals"]
+    assert [fold["name"] for fold in only["folds"]] == [fold.name for fold in load_garment("hand-towel").folds]
+    assert propose("tie", "--like", str(towel)).stderr == "--like: 'Hand towel' has no folds\n"
+    for both_or_none in ((), ("--like", "tie", "--to", "shelf")):
+        refused = propose("tie", *both_or_none)
+        assert refused.exit_code == 2
+        assert "--like GARMENT" in refused.stderr
+
+
 def test_where_nothing_fits_the_status_is_3_and_the_size_is_named() -> None:
     result = propose("hand-towel", "--to", "1x1cm", "--max-folds", "3")
     assert result.exit_code == 3

@@ -6,6 +6,8 @@ import httpx
 import pytest
 from prometheus_client.parser import text_string_to_metric_families
 
+from app.distribution import installing
+from tests.app.conftest import client_of
 from tests.app.samples import towel
 
 pytestmark = pytest.mark.anyio
@@ -29,6 +31,16 @@ async def test_metrics_count_answers_by_route_and_never_by_made_up_paths(client:
     routes = {dict(labels).get("route") for _, labels in found}
     assert not any(route and ("made" in route or "icon" in route or "tie" in route) for route in routes)
     assert found["process_resident_memory_bytes", ()] > 1e6
+
+
+async def test_without_their_library_metrics_say_what_to_install(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("app.distribution.is_installed", lambda _: False)
+    async with client_of(tmp_path) as client:
+        answer = await client.get("/metrics")
+    assert answer.status_code == 501
+    assert installing("metrics") in answer.json()["detail"]
 
 
 async def test_metrics_tell_the_work_of_each_lane(client: httpx.AsyncClient) -> None:

@@ -23,7 +23,7 @@ async def file(client: httpx.AsyncClient) -> dict[str, Any]:
     return found
 
 
-async def test_a_plan_is_told_as_a_file_by_address_and_by_accept(client: httpx.AsyncClient) -> None:
+async def test_a_plan_file_is_served_by_url_or_accept_header(client: httpx.AsyncClient) -> None:
     made = (await client.post("/api/plans", json={"garment": "vest"})).json()
     by_address = await client.get(f"/api/plans/{made['id']}/file")
     by_accept = await client.get(f"/api/plans/{made['id']}", headers={"Accept": PLAN_FILE})

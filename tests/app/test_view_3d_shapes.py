@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from app.ui.cloth_view import outlines
 from app.ui.colours import DARK, LIGHT, Palette
 from app.ui.fold_view import dashed, solid, split_at
 from app.ui.lighting import ink, paint, seen, seen_line
 from app.ui.lying_cloth import lying_cloth
 from app.ui.relief import Relief
 from app.ui.rotation import from_matrix, product, turn
+from app.ui.thick_cloth import ThickCloth
 from planner import Scene, load_garment
 from planner.motion.sample import ClothSurface
 from tests.app.pose_matrix import matrix
@@ -85,12 +85,20 @@ def test_a_quaternion_from_a_matrix_is_the_same_rotation() -> None:
         np.testing.assert_allclose(matrix((0, 0, 0), from_matrix(whole)), whole, atol=1e-12)
 
 
-def test_a_squares_outline_leaves_out_the_diagonal() -> None:
+def test_a_square_of_cloth_is_as_thick_as_it_says_and_its_hem_bulges() -> None:
     corners = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 0, 0], [1, 1, 0], [0, 1, 0]], dtype=float)
     square = ClothSurface(corners, np.arange(6).reshape(-1, 3), np.zeros(2, dtype=np.int64), corners)
-    segments = outlines(square)
-    assert len(segments) == 4
-    np.testing.assert_allclose(np.linalg.norm(segments[:, 0] - segments[:, 1], axis=1), 1.0)
+    thick = ThickCloth(square, 0.25)
+    front, back = thick.faces
+    np.testing.assert_allclose(front, corners + np.array([0.0, 0.0, 0.1]))
+    np.testing.assert_allclose(back, corners - np.array([0.0, 0.0, 0.1]))
+    assert len(thick.edges) == 4  # none along the diagonal
+    np.testing.assert_allclose(np.linalg.norm(thick.edges[:, 0] - thick.edges[:, 1], axis=1), 1.0)
+    vertices, triangles = thick.hem
+    a, b, c = vertices[triangles].transpose(1, 0, 2)
+    outwards = np.cross(b - a, c - a)
+    assert np.all((outwards[:, :2] * ((a + b + c)[:, :2] / 3 - 0.5)).sum(axis=1) > 0.0)
+    assert vertices[:, :2].min() == pytest.approx(-0.1) and vertices[:, :2].max() == pytest.approx(1.1)
 
 
 def test_a_garment_beyond_the_edge_hangs() -> None:

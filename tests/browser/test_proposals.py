@@ -70,7 +70,9 @@ def test_the_size_is_pulled_and_what_changes_begins_anew(page: Page, new_sheet: 
 
     def tell(route: Route) -> None:
         wanted = asked[-1]
-        size_m = (max(x for x, _ in wanted["garment"]["outline"]), 0.2 if wanted["to"] == "drawer" else 0.1)
+        like = wanted["to"].get("like") if isinstance(wanted["to"], dict) else None
+        long_m = 0.2 if wanted["to"] == "drawer" else 0.3 if like == "tie" else 0.4 if like else 0.1
+        size_m = (max(x for x, _ in wanted["garment"]["outline"]), long_m)
         found = [] if wanted["to"] == {"width_m": 0.1, "length_m": 0.25} else [proposal(TOWEL["outline"], size_m)]
         lines = [f"event: found\ndata: {json.dumps(one)}\n\n" for one in found]
         end = {"status": "done", "progress": 1.0, "message": "", "result": {"proposals": found}}
@@ -79,7 +81,8 @@ def test_the_size_is_pulled_and_what_changes_begins_anew(page: Page, new_sheet: 
 
     page.route("**/api/proposals", begin)
     page.route("**/api/jobs/*/events", tell)
-    sheet = new_sheet({**TOWEL, "folds": [{"name": "half", "kind": "blue", "start": [0.3, 0], "end": [0.3, 0.4]}]})
+    folded = {**TOWEL, "folds": [{"name": "half", "kind": "blue", "start": [0.3, 0], "end": [0.3, 0.4]}]}
+    mat, sheet = new_sheet({**folded, "title": "Bath mat"}), new_sheet(folded)
     page.goto(sheet.page_url)
     page.get_by_role("button", name="Fold it for me").click()
     panel = page.get_by_role("region", name="Fold it for me")
@@ -93,6 +96,16 @@ def test_the_size_is_pulled_and_what_changes_begins_anew(page: Page, new_sheet: 
     expect(cards).to_contain_text(size(60, 20))
     panel.get_by_role("button", name="Keep the folds").click()
     expect(cards).to_have_count(1)
+    like = panel.get_by_role("combobox", name="Fold it like another garment")
+    like.select_option(label="Bath mat")
+    expect(cards).to_contain_text(size(60, 40))
+    assert asked[-1]["to"] == {"like": mat.state["garment"]}
+    like.select_option(label="Tie")
+    expect(like).to_have_class(re.compile("is-chosen"))
+    expect(cards).to_contain_text(size(60, 30))
+    assert asked[-1]["to"] == {"like": "tie"}
+    panel.get_by_role("button", name="Drawer").click()
+    expect(like).to_have_value("")
     Hand(page).drag((0.4, 0.2), (0.35, 0.2))
     expect(page.get_by_role("status").filter(has_text=size(10, 25))).to_be_visible()
     assert [(one["to"], len(one["garment"]["folds"])) for one in asked[-2:]] == [

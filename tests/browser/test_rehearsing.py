@@ -238,7 +238,7 @@ def test_where_it_is_not_known_where_the_cloth_lies_nothing_is_planned_from_ther
     unknown = {"known": False, "reason": "almost all of the outline is hidden", "says": {"code": "outline_hidden"}}
     rehearsed(page, new_sheet(napkin()), run("trace"), **unknown, fit=None, fitted_px=[], start=None)
     card = page.get_by_role("region", name="Pictures of the rehearsal")
-    expect(card).to_contain_text("Not made out: almost all of the outline is hidden.")
+    expect(card).to_contain_text("The camera could not locate the cloth: almost all of the outline is hidden.")
     expect(card.get_by_role("button", name="Plan from what is seen")).to_be_disabled()
 
 
@@ -273,7 +273,7 @@ def test_an_edit_takes_the_rehearsal_back(page: Page, new_sheet: Callable[[Garme
 
 def test_why_there_is_no_rehearsal_is_said(page: Page, new_sheet: Callable[[Garment], Sheet]) -> None:
     begin = opened(page, new_sheet(napkin()))
-    says = {"code": "physics_missing", "install": "pip install this"}
+    says = {"code": "library_missing", "library": "MuJoCo", "install": "pip install this"}
     error = {"field": "", "message": "MuJoCo is missing", "says": says}
     refusal = {"title": "Unprocessable", "status": 422, "detail": "", "errors": [error]}
     page.route("**/api/rehearsals", lambda route: route.fulfill(status=422, json=refusal))

@@ -1,4 +1,4 @@
-"""The single-fold relaxation never denies what is possible, and soon sees what is not."""
+"""The single-fold relaxation never rejects feasible folds, and rejects infeasible ones quickly."""
 
 import math
 from itertools import count

@@ -45,7 +45,7 @@ def test_the_lower_finger_of_boxes_just_clears_the_table(pitch_deg: float) -> No
     assert edge_raised_m(hand(), HEIGHT_M, pitch) == pytest.approx(FINGER_CLEAR_M - sole_m)
 
 
-def test_what_shapes_are_rounded_by_keeps_the_hand_as_much_higher() -> None:
+def test_rounding_raises_the_hand_by_its_radius() -> None:
     plain, rounded = (edge_raised_m(hand(rounding_m=r), HEIGHT_M, math.radians(45)) for r in (0.0, 0.001))
     assert plain is not None and rounded == pytest.approx(plain + 0.001)
 

@@ -15,6 +15,7 @@ from planner.robots.mapped_arm import ALL_ROUND, MappedArm, heights, mapped_arm
 from planner.robots.posture_layers import covered_heights, covering
 from planner.robots.reach_map import ReachMap
 from planner.robots.reach_maps import Progress, grid_of, reach_map
+from planner.user_cache import CACHES, Cache
 from tests.robots.model import pin_pose, the_pr2
 
 Poses: TypeAlias = tuple[FloatArray, FloatArray]
@@ -105,7 +106,7 @@ def test_a_short_arm_reaches_what_random_joints_reach() -> None:
 def test_what_is_asked_above_or_below_a_map_is_looked_for_in_layers_of_it(
     cache: Path, poses: Poses, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(reach_maps, "user_cache_path", lambda _: cache)
+    monkeypatch.setattr(reach_maps, "cache_folder", lambda: cache)
     arm, reference = mapped(cache), the_pr2()
     before = arm.can_reach(*poses, TORSO_M)
     low_m, high_m = covered_heights(arm.known.grid)
@@ -146,7 +147,7 @@ def test_a_map_that_cannot_be_read_is_built_again(tmp_path: Path, poses: Poses) 
 
 
 def test_maps_that_were_not_used_lately_are_dropped(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(reach_maps, "_KEPT_MAX", 1)
+    monkeypatch.setitem(CACHES, "postures", Cache("maps", 1))
     old = tmp_path / "postures" / "old.npz"
     old.parent.mkdir()
     old.write_bytes(b"a map of an earlier version")

@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray, Point3
@@ -63,6 +64,17 @@ class Camera:
         found = np.array(self.position)[:2] + share[:, None] * ways[:, :2]
         found[~(share > 0.0)] = np.nan
         return np.asarray(found)
+
+    def all_on_table(self) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+        """Return x and y of where each pixel meets the table, shape (height, width) each, m; NaN above the horizon."""
+        (width, height), (column, row) = self.size_px, self._middle
+        across = ((np.arange(width) - column) / self.focal_px)[None, :]
+        down = ((np.arange(height) - row) / self.focal_px)[:, None]
+        x, y, z = (right * across + below * down + ahead for right, below, ahead in self.rotation)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            share = -self.position[2] / z
+        share[~(share > 0.0)] = np.nan
+        return (self.position[0] + share * x).astype(np.float32), (self.position[1] + share * y).astype(np.float32)
 
     def carried(self, isometry: Isometry) -> "Camera":
         """Return the camera after the table frame was turned and shifted in its plane."""

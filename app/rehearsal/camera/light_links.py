@@ -15,20 +15,16 @@ from typing import Any
 from zipfile import BadZipFile
 
 import numpy as np
-from platformdirs import user_cache_path
 
 from app.ui import robot_mesh, robot_model
 from app.ui.robot_model import Link, Pose3, Visual, load_robot_model
 from planner.geometry.pose import FloatArray
 from planner.robots import mesh_file
 from planner.robots.collision.shape_files import write_arrays
-from planner.user_cache import use
+from planner.user_cache import cache_folder, use
 
 _POINTS = 400
 """Vertices of a part that are kept at most, besides those furthest out along each axis."""
-
-_KEPT_MAX = 32
-"""The robots that stay in the cache."""
 
 _MADE_BY = (robot_mesh, robot_model, mesh_file)
 """The modules that meshes are read by: another version of them reads anew."""
@@ -44,7 +40,7 @@ def light_links(urdf_path: Path, package_dir: Path, directory: Path | None = Non
         package_dir: the folder that ``package://`` in its mesh paths stands for.
         directory: the cache directory; None: the platform's own.
     """
-    path = (directory or user_cache_path("pleat")) / "links" / f"{_digest(urdf_path, package_dir)}.npz"
+    path = (directory or cache_folder()) / "links" / f"{_digest(urdf_path, package_dir)}.npz"
     try:
         with path.open("rb") as file, np.load(file, allow_pickle=False) as arrays:
             found = _read(arrays["links"].tobytes(), arrays["points"], arrays["counts"])
@@ -53,7 +49,7 @@ def light_links(urdf_path: Path, package_dir: Path, directory: Path | None = Non
         with contextlib.suppress(OSError):
             write_arrays(path, _arrays(found))
     with contextlib.suppress(OSError):
-        use(path, _KEPT_MAX)
+        use(path)
     return found
 
 

@@ -1,19 +1,27 @@
-"""The camera of a robot's card: over the table, or on one of the robot's links."""
+"""The cameras of a robot: that of its card, over the table or on one of its links, and those on its wrists."""
 
 import math
+from collections.abc import Mapping
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from app.rehearsal.camera.camera import Camera
 from app.rehearsal.camera.posture import Posture
 from app.rehearsal.camera.robot_shape import RobotShape
-from planner.geometry.pose import FloatArray
+from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.table import Table
+from planner.robots.card_file import CardFile
 from planner.robots.card_parts import CameraFile
 
 _OVER_M = 2.0
 _MARGIN = 1.1
 _SIZE_PX = (640, 480)
+
+_BEHIND_M, _ABOVE_M = 0.1, 0.06
+"""Where the lens of a wrist's camera is: behind the point between the fingertips, and above it (m)."""
+
+_WRIST_VIEW_RAD = 1.3
 
 
 def overhead(table: Table) -> CameraFile:
@@ -32,6 +40,33 @@ def overhead(table: Table) -> CameraFile:
         height_px=_SIZE_PX[1],
         field_of_view_rad=2.0 * math.atan(half_m / _OVER_M),
     )
+
+
+def wrists(
+    card: CardFile, shape: RobotShape, home: Mapping[str, float], size_px: tuple[int, int]
+) -> dict[str, CameraFile]:
+    """Return a camera on each wrist by the arm's name: it looks at the point between the fingertips.
+
+    Args:
+        card: the robot's card.
+        shape: the robot's shape.
+        home: its joints at home, where the cameras are above their hands (rad, m).
+        size_px: the width and height of their pictures.
+    """
+    frames, found = shape.frames(Posture(Pose2(0.0, 0.0, 0.0), home)), {}
+    for arm in card.arms:
+        tool = arm.tool
+        approach = np.array(tool.approach) / np.linalg.norm(tool.approach)
+        across = np.cross(approach, np.array(tool.closing))
+        across /= math.copysign(float(np.linalg.norm(across)), (frames[tool.link][:3, :3] @ across)[2])
+        ahead = _BEHIND_M * approach - _ABOVE_M * across
+        x_m, y_m, z_m = (np.array(tool.offset_m) - ahead).tolist()
+        ahead /= np.linalg.norm(ahead)
+        right = np.cross(approach, across)
+        axes = np.column_stack([right, np.cross(ahead, right), ahead])
+        roll_rad, pitch_rad, yaw_rad = Rotation.from_matrix(axes).as_euler("xyz").tolist()
+        found[arm.name] = CameraFile(x_m, y_m, z_m, roll_rad, pitch_rad, yaw_rad, *size_px, _WRIST_VIEW_RAD, tool.link)
+    return found
 
 
 def hung(given: CameraFile) -> Camera:

@@ -22,6 +22,9 @@ _TEXTURE_M = 0.004
 _TEXTURE_PX = 700
 """Size of a texture's pixel (m), and its side: tables up to 2.8 m a side are covered, larger ones repeat it."""
 
+_LEAST_M = 0.01
+"""What is nearer to the lens is not seen (m)."""
+
 _FLOOR = (96.0, 98.0, 100.0)
 _ROBOT = (214.0, 212.0, 208.0)
 _SUN = np.array([0.25, -0.35, 1.0])
@@ -59,10 +62,9 @@ def picture(
     """
     width, height = camera.size_px
     fine = Camera(camera.position, camera.rotation, _FINER * camera.focal_px, (_FINER * width, _FINER * height))
-    light = np.random.default_rng(seed)
     taken = _ground(fine, table, look, seed).copy()
     _shade(taken, fine, cloth, robot, look)
-    _lay_cloth(taken, fine, cloth, look, light)
+    _lay_cloth(taken, fine, cloth, look, seed)
     for number, ring in enumerate(outlines(robot, fine)):
         cv2.fillConvexPoly(taken, ring, [part * (0.86 + 0.02 * (number % 8)) for part in _ROBOT], cv2.LINE_8)
     small = np.asarray(cv2.resize(taken, (width, height), interpolation=cv2.INTER_AREA), np.float32)
@@ -73,17 +75,19 @@ def picture(
 @lru_cache(maxsize=4)
 def _ground(camera: Camera, table: Table, look: Look, seed: int) -> FloatImage:
     """Return the floor and the table; what does not change is kept, and must not be changed."""
-    width, height = camera.size_px
-    columns, rows = np.meshgrid(np.arange(width), np.arange(height))
-    on = camera.on_plane(np.column_stack([columns.ravel(), rows.ravel()]).astype(float)).reshape(height, width, 2)
-    texture = wood(look, _TEXTURE_PX, np.random.default_rng([seed, 1]))
-    places = np.nan_to_num(on / _TEXTURE_M + _TEXTURE_PX / 2.0).astype(np.float32)
-    grained = cv2.remap(texture, places[..., 0], places[..., 1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_REFLECT)
-    x, y = np.abs(on[..., 0]), np.abs(on[..., 1])
-    is_table = (x <= table.depth_m / 2) & (y <= table.width_m / 2)
+    x, y = camera.all_on_table()
+    texture = _texture(look, seed)
+    across, down = (np.nan_to_num(axis / _TEXTURE_M + _TEXTURE_PX / 2.0) for axis in (x, y))
+    grained = cv2.remap(texture, across, down, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REFLECT)
+    is_table = (np.abs(x) <= table.depth_m / 2) & (np.abs(y) <= table.width_m / 2)
     ground = np.where(is_table[..., None], grained, np.array(_FLOOR, np.float32))
     ground.setflags(write=False)
     return np.asarray(ground, np.float32)
+
+
+@lru_cache(maxsize=4)
+def _texture(look: Look, seed: int) -> FloatImage:
+    return wood(look, _TEXTURE_PX, np.random.default_rng([seed, 1]))
 
 
 def _shade(taken: FloatImage, camera: Camera, cloth: ClothSeen, robot: list[FloatArray], look: Look) -> None:
@@ -91,32 +95,41 @@ def _shade(taken: FloatImage, camera: Camera, cloth: ClothSeen, robot: list[Floa
     mask = np.zeros(taken.shape[:2], np.float32)
     falls = cloth.positions - np.maximum(cloth.positions[:, 2:] + 0.006, 0.0) * _SUN
     falls[:, 2] = 0.0
-    fixed = np.round(camera.pixels(falls)[cloth.triangles]).astype(np.int32)
+    is_ahead = (camera.depths(falls) > _LEAST_M)[cloth.triangles].all(axis=1)
+    fixed = np.round(camera.pixels(falls)[cloth.triangles[is_ahead]]).astype(np.int32)
     for triangle in fixed:
         cv2.fillConvexPoly(mask, triangle, 1.0)
     for part in robot:
         high = part[part[:, 2] > 0.0]
-        if len(high) > 2:
-            fallen = high - high[:, 2:] * _SUN
+        fallen = high - high[:, 2:] * _SUN
+        if len(high) > 2 and camera.depths(fallen).min() > _LEAST_M:
             ring = cv2.convexHull(np.round(camera.pixels(fallen)).astype(np.int32))
             cv2.fillConvexPoly(mask, ring, 0.6)
     taken *= 1.0 - look.shadow * cv2.GaussianBlur(mask, (0, 0), 5.0)[:, :, None]
 
 
-def _lay_cloth(taken: FloatImage, camera: Camera, cloth: ClothSeen, look: Look, rng: np.random.Generator) -> None:
+def _lay_cloth(taken: FloatImage, camera: Camera, cloth: ClothSeen, look: Look, seed: int) -> None:
     pixels = camera.pixels(cloth.positions)
     numbers = drawn(pixels - 0.25, cloth.triangles, camera.depths(cloth.positions), camera.size_px)
+    if numbers.max() < 0:
+        return
     shown, near = shares(numbers, pixels, cloth.triangles)
     corners = cloth.triangles[numbers[shown]]
     on = np.einsum("ij,ijk->ik", near, cloth.pattern[corners])
     colours = _colours(on, _is_front(camera, cloth)[numbers[shown]], look)
     brightness = np.einsum("ij,ij->i", near, _brightness(cloth)[corners])
-    folds, weave = stretched(rng, 256, (10, 20), 1.5), stretched(rng, 256, (1, 1), 0.0)
+    folds, weave = _wrinkles(seed)
     places = np.floor(on / _TEXTURE_M).astype(np.int64) % 256
-    wrinkles = (
-        look.wrinkles * 18 * folds[places[:, 0], places[:, 1]] / folds.std() + 3 * weave[places[:, 1], places[:, 0]]
-    )
+    wrinkles = look.wrinkles * folds[places[:, 0], places[:, 1]] + weave[places[:, 1], places[:, 0]]
     taken[shown] = colours * brightness[:, None] + wrinkles[:, None]
+
+
+@lru_cache(maxsize=4)
+def _wrinkles(seed: int) -> tuple[FloatImage, FloatImage]:
+    """Return how much brighter wrinkles and weave are, of 255."""
+    rng = np.random.default_rng(seed)
+    folds, weave = stretched(rng, 256, (10, 20), 1.5), stretched(rng, 256, (1, 1), 0.0)
+    return np.asarray(18 * folds / folds.std(), np.float32), 3 * weave
 
 
 def _colours(on: FloatArray, is_front: NDArray[np.bool_], look: Look) -> FloatArray:
@@ -162,7 +175,7 @@ def drawn(pixels: FloatArray, triangles: NDArray[np.int64], depths: FloatArray, 
     """Return which triangle each pixel shows, shape (height, width); -1 where it shows none.
 
     The triangles are painted one over the other, the farthest first: cloth that lies in layers has no triangles that
-    run through each other.
+    run through each other. Those that are at the lens or behind it are left out.
 
     Args:
         pixels: where the vertices are in the image, shape (n, 2).
@@ -171,9 +184,10 @@ def drawn(pixels: FloatArray, triangles: NDArray[np.int64], depths: FloatArray, 
         size_px: the image's width and height.
     """
     numbers = np.full(size_px[::-1], -1, np.int32)
+    ahead = np.flatnonzero(depths[triangles].min(axis=1) > _LEAST_M)
     corners = np.clip(pixels, -4.0 * max(size_px), 4.0 * max(size_px))
     fixed = np.round(corners[triangles] * _FINE).astype(np.int32)
-    for number in np.argsort(-depths[triangles].mean(axis=1), kind="stable").tolist():
+    for number in ahead[np.argsort(-depths[triangles[ahead]].mean(axis=1), kind="stable")].tolist():
         cv2.fillConvexPoly(numbers, fixed[number], number, cv2.LINE_8, _SHIFT)
     return numbers
 

@@ -3,7 +3,6 @@
 from collections.abc import Iterator, Mapping
 from functools import lru_cache
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -87,6 +86,8 @@ def outlines(parts: list[FloatArray], camera: Camera) -> list[NDArray[np.int32]]
 
 def hidden(parts: list[FloatArray], camera: Camera, beyond_px: int = 0) -> BoolArray:
     """Return which pixels show the robot, and those up to so many pixels beside it, shape (height, width)."""
+    import cv2  # here, because only pictures need it
+
     width, height = camera.size_px
     mask: NDArray[np.uint8] = np.zeros((height, width), np.uint8)
     for ring in outlines(parts, camera):
@@ -96,6 +97,8 @@ def hidden(parts: list[FloatArray], camera: Camera, beyond_px: int = 0) -> BoolA
 
 
 def _hull(pixels: FloatArray) -> NDArray[np.int32]:
+    import cv2
+
     return np.asarray(cv2.convexHull(np.round(pixels).astype(np.int32))[:, 0], np.int32)
 
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 import cv2
 import numpy as np
 
+from app.rehearsal.camera.calibration import Calibration
 from app.rehearsal.vision.background import BORDER
 from app.rehearsal.vision.picture import Image, Picture
 from app.rehearsal.vision.scale_said import LengthSaid, MarkerSaid, ScaleSaid, SheetSaid
@@ -46,8 +47,9 @@ class OnTable:
 
     Attributes:
         contour: points along it, in order, shape (n, 2), m, in `frame`.
-        frame: "sheet", "marker" or "picture": where the origin is. That of a picture is its middle; x runs right, y up.
-        scale_from: "a4", "letter", "marker" or "length".
+        frame: "sheet", "marker", "picture" or "table": where the origin is. That of a picture is its middle; x runs
+            right, y up.
+        scale_from: "a4", "letter", "marker", "length" or "camera".
         seen: how it was found in the picture.
         size_error: by which share its size may be wrong; None where it was not taken from the picture.
         doubt: why it may be wrong; None where there is no reason.
@@ -72,6 +74,8 @@ def outline_on_table(picture: Picture, said: ScaleSaid | None) -> OnTable:
         NothingToldError: there is no cloth to be seen, or not what was said to give the scale.
         ScaleNeededError: nothing was said, and there is no sheet.
     """
+    if isinstance(said, Calibration):
+        return _by_camera(picture.image, said)
     image, alpha = picture.image, picture.alpha
     if isinstance(said, LengthSaid):
         seen = segment(image) if alpha is None else segment_cut_out(alpha)
@@ -87,6 +91,16 @@ def outline_on_table(picture: Picture, said: ScaleSaid | None) -> OnTable:
             doubt = why_in_doubt(seen, error) or (_WHICH_SHEET if is_either else None)
             return OnTable(plane.on_table(seen.contour), frame, plane.by, seen, error, doubt)
     raise NothingToldError(Message.plain("the sheet or marker found cannot lie on the table that the cloth lies on"))
+
+
+def _by_camera(image: Image, calibration: Calibration) -> OnTable:
+    straight, camera = calibration.view(image)
+    seen = segment(straight)
+    contour = camera.on_plane(seen.contour)
+    if not np.isfinite(contour).all():
+        raise NothingToldError(Message.plain("the camera of the calibration sees more than the table there"))
+    error = 2.0 * calibration.error_px / float(np.ptp(seen.contour, axis=0).max())
+    return OnTable(contour, "table", "camera", seen, error, why_in_doubt(seen, error))
 
 
 def _beside(image: Image, plane: Plane, sheet: BoolArray) -> Segmented:

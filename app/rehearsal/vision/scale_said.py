@@ -1,10 +1,11 @@
-"""The scale of a picture as the user gives it: a sheet of paper, a marker, or one length of the garment."""
+"""The scale of a picture as the user gives it: a sheet of paper, a marker, a length of the garment, a calibration."""
 
 import re
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from app.files.sketch_size import UNITS_M
+from app.rehearsal.camera.calibration import Calibration
 from app.rehearsal.vision.vision_errors import PictureError
 
 SHEETS_M = {"a4": (0.297, 0.210), "letter": (0.2794, 0.2159)}
@@ -41,7 +42,8 @@ class LengthSaid:
     across: Across
 
 
-ScaleSaid: TypeAlias = SheetSaid | MarkerSaid | LengthSaid
+ScaleSaid: TypeAlias = SheetSaid | MarkerSaid | LengthSaid | Calibration
+"""A calibrated camera tells the table's frame too."""
 
 _LENGTH = re.compile(r"(\d{1,6}(?:\.\d{1,9})?|\.\d{1,9})\s*(mm|cm|m|in)(?::(longest|width|height))?", re.ASCII)
 _MARKER = re.compile(r"marker:(\d{1,6}(?:\.\d{1,9})?|\.\d{1,9})\s*(mm|cm|m|in)", re.ASCII)

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from app.files.sketch_garment import plain_name
+from app.rehearsal.camera.calibration import Calibration
 from app.rehearsal.vision.like import Like, liken
 from app.rehearsal.vision.on_table import OnTable, outline_on_table
 from app.rehearsal.vision.picture import read_picture
@@ -59,7 +60,7 @@ class Seen:
     Attributes:
         garment: the garment, upright in its own frame.
         placement: the article frame where it lies in `frame`.
-        frame: "sheet", "marker" or "picture"; see `OnTable.frame`.
+        frame: "sheet", "marker", "picture" or "table"; see `OnTable.frame`.
         scale_from: what gave the scale.
         sure: how sure it is.
         notes: remarks on how it was read.
@@ -84,13 +85,14 @@ class Seen:
         }
 
 
-def see(data: bytes, name: str, scale: str | None, like: Like | None = None) -> Seen:
+def see(data: bytes, name: str, scale: str | Calibration | None, like: Like | None = None) -> Seen:
     """Return the garment that a picture shows.
 
     Args:
         data: a PNG or JPEG.
         name: the garment's title.
-        scale: what gives the scale, as `read_scale` takes it; None to look for a sheet of paper.
+        scale: what gives the scale, as `read_scale` takes it, or a calibrated camera; None to look for a sheet
+            of paper.
         like: what the garment is like: its measures are fitted, and its folds brought along; None to take the outline
             as it is seen.
 
@@ -99,7 +101,7 @@ def see(data: bytes, name: str, scale: str | None, like: Like | None = None) -> 
         NothingToldError: there is nothing to be told from it.
         ScaleNeededError: nothing says how large it is.
     """
-    said = None if scale is None else read_scale(scale)
+    said = read_scale(scale) if isinstance(scale, str) else scale
     seen = outline_on_table(read_picture(data), said)
     return drawn(seen, name) if like is None else _likened(seen, name, like)
 

@@ -9,8 +9,10 @@ import math
 from dataclasses import dataclass, replace
 from typing import Any
 
+from app.rehearsal.camera.calibration import Calibration
 from app.rehearsal.vision.fit_fold import FoldedOutline, fit_fold
 from app.rehearsal.vision.fit_stack import fit_stack, thinned
+from app.rehearsal.vision.neatness import Neatness
 from app.rehearsal.vision.on_table import OnTable, outline_on_table
 from app.rehearsal.vision.picture import read_picture
 from app.rehearsal.vision.scale_said import read_scale
@@ -19,9 +21,10 @@ from app.rehearsal.vision.stack_fit import LOOKS_ALIKE, FoldFit, StackFit, unkno
 from planner.cloth.fold_kinds import FOLD_KINDS
 from planner.cloth.garment import Garment
 from planner.folds.fold_sequence import FoldSequence, replayed
-from planner.geometry.pose import FloatArray
+from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.region import Region
 from planner.message import Message
+from planner.task.plan import Plan
 
 _SETS = 200
 """Sets of folds looked at; garments whose folds hardly wait for each other have more."""
@@ -67,9 +70,10 @@ class SeenState:
     Attributes:
         garment: the garment.
         found: the state.
-        frame: "sheet", "marker" or "picture"; see `OnTable.frame`.
+        frame: "sheet", "marker", "picture" or "table"; see `OnTable.frame`.
         scale_from: what gave the scale.
         size_error: by which share the size may be wrong; None where a length was typed.
+        neatness: how well the stack matches that state.
         unknown: why the state is not known; None where it is.
     """
 
@@ -78,6 +82,7 @@ class SeenState:
     frame: str
     scale_from: str
     size_error: float | None
+    neatness: Neatness
     unknown: Message | None
 
     @property
@@ -92,6 +97,7 @@ class SeenState:
             "folds_done": list(self.folds),
             "last_fold": self.found.last,
             "fit": self.found.fit.to_dict(),
+            "neatness": self.neatness.to_dict(),
             "frame": self.frame,
             "scale_from": self.scale_from,
             "size_error": self.size_error,
@@ -99,14 +105,15 @@ class SeenState:
         }
 
 
-def see_state(data: bytes, scale: str | None, garment: Garment) -> SeenState:
+def see_state(data: bytes, scale: str | Calibration | None, garment: Garment, plan: Plan | None = None) -> SeenState:
     """Return which state of a garment's folds a picture shows.
 
     Args:
         data: a PNG or JPEG.
-        scale: what gives the scale, as `read_scale` takes it; None to look for a sheet of paper. A length is that of
-            the cloth as it lies there.
+        scale: what gives the scale, as `read_scale` takes it, or a calibrated camera; None to look for a sheet of
+            paper. A length is that of the cloth as it lies there.
         garment: the garment, with its folds.
+        plan: its plan, which says where the stack ought to lie on the table of a calibrated camera.
 
     Raises:
         PictureError: the file is no picture that can be read, or the scale is not one.
@@ -114,13 +121,21 @@ def see_state(data: bytes, scale: str | None, garment: Garment) -> SeenState:
         NothingToldError: there is nothing to be told from the picture.
         ScaleNeededError: nothing says how large the cloth is.
     """
-    said = None if scale is None else read_scale(scale)
+    said = read_scale(scale) if isinstance(scale, str) else scale
     sequence = replayed(garment)
     seen = outline_on_table(read_picture(data), said)
     found, unknown = state_of(seen.contour, sequence)
+    ought = None if plan is None or seen.frame != "table" else _ought(plan, found.done)
+    neat = Neatness.of(seen.contour, sequence.cloth(found.done).silhouette, found.stack.placement, ought)
     return SeenState(
-        garment, _less_sure(found, seen), seen.frame, seen.scale_from, seen.size_error, seen.doubt or unknown
+        garment, _less_sure(found, seen), seen.frame, seen.scale_from, seen.size_error, neat, seen.doubt or unknown
     )
+
+
+def _ought(plan: Plan, done: int) -> Pose2 | None:
+    """Return where a plan has the stack once these folds are done; None if it never is so."""
+    worlds = (plan.task.start, *(step.after for step in plan.steps))
+    return next((world.placement for world in reversed(worlds) if world.done == done), None)
 
 
 def state_of(contour: FloatArray, sequence: FoldSequence) -> tuple[FittedState, Message | None]:

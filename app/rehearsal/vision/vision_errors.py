@@ -3,6 +3,9 @@
 from planner.errors import FieldError, FoldingError
 from planner.message import Message
 
+LARGEST_PICTURE = 16 << 20
+"""Largest size of a picture's file (bytes)."""
+
 
 class PictureError(FieldError):
     """Bad input: the file is no picture that can be read, or what was said beside it is wrong.

@@ -8,10 +8,10 @@ import math
 
 import numpy as np
 
-from app.document_state import ShownPlan
 from app.ui.viewpoint import Viewpoint
 from app.ui.viewpoints.presets import Lens
 from planner.geometry.pose import Point2, Pose2, wrapped_angle
+from planner.task.plan import Plan
 
 ASIDE_RAD = math.radians(50.0)
 """The camera's angle beside the line from the robot through its work (rad); 0 would be face to face."""
@@ -64,9 +64,8 @@ def _across(work: Point2, heading_rad: float, lens: Lens, nearness: float) -> Vi
     return Viewpoint((x, y, distance * math.sin(rise_rad)), (work[0], work[1], 0.1))
 
 
-def work_of(shown: ShownPlan, t_s: float) -> Point2:
+def work_of(plan: Plan, t_s: float) -> Point2:
     """Return the middle of what the hands do in the step at a time, or of the cloth when they do nothing (m)."""
-    plan = shown.plan
     step = next((step for step in plan.steps if t_s < step.end_s), None)
     if step is not None and step.grips:
         points = np.array([point[:2] for grip in step.grips for point in (grip.pick, grip.place)])

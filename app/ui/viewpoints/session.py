@@ -91,7 +91,7 @@ class Session:
         points = on_table(state.drawing, ring_of(state.drawing.outline).points) or state.drawing.scene.table.corners
         x, y = np.array(points).mean(axis=0)
         shown, t_s = state.shown, self._document.t_s
-        work = (float(x), float(y)) if shown is None else work_of(shown, t_s)
+        work = (float(x), float(y)) if shown is None else work_of(shown.plan, t_s)
         is_over = shown is not None and 0.0 < shown.timeline.duration_s <= t_s
         return self._following.view(self._base(state), work, self._choice.lens, is_over=is_over)
 

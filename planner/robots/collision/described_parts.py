@@ -12,7 +12,6 @@ from zipfile import BadZipFile
 
 import numpy as np
 from numpy.typing import NDArray
-from platformdirs import user_cache_path
 
 from planner.errors import RobotError
 from planner.robots.collision import part_source
@@ -25,6 +24,7 @@ from planner.robots.collision.robot_parts import RobotParts
 from planner.robots.collision.shape_files import Arrays, hull_arrays, hull_from, write_arrays
 from planner.robots.described_robot import DescribedRobot
 from planner.robots.urdf_reader import parsed
+from planner.user_cache import cache_folder, use
 
 _FORMAT = 2
 """Version of the cache; raise it whenever parts or pairs are made or stored differently."""
@@ -51,7 +51,7 @@ def described_parts(robot: DescribedRobot, directory: Path | None = None) -> Rob
     Raises:
         RobotError: a mesh cannot be read or is too large, or no link has a shape.
     """
-    path = (directory or user_cache_path("pleat")) / "shapes" / f"{_digest(robot)}.npz"
+    path = (directory or cache_folder()) / "shapes" / f"{_digest(robot)}.npz"
     try:
         with path.open("rb") as file, np.load(file, allow_pickle=False) as arrays:
             made = _read(robot, arrays)
@@ -59,6 +59,8 @@ def described_parts(robot: DescribedRobot, directory: Path | None = None) -> Rob
         made = _make(robot)
         with contextlib.suppress(OSError):
             write_arrays(path, _arrays(made))
+    with contextlib.suppress(OSError):
+        use(path)
     return _robot_parts(robot, made.parts, made.choice)
 
 

@@ -11,7 +11,6 @@ from zipfile import BadZipFile
 import numpy as np
 import pinocchio as pin
 from numpy.typing import NDArray
-from platformdirs import user_cache_path
 
 from planner.robots.card import GripperCard
 from planner.robots.collision.rounded_hull import RoundedHull, rounded_hull
@@ -20,6 +19,7 @@ from planner.robots.openings import EDGE_OPEN_M, HELD_M
 from planner.robots.pr2.description import urdf_path
 from planner.robots.pr2.part_points import arm_points, body_points, finger_points, points_of_joints
 from planner.robots.pr2.parts import ARM_PARTS, BODY_PARTS, FINGERS, FINGERTIPS
+from planner.user_cache import cache_folder, use
 
 OPENINGS_M = (0.0, HELD_M, EDGE_OPEN_M, 0.03, 0.06, 0.09)
 """Openings of the fingers for which there are shapes (m)."""
@@ -54,14 +54,16 @@ def part_shapes(model: pin.Model, gripper: GripperCard, directory: Path | None =
         gripper: how the fingers open.
         directory: the cache directory; None: the platform's own.
     """
-    path = (directory or user_cache_path("pleat")) / f"pr2-shapes-{_digest()}.npz"
+    path = (directory or cache_folder()) / "shapes" / f"pr2-{_digest()}.npz"
     try:
-        return _read(path)
+        found = _read(path)
     except (OSError, ValueError, KeyError, EOFError, BadZipFile):
-        made = make_shapes(model, gripper)
+        found = make_shapes(model, gripper)
+        with contextlib.suppress(OSError):
+            _write(path, found)
     with contextlib.suppress(OSError):
-        _write(path, made)
-    return made
+        use(path)
+    return found
 
 
 def make_shapes(model: pin.Model, gripper: GripperCard) -> PartShapes:

@@ -30,7 +30,7 @@ export function mountDock(store, pictures, rehearsal) {
   const folds = new Folds(store, clock, shown);
   const outcome = new Outcome(store, clock, shown, pictures, rehearsal, (t_s) => slider.seek(t_s));
   new RehearsalCard(store, clock, rehearsal, outcome.rehearsing.root);
-  const steps = new StepMenu(store, shown, () => outcome.start.takeFocus());
+  const steps = new StepMenu(store, shown, outcome.running, () => outcome.start.takeFocus());
   steps.serve(lanes.root, ".block");
   steps.serve(outcome.list.root, ".plan-row");
   const planning = new Planning(store);

@@ -5,6 +5,7 @@ import { button, element } from "../dom.js";
 import { say } from "../language/say.js";
 import { startInWords } from "../messages/starts.js";
 import { Rehearsing } from "../rehearsal/rehearsing.js";
+import { Running } from "../run/running.js";
 import { numbers, quicker } from "./numbers.js";
 import { PlanList } from "./plan.js";
 import { Planning, Refining } from "./planning.js";
@@ -37,6 +38,7 @@ export class Outcome {
     this.rehearsal = rehearsal;
     this.rehearsing = new Rehearsing(rehearsal);
     rehearsal.addEventListener("change", () => this.list.judge(rehearsal.verdicts));
+    this.running = new Running(rehearsal, shown, onSeek);
     this.none = new NoPlan();
     this.stop = button("chip", () => store.command({ do: "stop" }), say("search.stop"));
     this.longer = button("chip look-longer", () => store.command({ do: "look_longer" }), say("plan.look_longer"));
@@ -47,8 +49,8 @@ export class Outcome {
     this.refining = new Refining(store);
     for (const waiting of [this.planning, this.refining]) waiting.addEventListener("change", () => this.offerStop());
     this.offerStop();
-    const head = element("header", "dock-head", this.title, this.compare, this.rehearsing.button, this.place.button, this.stop);
-    const plan = element("div", "plan-scroll", this.place.root, this.rehearsing.root, this.empty, this.list.root);
+    const head = element("header", "dock-head", this.title, this.compare, this.rehearsing.button, this.running.button, this.place.button, this.stop);
+    const plan = element("div", "plan-scroll", this.place.root, this.rehearsing.root, this.running.root, this.empty, this.list.root);
     this.solved = element("div", "outcome-solved", plan, this.numbers);
     this.title.tabIndex = -1;
     this.start = new StartLine(store, () => this.title.focus());
@@ -80,6 +82,7 @@ export class Outcome {
     const plan = message?.plan?.status === "solved" ? message.plan : null;
     this.place.follow();
     this.rehearsing.show();
+    this.running.show();
     if (message && message.status === "planning" && !plan) this.wait();
     else if (message && state && NO_PLAN.has(message.status)) this.showNone(message, state);
     else if (plan) this.showPlan(plan, message?.before ?? null);

@@ -1,18 +1,21 @@
-/** The menu of a step of the plan: `Plan from here`. */
+/** The menu of a step of the plan: `Plan from here`, `Run from here`. */
 
 import { say } from "../language/say.js";
 import { Menu } from "../menu.js";
 import { MenuPress } from "../menu_press.js";
+import { Running } from "../run/running.js";
 
 export class StepMenu {
   /**
    * @param {import("../store.js").Store} store
    * @param {import("./shown_plan.js").ShownPlan} shown
+   * @param {Running} running
    * @param {() => void} onChosen before the rest is planned
    */
-  constructor(store, shown, onChosen) {
+  constructor(store, shown, running, onChosen) {
     this.store = store;
     this.shown = shown;
+    this.running = running;
     this.onChosen = onChosen;
     this.menu = new Menu();
     /** The plan that it was opened on, and whether planning could go on from it. */
@@ -47,10 +50,18 @@ export class StepMenu {
       this.onChosen();
       this.store.command({ do: "plan_from", step });
     };
+    const { plan } = this.shown;
+    const isHeld = plan ? !Running.isFree(plan, step) : true;
+    const run = {
+      text: say("run.from_here"),
+      hint: this.isPlanned ? say(isHeld ? "run.is_held" : "run.from_here_hint") : hint,
+      isOff: isHeld || !this.isPlanned,
+      choose: () => this.running.begin(step),
+    };
     this.about = this.now;
     this.menu.open(
       part.getAttribute("aria-label") ?? say("menu.step"),
-      [{ text: say("menu.plan_from_here"), hint, isOff, choose }],
+      [{ text: say("menu.plan_from_here"), hint, isOff, choose }, run],
       part,
       at,
     );

@@ -20,6 +20,7 @@ export const files = (inWords) => ({
   seam_allowance: ({ line, width_m: width }) =>
     say(line === "cut" ? "message.seam_allowance.cut" : "message.seam_allowance.seam", { width: length(width) }),
   graded_sizes: ({ size: taken, sizes }) => say("message.graded_sizes", { size: taken, sizes: sizes.join(", ") }),
+  library_missing: ({ library, install }) => say("message.library_missing", { library, install }),
   piece_unfolded: () => say("message.piece_unfolded"),
   halves_joined: () => say("message.halves_joined"),
   fold_unknown: () => say("message.fold_unknown"),

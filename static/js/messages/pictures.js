@@ -33,7 +33,6 @@ export const PICTURES = {
   looks_alike: ({ placements }) => say("message.looks_alike", { placements }),
   outline_hidden: () => say("message.outline_hidden"),
   no_cloth_seen: () => say("message.no_cloth_seen"),
-  physics_missing: ({ install }) => say("message.physics_missing", { install }),
   too_little_seen: ({ share }) => say("message.too_little_seen", { share: percent(share) }),
   too_uncertain: ({ error_m: error }) => say("message.too_uncertain", { error: length(error) }),
 };

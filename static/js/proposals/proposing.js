@@ -12,8 +12,9 @@ import { button, element } from "../dom.js";
 import { icon } from "../icons.js";
 import { inEnglish, say } from "../language/say.js";
 import { inWords, ProposalCards } from "./cards.js";
+import { LikePicker } from "./like_picker.js";
 import { ProposalSearch } from "./proposal_search.js";
-import { isWithin, PRESETS, SMALLEST } from "./target.js";
+import { isLike, isWithin, PRESETS, SMALLEST } from "./target.js";
 
 /** @import { Garment } from "pleat" */
 /** @import { Proposal } from "./proposal_search.js" */
@@ -39,6 +40,7 @@ export class Proposing {
     this.cards = new ProposalCards(store, (proposal) => this.apply(proposal));
     this.presets = PRESETS.map((name) => ({ name, made: this.preset(name) }));
     this.fields = [this.field(0, say("proposal.width")), this.field(1, say("proposal.length"))];
+    this.like = new LikePicker(store, (like) => this.tool.set(like));
     this.unit = element("span", "");
     const [wide, long] = this.fields;
     const size = element("span", "proposal-size", wide, "×", long, this.unit);
@@ -54,7 +56,7 @@ export class Proposing {
     this.stop = button("chip", () => this.search.stop(), say("search.stop"));
     const close = button("icon-button is-small", () => board.choose("select"), icon("close"));
     close.setAttribute("aria-label", say("dialog.close"));
-    const chips = element("div", "proposal-chips", ...this.presets.map(({ made }) => made), size, this.keep);
+    const chips = element("div", "proposal-chips", ...this.presets.map(({ made }) => made), size, this.like.root, this.keep);
     chips.setAttribute("role", "group");
     chips.setAttribute("aria-label", say("proposal.sizes"));
     const head = element("header", "proposal-head", element("h2", "", say("proposal.do")), chips, close);
@@ -121,6 +123,7 @@ export class Proposing {
     if (this.root.hidden === isOpen) this.turn(isOpen);
     if (!isOpen) return;
     for (const { name, made } of this.presets) made.setAttribute("aria-pressed", String(name === this.tool.to));
+    this.like.show(isLike(this.tool.to));
     this.keep.hidden = !board.drawing.folds.length;
     this.keep.setAttribute("aria-pressed", String(this.keepsFolds));
     if (!this.fields.some((field) => field === document.activeElement)) this.showSize();
@@ -137,6 +140,7 @@ export class Proposing {
   turn(isOpen) {
     this.root.hidden = !isOpen;
     document.body.classList.toggle("is-proposing", isOpen);
+    if (isOpen) this.like.offer();
     if (isOpen) this.presets.find(({ name }) => name === this.tool.to)?.made.focus({ preventScroll: true });
     else this.end();
   }
@@ -178,7 +182,7 @@ export class Proposing {
   showFound() {
     const { found, isRunning, isDone } = this.search;
     const wanted = this.wanted();
-    if (wanted && isDone && !isRunning && !found.length && !this.isInstead && this.tool.to !== SMALLEST) {
+    if (wanted && isDone && !isRunning && !found.length && !this.isInstead && this.tool.sides) {
       this.isInstead = true;
       this.search.start({ ...wanted, to: SMALLEST }, 0);
       return;
@@ -199,6 +203,7 @@ export class Proposing {
     if (this.isSmall) return say("proposal.fits");
     const instead = this.isInstead && sides ? say("proposal.nothing", { size: inWords(sides) }) : "";
     const count = found.length ? say("proposal.found", { count: found.length }) : "";
+    if (isDone && !count && isLike(this.tool.to)) return say("proposal.unlike");
     return instead || count || (isRunning ? say("proposal.looking") : isDone ? say("proposal.none") : "");
   }
 

@@ -21,17 +21,22 @@ export const TOLERANCE_M = 0.01;
 export const SMALLEST = "smallest";
 
 /** @typedef {keyof typeof SIZES_M | keyof typeof SHARES | typeof SMALLEST} PresetName */
-/** @typedef {PresetName|Point} Target two sides are along the board's axes (m) */
+/** @typedef {{like: import("pleat").Garment|string}} Like a garment that is folded as this one is to be */
+/** @typedef {PresetName|Point|Like} Target two sides are along the board's axes (m) */
+
+/** @param {Target} to @returns {to is Like} */
+export const isLike = (to) => typeof to === "object" && "like" in to;
 
 export const PRESETS = /** @type {PresetName[]} */ ([...Object.keys(SIZES_M), ...Object.keys(SHARES), SMALLEST]);
 
 /**
- * The sides that are meant (m); null for the smallest.
+ * The sides that are meant (m); null for the smallest, and for those of another garment.
  * @param {Target} to
  * @param {Drawing} drawing
  * @returns {Point|null}
  */
 export function sidesOf(to, drawing) {
+  if (isLike(to)) return null;
   if (typeof to !== "string") return to;
   const [size, share] = [SIZES_M, SHARES].map((known) => /** @type {Record<string, number[]>} */ (known)[to]);
   const [wide, long] = extentOf(drawing);
@@ -50,5 +55,5 @@ export function isWithin(drawing, sides) {
   return own.every((side, index) => side <= most[index] + TOLERANCE_M);
 }
 
-/** The size as a request names it. @param {Target} to */
-export const asked = (to) => (typeof to === "string" ? to : { width_m: to[0], length_m: to[1] });
+/** What is wanted as a request names it. @param {Target} to */
+export const asked = (to) => (typeof to === "string" || isLike(to) ? to : { width_m: to[0], length_m: to[1] });

@@ -20,7 +20,7 @@ from app.demonstrations.dataset import DemonstrationDataset
 from app.demonstrations.demonstrate import demonstrate
 from app.demonstrations.episode import StopError, demonstration
 from app.demonstrations.variation import PLACE_M, TURN_RAD, Variation
-from app.files.lerobot_dataset import CAMERA, FPS, Episode, Pictures, picture_stats
+from app.files.lerobot_dataset import CAMERAS, FPS, Episode, Pictures, picture_stats
 from app.rehearsal.physics.physics_world import PhysicsWorld
 from app.worker.stop import Stop
 from app.worker.workers import Workers
@@ -30,14 +30,17 @@ from planner.robots.load_robot import load_robot
 from tests.app.rehearsal.towel import COARSE, towel_plan
 from tests.required import required
 
+CAMERA = f"{CAMERAS}table"
+
 
 def task() -> Task:
     return towel_plan().task
 
 
-def test_seeds_vary_place_cloth_look_and_camera_within_bounds() -> None:
+def test_seeds_vary_place_cloth_look_and_cameras_within_bounds() -> None:
     worlds = [Variation.of(task(), seed) for seed in range(40)]
     assert Variation.of(task(), 3) == worlds[3]
+    assert list(Variation.of(task(), 3, has_wrists=False).cameras) == ["table"]
     lies = task().start.placement
     for world in worlds:
         placed = world.task.start.placement
@@ -48,7 +51,7 @@ def test_seeds_vary_place_cloth_look_and_camera_within_bounds() -> None:
         [world.fabric for world in worlds],
         [world.fabric.friction for world in worlds],
         [world.look for world in worlds],
-        [world.camera for world in worlds],
+        *([world.cameras[name] for world in worlds] for name in ("table", "left_wrist", "right_wrist")),
     ):
         assert len(set(map(repr, varied))) == len(worlds)
 
@@ -59,8 +62,9 @@ def found() -> Episode:
 
 
 @pytest.mark.slow
-def test_a_demonstration_has_a_picture_and_a_state_for_each_frame(found: Episode) -> None:
-    pictures = required(found.pictures)
+@pytest.mark.parametrize("camera", ["table", "left_wrist", "right_wrist"])
+def test_a_demonstration_has_a_picture_of_each_camera_and_a_state_for_each_frame(found: Episode, camera: str) -> None:
+    pictures = found.pictures[camera]
     assert len(pictures.jpegs) == len(found.states) > 5 * FPS
     first, last = (np.asarray(Image.open(io.BytesIO(pictures.jpegs[at])), float) for at in (0, -1))
     assert first.shape == (pictures.size_px[1], pictures.size_px[0], 3)
@@ -96,7 +100,8 @@ def made(monkeypatch: pytest.MonkeyPatch) -> list[int]:
         buffer = io.BytesIO()
         Image.new("RGB", (32, 24), (seed, 0, 0)).save(buffer, "JPEG")
         stats = picture_stats(np.full((4, 3), seed / 255.0), count)
-        return Episode(plain.task, plain.states + seed, Pictures((buffer.getvalue(),) * count, (32, 24), stats))
+        pictures = Pictures((buffer.getvalue(),) * count, (32, 24), stats)
+        return Episode(plain.task, plain.states + seed, {"table": pictures, "left_wrist": pictures})
 
     monkeypatch.setattr(Workers, "run", make)
     return tried
@@ -116,7 +121,8 @@ def test_a_dataset_has_the_episodes_that_held_in_the_order_of_their_seeds(tmp_pa
     assert sorted(made)[:6] == [0, 1, 2, 3, 4, 5]
     info = read(tmp_path / "set", "meta/info.json")
     assert (info["total_episodes"], info["splits"]) == (3, {"train": "0:3"})
-    assert info["features"][CAMERA]["dtype"] == "image" and info["features"][CAMERA]["shape"] == [24, 32, 3]
+    told = {name: one["shape"] for name, one in info["features"].items() if one["dtype"] == "image"}
+    assert told == {CAMERA: [24, 32, 3], f"{CAMERAS}left_wrist": [24, 32, 3]}
     rows = pq.read_table(tmp_path / "set" / "meta/episodes/chunk-000/file-000.parquet").to_pylist()
     frames = 0
     for number, row in enumerate(rows):
@@ -188,6 +194,7 @@ def test_with_pyav_the_pictures_of_an_episode_are_a_video(tmp_path: Path, made: 
         assert frames[-1].to_ndarray(format="rgb24").mean(axis=(0, 1)) == pytest.approx((2 * number + 1, 0, 0), abs=6)
         table = pq.read_table(tmp_path / info["data_path"].format(chunk_index=0, file_index=number))
         assert CAMERA not in table.column_names and table.num_rows == row["length"]
+    assert len(list(tmp_path.glob(f"videos/{CAMERAS}left_wrist/*/*.mp4"))) == 2
     with pytest.raises(RequestError, match=r"has videos, which PyAV makes: pip install .*\[video\]"):
         opened(tmp_path, resume=True)
     assert not (opened(tmp_path / "images").as_video or opened(tmp_path / "images", resume=True).as_video)
@@ -199,7 +206,7 @@ def test_images_instead_of_videos_are_said_once(
 ) -> None:
     if is_installed:
         pytest.importorskip("av")
-    monkeypatch.setattr(command, "can_encode", lambda: is_installed)
+    monkeypatch.setattr(command, "is_installed", lambda _: is_installed)
     arguments = ["demonstrate", "letter-towel", "--episodes", "2", "--out", str(tmp_path), "--workers", "1"]
     result = CliRunner().invoke(cli, arguments)
     assert result.exit_code == 0 and result.stderr.count("PyAV") == (0 if is_installed else 1)

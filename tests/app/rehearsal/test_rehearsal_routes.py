@@ -65,11 +65,11 @@ async def test_an_unknown_trace_is_not_found(client: httpx.AsyncClient) -> None:
 async def test_without_mujoco_it_is_said_what_to_install(
     client: httpx.AsyncClient, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("app.rehearsal.rehearse.find_spec", lambda _: None)
+    monkeypatch.setattr("app.distribution.is_installed", lambda _: None)
     answer = await client.post("/api/rehearsals", json={"plan": towel_plan().to_dict()})
     assert answer.status_code == 422
     (error,) = answer.json()["errors"]
-    assert error["says"] == {"code": "physics_missing", "install": installing("physics")}
+    assert error["says"] == {"code": "library_missing", "library": "MuJoCo", "install": installing("physics")}
     assert error["message"].endswith(installing("physics"))
 
 

@@ -4,8 +4,7 @@ from typing import Any
 import pytest
 from pyarrow import parquet
 
-from app.rehearsal.rehearse import PhysicsMissingError, rehearse
-from app.studies import rehearsed as rehearsed_module
+from app.rehearsal.rehearse import rehearse
 from app.studies.answer import answered
 from app.studies.findings import Findings
 from app.studies.local_workers import LocalWorkers
@@ -77,9 +76,6 @@ def test_each_run_counts_as_a_cell(tmp_path: Path) -> None:
 
 
 def test_without_the_physics_the_file_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    def missing() -> None:
-        raise PhysicsMissingError
-
-    monkeypatch.setattr(rehearsed_module, "require_physics", missing)
+    monkeypatch.setattr("app.distribution.is_installed", lambda _: False)
     with pytest.raises(StudyError, match="MuJoCo"):
         study(rehearsal={})

@@ -5,10 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from app.document_state import ShownPlan
 from app.ui.viewpoints.following import Following, work_of
 from app.ui.viewpoints.presets import Lens
-from planner import Plan, Timeline
+from planner import Plan
 from planner.geometry.pose import Point2, Point3, Pose2, wrapped_angle
 from tests.replay.planned import shipped_plan
 
@@ -40,15 +39,14 @@ def test_the_camera_goes_after_the_work_without_a_jump() -> None:
 
 def test_the_work_is_where_the_hands_are_and_at_the_end_on_the_packet() -> None:
     plan: Plan = shipped_plan("hand-towel")
-    shown = ShownPlan(1, plan, Timeline.of(plan))
     for step in plan.steps:
         if step.grips:
             points = np.array([point[:2] for grip in step.grips for point in (grip.pick, grip.place)])
-            assert work_of(shown, step.start_s) == pytest.approx(tuple(points.mean(axis=0)))
+            assert work_of(plan, step.start_s) == pytest.approx(tuple(points.mean(axis=0)))
     assert plan.cost_s is not None and plan.final_placement is not None
     corners = np.array([point for layer in plan.final_layers for point in layer.region.coordinates])
     middle = (corners.min(axis=0) + corners.max(axis=0)) / 2
-    assert work_of(shown, plan.cost_s) == pytest.approx(tuple(plan.final_placement.to_outer(middle[None])[0]))
+    assert work_of(plan, plan.cost_s) == pytest.approx(tuple(plan.final_placement.to_outer(middle[None])[0]))
 
 
 def _parts(following: Following, base: Pose2, work: Point2) -> tuple[Point3, Point3, float]:

@@ -172,7 +172,7 @@ def test_at_the_end_the_camera_glides_to_the_packet(driven: tuple[Document, View
     with Viewer(view, view.opening.position) as viewer:
         viewer.until(lambda: len(viewer.camera) == 2)
         document.seek(shown.timeline.duration_s)
-        x, y = work_of(shown, shown.timeline.duration_s)
+        x, y = work_of(shown.plan, shown.timeline.duration_s)
         near_m = 0.7 * math.dist(viewer.camera[1], (x, y, 0.1))
         viewer.glide_until(lambda: math.dist(viewer.camera[-1], (x, y, 0.1)) < near_m)
 

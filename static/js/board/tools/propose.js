@@ -1,7 +1,7 @@
 /** The tool `Fold it for me`: a rectangle on the garment, the size that it is to be folded to, with handles to pull. */
 
 import { say } from "../../language/say.js";
-import { asked, sidesOf, SIDES_M } from "../../proposals/target.js";
+import { asked, isLike, sidesOf, SIDES_M } from "../../proposals/target.js";
 import { lengthLabel } from "../draw_handles.js";
 import { middleOf } from "../edits.js";
 import { distance, minus, plus } from "../geometry.js";
@@ -51,7 +51,7 @@ export class ProposeTool extends Tool {
     return say("hint.propose");
   }
 
-  /** The sides that are wanted (m); null for the smallest. */
+  /** The sides that are wanted (m); null for the smallest, and for those of another garment. */
   get sides() {
     return sidesOf(this.to, this.board.drawing);
   }
@@ -63,7 +63,7 @@ export class ProposeTool extends Tool {
 
   /** @param {Target} to */
   set(to) {
-    this.to = typeof to === "string" ? to : [withinSides(to[0]), withinSides(to[1])];
+    this.to = typeof to === "string" || isLike(to) ? to : [withinSides(to[0]), withinSides(to[1])];
     this.board.render();
   }
 

@@ -1,0 +1,29 @@
+"""The pictures of the documents are taken from the page, and all of them are there and shown."""
+
+import io
+
+from PIL import Image
+from playwright.sync_api import Page
+
+from docs.pictures import take
+from tests.app.conftest import Served
+from tests.test_deploy import ROOT
+
+LARGEST = 2_000_000
+"""The largest picture that a reader should have to wait for (bytes)."""
+
+
+def test_a_picture_shows_the_page(page: Page, designer: Served) -> None:
+    take.PICTURES["exported"](page, designer.url)
+    with Image.open(io.BytesIO(take.still(page))) as picture:
+        assert picture.format == "WEBP"
+        assert picture.size == (1280, 800)
+        assert len(set(picture.resize((64, 40)).getdata())) > 20, "the picture is blank"
+
+
+def test_each_picture_is_there_and_shown_by_a_document() -> None:
+    wanted = {f"{name}.webp" for name in (*take.PICTURES, take.MOVING)}
+    assert {path.name for path in take.FOLDER.glob("*.webp")} == wanted
+    assert all((take.FOLDER / name).stat().st_size < LARGEST for name in wanted)
+    shown = "".join((ROOT / path).read_text(encoding="utf-8") for path in ("README.md", "docs/tutorial.md"))
+    assert [name for name in sorted(wanted) if f"pictures/{name}" not in shown] == []
