@@ -55,7 +55,7 @@ def test_the_wheel_serves_its_page_and_its_garments(pleat: Path, tmp_path: Path)
 
 @pytest.mark.long
 def test_the_wheel_plans(pleat: Path) -> None:
-    command = [pleat, "plan", "scarf", "--json", "-"]
+    command = [str(pleat), "plan", "scarf", "--json", "-"]
     answer = subprocess.run(command, check=True, capture_output=True, text=True, cwd=pleat.parent).stdout
     assert json.loads(answer)["status"] == "solved"
 

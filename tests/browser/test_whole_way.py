@@ -1,19 +1,14 @@
 """From a blank board to a plan, to none, to a suggestion and back: with the mouse, the keyboard, a finger."""
 
-import csv
-import io
-import json
 import math
 import re
 import time
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from app.files.exports import EXPORTS
 from tests.app.conftest import Served
 from tests.browser.board_hand import Point
 from tests.browser.conftest import PATIENCE_MS, Garment, Sheet, windows
@@ -92,11 +87,11 @@ def pull_until_there_is_no_plan(page: Page, way: Way, sheet: Sheet) -> None:
 
 def until_it_is_at(sheet: Sheet, y: float) -> int:
     """Wait until the server has the corner there; return the version."""
-    for _ in range(PATIENCE_MS // 20):
+    for _ in range(PATIENCE_MS // 100):
         state = sheet.state
         if abs(state["drawing"]["outline"][PULLED]["point"][1] - y) < NEAR_M / 2:
             return int(state["version"])
-        time.sleep(0.02)
+        time.sleep(0.1)
     raise AssertionError(f"the corner does not come to {y}")
 
 
@@ -137,22 +132,6 @@ def expect_all_of(page: Page, sheet: Sheet, state: dict[str, Any]) -> None:
     assert found["history"] == state["history"]
 
 
-def exported(page: Page, folder: Path) -> dict[str, str]:
-    """Save all files that the dialog `Export` offers; return their contents by name."""
-    page.get_by_role("button", name="Export", exact=True).click()
-    dialog = page.get_by_role("dialog", name="Export")
-    expect(dialog.get_by_role("listitem")).to_have_count(len(EXPORTS))
-    saved = {}
-    for verb in dialog.locator("[aria-label^='Save ']").all():
-        with page.expect_download() as download:
-            verb.click()
-        path = folder / download.value.suggested_filename
-        download.value.save_as(path)
-        saved[path.name] = path.read_text(encoding="utf-8", errors="replace")
-    page.keyboard.press("Escape")
-    return saved
-
-
 @pytest.mark.long
 def test_with_the_keyboard_alone(chromium: Browser, new_sheet: Callable[[Garment], Sheet]) -> None:
     with windows(chromium, viewport=SMALL) as context:
@@ -167,8 +146,8 @@ def test_with_a_finger_on_a_phone(chromium: Browser, new_sheet: Callable[[Garmen
         there_and_back(page, ByFinger(page), new_sheet(None))
 
 
-def test_with_the_mouse_and_all_of_it_is_found_again_and_leaves_as_files(
-    chromium: Browser, designer: Served, new_sheet: Callable[[Garment], Sheet], tmp_path: Path
+def test_with_the_mouse_and_all_of_it_is_found_again(
+    chromium: Browser, designer: Served, new_sheet: Callable[[Garment], Sheet]
 ) -> None:
     sheet = new_sheet(None)
     with windows(chromium, viewport=SMALL) as context:
@@ -184,34 +163,3 @@ def test_with_the_mouse_and_all_of_it_is_found_again_and_leaves_as_files(
         designer.start_again()
         expect_all_of(page, sheet, whole)
         assert page.evaluate("window.isOfBefore"), "the page came back by being loaded anew"
-
-        saved = exported(page, tmp_path)
-        outline = [corner["point"] for corner in whole["drawing"]["outline"]]
-        assert json.loads(saved.pop("untitled.json"))["outline"] == outline
-        plan = json.loads(saved.pop("untitled.plan.json"))
-        assert plan["status"] == "solved"
-        order = [done["fold"] for done in plan["primitives"] if done["kind"] == "fold"]
-        assert order in ([0, 1, 2], [1, 0, 2])  # the sides wait for nothing
-        assert len(json.loads(saved.pop("untitled.fold"))["file_frames"]) == 3  # the first is the file itself
-        rows = list(csv.DictReader(io.StringIO(saved.pop("untitled-plan.csv"))))
-        assert [row["fold"] for row in rows if row["kind"] == "fold"] == [str(fold) for fold in order]
-        assert saved.pop("untitled-steps.pdf").startswith("%PDF-")
-        assert "Vest" in saved.pop("untitled-steps.svg")
-        drawing = saved.pop("untitled.svg")
-        for ending in (".mcap", ".glb", "-mjcf.zip", "-rosbag2.zip", "-lerobot.zip", "-poses.yaml"):
-            assert saved.pop(f"untitled{ending}")
-        assert json.loads(saved.pop("untitled-poses.json"))["version"] == 1
-        ((name, recording),) = saved.items()
-        assert name.endswith(".html")
-        assert "<title>Vest - Pleat</title>" in recording
-
-        page.get_by_role("button", name="Import", exact=True).click()
-        file: Any = {"name": "again.svg", "mimeType": "image/svg+xml", "buffer": drawing.encode()}
-        page.get_by_label("File", exact=True).set_input_files([file])
-        page.get_by_role("button", name="Open here").click()
-        expect(page.get_by_role("button", name="Undo")).to_have_attribute("title", "Undo: Import again.svg (Ctrl+Z)")
-        expect_planned(page)
-        again = sheet.drawing
-        for corner, wanted in zip(again["outline"], outline, strict=True):
-            assert math.dist(corner["point"], wanted) < 1e-4
-        assert [fold["kind"] for fold in again["folds"]] == ["blue"] * 3
