@@ -40,6 +40,7 @@ def task() -> Task:
 def test_seeds_vary_place_cloth_look_and_cameras_within_bounds() -> None:
     worlds = [Variation.of(task(), seed) for seed in range(40)]
     assert Variation.of(task(), 3) == worlds[3]
+    assert list(Variation.of(task(), 3, has_wrists=False).cameras) == ["table"]
     lies = task().start.placement
     for world in worlds:
         placed = world.task.start.placement

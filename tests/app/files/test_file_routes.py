@@ -1,4 +1,3 @@
-import asyncio
 import json
 from typing import Any
 
@@ -7,6 +6,7 @@ import pytest
 
 from app.distribution import installing, is_installed
 from planner import Plan, load_garment
+from tests.app.document_requests import planned
 from tests.app.samples import towel
 from tests.app.test_garbage import BODIES, assert_problem
 
@@ -46,17 +46,6 @@ async def imported(client: httpx.AsyncClient, data: bytes, **query: str | float)
 async def created(client: httpx.AsyncClient, **changes: Any) -> str:
     document_id: str = (await client.post("/api/documents", json={"garment": towel(**changes)})).json()["id"]
     return document_id
-
-
-async def planned(client: httpx.AsyncClient, **changes: Any) -> str:
-    """Open a document that is planned, so that all files are available."""
-    document_id = await created(client, **changes)
-    for _ in range(600):
-        entries = (await client.get(f"/api/documents/{document_id}/files")).json()
-        if "planned" not in (entries[3]["reason"] or ""):
-            return document_id
-        await asyncio.sleep(0.1)
-    raise AssertionError("it is never planned")
 
 
 async def fetched(client: httpx.AsyncClient, document_id: str, what: str, query: str = "") -> httpx.Response:
