@@ -7,6 +7,7 @@ import typer
 from rich.table import Table
 
 from app.cli.program import blaming, cli, failure, load_source, output, refusing
+from app.distribution import missing
 from app.files.export import DEFAULT_RATE_HZ, Export
 from app.files.exports import EXPORTS, find_export
 from app.files.folder_file import ZIP, unpack
@@ -41,6 +42,8 @@ def export(
         raise failure(f"--to: expected one of {', '.join(one.what for one in EXPORTS)}; got {to!r}")
     from app.files.slowed import require_speed
 
+    if (lacking := missing(*kind.needs)) is not None:  # before it is planned
+        raise failure(lacking.text)
     with blaming(source):
         require_speed(speed)
     data, name = _made(kind, source, rate_hz, speed)
