@@ -1,19 +1,15 @@
-"""Has a document planned in a worker while it is being drawn, and remembers the answers."""
+"""Has a document planned in a worker while it is being drawn, unless the answer is remembered."""
 
 import uuid
-from collections import OrderedDict
 from collections.abc import Callable
 from typing import Protocol
 
 from app.live_planning import Compiled, Found, Lasting, Mapped, plan_live, prepare_live
-from app.store.packed_plan import PackedPlan
+from app.store.packed_plan import Answers
 from app.worker.stop import Stop
 from app.worker.workers import Workers
 from planner.task.plan import Plan
 from planner.task.task import Task
-
-_REMEMBERED = 8
-"""Number of tasks whose answers are remembered, packed: 0.1 MB each, as objects 0.3 to 0.7 MB (measured)."""
 
 
 class Show(Protocol):
@@ -26,12 +22,12 @@ class Show(Protocol):
 class LiveSearch:
     """Plans one document's drawings, one after the other, in the worker that knows the plans before."""
 
-    def __init__(self, workers: Workers) -> None:
-        """Start without known plans."""
+    def __init__(self, workers: Workers, answers: Answers) -> None:
+        """Start without known plans; `answers` are those of all documents."""
         self._workers = workers
         self._key = uuid.uuid4().hex
         self._shown: Found | None = None
-        self._remembered: OrderedDict[Task, PackedPlan] = OrderedDict()
+        self._answers = answers
 
     def close(self) -> None:
         """Leave the worker to others."""
@@ -77,11 +73,11 @@ class LiveSearch:
             LostProcessError: the worker has ended.
             Exception: whatever the planner raises.
         """
-        remembered = self._remembered.get(task)
+        remembered = self._answers.get(task)
         if remembered is not None:
             on_lasting()
             if not stop():
-                show(remembered.plan(), is_final=True)
+                show(remembered, is_final=True)
             return
 
         def hear(news: Found | Lasting) -> None:
@@ -90,13 +86,8 @@ class LiveSearch:
                 return
             self._shown = news
             if news.packed is not None:
-                self._remember(task, news.packed)
+                self._answers.add(task, news.packed)
             show(news.plan, is_final=news.is_final)
 
         known = self._shown.name if self._shown is not None and self._shown.plan is shown else None
         self._workers.run_for(self._key, plan_live, stop, hear, self._key, task, known, work_limit_s)
-
-    def _remember(self, task: Task, packed: PackedPlan) -> None:
-        self._remembered[task] = packed
-        while len(self._remembered) > _REMEMBERED:
-            self._remembered.popitem(last=False)

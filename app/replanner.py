@@ -74,7 +74,7 @@ class Replanner:
         self._document = document
         self._pool = pool
         self._plans = plans
-        self._search = LiveSearch(workers)
+        self._search = LiveSearch(workers, plans.answers)
         self._of_previews: set[str] = set()
         self._lock = threading.RLock()
         self._phase: Phase = Resting()

@@ -58,7 +58,6 @@ MESSAGES: list[dict[str, Any]] = [
         "says": {"code": "edges_cross", "edges": [0, 2], "at": [0.25, 0.25]},
     },
     {"code": "no_plan", "fold": 0, "message": "RUBBISH", "says": {"code": "beside_table", "off_m": 0.2}},
-    {"code": "no_video"},
     {"code": "garment_of_plan", "folds_done": 0},
     {"code": "garment_of_plan", "folds_done": 2},
     {"code": "short_lines", "shorter_m": 0.001, "lines": 3},

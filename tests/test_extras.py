@@ -60,7 +60,7 @@ def test_an_export_says_which_extra_makes_it(export: Any) -> None:
     state = state_of_garment(load_garment("scarf"))
     with pytest.raises(UnavailableFileError) as raised:
         export.file(state, 1.0, lambda: False)
-    assert installing("exports") in str(raised.value)
+    assert "install" in str(raised.value) and "[exports]" in str(raised.value)
     assert export.to_dict(state)["says"]["code"] == "library_missing"
 
 

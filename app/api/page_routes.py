@@ -2,14 +2,17 @@
 
 from collections.abc import Callable
 from hashlib import sha256
+from html import escape
 from http import HTTPStatus
 
 from fastapi import APIRouter, FastAPI, Request
 from fastapi.concurrency import run_in_threadpool
-from starlette.responses import FileResponse, RedirectResponse, Response
+from starlette.responses import FileResponse, HTMLResponse, RedirectResponse, Response
 from starlette.staticfiles import NotModifiedResponse, StaticFiles
 
 from app.api.request_parsing import workspace_of
+from app.api.shared import is_shared
+from app.files.exports import find_export
 from app.page_files import scripts, static_dir, styles
 from app.workspace import Workspace
 from planner.errors import FoldingError
@@ -17,6 +20,8 @@ from planner.errors import FoldingError
 router = APIRouter(include_in_schema=False)
 
 _FRESH = {"cache-control": "no-cache"}
+_HEAD_END = "  </head>"
+_PICTURE = find_export("picture.png")
 
 
 @router.get("/")
@@ -28,8 +33,13 @@ async def read_first_page(request: Request) -> Response:
 
 @router.get("/d/{document_id}")
 async def read_page(request: Request, document_id: str) -> Response:
-    """Return the designer on a document; the page itself reports a missing one."""
+    """Return the designer on a document; the page itself reports a missing one.
+
+    Where it is shared, it says what a preview of the link shows.
+    """
     status = await run_in_threadpool(_remembered, workspace_of(request), document_id)
+    if status == HTTPStatus.OK and is_shared(request.scope):
+        return HTMLResponse(await run_in_threadpool(_with_preview, request, document_id), headers=_FRESH)
     return FileResponse(static_dir() / "index.html", status_code=status, headers=_FRESH)
 
 
@@ -62,6 +72,19 @@ def _remembered(workspace: Workspace, document_id: str) -> int:
         return HTTPStatus.NOT_FOUND
     workspace.documents.remember_last(document_id)
     return HTTPStatus.OK
+
+
+def _with_preview(request: Request, document_id: str) -> str:
+    """Return the page with the document's title, and where its picture is if there is a plan."""
+    state = workspace_of(request).opened(document_id).document.state
+    title = f"{state.drawing.title or state.drawing.name} - Pleat"
+    told = {"og:type": "website", "og:title": title}
+    if _PICTURE is not None and _PICTURE.reason(state) is None:
+        told["og:image"] = f"{str(request.base_url).rstrip('/')}/api/documents/{document_id}/files/{_PICTURE.what}"
+        told["twitter:card"] = "summary_large_image"
+    lines = [f'    <meta property="{name}" content="{escape(content)}">\n' for name, content in told.items()]
+    page = (static_dir() / "index.html").read_text(encoding="utf-8")
+    return page.replace(_HEAD_END, "".join(lines) + _HEAD_END, 1)
 
 
 class FreshFiles(StaticFiles):

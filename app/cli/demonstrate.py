@@ -21,8 +21,7 @@ from app.cli.program import (
 )
 from app.demonstrations.dataset import DemonstrationDataset
 from app.demonstrations.demonstrate import demonstrate
-from app.distribution import installing
-from app.files.video import can_encode
+from app.distribution import installing, is_installed
 from planner import Plan
 from planner.planning.robot_task import task_for
 from planner.robots.load_robot import load_robot
@@ -40,6 +39,7 @@ def demonstrate_command(
     workers: Annotated[
         int | None, typer.Option(min=1, max=256, help="Processes.", show_default="two, or one on one core")
     ] = None,
+    wrists: Annotated[bool, typer.Option("--wrists/--no-wrists", help="Cameras on the wrists, too.")] = True,
     data: DataOption = None,
 ) -> None:
     """Make demonstrations in simulated physics: a LeRobot dataset with pictures, of those alone in which all held.
@@ -52,10 +52,11 @@ def demonstrate_command(
         task = found.task if isinstance(found, Plan) else task_for(found, robot=robot or DEFAULT_ROBOT)
         if robot is not None and robot != task.robot:
             task = task_for(task.garment, robot=robot)
-        asked = {"garment": task.garment.to_dict(), "robot": task.robot, "scene": task.scene.to_dict(), "seed": seed}
+        asked = {"garment": task.garment.to_dict(), "robot": task.robot, "scene": task.scene.to_dict()}
+        asked |= {"seed": seed, "wrists": wrists}
         card = load_robot(task.robot).card
-        dataset = DemonstrationDataset.opened(out, card, asked, seed, resume=resume, as_video=can_encode())
-        if not can_encode():
+        dataset = DemonstrationDataset.opened(out, card, asked, seed, resume=resume, as_video=is_installed("av"))
+        if not is_installed("av"):
             errors.print(f"Pictures are images, not videos, without PyAV: {installing('video')}", markup=False)
         tell_of_compiling(task.robot)
         columns = (BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
@@ -66,7 +67,9 @@ def demonstrate_command(
                 bar.update(line, completed=count, description=f"{tried} tried")
 
             try:
-                is_done = demonstrate(task, dataset, episodes, workers or min(2, os.cpu_count() or 1), tell)
+                is_done = demonstrate(
+                    task, dataset, episodes, workers or min(2, os.cpu_count() or 1), tell, has_wrists=wrists
+                )
             except KeyboardInterrupt:
                 errors.print(f"Stopped with {dataset.count} of {episodes} episodes; --resume goes on from there.")
                 raise typer.Exit(NO_PLAN) from None

@@ -98,13 +98,19 @@ def _look(plan: "Plan", camera: str | None, calibration: Path | None) -> "Look |
         return None
     if camera is None or calibration is None:
         raise failure("--camera and --calibration need each other")
-    from app.cli.see import calibration_file
-    from app.drivers.camera_look import camera_image, step_seen
+    from app.cli.see import calibration_file, picture_file
+    from app.drivers.camera_look import step_seen
+    from app.rehearsal.vision.picture import device_image, read_picture
+    from app.rehearsal.vision.vision_errors import PictureError
 
     known = calibration_file(calibration)
 
     def look(joints: "Joints") -> int:
-        found = step_seen(plan, camera_image(camera), known, joints)
+        try:
+            image = device_image(int(camera)) if camera.isdigit() else read_picture(picture_file(Path(camera))).image
+        except PictureError as error:
+            raise failure(f"--camera: {camera}: {error.message}") from None
+        found = step_seen(plan, image, known, joints)
         place = f"{1000 * found.off_m:.0f} mm and {found.turned_rad:.3f} rad from where the plan has it"
         errors.print(f"Seen: step {found.step} of {len(plan.steps)} is next; the cloth lies {place}")
         return found.step

@@ -24,6 +24,8 @@ def demonstrate(
     workers: int,
     progress: Callable[[int, int], None],
     resolution: Resolution | None = None,
+    *,
+    has_wrists: bool = True,
 ) -> bool:
     """Add demonstrations to a dataset until it has so many; return whether it has.
 
@@ -34,6 +36,7 @@ def demonstrate(
         workers: how many are made at once; the dataset is the same for any number.
         progress: is told how many episodes there are, and how many seeds were tried.
         resolution: how finely the world is simulated; None as finely as suits the article's size.
+        has_wrists: whether there are cameras on the wrists.
 
     Raises:
         RequestError: MuJoCo or OpenCV is not installed.
@@ -45,7 +48,7 @@ def demonstrate(
     with Workers(kept=workers) as team, ThreadPoolExecutor(workers) as threads:
 
         def begun(seed: int) -> Future[Episode | None]:
-            return threads.submit(team.run, _made, stop, lambda _news: None, task, seed, resolution)
+            return threads.submit(team.run, _made, stop, lambda _news: None, task, seed, resolution, has_wrists)
 
         running: deque[Future[Episode | None]] = deque()
         try:
@@ -60,8 +63,8 @@ def demonstrate(
     return dataset.count >= episodes
 
 
-def _made(caller: Caller, task: Task, seed: int, resolution: Resolution | None) -> Episode | None:
+def _made(caller: Caller, task: Task, seed: int, resolution: Resolution | None, has_wrists: bool) -> Episode | None:
     """Make a demonstration, in a worker."""
     from app.demonstrations.episode import demonstration  # needs MuJoCo and the whole planner
 
-    return demonstration(task, seed, caller.should_stop, resolution)
+    return demonstration(task, seed, caller.should_stop, resolution, has_wrists=has_wrists)

@@ -33,7 +33,12 @@ class StopError(Exception):
 
 
 def demonstration(
-    task: Task, seed: int, should_stop: Callable[[], bool], resolution: Resolution | None = None
+    task: Task,
+    seed: int,
+    should_stop: Callable[[], bool],
+    resolution: Resolution | None = None,
+    *,
+    has_wrists: bool = True,
 ) -> Episode | None:
     """Return the demonstration that a seed makes of a task; None where there is no plan, or a step does not hold.
 
@@ -42,7 +47,7 @@ def demonstration(
     Raises:
         StopError: it was stopped.
     """
-    varied = Variation.of(task, seed)
+    varied = Variation.of(task, seed, has_wrists=has_wrists)
     plan = make_plan(varied.task, should_stop=should_stop)
     if should_stop():
         raise StopError

@@ -45,8 +45,8 @@ class Variation:
     look: Look
 
     @staticmethod
-    def of(task: Task, seed: int) -> "Variation":
-        """Return the world that a seed makes of a task."""
+    def of(task: Task, seed: int, *, has_wrists: bool = True) -> "Variation":
+        """Return the world that a seed makes of a task, with cameras on wrists or without."""
         rng = np.random.default_rng(seed)
         x_m, y_m, turn = rng.uniform(-1.0, 1.0, 3).tolist()
         lies = task.start.placement.moved(PLACE_M * x_m, PLACE_M * y_m)
@@ -63,6 +63,8 @@ class Variation:
         height_px = 2 * math.ceil(_WIDTH_PX * given.height_px / given.width_px / 2.0)
         table = _moved(replace(given, width_px=_WIDTH_PX, height_px=height_px), rng, _CAMERA_M, _CAMERA_RAD)
         look = random_look(rng)
+        if not has_wrists:
+            return Variation(moved, fabric, {"table": table}, look)
         shape = robot_shape(card, -task.scene.table.height_m)
         on_wrists = wrists(file, shape, card.home_values(task.scene.torso_m), _WRIST_PX)
         cameras = {f"{arm}_wrist": _moved(one, rng, _WRIST_M, _WRIST_RAD) for arm, one in on_wrists.items()}

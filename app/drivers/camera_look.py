@@ -5,17 +5,14 @@ seen, the one that matches best is it.
 """
 
 from dataclasses import dataclass
-from pathlib import Path
 
-import cv2
 import numpy as np
 
-from app.drivers.driver import DriverError, Joints, LostError
+from app.drivers.driver import Joints, LostError
 from app.rehearsal.camera.calibration import Calibration, Image
 from app.rehearsal.camera.posture import Posture
 from app.rehearsal.camera.robot_shape import hidden, robot_shape
 from app.rehearsal.vision.look_at_stack import Looker
-from app.rehearsal.vision.picture import read_picture
 from app.rehearsal.vision.stack_fit import StackFit
 from planner.errors import UnsolvedPlanError
 from planner.geometry.pose import Pose2
@@ -32,8 +29,6 @@ FURTHEST_M, FURTHEST_RAD = 0.02, 0.06
 """A stack further from where the plan has it would be gripped beside its points (m, rad)."""
 
 _BESIDE_ARM_PX = 4
-_FRAMES = 5
-"""So many frames a camera takes until its exposure fits."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,26 +103,3 @@ def _compared(plan: Plan, step: int, ought: Pose2, fit: StackFit, done: int) -> 
     likeliest = int(np.argmin(np.abs(turns)))
     off_m = float(np.hypot(*(poses[likeliest].to_outer(middle) - ought.to_outer(middle))))
     return StepSeen(step, fit.overlap, off_m, turns[likeliest])
-
-
-def camera_image(source: str) -> Image:
-    """Return the picture in a file, or the one that a camera takes now, by its device's number.
-
-    Raises:
-        DriverError: there is no such file, or the camera gives no picture.
-        PictureError: the file is no picture.
-    """
-    if not source.isdigit():
-        try:
-            return read_picture(Path(source).read_bytes()).image
-        except OSError as error:
-            raise DriverError(f"--camera: {source}: {error.strerror}") from None
-    device = cv2.VideoCapture(int(source))
-    try:
-        taken = [device.read() for _ in range(_FRAMES)]
-    finally:
-        device.release()
-    is_taken, image = taken[-1]
-    if not is_taken:
-        raise DriverError(f"--camera: the camera {source} gives no picture")
-    return np.asarray(image, np.uint8)

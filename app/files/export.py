@@ -59,7 +59,7 @@ class Export:
     @property
     def needs_plan(self) -> bool:
         """Whether the file needs a plan, and not only the garment."""
-        return self.why_not in (no_answer, no_plan, no_film)
+        return self.why_not in (no_answer, no_plan)
 
     def reason(self, state: DocumentState) -> Message | None:
         """Return why the file cannot be made here and now; None if it can."""
@@ -133,15 +133,6 @@ def no_plan(state: DocumentState) -> Message | None:
         return Message.plain("There is no plan: the planner ran out of time.")
     values = {"fold": first.fold, "message": first.message, "says": first.says.to_dict()}
     return Message("no_plan", f"There is no plan: {first.message}.", values)
-
-
-def no_film(state: DocumentState) -> Message | None:
-    """Return why there is no video: there is no plan, or PyAV is not installed."""
-    from app.files.video import can_encode
-
-    if (unplanned := no_plan(state)) is not None or can_encode():
-        return unplanned
-    return Message("no_video", "videos need PyAV; install pleat[video]")
 
 
 def as_drawn(state: DocumentState) -> Garment:

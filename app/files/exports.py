@@ -8,7 +8,7 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING, Any
 
-from app.files.export import Export, as_drawn, garment_in, no_answer, no_film, no_outline, no_plan, not_legal, plan_in
+from app.files.export import Export, as_drawn, garment_in, no_answer, no_outline, no_plan, not_legal, plan_in
 
 if TYPE_CHECKING:
     from app.document_state import DocumentState
@@ -210,8 +210,9 @@ EXPORTS = (
         "The animation with title and captions as a video, painted without a browser.",
         ".mp4",
         "video/mp4",
-        no_film,
+        no_plan,
         _mp4,
+        needs=("matplotlib", "av"),
     ),
     Export(
         "gif",
@@ -221,6 +222,7 @@ EXPORTS = (
         "image/gif",
         no_plan,
         _gif,
+        needs=("matplotlib",),
     ),
     Export(
         "picture.png",
@@ -230,6 +232,7 @@ EXPORTS = (
         "image/png",
         no_plan,
         _picture,
+        needs=("matplotlib",),
     ),
     Export(
         "mcap",

@@ -2,7 +2,6 @@
 
 import io
 from collections.abc import Iterable
-from importlib.util import find_spec
 from typing import Final
 
 from PIL import Image
@@ -13,11 +12,6 @@ PIXELS: Final = "yuv420p"
 
 _OPTIONS: Final = {"crf": "23", "bf": "0"}
 """A quarter of the size of JPEGs."""
-
-
-def can_encode() -> bool:
-    """Return whether PyAV is installed."""
-    return find_spec("av") is not None
 
 
 def mp4_video(pictures: Iterable[Image.Image], size_px: tuple[int, int], fps: int, whole_every: int) -> bytes:

@@ -14,7 +14,7 @@ from sqlalchemy import delete, insert, select
 
 from app.store.database import Database
 from app.store.newest import drop_oldest
-from app.store.packed_plan import PackedPlan, unpacked
+from app.store.packed_plan import Answers, PackedPlan, unpacked
 from app.store.schema import PlanRow
 from planner.errors import FoldingError
 from planner.task.plan import Plan
@@ -47,10 +47,15 @@ class UnknownPlanError(FoldingError):
 
 
 class PlanStore:
-    """Keeps the newest plans; safe to use from any thread."""
+    """Keeps the newest plans; safe to use from any thread.
+
+    Attributes:
+        answers: the answers to the tasks asked last, for whoever asks one of them again.
+    """
 
     def __init__(self, database: Database, capacity: int = CAPACITY, capacity_bytes: int = CAPACITY_BYTES) -> None:
         """Use a database; read nothing yet."""
+        self.answers = Answers()
         self._database = database
         self._capacity, self._capacity_bytes = capacity, capacity_bytes
         self._live_max = min(LIVE_MAX, capacity)

@@ -53,13 +53,13 @@ class ClothView:
         for node in (self._front, self._back, self._hem, self._shade, self._edges):
             node.visible = is_visible
 
-    def show(self, cloth: ClothSurface, thickness_m: float) -> None:
-        """Replace the surface shown, of cloth that takes a height in a stack (m)."""
+    def show(self, cloth: ClothSurface, layer_m: float) -> None:
+        """Replace the surface shown, whose layers take a height in a stack (m)."""
         before, self._shown = self._shown, cloth
         if cloth is before:
             return
         is_recut = before is None or len(cloth.triangles) != len(before.triangles)
-        thick = ThickCloth(cloth, thickness_m)
+        thick = ThickCloth(cloth, layer_m)
         front, back = (face.astype(np.float32) for face in thick.faces)
         for mesh, vertices in ((self._front, front), (self._back, back), (self._shade, front)):
             mesh.vertices = vertices

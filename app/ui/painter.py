@@ -4,19 +4,25 @@ A kernel goes through the triangles and keeps, for each pixel, the nearest one s
 picture is right where they hide or cut each other.
 """
 
+from typing import TypeAlias
+
 import numpy as np
 from numpy.typing import NDArray
 
 from planner.geometry.pose import FloatArray
 from planner.kernels import kernel
 
+Triangles: TypeAlias = NDArray[np.int64]
+Numbers: TypeAlias = NDArray[np.int32]
+Plane: TypeAlias = NDArray[np.float32]
+
 _NEAR_M = 0.05
 """Triangles that come nearer to the lens are left out (m)."""
 
 
 def nearest(
-    pixels: FloatArray, depths: FloatArray, lights: FloatArray, triangles: NDArray[np.int64], size_px: tuple[int, int]
-) -> tuple[NDArray[np.int32], NDArray[np.float32]]:
+    pixels: FloatArray, depths: FloatArray, lights: FloatArray, triangles: Triangles, size_px: tuple[int, int]
+) -> tuple[Numbers, Plane]:
     """Return which triangle each pixel shows, -1 for none, and how bright it is there, shape (height, width).
 
     Args:
@@ -39,7 +45,16 @@ def nearest(
 
 
 @kernel
-def _paint(numbers, nearness, brightness, pixels, inverses, lights, triangles, shown):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN202
+def _paint(
+    numbers: Numbers,
+    nearness: Plane,
+    brightness: Plane,
+    pixels: FloatArray,
+    inverses: FloatArray,
+    lights: FloatArray,
+    triangles: Triangles,
+    shown: NDArray[np.int64],
+) -> None:
     """Write each triangle shown where it is the nearest; 1 / depth is linear in the picture."""
     height, width = numbers.shape
     for number in shown:

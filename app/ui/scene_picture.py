@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from PIL import Image, ImageFilter
 
 from app.ui.colours import Palette, Rgb
-from app.ui.painter import nearest
+from app.ui.painter import Triangles, nearest
 from app.ui.robot_model import Pose3, load_robot_model
 from app.ui.robot_view import link_colour
 from app.ui.rotation import to_matrix, yaw
@@ -44,8 +44,6 @@ _BOX = [(0, 1, 3), (0, 3, 2), (4, 7, 5), (4, 6, 7), (0, 5, 1), (0, 4, 5)]
 _BOX += [(2, 3, 7), (2, 7, 6), (0, 2, 6), (0, 6, 4), (1, 7, 3), (1, 5, 7)]
 _CORNERS = np.array([(x, y, z) for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])[np.array(_BOX).ravel()]
 """The corners of a box's triangles, three for each."""
-
-Triangles = NDArray[np.int64]
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,6 +15,9 @@ from planner.geometry.tolerance import LENGTH_M
 from planner.motion.sample import ClothSurface
 
 _SIDES = np.array([[0, 1], [1, 2], [2, 0]])
+_FULL = 0.8
+"""The distance of the faces, as a share of the height of a layer: faces of two layers are never at one height."""
+
 _HEM = np.array([[0, 1, 3], [1, 4, 3], [1, 2, 4], [2, 5, 4]])
 """Triangles between the lines at the front, half way and at the back, from one end of a stretch of hem to the other."""
 
@@ -25,16 +28,20 @@ class ThickCloth:
 
     Attributes:
         cloth: the surface half way between its faces.
-        thickness_m: the distance of the faces (m).
+        layer_m: the height that a layer takes in a stack (m).
     """
 
     cloth: ClothSurface
-    thickness_m: float
+    layer_m: float
+
+    @property
+    def _half_m(self) -> float:
+        return _FULL / 2 * self.layer_m
 
     @property
     def faces(self) -> tuple[FloatArray, FloatArray]:
         """The corners of the triangles of the front and of the back, three for each, shape (3 m, 3), m."""
-        half = np.repeat(self.thickness_m / 2 * self._normals, 3, axis=0)
+        half = np.repeat(self._half_m * self._normals, 3, axis=0)
         corners = self._corners.reshape(-1, 3)
         return corners + half, corners - half
 
@@ -67,7 +74,7 @@ class ThickCloth:
         """The stretches of edge, shape (n, 2, 3), and half the thickness away from the cloth and to its front."""
         owners, sides = free_sides(self.cloth)
         ends = self._corners[owners[:, None], _SIDES[sides]]
-        normals, half_m = self._normals[owners], self.thickness_m / 2
+        normals, half_m = self._normals[owners], self._half_m
         return ends, half_m * _units(np.cross(ends[:, 1] - ends[:, 0], normals)), half_m * normals
 
 

@@ -2,14 +2,15 @@
 
 Packets come from a search that asks the robot about single folds, those that people like first. Each is planned in
 turn, with little work, until enough of them have plans. Where one has none, its first folds are planned alone, to learn
-which of them are to blame. Of variants of one way (the same moves in another order, or mirrored) only the first is
-proposed that can be done: the order and the side decide much for a robot and nothing for the packet.
+which of them are to blame. Until there is a proposal, what takes much work is put aside: something easier may follow.
+Of variants of one way (the same moves in another order, or mirrored) only the first is proposed that can be done: the
+order and the side decide much for a robot and nothing for the packet.
 
 Instead of a size another garment may be given: then its folds, fitted to this one, are the only way.
 """
 
 import math
-from collections import Counter
+from collections import Counter, deque
 from collections.abc import Callable, Generator, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
@@ -44,8 +45,11 @@ WORK_LIMIT_S = 1.0
 _FAILURES = 2
 """Packets without a plan for each proposal asked for, after which no more are planned."""
 
-_BRIEF_SHARE = 0.5
-"""The work for the plan of a packet's first folds, as a share of that for all of them."""
+_BRIEF_SHARE = 0.4
+"""The work for the plan of a packet's first folds, and for any plan until there is a proposal, as a share of all."""
+
+_ASIDE = 3
+"""How many ways without a plan at that work are put aside, until one of them is planned with all of it."""
 
 _VARIANTS = 3
 """Variants of one way that are planned, at most."""
@@ -222,15 +226,29 @@ def _planned(
     shown, fine = set[object](), set[tuple[DrawnFold, ...]]()
     tried = Counter[Way]()
     failures = 0
-    for packet in search.packets():
+    packets, aside = search.packets(), deque[Packet]()
+    while True:
+        is_aside = bool(aside) and (bool(shown) or len({one.way for one in aside}) == _ASIDE)
+        packet = None if is_aside else next(packets, None)
+        if packet is None:
+            if not aside:
+                break
+            packet, is_aside = aside.popleft(), True
         if len(shown) == count or failures >= _FAILURES * count or (packet.doubts and len(failed) >= count):
             break
-        if packet.way in solved or tried[packet.way] >= (1 if packet.doubts else _VARIANTS):
+        if packet.way in solved or (not is_aside and tried[packet.way] >= (1 if packet.doubts else _VARIANTS)):
             continue
-        tried[packet.way] += 1
-        proposal = _proposal(task, packet, should_stop)
+        tried[packet.way] += not is_aside
+        is_brief = not (is_aside or shown)
+        if is_brief and any(one.way == packet.way for one in aside):
+            aside.append(packet)
+            continue
+        proposal = _proposal(_brief(task) if is_brief else task, packet, should_stop)
         if should_stop():
             break
+        if is_brief and proposal.status == "budget_exceeded":
+            aside.append(packet)
+            continue
         if not proposal.plan.is_solved:
             failures += 1
             failed.setdefault(packet.way, proposal)
@@ -258,13 +276,18 @@ def _blamed(
 
     Others that begin so have no plan either. First folds that have one are added to `fine`.
     """
-    brief = replace(task, limits=replace(task.limits, work_limit_s=_BRIEF_SHARE * (task.limits.work_limit_s or 0.0)))
+    brief = _brief(task)
     for done in range(len(task.garment.folds) + 1, len(packet.folds)):
         folds = packet.folds[:done]
         if folds not in fine and not _plan(brief, folds, should_stop).is_solved:
             return folds
         fine.add(folds)
     return ()
+
+
+def _brief(task: Task) -> Task:
+    """Return a task with less work."""
+    return replace(task, limits=replace(task.limits, work_limit_s=_BRIEF_SHARE * (task.limits.work_limit_s or 0.0)))
 
 
 def _plan(task: Task, folds: tuple[DrawnFold, ...], should_stop: Callable[[], bool]) -> Plan:

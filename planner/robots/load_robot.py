@@ -22,7 +22,7 @@ _SCENE = "scene."
 _ROBOTS_KEPT = 8
 """Robots that are kept, some 20 MB an arm once they have been planned for: all shipped ones."""
 
-_Stamp: TypeAlias = tuple[int, int, int]
+Stamp: TypeAlias = tuple[int, int, int]
 """The identity of a card's file, which changes when it is written anew."""
 
 
@@ -68,22 +68,27 @@ def robot_card_file(name_or_path: str) -> CardFile:
     return varied(_card(*_found(base)), changes)
 
 
+def robot_stamp(name_or_path: str) -> Stamp:
+    """Return what changes when a robot is replaced by another one of its name; raises as `load_robot` does."""
+    return _found(split_changes(name_or_path)[0])[1]
+
+
 @cache
 def _closed_form(name: str) -> Pr2:
     return CLOSED_FORMS[name]()
 
 
 @lru_cache(_ROBOTS_KEPT)
-def _described(path: Path, _: _Stamp, card: CardFile) -> CardRobot:
+def _described(path: Path, _: Stamp, card: CardFile) -> CardRobot:
     return CardRobot(DescribedRobot.of(card, path.parent))
 
 
 @lru_cache(_ROBOTS_KEPT)
-def _card(path: Path, _: _Stamp) -> CardFile:
+def _card(path: Path, _: Stamp) -> CardFile:
     return read_card(path)
 
 
-def _found(name_or_path: str) -> tuple[Path, _Stamp]:
+def _found(name_or_path: str) -> tuple[Path, Stamp]:
     """Return the file of a robot's card, and its stamp."""
     try:
         path = card_path(name_or_path)

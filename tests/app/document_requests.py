@@ -1,10 +1,12 @@
 """Requests of a document's routes that many tests make."""
 
+import asyncio
 from typing import Any
 
 import httpx
 
 from tests.app.samples import towel
+from tests.patience import PATIENCE_S
 
 
 async def created(client: httpx.AsyncClient, **changes: Any) -> dict[str, Any]:
@@ -25,3 +27,14 @@ def moved(state: dict[str, Any], x_m: float) -> dict[str, Any]:
 async def put(client: httpx.AsyncClient, state: dict[str, Any], drawing: object, **request: Any) -> httpx.Response:
     body = {"base_version": state["version"], "label": "Move", "drawing": drawing, **request}
     return await client.put(f"/api/documents/{state['id']}/drawing", json=body)
+
+
+async def planned(client: httpx.AsyncClient, **changes: Any) -> str:
+    """Open a document that is planned, so that all files are available; return its id."""
+    document_id: str = (await created(client, **changes))["id"]
+    for _ in range(int(10 * PATIENCE_S)):
+        entries = (await client.get(f"/api/documents/{document_id}/files")).json()
+        if "planned" not in (entries[3]["reason"] or ""):
+            return document_id
+        await asyncio.sleep(0.1)
+    raise AssertionError("it is never planned")

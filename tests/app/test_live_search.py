@@ -1,15 +1,18 @@
-"""A document's search remembers its answers, not what they were found with, and keeps cloth for the next drawing."""
+"""A search remembers answers for all documents, not what they were found with, and keeps cloth for the next drawing."""
 
 import gc
+from typing import Any
 
 import pytest
 
 from app.live_search import LiveSearch
+from app.store.packed_plan import Answers, PackedPlan
 from app.worker.stop import Stop
 from bench.in_thread import InThread
 from planner import Plan, Task
 from planner.primitives.context import Context
 from tests.planning.provoked import hammer, strip
+from tests.small_plan import small_plan
 
 
 def answer_to(search: LiveSearch, task: Task) -> list[Plan]:
@@ -30,16 +33,45 @@ def contexts_of(task: Task) -> int:
 
 @pytest.mark.long
 def test_a_no_is_remembered_without_what_it_was_found_with() -> None:
-    search, task = LiveSearch(InThread()), Task.of(hammer(), max_expanded=50)
+    search, task = LiveSearch(InThread(), Answers()), Task.of(hammer(), max_expanded=50)
     *_, first = answer_to(search, task)
     assert not first.is_solved
     assert contexts_of(task) == 0
 
 
 def test_what_was_planned_is_not_planned_again_and_its_cloth_is_kept_for_the_next_drawing() -> None:
-    search, task = LiveSearch(InThread()), Task.of(strip(-0.3, 0.3, 0.1))
+    search, task = LiveSearch(InThread(), Answers()), Task.of(strip(-0.3, 0.3, 0.1))
     *_, first = answer_to(search, task)
     assert first.is_solved
     (again,) = answer_to(search, task)
     assert again == first  # its figures too, and so the time that its search took
     assert contexts_of(task) >= 1
+
+
+class Idle(InThread):
+    """A worker that nothing may be asked of."""
+
+    def run_for(self, key: str, work: Any, *_: Any) -> Any:
+        raise AssertionError(f"{work} was asked for")
+
+
+def test_what_one_document_was_answered_another_need_not_have_planned_until_the_robot_is_another() -> None:
+    answers, task = Answers(), Task.of(strip(-0.3, 0.3, 0.1))
+    answers.add(task, PackedPlan.of(small_plan()))
+    (again,) = answer_to(LiveSearch(Idle(), answers), task)
+    assert again.cost_s == small_plan().cost_s
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("app.store.packed_plan.robot_stamp", lambda _: (0, 0, 0))
+        with pytest.raises(AssertionError, match="was asked for"):
+            answer_to(LiveSearch(Idle(), answers), task)
+
+
+def test_the_answer_asked_for_least_recently_is_forgotten(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("app.store.packed_plan._ANSWERS_MAX", 2)
+    answers, packed = Answers(), PackedPlan.of(small_plan())
+    first, second, third = (Task.of(strip(-0.3, 0.3, 0.1 + 0.01 * number)) for number in range(3))
+    for task in (first, second):
+        answers.add(task, packed)
+    assert answers.get(first) is not None
+    answers.add(third, packed)
+    assert [answers.get(task) is None for task in (first, second, third)] == [False, True, False]

@@ -88,7 +88,7 @@ def test_a_quaternion_from_a_matrix_is_the_same_rotation() -> None:
 def test_a_square_of_cloth_is_as_thick_as_it_says_and_its_hem_bulges() -> None:
     corners = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 0, 0], [1, 1, 0], [0, 1, 0]], dtype=float)
     square = ClothSurface(corners, np.arange(6).reshape(-1, 3), np.zeros(2, dtype=np.int64), corners)
-    thick = ThickCloth(square, 0.2)
+    thick = ThickCloth(square, 0.25)
     front, back = thick.faces
     np.testing.assert_allclose(front, corners + np.array([0.0, 0.0, 0.1]))
     np.testing.assert_allclose(back, corners - np.array([0.0, 0.0, 0.1]))

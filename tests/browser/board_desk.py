@@ -1,14 +1,18 @@
 """A document in one window that many tests share, since a page takes long to load."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from typing import Any
 
-from playwright.sync_api import Browser, Page, expect
+from playwright.sync_api import Page, expect
 
 from tests.app.conftest import Served
-from tests.browser.board_hand import Hand
-from tests.browser.conftest import PATIENCE_MS, REST, Sheet
+from tests.browser.conftest import REST, Sheet
+
+SPREAD_OUT = "() => document.querySelector('[data-tool=outline]').click()"
+READY = """() => {
+  for (const name of [".paint.is-blue", "[data-tool=select]", "[aria-label=Fit]"]) document.querySelector(name).click();
+  return new Promise(requestAnimationFrame);
+}"""
+"""Blue folds, nothing selected, all in view. By clicks of a hand it would take as long as the test that follows."""
 
 
 class Desk(Sheet):
@@ -27,12 +31,12 @@ class Desk(Sheet):
 
     def lay(self, garment: dict[str, Any]) -> None:
         """Put a garment in place of the last one, as one step, with nothing selected and all of it in view."""
-        page, hand = self.page, Hand(self.page)
+        page = self.page
         if page.url != self.page_url:
             page.goto(self.page_url)
         for _ in range(3):
             page.keyboard.press("Escape")
-        hand.tool("Draw outline")  # it shows the cloth spread out
+        page.evaluate(SPREAD_OUT)
         for garment_or_nothing in ({"name": "nothing", "outline": [[0, 0], [1, 0], [0, 1]]}, garment):
             body = {"garment": garment_or_nothing, "label": "Begin"}
             REST.put(f"{self.path}/garment", json=body).raise_for_status()
@@ -40,23 +44,7 @@ class Desk(Sheet):
         expect(page.locator(".corner")).to_have_count(len(garment["outline"]))
         expect(page.locator(".fold-focus")).to_have_count(len(garment["folds"]))
         page.mouse.move(0, 0)
-        for name in ("Blue: all layers", "Select", "Fit"):
-            hand.tool(name)
-        page.evaluate("new Promise(requestAnimationFrame)")
-
-
-@contextmanager
-def window(browser: Browser) -> Iterator[Page]:
-    """Open a page without a 3D view; any error in it fails the test that comes last."""
-    faults: list[str] = []
-    context = browser.new_context(viewport={"width": 1280, "height": 800})
-    context.set_default_timeout(PATIENCE_MS)
-    expect.set_options(timeout=PATIENCE_MS)
-    context.route("**/viser/**", lambda route: route.abort())
-    context.on("weberror", lambda error: faults.append(str(error.error)))
-    yield context.new_page()
-    context.close()
-    assert faults == []
+        page.evaluate(READY)
 
 
 def expect_step(page: Page, name: str) -> None:

@@ -48,6 +48,13 @@ QUIET = [
 FLAT = [*QUIET, "--disable-gpu"]
 BY_SOFTWARE = [*QUIET, "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
 
+NO_VIEW = """{
+  const { set, ...rest } = Object.getOwnPropertyDescriptor(HTMLIFrameElement.prototype, "src");
+  const setOther = function (url) { if (!url.includes("/viser/")) set.call(this, url); };
+  Object.defineProperty(HTMLIFrameElement.prototype, "src", { ...rest, set: setOther });
+}"""
+"""Loads no 3D view. Playwright's `route` would keep the page out of the browser's cache, and see each request."""
+
 IN_VIEW = "document.getElementById('view3d').contentWindow.__viserMutable"
 IS_THERE = f"(name) => Boolean({IN_VIEW}?.nodeRefFromName[name])"
 
@@ -121,7 +128,7 @@ def browser(chromium_path: str | None) -> Browser:
 
 def new_view_page(browser: Browser) -> Page:
     """Open a small window that can show the 3D view."""
-    page = browser.new_page(viewport={"width": 900, "height": 500})
+    page = browser.new_page(viewport={"width": 900, "height": 500}, reduced_motion="reduce")
     page.add_init_script(SELDOM_AND_PLAIN)
     page.set_default_timeout(VIEW_PATIENCE_MS)
     return page
@@ -228,16 +235,39 @@ def context(chromium: Browser) -> Iterator[BrowserContext]:
 
 @contextmanager
 def windows(chromium: Browser, **options: Any) -> Iterator[BrowserContext]:
-    """Return windows without a 3D view; any error in a page fails the test."""
+    """Return windows without a 3D view and without animations; any error in a page fails the test.
+
+    While a garment is planned, drawing the animations by software takes as long as planning it (measured).
+    """
     faults: list[str] = []
-    opened = chromium.new_context(**{"viewport": {"width": 1280, "height": 800}, **options})
+    usual = {"viewport": {"width": 1280, "height": 800}, "reduced_motion": "reduce"}
+    opened = chromium.new_context(**{**usual, **options})
     opened.set_default_timeout(PATIENCE_MS)
     expect.set_options(timeout=PATIENCE_MS)
-    opened.route("**/viser/**", lambda route: route.abort())
+    opened.add_init_script(NO_VIEW)
     opened.on("weberror", lambda error: faults.append(str(error.error)))
     yield opened
     opened.close()
     assert faults == []
+
+
+@pytest.fixture(scope="module")
+def modules(chromium: Browser, designer: Served) -> Iterator[Page]:
+    """Return a page in which nothing runs, from which the page's modules are imported."""
+    with windows(chromium) as opened:
+        page = opened.new_page()
+        page.goto(f"{designer.url}/static/icon.svg")  # of the same origin
+        yield page
+
+
+PHONE: dict[str, Any] = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
+
+
+@pytest.fixture
+def phone(chromium: Browser) -> Iterator[Page]:
+    """Return a page on a phone."""
+    with windows(chromium, **PHONE) as opened:
+        yield opened.new_page()
 
 
 @pytest.fixture

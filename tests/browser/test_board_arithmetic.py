@@ -1,12 +1,11 @@
-"""Lengths as people write them, and the plane geometry of the page, tested on the modules themselves."""
+"""Lengths as people write them, and the plane geometry of the modules, tested on the modules themselves."""
 
 import json
-from collections.abc import Iterator
 from random import Random
 from typing import Any
 
 import pytest
-from playwright.sync_api import Browser, Page
+from playwright.sync_api import Page
 
 from app.drawing.blank import blank_drawing
 from app.drawing.curve import CURVE_MAX, CURVE_TOLERANCE_M, Curve
@@ -15,21 +14,12 @@ from planner import load_garment
 from planner.cloth.garment import FIRST_IS_RED
 from planner.cloth.outline import EDGE_MIN_M, POINTS_MAX
 from planner.geometry.pose import Point2
-from tests.app.conftest import Served
-from tests.browser.board_desk import window
 from tests.browser.board_hand import SEVEN
 
 
-@pytest.fixture(scope="module")
-def page(chromium: Browser, designer: Served) -> Iterator[Page]:
-    with window(chromium) as page:
-        page.goto(f"{designer.url}/static/icon.svg")  # of the same origin, and nothing runs in it
-        yield page
-
-
-def asked(page: Page, module: str, question: str, room: str = "board") -> Any:
+def asked(modules: Page, module: str, question: str, room: str = "board") -> Any:
     """Return the value of an expression on a module's exports, named `m`."""
-    return page.evaluate(f"import('/static/js/{room}/{module}.js').then((m) => {question})")
+    return modules.evaluate(f"import('/static/js/{room}/{module}.js').then((m) => {question})")
 
 
 @pytest.mark.parametrize(
@@ -49,47 +39,47 @@ def asked(page: Page, module: str, question: str, room: str = "board") -> Any:
         ("1m - 2in + 3", 1 - 0.0508 + 0.03),
     ],
 )
-def test_lengths_are_read_as_centimetres_unless_they_say_otherwise(page: Page, text: str, metres: float) -> None:
-    assert asked(page, "units", f"m.parsed({text!r})") == pytest.approx(metres, abs=1e-12)
+def test_lengths_are_read_as_centimetres_unless_they_say_otherwise(modules: Page, text: str, metres: float) -> None:
+    assert asked(modules, "units", f"m.parsed({text!r})") == pytest.approx(metres, abs=1e-12)
 
 
 @pytest.mark.parametrize("text", ["", "wide", "3/0", "1e5", "(2", "2)", "3 4", "*2", "18 ft", "2in 3", "in/2"])
-def test_what_is_no_length_is_none(page: Page, text: str) -> None:
-    assert asked(page, "units", f"m.parsed({text!r})") is None
+def test_what_is_no_length_is_none(modules: Page, text: str) -> None:
+    assert asked(modules, "units", f"m.parsed({text!r})") is None
 
 
-def test_what_lies_left_of_a_line_is_cut_off(page: Page) -> None:
+def test_what_lies_left_of_a_line_is_cut_off(modules: Page) -> None:
     square = [[0, 0], [2, 0], [2, 2], [0, 2]]
     # Upwards along x = 0.5: the left is the strip from 0 to 0.5.
-    part = asked(page, "geometry", f"m.leftPart({square}, [0.5, 0], [0.5, 1])")
+    part = asked(modules, "geometry", f"m.leftPart({square}, [0.5, 0], [0.5, 1])")
     assert sorted(part) == [[0, 0], [0, 2], [0.5, 0], [0.5, 2]]
 
 
-def test_a_point_mirrored_twice_is_where_it_was(page: Page) -> None:
-    once = asked(page, "geometry", "m.mirrored([3, 1], [0, 0], [1, 1])")
+def test_a_point_mirrored_twice_is_where_it_was(modules: Page) -> None:
+    once = asked(modules, "geometry", "m.mirrored([3, 1], [0, 0], [1, 1])")
     assert once == pytest.approx([1, 3])
-    assert asked(page, "geometry", f"m.mirrored({once}, [0, 0], [1, 1])") == pytest.approx([3, 1])
+    assert asked(modules, "geometry", f"m.mirrored({once}, [0, 0], [1, 1])") == pytest.approx([3, 1])
 
 
-def test_the_chord_of_a_notched_cloth_is_the_one_that_is_meant(page: Page) -> None:
+def test_the_chord_of_a_notched_cloth_is_the_one_that_is_meant(modules: Page) -> None:
     # A square of 3 with a notch from x = 1 to 2 down to y = 1: the line y = 2 has a chord on either side of it.
     notched = [[[0, 0], [3, 0], [3, 3], [2, 3], [2, 1], [1, 1], [1, 3], [0, 3]]]
-    assert asked(page, "geometry", f"m.chordAlong([2.2, 2], [2.8, 2], {notched})") == [[2, 2], [3, 2]]
-    assert asked(page, "geometry", f"m.chordAlong([0.2, 2], [0.8, 2], {notched})") == [[0, 2], [1, 2]]
-    assert asked(page, "geometry", f"m.chordAlong([0, 4], [3, 4], {notched})") is None
+    assert asked(modules, "geometry", f"m.chordAlong([2.2, 2], [2.8, 2], {notched})") == [[2, 2], [3, 2]]
+    assert asked(modules, "geometry", f"m.chordAlong([0.2, 2], [0.8, 2], {notched})") == [[0, 2], [1, 2]]
+    assert asked(modules, "geometry", f"m.chordAlong([0, 4], [3, 4], {notched})") is None
 
 
-def test_a_pose_takes_points_out_and_back(page: Page) -> None:
+def test_a_pose_takes_points_out_and_back(modules: Page) -> None:
     pose = "{x_m: 1, y_m: 2, yaw_rad: Math.PI / 2}"
     # A quarter turn takes (1, 0) to (0, 1).
-    assert asked(page, "geometry", f"m.toOuter({pose}, [1, 0])") == pytest.approx([1, 3])
-    assert asked(page, "geometry", f"m.toInner({pose}, [1, 3])") == pytest.approx([1, 0], abs=1e-12)
+    assert asked(modules, "geometry", f"m.toOuter({pose}, [1, 0])") == pytest.approx([1, 3])
+    assert asked(modules, "geometry", f"m.toInner({pose}, [1, 3])") == pytest.approx([1, 0], abs=1e-12)
 
 
-def test_the_right_half_of_an_outline_becomes_the_mirror_of_the_left(page: Page) -> None:
+def test_the_right_half_of_an_outline_becomes_the_mirror_of_the_left(modules: Page) -> None:
     points = [[0, 0], [4, 0], [3, 2], [2, 2.5], [0.5, 2]]
     corners = [{"id": f"v{index}", "point": point} for index, point in enumerate(points)]
-    outline = page.evaluate(
+    outline = modules.evaluate(
         """async (outline) => {
           const edits = await import("/static/js/board/mirror.js");
           const drawing = { outline };
@@ -103,80 +93,80 @@ def test_the_right_half_of_an_outline_becomes_the_mirror_of_the_left(page: Page)
     assert [corner["point"] for corner in outline] == [[2, 2.5], [0.5, 2], [0, 0], [4, 0], [3.5, 2]]
 
 
-def test_folds_are_named_by_where_cloth_comes_from_and_numbered_where_that_is_taken(page: Page) -> None:
+def test_folds_are_named_by_where_cloth_comes_from_and_numbered_where_that_is_taken(modules: Page) -> None:
     folds = '[{name: "left over"}, {name: "left over 2"}]'
-    assert asked(page, "stroke", f"m.nameOf([0, 0], [0, 1], {folds})") == "left over 3"
-    assert asked(page, "stroke", f"m.nameOf([0, 1], [0, 0], {folds})") == "right over"
-    assert asked(page, "stroke", f"m.nameOf([0, 0], [1, 0], {folds})") == "top down"
+    assert asked(modules, "stroke", f"m.nameOf([0, 0], [0, 1], {folds})") == "left over 3"
+    assert asked(modules, "stroke", f"m.nameOf([0, 1], [0, 0], {folds})") == "right over"
+    assert asked(modules, "stroke", f"m.nameOf([0, 0], [1, 0], {folds})") == "top down"
 
 
 @pytest.mark.parametrize(
     ("name", "flipped"), [("left over", "right over"), ("left over 2", "right over"), ("left sleeve", "left sleeve")]
 )
-def test_a_flipped_fold_is_named_anew_unless_somebody_has_named_it(page: Page, name: str, flipped: str) -> None:
+def test_a_flipped_fold_is_named_anew_unless_somebody_has_named_it(modules: Page, name: str, flipped: str) -> None:
     fold = f'{{name: "{name}", start: {{point: [0, 0]}}, end: {{point: [0, 1]}}}}'
-    assert asked(page, "stroke", f"m.nameFlipped({fold}, [])") == flipped
-    assert asked(page, "stroke", f'm.nameFlipped({fold}, [{{name: "right over"}}])') == flipped + (
+    assert asked(modules, "stroke", f"m.nameFlipped({fold}, [])") == flipped
+    assert asked(modules, "stroke", f'm.nameFlipped({fold}, [{{name: "right over"}}])') == flipped + (
         " 2" if flipped == "right over" else ""
     )
 
 
-def over_axis(page: Page, outline: list[list[float]], point: list[float]) -> Any:
+def over_axis(modules: Page, outline: list[list[float]], point: list[float]) -> Any:
     """Return the image of a point under the reflection over an outline's axis."""
     carried = f"import('/static/js/board/geometry.js').then((g) => g.mirrored({point}, ...m.axisOf({outline})))"
-    return asked(page, "symmetry", carried)
+    return asked(modules, "symmetry", carried)
 
 
-def test_a_garment_of_which_a_corner_is_pulled_away_keeps_its_axis(page: Page) -> None:
+def test_a_garment_of_which_a_corner_is_pulled_away_keeps_its_axis(modules: Page) -> None:
     # Symmetric about x = 2 but for (4.9, -0.3), which was (4, 0); the middle of the box is at 1.95.
     pulled: list[list[float]] = [[0, 0], [4.9, -0.3], [4, 3], [5, 2], [5, 4], [3, 5], [1, 5], [-1, 4], [-1, 2], [0, 3]]
-    assert over_axis(page, pulled, [0, 0]) == pytest.approx([4, 0])
+    assert over_axis(modules, pulled, [0, 0]) == pytest.approx([4, 0])
 
 
-def test_an_axis_may_slant_if_all_corners_say_so(page: Page) -> None:
+def test_an_axis_may_slant_if_all_corners_say_so(modules: Page) -> None:
     # A kite with its tips on y = x.
-    assert over_axis(page, [[0, 0], [2, 1], [4, 4], [1, 2]], [3, 0]) == pytest.approx([0, 3])
+    assert over_axis(modules, [[0, 0], [2, 1], [4, 4], [1, 2]], [3, 0]) == pytest.approx([0, 3])
 
 
-def test_of_two_axes_the_upright_one_is_meant(page: Page) -> None:
-    assert over_axis(page, [[0, 0], [2, 0], [2, 5], [0, 5]], [0.5, 1]) == pytest.approx([1.5, 1])
+def test_of_two_axes_the_upright_one_is_meant(modules: Page) -> None:
+    assert over_axis(modules, [[0, 0], [2, 0], [2, 5], [0, 5]], [0.5, 1]) == pytest.approx([1.5, 1])
 
 
-def test_a_garment_without_an_axis_is_mirrored_over_the_middle_of_its_box(page: Page) -> None:
+def test_a_garment_without_an_axis_is_mirrored_over_the_middle_of_its_box(modules: Page) -> None:
     # No two corners are level with or plumb to each other; x from -1 to 6.
     odd: list[list[float]] = [[0, 0], [5, 1], [6, 4], [2, 7], [-1, 3]]
-    assert over_axis(page, odd, [0, 0]) == pytest.approx([5, 0])
+    assert over_axis(modules, odd, [0, 0]) == pytest.approx([5, 0])
 
 
-def laid(page: Page, edge: list[list[float]], onto: list[list[float]], point: list[float]) -> Any:
+def laid(modules: Page, edge: list[list[float]], onto: list[list[float]], point: list[float]) -> Any:
     """Return the image of a point under the fold that lays an edge on another; None if no fold does."""
     carry = f"import('/static/js/board/geometry.js').then((g) => line && g.mirrored({point}, ...line))"
-    return asked(page, "edge_onto_edge", f"((line) => {carry})(m.layingOnto({edge}, {onto}))")
+    return asked(modules, "edge_onto_edge", f"((line) => {carry})(m.layingOnto({edge}, {onto}))")
 
 
-def test_an_edge_is_laid_on_one_that_meets_it_over_the_corners_bisector(page: Page) -> None:
+def test_an_edge_is_laid_on_one_that_meets_it_over_the_corners_bisector(modules: Page) -> None:
     # Along the x axis and up the line y = x: halved at 22.5 degrees, (2, 0) comes to lie on it, 2 from the corner.
-    found = laid(page, [[0, 0], [3, 0]], [[3, 3], [0, 0]], [2, 0])
+    found = laid(modules, [[0, 0], [3, 0]], [[3, 3], [0, 0]], [2, 0])
     assert found == pytest.approx([2**0.5, 2**0.5])
 
 
-def test_an_edge_is_laid_on_a_parallel_one_over_the_line_midway(page: Page) -> None:
-    assert laid(page, [[0, 0], [4, 0]], [[3, 1], [1, 1]], [2, 0]) == pytest.approx([2, 1])
+def test_an_edge_is_laid_on_a_parallel_one_over_the_line_midway(modules: Page) -> None:
+    assert laid(modules, [[0, 0], [4, 0]], [[3, 1], [1, 1]], [2, 0]) == pytest.approx([2, 1])
 
 
-def test_an_edge_is_not_laid_beside_another(page: Page) -> None:
+def test_an_edge_is_not_laid_beside_another(modules: Page) -> None:
     # Parallel, but one from x = 0 to 1 and the other from x = 2 to 3; and two stretches of one line.
-    assert laid(page, [[0, 0], [1, 0]], [[3, 1], [2, 1]], [0, 0]) is None
-    assert laid(page, [[0, 0], [1, 0]], [[2, 0], [3, 0]], [0, 0]) is None
+    assert laid(modules, [[0, 0], [1, 0]], [[3, 1], [2, 1]], [0, 0]) is None
+    assert laid(modules, [[0, 0], [1, 0]], [[2, 0], [3, 0]], [0, 0]) is None
 
 
-def test_a_crease_from_a_corner_ends_where_it_lays_edges_on_edges(page: Page) -> None:
+def test_a_crease_from_a_corner_ends_where_it_lays_edges_on_edges(modules: Page) -> None:
     # From the corner of a square only its diagonal does; from a place that is on no bisector nothing does.
     square = [[[0, 0], [2, 0], [2, 2], [0, 2]]]
-    ends = asked(page, "edge_onto_edge", f"m.endsOnto([0, 0], {square}).map(({{ at }}) => at)")
+    ends = asked(modules, "edge_onto_edge", f"m.endsOnto([0, 0], {square}).map(({{ at }}) => at)")
     assert ends
     assert all(end == pytest.approx([2, 2]) for end in ends)
-    assert asked(page, "edge_onto_edge", f"m.endsOnto([0.7, 0], {square})") == []
+    assert asked(modules, "edge_onto_edge", f"m.endsOnto([0.7, 0], {square})") == []
 
 
 @pytest.mark.parametrize(
@@ -189,12 +179,12 @@ def test_a_crease_from_a_corner_ends_where_it_lays_edges_on_edges(page: Page) ->
     ],
 )
 def test_a_plan_that_reads_the_same_as_what_any_takes_is_told_with_the_difference(
-    page: Page, cost_s: float, least_s: float, said: str
+    modules: Page, cost_s: float, least_s: float, said: str
 ) -> None:
-    assert asked(page, "numbers", f"m.quicker({cost_s}, {least_s})", room="dock") == said
+    assert asked(modules, "numbers", f"m.quicker({cost_s}, {least_s})", room="dock") == said
 
 
-def test_an_outline_goes_on_and_ends(page: Page) -> None:
+def test_an_outline_goes_on_and_ends(modules: Page) -> None:
     triangle, many = [[0, 0], [0.4, 0], [0, 0.3]], [[0.01 * n, 0] for n in range(POINTS_MAX)]
     asks = [
         ("close", triangle, [0, 0.0005]),
@@ -206,14 +196,14 @@ def test_an_outline_goes_on_and_ends(page: Page) -> None:
         ("full", many, [0, 0.3]),
         ("close", many, many[0]),
     ]
-    told = asked(page, "stroke", f"{json.dumps(asks)}.map(([_, points, next]) => m.nextCorner(points, next))")
+    told = asked(modules, "stroke", f"{json.dumps(asks)}.map(([_, points, next]) => m.nextCorner(points, next))")
     assert told == [expected for expected, _, _ in asks]
 
 
-def strongest(page: Page, points: list[Point2], scale: float, to: dict[str, Any]) -> Any:
+def strongest(modules: Page, points: list[Point2], scale: float, to: dict[str, Any]) -> Any:
     """Return what a pointer at each of some points (m) snaps to on the board, at a scale (px/m)."""
     return asked(
-        page,
+        modules,
         "snap",
         f"""{json.dumps(points)}.map((at) => new m.Snapper().strongest(
             {{ scale: {scale} }},
@@ -223,7 +213,7 @@ def strongest(page: Page, points: list[Point2], scale: float, to: dict[str, Any]
     )
 
 
-def test_a_pointer_means_the_corner_before_the_fraction_before_the_edge(page: Page) -> None:
+def test_a_pointer_means_the_corner_before_the_fraction_before_the_edge(modules: Page) -> None:
     square = [(0.0, 0.0), (0.4, 0.0), (0.4, 0.4), (0.0, 0.4)]
     points = [
         (0.007, 0.007),  # 9.9 mm from a corner, which holds 10 px
@@ -233,7 +223,7 @@ def test_a_pointer_means_the_corner_before_the_fraction_before_the_edge(page: Pa
         (0.24, 0.0085),
         (0.2, 0.2),
     ]
-    found = strongest(page, points, 1000.0, {"rings": [square]})
+    found = strongest(modules, points, 1000.0, {"rings": [square]})
     assert [one and one["kind"] for one in found] == ["vertex", "fraction", "fraction", "edge", None, None]
     assert found[0]["at"] == pytest.approx([0, 0])
     assert found[1]["at"] == pytest.approx([0.2, 0])
@@ -241,9 +231,9 @@ def test_a_pointer_means_the_corner_before_the_fraction_before_the_edge(page: Pa
     assert found[3]["at"][1] == pytest.approx(0)
 
 
-def test_a_garment_that_is_drawn_is_called_what_its_outline_looks_like(page: Page) -> None:
+def test_a_garment_that_is_drawn_is_called_what_its_outline_looks_like(modules: Page) -> None:
     def title(*points: tuple[float, float]) -> Any:
-        return asked(page, "guessed_title", f"m.guessedTitle({[list(point) for point in points]})")
+        return asked(modules, "guessed_title", f"m.guessedTitle({[list(point) for point in points]})")
 
     assert title((0, 0), (0.6, 0), (0.6, 0.9), (0, 0.9)) == "Towel"
     assert title((0, 0), (0.2, 0), (0.2, 1.4), (0, 1.4)) == "Scarf"
@@ -254,12 +244,12 @@ def test_a_garment_that_is_drawn_is_called_what_its_outline_looks_like(page: Pag
     assert title((0, 0), (0.6, 0), (0.3, 0.5)) == ""
 
 
-def test_the_smaller_part_moves_whichever_way_a_fold_is_drawn_and_both_can_be_had(page: Page) -> None:
+def test_the_smaller_part_moves_whichever_way_a_fold_is_drawn_and_both_can_be_had(modules: Page) -> None:
     square = [[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]]
 
     def line(x: float, start: float, end: float, is_flipped: bool = False) -> Any:
         stroke = {"isGrab": False, "from": [x, start], "to": [x, end]}
-        return asked(page, "stroke", f"m.lineOf({json.dumps(stroke)}, {square}, {json.dumps(is_flipped)})")
+        return asked(modules, "stroke", f"m.lineOf({json.dumps(stroke)}, {square}, {json.dumps(is_flipped)})")
 
     up, down = [[0.2, 0.0], [0.2, 1.0]], [[0.2, 1.0], [0.2, 0.0]]
     assert line(0.2, 0.0, 1.0) == line(0.2, 1.0, 0.0) == up
@@ -268,36 +258,36 @@ def test_the_smaller_part_moves_whichever_way_a_fold_is_drawn_and_both_can_be_ha
     assert line(0.0, 0.0, 1.0) == [[0.0, 0.0], [0.0, 1.0]]
 
 
-def test_the_page_has_the_numbers_and_sentences_of_the_server(page: Page) -> None:
+def test_the_page_has_the_numbers_and_sentences_of_the_server(modules: Page) -> None:
     names = ("MOST_CORNERS", "SAME_CORNER_M", "CURVE_TOLERANCE_M", "CURVE_MAX")
-    numbers = asked(page, "rules", f"{json.dumps(names)}.map((name) => m[name])")
+    numbers = asked(modules, "rules", f"{json.dumps(names)}.map((name) => m[name])")
     assert numbers == [POINTS_MAX, EDGE_MIN_M, CURVE_TOLERANCE_M, CURVE_MAX]
-    assert asked(page, "rules", "m.UNTITLED") == blank_drawing().title
-    sentences = asked(page, "rules", "[m.NO_CLOTH, m.FIRST_IS_RED]")
+    assert asked(modules, "rules", "m.UNTITLED") == blank_drawing().title
+    sentences = asked(modules, "rules", "[m.NO_CLOTH, m.FIRST_IS_RED]")
     assert [text.lower().rstrip(".") for text in sentences] == [NO_CLOTH.lower(), FIRST_IS_RED.lower()]
 
 
-def test_an_edge_is_bent_straight_to_a_half_circle_to_an_arc_or_freely(page: Page) -> None:
+def test_an_edge_is_bent_straight_to_a_half_circle_to_an_arc_or_freely(modules: Page) -> None:
     a, b = (0.0, 0.0), (0.4, 0.0)
     points = [(0.1, 0.005), (0.205, 0.195), (0.205, 0.1), (0.3, 0.1)]
-    found = strongest(page, points, 1000.0, {"rings": [], "bent": [a, b]})
+    found = strongest(modules, points, 1000.0, {"rings": [], "bent": [a, b]})
     assert [one and one["kind"] for one in found] == ["dropped", "fraction", "bisector", None]
     assert found[0]["at"] == pytest.approx([0.1, 0.0])
     assert found[1]["at"] == pytest.approx([0.2, 0.2])
     assert found[2]["at"] == pytest.approx([0.2, 0.1])
 
 
-def test_the_page_bends_an_edge_to_a_handle_as_the_server_reads_the_curve(page: Page) -> None:
+def test_the_page_bends_an_edge_to_a_handle_as_the_server_reads_the_curve(modules: Page) -> None:
     a, b = (0.1, 0.0), (0.4, 0.2)
     rng = Random(74)
     for along, across in [(rng.uniform(-1.5, 1.5), rng.uniform(-1.5, 1.5)) for _ in range(20)]:
         x, y = Curve(along, across).handle(a, b)
-        bent = asked(page, "curves", f"m.curveThrough({list(a)}, {list(b)}, [{x}, {y}])")
+        bent = asked(modules, "curves", f"m.curveThrough({list(a)}, {list(b)}, [{x}, {y}])")
         assert bent == pytest.approx({"along": along, "across": across})
-    assert asked(page, "curves", f"m.curveThrough({list(a)}, {list(b)}, [0.25, 0.1])") is None
+    assert asked(modules, "curves", f"m.curveThrough({list(a)}, {list(b)}, [0.25, 0.1])") is None
 
 
-def test_a_drawing_is_made_as_large_as_the_garment_of_a_suggestion_and_folds_stay_tied(page: Page) -> None:
+def test_a_drawing_is_made_as_large_as_the_garment_of_a_suggestion_and_folds_stay_tied(modules: Page) -> None:
     tie = {"kind": "vertex", "vertex": "v0"}
     drawing = {
         "outline": [
@@ -308,7 +298,7 @@ def test_a_drawing_is_made_as_large_as_the_garment_of_a_suggestion_and_folds_sta
         "folds": [{"start": {"point": [0, 0], "on": tie}, "end": {"point": [0.8, 0.2], "on": None}}],
         "grip_radius_m": 0.127,
     }
-    made = page.evaluate(
+    made = modules.evaluate(
         """async (drawing) => {
           const { applyChange } = await import("/static/js/dock/suggestion_button.js");
           const { ringOf } = await import("/static/js/board/curves.js");
@@ -325,14 +315,14 @@ def test_a_drawing_is_made_as_large_as_the_garment_of_a_suggestion_and_folds_sta
     assert made["folds"][0]["end"]["point"] == [0.4, 0.1]
 
 
-def test_words_of_findings_leave_the_foot_of_the_board_to_its_hint(page: Page) -> None:
+def test_words_of_findings_leave_the_foot_of_the_board_to_its_hint(modules: Page) -> None:
     words = {"key": "a", "tag": "text", "class": "drag-text", "text": "dragged", "text-anchor": "middle", "x": 100}
     for y, expected in ((395, 364), (370, 364), (360, 360), (450, 450)):
-        (placed,) = asked(page, "words_apart", f"m.wordsApart({json.dumps([{**words, 'y': y}])}, 400)")
+        (placed,) = asked(modules, "words_apart", f"m.wordsApart({json.dumps([{**words, 'y': y}])}, 400)")
         assert placed["y"] == expected
 
 
-def test_words_of_findings_are_never_written_over_each_other(page: Page) -> None:
+def test_words_of_findings_are_never_written_over_each_other(modules: Page) -> None:
     random = Random(18)
     kinds = ("reason-text", "drag-text", "beyond-text", "robot-name")
     for _ in range(50):
@@ -342,7 +332,7 @@ def test_words_of_findings_are_never_written_over_each_other(page: Page) -> None
             for kind in kinds
         ]
         items.append({"key": "cross", "tag": "path", "class": "problem", "d": "M0 0"})
-        placed = asked(page, "words_apart", f"m.wordsApart({json.dumps(items)}, 400)")
+        placed = asked(modules, "words_apart", f"m.wordsApart({json.dumps(items)}, 400)")
         assert [{**new, "y": 0} for new in placed] == [{**old, "y": 0} for old in items[:4]] + [{**items[4], "y": 0}]
         assert placed[0]["y"] == items[0]["y"]  # what is missing stays where it is
         for n, one in enumerate(placed[:4]):

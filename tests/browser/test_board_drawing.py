@@ -1,9 +1,9 @@
 """Drawn points are exactly where they should be, tied to what they end at; two fingers zoom and draw nothing."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 
 import pytest
-from playwright.sync_api import Browser, BrowserContext, Page, expect
+from playwright.sync_api import Page, expect
 
 from tests.browser.board_desk import expect_step
 from tests.browser.board_finger import Finger
@@ -76,15 +76,6 @@ def test_what_is_drawn_with_the_keyboard_is_where_the_cross_was(page: Page, blan
     assert solved[2]["end"] == pytest.approx([0.125, 0.25], abs=1e-6)
 
 
-@pytest.fixture
-def phone(chromium: Browser) -> Iterator[BrowserContext]:
-    opened = chromium.new_context(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
-    opened.set_default_timeout(20_000)
-    opened.route("**/viser/**", lambda route: route.abort())
-    yield opened
-    opened.close()
-
-
 def test_undo_takes_back_what_is_being_drawn_before_any_step(page: Page, blank: Sheet) -> None:
     hand = Hand(page)
     hand.tool("Draw outline")
@@ -117,12 +108,10 @@ def test_the_first_key_may_put_a_corner(page: Page, blank: Sheet) -> None:
     expect(page.locator(".cross")).to_have_count(0)
 
 
-def test_a_finger_grabs_a_corner_once_grabbing_is_on(
-    phone: BrowserContext, new_sheet: Callable[[Garment], Sheet]
-) -> None:
+def test_a_finger_grabs_a_corner_once_grabbing_is_on(phone: Page, new_sheet: Callable[[Garment], Sheet]) -> None:
     square = [[0.0, 0.0], [0.4, 0.0], [0.4, 0.4], [0.0, 0.4]]
     sheet = new_sheet({"name": "square", "outline": square, "folds": []})
-    page = phone.new_page()
+    page = phone
     page.goto(sheet.page_url)
     expect(page.locator(".corner")).to_have_count(4)
     Hand(page).tool("Grab")
@@ -133,9 +122,9 @@ def test_a_finger_grabs_a_corner_once_grabbing_is_on(
     assert drawn["end"]["point"] == pytest.approx([0.0, 0.4], abs=1e-6)
 
 
-def test_two_fingers_zoom_and_drop_the_stroke(phone: BrowserContext, new_sheet: Callable[[Garment], Sheet]) -> None:
+def test_two_fingers_zoom_and_drop_the_stroke(phone: Page, new_sheet: Callable[[Garment], Sheet]) -> None:
     sheet = new_sheet("t-shirt")
-    page = phone.new_page()
+    page = phone
     page.goto(sheet.page_url)
     expect(page.locator(".corner")).to_have_count(10)
     finger, hand = Finger(page), Hand(page)

@@ -9,7 +9,6 @@ import pytest
 from playwright.sync_api import Locator, Page, Route, expect
 
 from planner import load_garment
-from tests.app.conftest import Served
 from tests.app.samples import towel
 from tests.browser.conftest import REST, Garment, Sheet
 from tests.browser.napkin import napkin
@@ -135,9 +134,8 @@ def test_the_numbers_say_what_the_cost_is_made_of_and_how_it_changed(
         expect(numbers.get_by_text(name, exact=True)).to_be_visible()
 
 
-def test_a_difference_is_told_with_its_sign_in_words(page: Page, designer: Served) -> None:
-    page.goto(f"{designer.url}/static/icon.svg")
-    told = page.evaluate(
+def test_a_difference_is_told_with_its_sign_in_words(modules: Page) -> None:
+    told = modules.evaluate(
         """async () => {
           const { difference } = await import("/static/js/dock/numbers.js");
           const before = (cost_s) => ({ version: 1, status: cost_s === null ? "infeasible" : "solved", cost_s });
@@ -147,9 +145,8 @@ def test_a_difference_is_told_with_its_sign_in_words(page: Page, designer: Serve
     assert told == ["", "no plan before", "same as before", "1.5 s less than before", "same as before"]
 
 
-def test_what_a_person_can_do_comes_before_what_must_be_assumed(page: Page, designer: Served) -> None:
-    page.goto(f"{designer.url}/static/icon.svg")
-    order = page.evaluate(
+def test_what_a_person_can_do_comes_before_what_must_be_assumed(modules: Page) -> None:
+    order = modules.evaluate(
         """async () => {
           const { ranked } = await import("/static/js/dock/suggestion_search.js");
           const at = (x_m) => ({ placement: { x_m, y_m: 0, yaw_rad: 0 } });
@@ -164,9 +161,8 @@ def test_what_a_person_can_do_comes_before_what_must_be_assumed(page: Page, desi
     assert order == [["placement", 0.5], ["station", 1], ["placement", 0.6], ["friction", 1]]
 
 
-def test_of_two_places_that_are_nearly_one_the_better_is_offered(page: Page, designer: Served) -> None:
-    page.goto(f"{designer.url}/static/icon.svg")
-    kept = page.evaluate(
+def test_of_two_places_that_are_nearly_one_the_better_is_offered(modules: Page) -> None:
+    kept = modules.evaluate(
         """async () => {
           const { ranked } = await import("/static/js/dock/suggestion_search.js");
           const at = (x_m, y_m, cost_s, yaw_rad = 0) =>
@@ -183,9 +179,8 @@ def test_of_two_places_that_are_nearly_one_the_better_is_offered(page: Page, des
     assert kept == [[46.2], [40], [46.2, 46.1], [46.2], [46.2, 46.1]]
 
 
-def test_of_fold_lines_only_those_of_one_fold_are_nearly_one(page: Page, designer: Served) -> None:
-    page.goto(f"{designer.url}/static/icon.svg")
-    kept = page.evaluate(
+def test_of_fold_lines_only_those_of_one_fold_are_nearly_one(modules: Page) -> None:
+    kept = modules.evaluate(
         """async () => {
           const { ranked } = await import("/static/js/dock/suggestion_search.js");
           const shifted = (first, second, cost_s) => {
@@ -200,9 +195,8 @@ def test_of_fold_lines_only_those_of_one_fold_are_nearly_one(page: Page, designe
     assert kept == [40, 39.8]
 
 
-def test_how_far_the_cloth_was_dragged_by_then_is_said_where_there_is_room(page: Page, designer: Served) -> None:
-    page.goto(f"{designer.url}/static/icon.svg")
-    told = page.evaluate(
+def test_how_far_the_cloth_was_dragged_by_then_is_said_where_there_is_room(modules: Page) -> None:
+    told = modules.evaluate(
         """async () => {
           const { explanation, headline } = await import("/static/js/dock/reasons.js");
           const reason = { fold: 0, code: "out_of_reach", arm: "left", short_by_m: 0.02, message: "short" };
@@ -217,9 +211,8 @@ def test_how_far_the_cloth_was_dragged_by_then_is_said_where_there_is_room(page:
     assert told == [f"{brief[:-1]}, after the cloth was dragged {way}.", brief, brief, brief]
 
 
-def test_a_reason_without_words_is_not_shown(page: Page, designer: Served) -> None:
-    page.goto(f"{designer.url}/static/icon.svg")
-    told = page.evaluate(
+def test_a_reason_without_words_is_not_shown(modules: Page) -> None:
+    told = modules.evaluate(
         """async () => {
           const { details } = await import("/static/js/dock/reasons.js");
           const plan = { reasons: [{ fold: 0, message: "" }, { fold: 0, message: "too far" }] };
@@ -229,11 +222,8 @@ def test_a_reason_without_words_is_not_shown(page: Page, designer: Served) -> No
     assert told == ["\N{LEFT DOUBLE QUOTATION MARK}half\N{RIGHT DOUBLE QUOTATION MARK}: too far."]
 
 
-def test_when_a_search_is_cut_short_the_pill_is_brief_and_the_dock_says_how_far_the_search_came(
-    page: Page, designer: Served
-) -> None:
-    page.goto(f"{designer.url}/static/icon.svg")
-    told = page.evaluate(
+def test_when_a_search_is_cut_short_the_pill_is_brief_and_the_dock_says_how_far_the_search_came(modules: Page) -> None:
+    told = modules.evaluate(
         """async () => {
           const { explanation, headline } = await import("/static/js/dock/reasons.js");
           const text = "No plan: searched 1,207 candidates and found none; any takes 9 s. To look longer may help";
@@ -246,9 +236,8 @@ def test_when_a_search_is_cut_short_the_pill_is_brief_and_the_dock_says_how_far_
     assert told == [f"{brief}.", f"{brief}; any takes 9 s. To look longer may help."]
 
 
-def test_what_is_short_at_least_is_said_to_be(page: Page, designer: Served) -> None:
-    page.goto(f"{designer.url}/static/icon.svg")
-    told = page.evaluate(
+def test_what_is_short_at_least_is_said_to_be(modules: Page) -> None:
+    told = modules.evaluate(
         """async () => {
           const { sentence } = await import("/static/js/dock/reasons.js");
           const reason = { fold: 0, code: "out_of_reach", cause: "too_far", arm: "left", short_by_m: 0.8 };

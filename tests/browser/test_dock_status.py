@@ -7,7 +7,6 @@ from collections.abc import Callable
 import pytest
 from playwright.sync_api import BrowserContext, Page, WebSocketRoute, expect
 
-from tests.app.conftest import Served
 from tests.browser.conftest import PATIENCE_MS, Garment, Sheet
 from tests.browser.napkin import napkin
 from tests.browser.status_pill import expect_planned
@@ -27,9 +26,8 @@ WAITING = """async (millis) => {
 
 
 @pytest.mark.parametrize(("millis", "wait"), [(20, "short"), (400, "noticed"), (1200, "long")])
-def test_planning_shows_only_when_it_takes_long(page: Page, designer: Served, millis: int, wait: str) -> None:
-    page.goto(f"{designer.url}/static/icon.svg")
-    assert page.evaluate(WAITING, millis) == [wait, ""]
+def test_planning_shows_only_when_it_takes_long(modules: Page, millis: int, wait: str) -> None:
+    assert modules.evaluate(WAITING, millis) == [wait, ""]
 
 
 REFINING = """async (ids) => {
@@ -52,10 +50,9 @@ REFINING = """async (ids) => {
 
 @pytest.mark.parametrize(("ids", "is_told"), [("a", False), ("aaa", True), ("abc", False)])
 def test_that_a_quicker_plan_is_looked_for_is_told_once_a_plan_has_stayed_for_a_second(
-    page: Page, designer: Served, ids: str, is_told: bool
+    modules: Page, ids: str, is_told: bool
 ) -> None:
-    page.goto(f"{designer.url}/static/icon.svg")
-    assert page.evaluate(REFINING, list(ids)) == [is_told, False]
+    assert modules.evaluate(REFINING, list(ids)) == [is_told, False]
 
 
 def test_while_a_quicker_plan_is_looked_for_the_one_on_show_can_be_kept(
@@ -277,11 +274,10 @@ TOLD = """async (reasons) => {
 
 @pytest.mark.parametrize(("first", "shown"), [([0.3, 0.1, 0.8], 0.412), (None, None)])
 def test_the_board_shows_the_shortfall_of_the_reason_that_the_status_tells(
-    page: Page, designer: Served, first: list[float] | None, shown: float | None
+    modules: Page, first: list[float] | None, shown: float | None
 ) -> None:
-    page.goto(f"{designer.url}/static/icon.svg")
     reasons = [
         {"message": "out of reach", "point": first, "short_by_m": 0.412},
         {"message": "out of reach", "point": [0.2, 0.0, 0.8], "short_by_m": 0.1},
     ]
-    assert page.evaluate(TOLD, reasons) == [0.412, shown]
+    assert modules.evaluate(TOLD, reasons) == [0.412, shown]

@@ -8,8 +8,7 @@ import pytest
 from playwright.sync_api import Browser, Page, Route, expect
 
 from tests.app.conftest import REST, Served
-from tests.browser.board_desk import window
-from tests.browser.conftest import Garment, Sheet
+from tests.browser.conftest import Garment, Sheet, windows
 from tests.messages import FOLDS, MESSAGES
 
 NewSheet = Callable[[Garment], Sheet]
@@ -65,7 +64,8 @@ def test_a_language_is_chosen_in_the_settings_and_kept_for_the_next_visit(page: 
 def test_every_message_of_the_server_has_words_in_each_language(
     chromium: Browser, designer: Served, language: str
 ) -> None:
-    with window(chromium) as page:
+    with windows(chromium) as context:
+        page = context.new_page()
         page.goto(f"{designer.url}/static/icon.svg")
         page.evaluate("(code) => localStorage.setItem('pleat-language', code)", language)
         page.reload()

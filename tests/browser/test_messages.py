@@ -1,29 +1,19 @@
 """Messages in the page's own words: made from a code and numbers, in its unit, never from a sentence."""
 
 import re
-from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from playwright.sync_api import Browser, Page
+from playwright.sync_api import Page
 
-from tests.app.conftest import Served
-from tests.browser.board_desk import window
 from tests.messages import FOLDED, FOLDS, HEM, MESSAGES, RADII, REACH, codes_in
 
 NAMED = [f"{number}-{says['code']}" for number, says in enumerate(MESSAGES)]
 
 
-@pytest.fixture(scope="module")
-def page(chromium: Browser, designer: Served) -> Iterator[Page]:
-    with window(chromium) as page:
-        page.goto(f"{designer.url}/static/icon.svg")  # of the same origin, and nothing runs in it
-        yield page
-
-
-def told(page: Page, says: dict[str, Any], unit: str) -> str:
+def told(modules: Page, says: dict[str, Any], unit: str) -> str:
     """Return the page's words for a message whose sentence is useless."""
-    words: str = page.evaluate(
+    words: str = modules.evaluate(
         """async ([told, folds, name]) => {
           const { unit } = await import("/static/js/board/units.js");
           const { inWords } = await import("/static/js/messages/in_words.js");
@@ -35,7 +25,7 @@ def told(page: Page, says: dict[str, Any], unit: str) -> str:
     return words
 
 
-def test_the_page_has_words_for_every_message_that_is_made(page: Page) -> None:
+def test_the_page_has_words_for_every_message_that_is_made(modules: Page) -> None:
     codes = codes_in("planner", "app")
     known = {says["code"] for says in MESSAGES}
     assert {code for code in codes if not any(name.startswith(code) for name in known)} == set()
@@ -43,8 +33,8 @@ def test_the_page_has_words_for_every_message_that_is_made(page: Page) -> None:
 
 
 @pytest.mark.parametrize("says", MESSAGES, ids=NAMED)
-def test_a_message_is_told_in_the_pages_unit_from_its_numbers_alone(page: Page, says: dict[str, Any]) -> None:
-    in_cm, in_inches = (told(page, says, unit).replace(HEM, "").replace("mum", "") for unit in ("cm", "in"))
+def test_a_message_is_told_in_the_pages_unit_from_its_numbers_alone(modules: Page, says: dict[str, Any]) -> None:
+    in_cm, in_inches = (told(modules, says, unit).replace(HEM, "").replace("mum", "") for unit in ("cm", "in"))
     for words in (in_cm, in_inches):
         assert not re.search(r"RUBBISH|undefined|NaN|null|object|_|\de\+|fold 0|edge 0|point 0|layer 0", words)
         assert not re.search(r"\d\)? m\b|\d mm\b|\dm\b", words)
@@ -87,11 +77,11 @@ TOLD_EXACTLY = [
 
 
 @pytest.mark.parametrize(("says", "words"), TOLD_EXACTLY, ids=[str(says["code"]) for says, _ in TOLD_EXACTLY])
-def test_a_message_says_where_how_much_and_what_to_do(page: Page, says: dict[str, Any], words: str) -> None:
-    assert told(page, says, "cm") == words
+def test_a_message_says_where_how_much_and_what_to_do(modules: Page, says: dict[str, Any], words: str) -> None:
+    assert told(modules, says, "cm") == words
 
 
-def test_a_message_without_numbers_is_its_sentence(page: Page) -> None:
-    assert page.evaluate(
+def test_a_message_without_numbers_is_its_sentence(modules: Page) -> None:
+    assert modules.evaluate(
         "import('/static/js/messages/in_words.js').then((m) => m.inWords({ says: null, message: 'so it is' }, []))"
     ) == ("so it is")

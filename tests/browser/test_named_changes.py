@@ -10,7 +10,6 @@ from playwright.sync_api import Page, Route, expect
 
 from planner import Scene, make_plan
 from planner.cloth.garment import Garment as Cloth
-from tests.app.conftest import Served
 from tests.browser.conftest import Garment, Sheet
 from tests.explain.test_reasons_tried import apron
 
@@ -45,11 +44,10 @@ def test_the_amount_that_a_reason_names_is_offered_and_gives_a_plan(page: Page, 
     assert (sheet.can_undo or "").startswith("Assume that one grip holds")
 
 
-def named(page: Page, served: Served, cloth: Cloth, *reasons: dict[str, Any]) -> list[dict[str, Any]]:
-    page.goto(f"{served.url}/static/icon.svg")
+def named(modules: Page, cloth: Cloth, *reasons: dict[str, Any]) -> list[dict[str, Any]]:
     garment = cloth.to_dict()
     drawing = {"placement": PLACE, "scene": SCENE, "comfort_radius_m": 0.03}
-    found: list[dict[str, Any]] = page.evaluate(
+    found: list[dict[str, Any]] = modules.evaluate(
         """async ([reasons, state]) => {
           const { namedChanges } = await import("/static/js/repair/named_changes.js");
           return namedChanges({ version: 3, plan: { reasons, is_stale: false } }, { ...state, version: 3 });
@@ -63,14 +61,14 @@ def gives_plan(**change: Any) -> dict[str, Any]:
     return {"gives": "plan", "change": change}
 
 
-def test_each_kind_of_change_has_its_words_and_several_are_assumed_together(page: Page, designer: Served) -> None:
+def test_each_kind_of_change_has_its_words_and_several_are_assumed_together(modules: Page) -> None:
     cloth = apron(0.127, 0.127)
     (reason,) = make_plan(cloth, time_limit_s=60.0).reasons
     wider = {"gives": reason.gives, "change": reason.change}
     moved = gives_plan(placement={**PLACE, "x_m": 0.15})
     rougher = gives_plan(scene={**SCENE, "friction": 1.504})
     nearer = gives_plan(comfort_radius_m=0.01)
-    found = named(page, designer, cloth, wider, moved, rougher, nearer)
+    found = named(modules, cloth, wider, moved, rougher, nearer)
     assert [one["kind"] for one in found] == ["grip_radius", "placement", "friction", "comfort_radius"]
     assert [one["is_assumption"] for one in found] == [True, False, True, True]
     grip, place, friction, comfort = (one["says"] for one in found)
@@ -78,16 +76,14 @@ def test_each_kind_of_change_has_its_words_and_several_are_assumed_together(page
     assert place["by"] == pytest.approx([0.05, 0.0])
     assert (friction["friction"], friction["now"]) == (pytest.approx(1.51), 1.0)
     assert (comfort["comfort_m"], comfort["now_m"]) == (0.01, 0.03)
-    (both,) = named(page, designer, cloth, gives_plan(**rougher["change"], **nearer["change"]))
+    (both,) = named(modules, cloth, gives_plan(**rougher["change"], **nearer["change"]))
     assert (both["kind"], [part["code"] for part in both["says"]["parts"]]) == (
         "together",
         ["assume_friction", "assume_comfort"],
     )
 
 
-def test_what_gives_no_plan_or_has_no_words_is_not_offered_and_of_a_kind_the_least_is(
-    page: Page, designer: Served
-) -> None:
+def test_what_gives_no_plan_or_has_no_words_is_not_offered_and_of_a_kind_the_least_is(modules: Page) -> None:
     cloth = apron(0.127, 0.127)
     table = {**SCENE, "table": {**SCENE["table"], "height_m": 0.5}}
     for reason in (
@@ -96,6 +92,6 @@ def test_what_gives_no_plan_or_has_no_words_is_not_offered_and_of_a_kind_the_lea
         gives_plan(scene=table),
         gives_plan(robot="other"),
     ):
-        assert named(page, designer, cloth, reason) == []
-    (least,) = named(page, designer, cloth, gives_plan(comfort_radius_m=0.0), gives_plan(comfort_radius_m=0.02))
+        assert named(modules, cloth, reason) == []
+    (least,) = named(modules, cloth, gives_plan(comfort_radius_m=0.0), gives_plan(comfort_radius_m=0.02))
     assert least["change"] == {"comfort_radius_m": 0.02}

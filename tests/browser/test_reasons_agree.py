@@ -1,14 +1,11 @@
 """Strip, board and panel tell a reason with the same amounts."""
 
 import re
-from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from playwright.sync_api import Browser, Page
+from playwright.sync_api import Page
 
-from tests.app.conftest import Served
-from tests.browser.board_desk import window
 from tests.messages import FOLDS, RADII, REACH
 
 REASON: dict[str, Any] = {"fold": 0, "message": "so it is", "set": 0, "arm": "left", "station": "front_right"}
@@ -62,16 +59,9 @@ REASONS: dict[str, dict[str, Any]] = {
 }
 
 
-@pytest.fixture(scope="module")
-def page(chromium: Browser, designer: Served) -> Iterator[Page]:
-    with window(chromium) as page:
-        page.goto(f"{designer.url}/static/icon.svg")  # of the same origin, and nothing runs in it
-        yield page
-
-
-def told(page: Page, reason: dict[str, Any], unit: str) -> tuple[str, str, str]:
+def told(modules: Page, reason: dict[str, Any], unit: str) -> tuple[str, str, str]:
     """Return what strip, board and panel say."""
-    strip, board, panel = page.evaluate(
+    strip, board, panel = modules.evaluate(
         """async ([reason, folds, name]) => {
           const { unit } = await import("/static/js/board/units.js");
           const { details, explanation } = await import("/static/js/dock/reasons.js");
@@ -97,22 +87,22 @@ def amounts(words: str) -> set[str]:
 
 @pytest.mark.parametrize("unit", ["cm", "in"])
 @pytest.mark.parametrize("name", REASONS)
-def test_strip_and_board_name_no_amount_that_the_panel_does_not(page: Page, name: str, unit: str) -> None:
-    strip, board, panel = told(page, REASONS[name], unit)
+def test_strip_and_board_name_no_amount_that_the_panel_does_not(modules: Page, name: str, unit: str) -> None:
+    strip, board, panel = told(modules, REASONS[name], unit)
     strip = strip.replace("Fold 1", "")
     assert amounts(strip) | amounts(board) <= amounts(panel)
     assert amounts(strip) or name == "collision in a drag"
 
 
-def test_the_amount_that_is_missing_and_the_way_of_a_drag_have_one_wording(page: Page) -> None:
+def test_the_amount_that_is_missing_and_the_way_of_a_drag_have_one_wording(modules: Page) -> None:
     way = "40 cm towards the robot and 10 cm to the left"
     for name, by in (("short", "10 cm"), ("short at least", "at least 10 cm"), ("without margin", "10 cm")):
-        for words in told(page, REASONS[name], "cm"):
+        for words in told(modules, REASONS[name], "cm"):
             assert by in words
             assert way in words
 
 
 @pytest.mark.parametrize("name", ["turned about an edge off the table", "behind the line", "short"])
-def test_strip_and_panel_tell_the_drag_once(page: Page, name: str) -> None:
-    strip, _, panel = told(page, REASONS[name], "cm")
+def test_strip_and_panel_tell_the_drag_once(modules: Page, name: str) -> None:
+    strip, _, panel = told(modules, REASONS[name], "cm")
     assert (strip.count("dragged"), panel.count("dragged")) == (1, 1)

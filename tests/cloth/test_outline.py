@@ -18,8 +18,9 @@ def refusal(points: list[Point2]) -> tuple[str, str]:
 
 
 @pytest.mark.parametrize("points", [SQUARE, SQUARE[::-1], SQUARE[:3]])
-def test_simple_polygons_in_either_orientation_are_taken(points: list[Point2]) -> None:
+def test_simple_polygons_in_either_orientation_are_taken_and_refused_with_a_corner_twice(points: list[Point2]) -> None:
     require_simple_outline(points)
+    assert refusal([points[0], *points])[0].startswith("outline")
 
 
 def test_fewer_than_three_points_are_refused() -> None:

@@ -45,7 +45,7 @@ def test_a_shipped_garment_loses_nothing_at_all(name: str) -> None:
 
 
 @given(drawings())
-@law("geometry", short=50, long=3000)
+@law("geometry", short=20, long=3000)
 def test_the_layers_add_up_to_the_outline_but_for_slivers_that_are_counted(garment: Garment) -> None:
     whole = shoelace(garment.outline)
     dropped: tuple[float, ...] = ()

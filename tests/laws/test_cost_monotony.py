@@ -22,7 +22,7 @@ PROPER_SUBSETS = tuple(some for n in range(len(PRIMITIVES)) for some in combinat
 
 
 @given(problems(), st.floats(0.0, 1.5), st.floats(0.0, 1.5))
-@law("planning", short=8, long=40)
+@law("planning", short=4, long=40)
 def test_more_friction_never_costs_more(problem: Problem, one: float, other: float) -> None:
     rough, smooth = (
         replace(problem, scene=replace(problem.scene, friction=mu)) for mu in (max(one, other), min(one, other))
@@ -31,7 +31,7 @@ def test_more_friction_never_costs_more(problem: Problem, one: float, other: flo
 
 
 @given(problems(most_stations=2), st.sampled_from(sorted(DEFAULT_STATIONS)))
-@law("planning", short=8, long=40)
+@law("planning", short=4, long=40)
 def test_one_more_station_never_costs_more(problem: Problem, name: str) -> None:
     before = problem.scene.stations
     after = before if name in dict(before) else (*before, (name, DEFAULT_STATIONS[name]))
@@ -40,7 +40,7 @@ def test_one_more_station_never_costs_more(problem: Problem, name: str) -> None:
 
 
 @given(problems(), st.sampled_from(PROPER_SUBSETS), st.sampled_from(PRIMITIVES))
-@law("planning", short=8, long=40)
+@law("planning", short=4, long=40)
 def test_one_more_primitive_never_costs_more(
     problem: Problem, some: Kinds, another: Callable[[Context], Primitive]
 ) -> None:
@@ -49,7 +49,7 @@ def test_one_more_primitive_never_costs_more(
 
 
 @given(problems(standoffs=7), st.integers(1, 3))
-@law("planning", short=8, long=30)
+@law("planning", short=4, long=30)
 def test_more_room_to_back_off_never_costs_more(problem: Problem, steps: int) -> None:
     scene = problem.scene
     roomy = replace(problem, scene=replace(scene, back_off_max_m=scene.back_off_max_m + 0.05 * steps))

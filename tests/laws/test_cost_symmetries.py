@@ -23,19 +23,19 @@ def is_same_cost(one_s: float, other_s: float) -> bool:
 
 
 @given(problems(), st.randoms(use_true_random=False))
-@law("planning", short=10, long=50)
+@law("planning", short=5, long=50)
 def test_the_order_in_which_independent_folds_are_given_does_not_matter(problem: Problem, rng: Random) -> None:
     assert is_same_cost(problem.cost_s(), reordered(problem, rng).cost_s())
 
 
 @given(problems(), st.floats(-math.pi, math.pi), st.tuples(st.floats(-1.0, 1.0), st.floats(-1.0, 1.0)))
-@law("planning", short=10, long=50)
+@law("planning", short=5, long=50)
 def test_where_and_how_the_cloth_is_drawn_does_not_matter(problem: Problem, turn_rad: float, by: Point2) -> None:
     assert is_same_cost(problem.cost_s(), redrawn(problem, turn_rad, by).cost_s())
 
 
 @given(problems())
-@law("planning", short=10, long=50)
+@law("planning", short=5, long=50)
 def test_a_mirror_image_costs_the_same(problem: Problem) -> None:
     assert is_same_cost(problem.cost_s(), mirrored(problem).cost_s())
 

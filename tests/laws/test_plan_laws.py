@@ -53,7 +53,7 @@ def require_same(seed: int, image: Callable[[Problem], Problem], rel: float = 0.
 
 
 @given(SEEDS)
-@law("plan", short=8, long=300)
+@law("plan", short=4, long=300)
 @example(169)  # a grip .3 mm beside the middle of the robot, which either arm may take
 @example(174)  # a hand that turns by half a turn in its grip
 def test_a_mirror_image_has_the_same_answer(seed: int) -> None:
@@ -61,13 +61,13 @@ def test_a_mirror_image_has_the_same_answer(seed: int) -> None:
 
 
 @given(SEEDS)
-@law("plan", short=8, long=300)
+@law("plan", short=4, long=300)
 def test_turned_about_the_table_a_task_has_the_same_answer(seed: int) -> None:
     require_same(seed, turned)
 
 
 @given(SEEDS, st.floats(-math.pi, math.pi), st.tuples(st.floats(-1.0, 1.0), st.floats(-1.0, 1.0)))
-@law("plan", short=8, long=300)
+@law("plan", short=4, long=300)
 def test_drawn_elsewhere_and_turned_in_the_drawing_a_task_has_the_same_answer(
     seed: int, turn_rad: float, by: Point2
 ) -> None:
@@ -75,13 +75,13 @@ def test_drawn_elsewhere_and_turned_in_the_drawing_a_task_has_the_same_answer(
 
 
 @given(SEEDS)
-@law("plan", short=8, long=300)
+@law("plan", short=4, long=300)
 def test_its_folds_given_in_another_order_a_task_has_the_same_answer(seed: int) -> None:
     require_same(seed, lambda problem: reordered(problem, Random(seed)))
 
 
 @given(SEEDS)
-@law("plan", short=8, long=300)
+@law("plan", short=4, long=300)
 def test_searched_without_a_heuristic_a_task_has_the_same_answer(seed: int) -> None:
     problem, plan = planned_task(seed)
     plainly = problem.plan("zero")
@@ -112,7 +112,7 @@ def widened(problem: Problem, what: str, rng: Random) -> Problem:
 
 @pytest.mark.parametrize("what", ["friction", "approach_cone_rad", "back_off_max_m", "comfort"])
 @given(SEEDS)
-@law("plan", short=8, long=300)
+@law("plan", short=4, long=300)
 def test_with_more_room_a_task_is_never_proven_to_take_longer(what: str, seed: int) -> None:
     problem, plan = planned_task(seed)
     require_no_slower(widened(problem, what, Random(seed)).plan(), plan)

@@ -17,20 +17,20 @@ SECOND = 1e-6
 
 
 @given(problems(most_folds=3, most_stations=2, standoffs=6))
-@law("planning", short=12, long=50)
+@law("planning", short=6, long=50)
 def test_the_search_finds_what_trying_everything_finds(problem: Problem) -> None:
     found, tried = problem.cost_s(), Exhaustive(problem.context).cost_s(problem.first_state)
     assert found == pytest.approx(tried, abs=SECOND)
 
 
 @given(problems(most_stations=3))
-@law("planning", short=12, long=100)
+@law("planning", short=6, long=100)
 def test_what_is_no_cheaper_than_from_elsewhere_is_left_out_without_loss(problem: Problem) -> None:
     assert problem.lean_cost_s() == pytest.approx(problem.cost_s(), abs=SECOND)
 
 
 @given(problems())
-@law("planning", short=12, long=50)
+@law("planning", short=6, long=50)
 def test_a_fold_that_is_called_impossible_alone_is_done_by_no_sequence_of_primitives(problem: Problem) -> None:
     alone = SingleFold(problem.context, problem.first_state.station, Budget.endless())
     folds = range(len(problem.garment.folds))
@@ -49,14 +49,14 @@ def test_a_plan_is_never_cheaper_than_the_cheapest_primitives_nor_is_there_one_w
 
 
 @given(problems())
-@law("planning", short=12, long=50)
+@law("planning", short=6, long=50)
 def test_every_heuristic_finds_the_same_cost(problem: Problem) -> None:
     costs = [problem.cost_s(name) for name in BOUNDS]
     assert costs == pytest.approx([costs[0]] * len(costs), abs=SECOND)
 
 
 @given(problems())
-@law("planning", short=12, long=50)
+@law("planning", short=6, long=50)
 def test_no_heuristic_falls_by_more_than_a_step_costs_and_each_is_nothing_at_the_goal(problem: Problem) -> None:
     context = problem.context
     everything = (1 << len(problem.garment.folds)) - 1

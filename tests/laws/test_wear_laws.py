@@ -14,7 +14,7 @@ from tests.laws.wear import wear_task
 QUICK_SEEDS = (4,)
 """A garment that is planned in a second or two."""
 
-QUICK_LAWS = ("mirror", "order", "tail", "stations")
+QUICK_LAWS = ("order", "tail")
 """Those that its many folds put to the test; small garments are planned for all of them, see `test_plan_laws`."""
 
 

@@ -50,7 +50,9 @@ def hasty_base(path: Trajectory) -> Trajectory:
 
 
 def test_a_plan_keeps_its_limits(plan: Plan) -> None:
-    require_replay(Plan.from_dict(plan.to_dict()))
+    read = Plan.from_dict(plan.to_dict())
+    require_replay(read)
+    assert read == plan
 
 
 @pytest.mark.parametrize(

@@ -39,23 +39,23 @@ class Neatness:
         """Return the neatness of a stack.
 
         Args:
-            contour: points of the outline seen, in order, shape (n, 2), m.
+            contour: points evenly along the outline seen, shape (n, 2), m.
             stack: the outline as planned, article frame.
             lies: the article frame where the stack was fitted, in the frame of the contour.
             ought: where the plan has it in that frame, if that is known.
         """
         inner = lies.to_inner(contour)
-        seen = Region.polygon(inner)
-        both = seen.intersection(stack).area
         edges = OutlineEdges.of(stack)
         distances, outwards = edges.distances(inner)
+        # Each point stands for a strip as wide as it is off: outlines seen may cross themselves, so areas do not tell.
+        beyond, missing = (edges.length * float(np.maximum(side, 0.0).mean()) for side in (distances, -distances))
         middle = edges.spaced(len(contour)).mean(axis=0)
         turned_rad = off_m = None
         if ought is not None:
             turned_rad = wrapped_angle(lies.yaw_rad - ought.yaw_rad)
             off_m = math.dist(lies.to_outer(middle), ought.to_outer(middle))
         return Neatness(
-            both / (seen.area + stack.area - both),
+            max(0.0, stack.area - missing) / (stack.area + beyond),
             float(np.abs(distances).mean()),
             _skew(inner - distances[:, None] * outwards - middle, distances, outwards),
             turned_rad,

@@ -31,6 +31,9 @@ _BEHIND = 110
 
 _OPAQUE = 128
 
+_TAKEN = 5
+"""So many frames a camera takes until its exposure fits."""
+
 _FOCAL_SPREAD = 0.04
 """Standard deviation of the logarithm of a focal length that EXIF tells: it is rounded, and lenses breathe."""
 
@@ -88,6 +91,19 @@ def read_picture(data: bytes) -> Picture:
         is_cut_out = SEEN_THROUGH[0] <= float((alpha < _OPAQUE).mean()) <= SEEN_THROUGH[1]
         alpha = alpha if is_cut_out else None
     return Picture(_shrunk(image), None if alpha is None else _shrunk(alpha), _focal(data, image.shape))
+
+
+def device_image(number: int) -> Image:
+    """Return the picture that a camera of this machine takes now; raises `PictureError` if it gives none."""
+    device = cv2.VideoCapture(number)
+    try:
+        taken = [device.read() for _ in range(_TAKEN)]
+    finally:
+        device.release()
+    is_taken, image = taken[-1]
+    if not is_taken:
+        raise _broken("the camera gives no picture")
+    return np.asarray(image, np.uint8)
 
 
 def _decoded(data: bytes, how: int) -> Image:

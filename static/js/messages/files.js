@@ -47,7 +47,6 @@ export const files = (inWords) => ({
     const about = fold === null ? "" : `${called(folds, fold)}: `;
     return say("message.no_plan", { why: about + inWords({ says, message }, folds) });
   },
-  no_video: () => say("message.no_video"),
   garment_of_plan: ({ folds_done: done }) =>
     done ? say("message.garment_of_plan.after", { count: done }) : say("message.garment_of_plan"),
   short_lines: ({ shorter_m: shorter, lines }) => say("message.short_lines", { shorter: length(shorter), lines }),

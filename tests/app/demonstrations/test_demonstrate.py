@@ -40,6 +40,7 @@ def task() -> Task:
 def test_seeds_vary_place_cloth_look_and_cameras_within_bounds() -> None:
     worlds = [Variation.of(task(), seed) for seed in range(40)]
     assert Variation.of(task(), 3) == worlds[3]
+    assert list(Variation.of(task(), 3, has_wrists=False).cameras) == ["table"]
     lies = task().start.placement
     for world in worlds:
         placed = world.task.start.placement
@@ -205,7 +206,7 @@ def test_images_instead_of_videos_are_said_once(
 ) -> None:
     if is_installed:
         pytest.importorskip("av")
-    monkeypatch.setattr(command, "can_encode", lambda: is_installed)
+    monkeypatch.setattr(command, "is_installed", lambda _: is_installed)
     arguments = ["demonstrate", "letter-towel", "--episodes", "2", "--out", str(tmp_path), "--workers", "1"]
     result = CliRunner().invoke(cli, arguments)
     assert result.exit_code == 0 and result.stderr.count("PyAV") == (0 if is_installed else 1)

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+from hypothesis import settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, precondition, rule
 
@@ -9,6 +10,7 @@ from app.drawing.drawing import Corner, Crease, End
 from app.drawing.solve import solve
 from planner.geometry.pose import Point2
 from tests.app.drawing.drawings import pulled, towel_drawing
+from tests.laws.law import LONG
 
 CORNERS_MAX = 7
 FOLDS_MAX = 3
@@ -97,4 +99,8 @@ def _between(start: Point2, end: Point2, share: float) -> Point2:
     return start[0] + share * (end[0] - start[0]), start[1] + share * (end[1] - start[1])
 
 
+is_long = settings.get_current_profile_name() == LONG
+SolvedAgain.TestCase.settings = settings(
+    max_examples=1000 if is_long else 15, stateful_step_count=50 if is_long else 25, derandomize=True
+)
 TestSolvedAgain = SolvedAgain.TestCase

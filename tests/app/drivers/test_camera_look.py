@@ -1,13 +1,17 @@
 """The step that a run goes on with, as a camera over the table shows it."""
 
+import json
 from dataclasses import replace
+from pathlib import Path
 
 import cv2
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
-from app.drivers.camera_look import camera_image, step_seen
-from app.drivers.driver import DriverError, LostError
+from app.cli import cli
+from app.drivers.camera_look import step_seen
+from app.drivers.driver import LostError
 from app.rehearsal.camera.calibration import Calibration
 from app.rehearsal.camera.look import PLAIN
 from app.rehearsal.camera.mounted import hung, overhead
@@ -18,6 +22,7 @@ from app.rehearsal.planned_cloth import planned_positions
 from planner import Plan
 from planner.geometry.woven_mesh import woven_mesh
 from planner.robots.card import RobotCard
+from planner.task.plan_files import write_plan
 from planner.task.world_state import WorldState
 from tests.required import required
 
@@ -68,12 +73,27 @@ def test_cloth_that_lies_elsewhere_or_is_none_of_the_states_ends_the_run(plan: P
         step_seen(plan, crumpled, calibration(plan), joints)
 
 
-def test_a_picture_comes_from_a_file_or_a_camera_that_is_there(plan: Plan, card: RobotCard, tmp_path: object) -> None:
-    path = f"{tmp_path}/now.png"
-    image = seen(plan, card, plan.task.start)
-    cv2.imwrite(path, image)
-    np.testing.assert_array_equal(camera_image(path), image)
-    with pytest.raises(DriverError, match=r"--camera: .*missing\.png: No such file"):
-        camera_image(f"{tmp_path}/missing.png")
-    with pytest.raises(DriverError, match="the camera 63 gives no picture"):
-        camera_image("63")
+def test_a_run_whose_cloth_is_folded_already_is_done_without_a_motion(
+    plan: Plan, card: RobotCard, tmp_path: Path
+) -> None:
+    files = {name: tmp_path / name for name in ("towel.plan.json", "now.png", "camera.json")}
+    write_plan(plan, files["towel.plan.json"])
+    cv2.imwrite(str(files["now.png"]), seen(plan, card, plan.end))
+    files["camera.json"].write_text(calibration(plan).file())
+    told = ["run", str(files["towel.plan.json"]), "--auto", "--camera", str(files["now.png"])]
+    result = CliRunner().invoke(cli, told)
+    assert result.exit_code == 2 and "--camera and --calibration need each other" in result.stderr
+    known = ["--calibration", str(files["camera.json"])]
+    for source, why in (("63", "--camera: 63: the camera gives no picture"), ("missing.png", "No such file")):
+        result = CliRunner().invoke(cli, [*told[:-1], source, *known])
+        assert result.exit_code == 2 and why in result.stderr
+    result = CliRunner().invoke(cli, [*told, *known])
+    count = len(plan.steps)
+    assert result.exit_code == 0, result.output
+    assert f"Seen: step {count} of {count} is next" in result.stderr and f"Done: {count} of {count}" in result.stdout
+    state = ["see", str(files["now.png"]), "--calibration", str(files["camera.json"]), "--json", "-"]
+    result = CliRunner().invoke(cli, [*state, "--state-of", str(files["towel.plan.json"])])
+    assert result.exit_code == 0, result.output
+    found = json.loads(result.stdout)
+    assert found["folds_done"] == [0, 1] and found["frame"] == "table"
+    assert found["neatness"]["iou"] > 0.9 and found["neatness"]["off_m"] < 0.01

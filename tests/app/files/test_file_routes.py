@@ -1,12 +1,12 @@
-import asyncio
 import json
 from typing import Any
 
 import httpx
 import pytest
 
-from app.files.video import can_encode
+from app.distribution import installing, is_installed
 from planner import Plan, load_garment
+from tests.app.document_requests import planned
 from tests.app.samples import towel
 from tests.app.test_garbage import BODIES, assert_problem
 
@@ -46,17 +46,6 @@ async def imported(client: httpx.AsyncClient, data: bytes, **query: str | float)
 async def created(client: httpx.AsyncClient, **changes: Any) -> str:
     document_id: str = (await client.post("/api/documents", json={"garment": towel(**changes)})).json()["id"]
     return document_id
-
-
-async def planned(client: httpx.AsyncClient, **changes: Any) -> str:
-    """Open a document that is planned, so that all files are available."""
-    document_id = await created(client, **changes)
-    for _ in range(600):
-        entries = (await client.get(f"/api/documents/{document_id}/files")).json()
-        if "planned" not in (entries[3]["reason"] or ""):
-            return document_id
-        await asyncio.sleep(0.1)
-    raise AssertionError("it is never planned")
 
 
 async def fetched(client: httpx.AsyncClient, document_id: str, what: str, query: str = "") -> httpx.Response:
@@ -145,8 +134,9 @@ async def test_all_files_of_a_planned_document_can_be_saved(client: httpx.AsyncC
     entries = (await client.get(f"/api/documents/{document_id}/files")).json()
     assert [entry["what"] for entry in entries] == FILES
     for entry in entries:
-        if entry["what"] == "mp4" and not can_encode():
-            assert (entry["available"], entry["says"]) == (False, {"code": "no_video"})
+        if entry["what"] == "mp4" and not is_installed("av"):
+            says = {"code": "library_missing", "library": "PyAV", "install": installing("video")}
+            assert (entry["available"], entry["says"]) == (False, says)
             continue
         assert (entry["available"], entry["reason"]) == (True, None)
         query = "?rate_hz=1" if entry["what"] in ("recording.html", "mp4", "gif") else ""

@@ -18,6 +18,7 @@ from planner import Plan
 from planner.motion.timeline import Timeline
 from tests.app.refused import refused
 from tests.replay.planned import shipped_plan
+from tests.small_plan import unsolved
 
 
 @pytest.fixture(scope="module")
@@ -43,7 +44,7 @@ def row_count(database: Database) -> int:
 
 def test_after_a_restart_a_plan_is_told_and_played_as_it_was(plan: Plan, database: Database) -> None:
     store = PlanStore(database)
-    first, no_plan = store.add(plan), store.add(shipped_plan("scarf-halved"))
+    first, no_plan = store.add(plan), store.add(unsolved())
     again = PlanStore(database)
     kept = again.plan(first)
     assert kept is not plan

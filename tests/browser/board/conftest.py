@@ -6,13 +6,14 @@ import pytest
 from playwright.sync_api import Browser, Page
 
 from tests.app.conftest import Served
-from tests.browser.board_desk import Desk, window
+from tests.browser.board_desk import Desk
+from tests.browser.conftest import windows
 
 
 @pytest.fixture(scope="module")
 def page(chromium: Browser) -> Iterator[Page]:
-    with window(chromium) as page:
-        yield page
+    with windows(chromium) as context:
+        yield context.new_page()
 
 
 @pytest.fixture(scope="module")

@@ -2,12 +2,12 @@
 
 import struct
 import zlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from itertools import pairwise
 from typing import Any
 
 import pytest
-from playwright.sync_api import Browser, FilePayload, Page, expect
+from playwright.sync_api import FilePayload, Page, expect
 
 from tests.browser.board_desk import Desk, expect_step
 from tests.browser.board_hand import Hand
@@ -95,15 +95,6 @@ def test_a_photo_lies_under_the_board_and_is_scaled_by_two_points(page: Page, to
     hand.tool("Photo")
     page.keyboard.press("Delete")
     expect(photo).to_have_count(0)
-
-
-@pytest.fixture
-def phone(chromium: Browser) -> Iterator[Page]:
-    context = chromium.new_context(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
-    context.set_default_timeout(20_000)
-    context.route("**/viser/**", lambda route: route.abort())
-    yield context.new_page()
-    context.close()
 
 
 def test_on_a_phone_the_views_are_swapped_and_the_sheet_is_pulled_up(

@@ -18,13 +18,14 @@ from app.rehearsal.planned_cloth import planned_positions
 from app.rehearsal.step_motions import posture_at
 from app.rehearsal.vision.own_arms import seen_beside
 from app.rehearsal.vision.picture import Image
+from planner import Scene
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray
 from planner.geometry.woven_mesh import woven_mesh
 from planner.robots.load_robot import load_robot
 from tests.app.rehearsal.towel import towel_plan
 
-CAMERA = hung(overhead(towel_plan().scene.table))
+CAMERA = hung(overhead(Scene().table))
 EVEN = replace(PLAIN, wood=0.0, shadow=0.0)
 LIKELY_M2 = 0.01**2 * np.eye(2)
 SHIFTS_M = [(0.0, 0.0), (0.009, -0.004), (-0.012, 0.015)]
