@@ -56,9 +56,8 @@ export class Numbers {
   put(at, isNew) {
     const { width, height, top } = this.board.place;
     const size = /** @type {Point} */ ([this.root.offsetWidth, this.root.offsetHeight]);
-    const room = { low: [0, this.board.covered], high: [width, height] };
-    if (isNew) this.side = sideOf(at, size, room, this.board.pointer.last);
-    const [x, y] = within(beside(at, size, this.side), size, room);
+    if (isNew) this.side = sideOf(at, size, [width, height], this.board.pointer.last);
+    const [x, y] = placeOf(at, size, [width, height], this.side);
     this.root.style.left = `${x}px`;
     this.root.style.top = `${top + y}px`;
   }
@@ -119,8 +118,6 @@ export class Numbers {
   }
 }
 
-/** @typedef {{low: number[], high: number[]}} Room what of the board nothing covers (px) */
-
 const AWAY_PX = 16;
 const MARGIN_PX = 8;
 /** So far round the pointer nothing shall come between it and the board. */
@@ -138,7 +135,7 @@ const SIDES = [
  * what the first one was.
  * @param {Point} at px
  * @param {Point} size the panel's (px)
- * @param {Room} room
+ * @param {Point} room the board's (px)
  * @param {Point|null} pointer px
  * @returns {Point}
  */
@@ -153,12 +150,21 @@ function sideOf(at, size, room, pointer) {
   return SIDES.reduce((best, side) => (cost(side) < cost(best) ? side : best));
 }
 
+/**
+ * The panel's left and top on that side, kept on the board.
+ * @param {Point} at
+ * @param {Point} size
+ * @param {Point} room
+ * @param {Point} side
+ */
+const placeOf = (at, size, room, side) => within(beside(at, size, side), size, room);
+
 /** @param {Point} at @param {Point} size @param {Point} side @returns {Point} */
 const beside = (at, size, side) => along((axis) => at[axis] + side[axis] * AWAY_PX - (side[axis] < 0 ? size[axis] : 0));
 
-/** A panel's left and top, kept on what of the board is free. @param {Point} place @param {Point} size @param {Room} room */
-const within = (place, size, { low, high }) =>
-  along((axis) => Math.max(Math.min(place[axis], high[axis] - size[axis] - MARGIN_PX), low[axis] + MARGIN_PX));
+/** @param {Point} place @param {Point} size @param {Point} room @returns {Point} */
+const within = (place, size, room) =>
+  along((axis) => Math.max(Math.min(place[axis], room[axis] - size[axis] - MARGIN_PX), MARGIN_PX));
 
 /** The same along both axes. @param {(axis: 0|1) => number} part @returns {Point} */
 const along = (part) => [part(0), part(1)];
