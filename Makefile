@@ -111,10 +111,13 @@ UNUSED := colorlog embreex manifold3d mapbox-earcut rtree svg-path vhacdx xxhash
 UNUSED_BESIDE_TESTS := $(UNUSED) attrs httpcore httpx jsonschema jsonschema-specifications referencing rpds-py
 leave-out = awk -v names=" $(2) " '/^[a-z]/ { split($$1, one, "=="); drops = index(names, " " one[1] " ") } !drops' $(1) > $(1).new && mv $(1).new $(1)
 
+# What a checkout serves with: all that the page and REST offer.
+SERVED := --extra exports --extra imports --extra metrics --extra physics --extra video --extra xacro
+
 lock: $(READY_DEV) ## pin the newest versions that pyproject.toml allows
 	$(PIP) install pip-tools
 	$(COMPILE) --upgrade --extra test --output-file requirements-dev.txt pyproject.toml
-	$(COMPILE) --upgrade --constraint requirements-dev.txt --extra physics --output-file requirements.txt pyproject.toml
+	$(COMPILE) --upgrade --constraint requirements-dev.txt $(SERVED) --output-file requirements.txt pyproject.toml
 	$(COMPILE) --upgrade --constraint requirements-dev.txt --extra bench --output-file requirements-bench.txt pyproject.toml
 	$(call leave-out,requirements-dev.txt,$(UNUSED))
 	$(call leave-out,requirements.txt,$(UNUSED_BESIDE_TESTS))

@@ -49,6 +49,7 @@ ALLOWED: Mapping[str, tuple[str, str]] = {
     "planner/geometry/keyframes.py": (r"right", "a side of numpy's searchsorted"),
     "app/rehearsal/trace.py": (r"right", "a side of numpy's searchsorted"),
     "app/tables.py": (r"left|right", "columns of a table are aligned"),
+    "app/cli/cache.py": (r"left|right", "columns of a table are aligned"),
     "app/cli/rehearse.py": (r"left|right", "columns of a table are aligned"),
     "app/files/sheet_pdf.py": (r"left", "where a line of text begins"),
     "app/cli/study.py": (r"left", "the time that is left"),

@@ -2,7 +2,7 @@
 
 import os
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
@@ -52,8 +52,8 @@ def demonstrate_command(
         task = found.task if isinstance(found, Plan) else task_for(found, robot=robot or DEFAULT_ROBOT)
         if robot is not None and robot != task.robot:
             task = task_for(task.garment, robot=robot)
-        asked = {"garment": task.garment.to_dict(), "robot": task.robot, "scene": task.scene.to_dict()}
-        asked |= {"seed": seed, "wrists": wrists}
+        given = {"garment": task.garment.to_dict(), "robot": task.robot, "scene": task.scene.to_dict()}
+        asked: dict[str, Any] = {**given, "seed": seed, "wrists": wrists}
         card = load_robot(task.robot).card
         dataset = DemonstrationDataset.opened(out, card, asked, seed, resume=resume, as_video=is_installed("av"))
         if not is_installed("av"):

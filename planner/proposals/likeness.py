@@ -222,4 +222,4 @@ def _nearest(corners: FloatArray, end: FloatArray) -> int | None:
 def _shares(points: FloatArray, region: Region) -> FloatArray:
     """Return points by their place within a region's bounds, 0 to 1 along each axis."""
     x0, y0, x1, y1 = region.bounds
-    return (points - np.array([x0, y0])) / np.array([x1 - x0, y1 - y0])
+    return np.asarray((points - np.array([x0, y0])) / np.array([x1 - x0, y1 - y0]))

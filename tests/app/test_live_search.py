@@ -51,7 +51,7 @@ def test_what_was_planned_is_not_planned_again_and_its_cloth_is_kept_for_the_nex
 class Idle(InThread):
     """A worker that nothing may be asked of."""
 
-    def run_for(self, key: str, work: Any, *_: Any) -> Any:
+    def run_for(self, key: str, work: Any, *_: Any, **_named: Any) -> Any:
         raise AssertionError(f"{work} was asked for")
 
 

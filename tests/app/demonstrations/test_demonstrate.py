@@ -2,7 +2,7 @@
 
 import io
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -46,13 +46,14 @@ def test_seeds_vary_place_cloth_look_and_cameras_within_bounds() -> None:
         placed = world.task.start.placement
         assert abs(placed.x_m - lies.x_m) <= PLACE_M and abs(placed.y_m - lies.y_m) <= PLACE_M
         assert abs(placed.yaw_rad - lies.yaw_rad) <= TURN_RAD
-    for varied in (
+    varieties: Sequence[Sequence[object]] = [
         [world.task.start.placement for world in worlds],
         [world.fabric for world in worlds],
         [world.fabric.friction for world in worlds],
         [world.look for world in worlds],
         *([world.cameras[name] for world in worlds] for name in ("table", "left_wrist", "right_wrist")),
-    ):
+    ]
+    for varied in varieties:
         assert len({repr(one) for one in varied}) == len(worlds)
 
 
