@@ -52,7 +52,7 @@ COMMANDS = {
     ),
     "propose": _Command(
         "propose",
-        "Propose folds that bring a garment to a size, each planned for a robot.",
+        "Propose folds that bring a garment to a size, or fold it like another one, each planned for a robot.",
         "pleat propose vest --to 25x30cm --anew",
         "0 the robot can do one, 2 bad input, 3 it can do none",
     ),

@@ -122,7 +122,7 @@ async def test_a_cancelled_job_ends_for_those_who_follow_it(client: httpx.AsyncC
         ("../proposals", {"garment": "tie", "to": "attic"}, 422, "to"),
         ("../proposals", {"garment": "tie", "to": {"width_m": 0.2}}, 422, "to.length_m"),
         ("../proposals", {"garment": "tie", "to": {"like": "nothing"}}, 404, None),
-        ("../proposals", {"garment": "tie", "to": {"like": towel()}}, 422, "to.like"),
+        ("../proposals", {"garment": "tie", "to": {"like": towel(folds=[])}}, 422, "to.like"),
         ("../proposals", {"garment": "tie", "to": "shelf", "count": 0}, 422, "count"),
         ("../proposals", {"garment": "tie", "to": "shelf", "face": "left"}, 422, "face"),
         ("../proposals", {"garment": "tie", "to": "shelf", "robot": "r2d2"}, 422, "robot"),

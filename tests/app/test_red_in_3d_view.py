@@ -20,6 +20,8 @@ CARD = load_robot("pr2").card
 ABOVE_M = 0.003
 LAYER_M = 0.002
 """The height of a layer: 1 mm of cloth and 1 mm of air."""
+FACE_M = 0.4 * LAYER_M
+"""How far a face is from the middle of its layer."""
 BLUE, RED = 0, 1
 
 
@@ -99,11 +101,11 @@ def test_while_a_red_fold_is_made_the_cloth_under_its_flap_lies_still(view: View
         handle = view._server.scene.get_handle_by_name("/cloth/front")
         assert isinstance(handle, viser.MeshHandle)
         corners = np.asarray(handle.vertices, dtype=np.float64)
-        # Layer 0 lies at one gap over the table; what of the flap stays, layer 1, at two.
+        # Layer 0 lies at one gap over the table, its front up; what of the flap stays, layer 1, at two, its front down.
         shown.append(
             [
                 {tuple(c) for c in np.round(corners[np.isclose(corners[:, 2], z, atol=1e-5)], 5).tolist()}
-                for z in (LAYER_M, 2 * LAYER_M)
+                for z in (LAYER_M + FACE_M, 2 * LAYER_M - FACE_M)
             ]
         )
     assert all(len(layer) >= 4 for layer in shown[0])

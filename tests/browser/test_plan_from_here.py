@@ -94,14 +94,14 @@ def test_a_right_click_on_a_step_plans_what_is_left_after_it(page: Page) -> None
 def test_a_block_of_the_timeline_has_the_same_menu(page: Page) -> None:
     before, step = texts(page), first_fold(page)
     page.locator(f".block[data-index='{step}']").first.click(button="right")
-    menu(page).get_by_role("menuitem").click()
+    menu(page).get_by_role("menuitem", name="Plan from here").click()
     expect_left(page, before, step)
 
 
 def test_the_button_plans_from_the_start_again(page: Page, opened: tuple[Page, Sheet, float]) -> None:
     before = texts(page)
     steps(page).nth(first_fold(page)).click(button="right")
-    menu(page).get_by_role("menuitem").click()
+    menu(page).get_by_role("menuitem", name="Plan from here").click()
     back = page.get_by_role("button", name="Plan from the start")
     back.click()
     expect(back).to_be_hidden()
@@ -115,7 +115,7 @@ def test_the_button_plans_from_the_start_again(page: Page, opened: tuple[Page, S
 def test_an_edit_of_the_drawing_takes_the_start_back(page: Page, opened: tuple[Page, Sheet, float]) -> None:
     before = texts(page)
     steps(page).nth(first_fold(page)).click(button="right")
-    menu(page).get_by_role("menuitem").click()
+    menu(page).get_by_role("menuitem", name="Plan from here").click()
     back = page.get_by_role("button", name="Plan from the start")
     expect(back).to_be_visible()
     expect_planned(page)
@@ -163,7 +163,7 @@ def test_a_long_press_asks_for_it_and_is_no_tap(page: Page) -> None:
     page.wait_for_timeout(100)
     expect(menu(page)).to_be_visible()
     expect(page.locator(".clock")).to_contain_text("0.0 / ")
-    menu(page).get_by_role("menuitem").tap()
+    menu(page).get_by_role("menuitem", name="Plan from here").tap()
     expect_left(page, before, step)
 
 
@@ -270,7 +270,7 @@ def test_the_cost_map_is_asked_for_anew_where_another_start_is_chosen(page: Page
         expect_planned(window)
         window.get_by_role("button", name="Cost map").click()
         steps(window).nth(first_fold(window)).click(button="right")
-        menu(window).get_by_role("menuitem").click()
+        menu(window).get_by_role("menuitem", name="Plan from here").click()
         expect(window.get_by_role("button", name="Plan from the start")).to_be_visible()
         expect_planned(window)
         assert len(channel.asked("places")) == 2

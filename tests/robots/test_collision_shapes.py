@@ -132,7 +132,7 @@ def test_all_pairs_that_the_srdf_asks_for_are_compared() -> None:
 
 
 def test_shapes_read_from_the_cache_are_those_made(cache: Path, parts: RobotParts) -> None:
-    (path,) = cache.glob("*.npz")
+    (path,) = cache.glob("shapes/*.npz")
     made, read = path.read_bytes(), part_shapes(MODEL, GRIPPER, cache)
     assert path.read_bytes() == made
     for number, part in enumerate(BODY_PARTS):
@@ -154,13 +154,14 @@ def _flipped(content: bytes) -> bytes:
 def test_a_spoilt_cache_is_made_anew(
     cache: Path, parts: RobotParts, tmp_path: Path, spoil: Callable[[bytes], bytes]
 ) -> None:
-    (path,) = cache.glob("*.npz")
-    spoilt = tmp_path / path.name
+    (path,) = cache.glob("shapes/*.npz")
+    spoilt = tmp_path / "shapes" / path.name
+    spoilt.parent.mkdir()
     spoilt.write_bytes(spoil(path.read_bytes()))
     shapes = part_shapes(MODEL, GRIPPER, tmp_path)
     np.testing.assert_array_equal(shapes["torso"].corners, parts.hulls[0][2 * EACH + 1].corners)
     assert spoilt.stat().st_size == path.stat().st_size
-    assert list(tmp_path.iterdir()) == [spoilt]
+    assert list(spoilt.parent.iterdir()) == [spoilt]
 
 
 def test_shapes_are_made_even_where_no_cache_can_be(parts: RobotParts, tmp_path: Path) -> None:
