@@ -17,13 +17,13 @@ _CIRCLED_MAX = 64
 """The most vertices round which circles are put; of more, this many are picked evenly: 400 have ten million triples."""
 
 
-def grip_candidates(piece: Region, vertices: FloatArray, line: Segment | None = None) -> FloatArray:
+def grip_candidates(piece: Region, vertices: FloatArray, baseline: tuple[Segment, ...] = ()) -> FloatArray:
     """Return candidates for grips that hold vertices of a piece of cloth.
 
     Args:
         piece: the cloth whose boundary is gripped.
         vertices: the vertices that must be held, shape (n, 2), m, at least one.
-        line: the fold line, which stays in place: a hand there lifts nothing.
+        baseline: the part of the boundary that stays in place: a hand there lifts nothing.
 
     Returns:
         Shape (m, 2), m: the vertices first; no place twice.
@@ -32,7 +32,9 @@ def grip_candidates(piece: Region, vertices: FloatArray, line: Segment | None = 
     centres = [pair_centres(some), triple_centres(some)]
     near = piece.all_nearest_boundary_points(distinct_rows(np.vstack(centres)))
     found = distinct_rows(np.vstack([vertices, near]))
-    return found if line is None else found[line.distances(found) > LENGTH_M]
+    for segment in baseline:
+        found = found[segment.distances(found) > LENGTH_M]
+    return found
 
 
 def distinct_rows(points: FloatArray) -> FloatArray:

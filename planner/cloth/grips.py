@@ -8,10 +8,6 @@ largest, and so on; covers that tie are all kept, otherwise a mirrored garment w
 A grip near the end of its reach lets corners fold under. So the firm covers are those of the fewest grips that hold
 every vertex within `FIRM_M`. Where no cover does, they are the nearest, of however many grips.
 
-Cloth that is further from the fold line than the grippers hangs between them on the way over, and is laid down doubled
-back if it is long. So several firm grips of a fold leave no strip longer than `STRIP_M` beyond them, if as many can:
-near the line, which stays where it is, they hold corners that are further away too.
-
 A round cloth has thousands of candidates, too many to rank all their pairs. But the largest distance decides nearly
 always, and its best value can be found alone: the smallest radius with which some pair covers all vertices. Only the
 pairs that cover all with that radius are ranked.
@@ -38,19 +34,6 @@ In simulated folds (docs/rehearsal.md) corners 10 cm from a hand folded under in
 in all.
 """
 
-STRIP_M = 0.03
-"""The longest strip beyond two grips, away from the fold line, that is laid down flat (m).
-
-In simulated folds strips of 2.5 and 2.8 cm at one of the grips lay flat (vest and skirt), one of 4 cm along both lay
-doubled back (an octagon taken by the middles of two edges).
-"""
-
-NEAR_LINE_M = 0.1
-"""A corner so near to the fold line stays flat though its grip is not firm (m).
-
-That octagon's, 9 cm from it and 11.3 cm from grips at the corners, did.
-"""
-
 _RANKED_AT_ONCE = 64
 """Up to this many candidates, all pairs are ranked directly."""
 
@@ -73,14 +56,12 @@ class GripCovers:
         covers: equally good sets of the fewest grips; empty when `at_most` grips do not suffice.
         firm: equally good sets that hold firmly, or else as nearly so as any; often the same.
         firm_m: the largest distance from a vertex to its grip that counts as firm here (m).
-        line: the fold line, if the firm grips are further from it than the nearest would be, so as to leave no strip.
     """
 
     vertices: tuple[Point2, ...]
     covers: tuple[Cover, ...]
     firm: tuple[Cover, ...]
     firm_m: float = FIRM_M
-    line: Segment | None = None
 
     @property
     def every(self) -> tuple[Cover, ...]:
@@ -99,7 +80,7 @@ class GripCovers:
 
 
 def grip_covers(
-    piece: Region, vertices: FloatArray, radius_m: float, at_most: int, line: Segment | None = None
+    piece: Region, vertices: FloatArray, radius_m: float, at_most: int, baseline: tuple[Segment, ...] = ()
 ) -> GripCovers:
     """Return the best sets of at most `at_most` grips that hold all vertices.
 
@@ -108,22 +89,17 @@ def grip_covers(
         vertices: the vertices that must be held, shape (n, 2), m.
         radius_m: the radius within which one grip holds (m), inclusive.
         at_most: the number of grippers.
-        line: the fold line, which stays in place; None in a drag.
+        baseline: the part of the boundary that stays in place.
     """
     points = tuple((float(x), float(y)) for x, y in vertices)
     if not points:
         return GripCovers(points, ((),), ((),))
     if _needs_more(vertices, radius_m, at_most):
         return GripCovers(points, (), ())
-    candidates = grip_candidates(piece, vertices, line)
+    candidates = grip_candidates(piece, vertices, baseline)
     covers = best_covers(candidates, vertices, radius_m, at_most)
     firm = firm_covers(candidates, vertices, radius_m, at_most)
-    firm_m = max(min(FIRM_M, radius_m), largest_m(firm, vertices))
-    if line is not None and firm and len(firm[0]) > 1 and _longest_strip_m(firm, vertices, line) > STRIP_M + LENGTH_M:
-        flat = best_covers(candidates, vertices, radius_m, len(firm[0]), line=line)
-        if flat:
-            return GripCovers(points, covers, flat, max(firm_m, largest_m(flat, vertices)), line)
-    return GripCovers(points, covers, firm, firm_m)
+    return GripCovers(points, covers, firm, max(min(FIRM_M, radius_m), largest_m(firm, vertices)))
 
 
 def firm_covers(candidates: FloatArray, vertices: FloatArray, radius_m: float, at_most: int) -> tuple[Cover, ...]:
@@ -153,31 +129,11 @@ def largest_m(covers: tuple[Cover, ...], vertices: FloatArray) -> float:
     return float(np.hypot(*gaps.transpose(2, 0, 1)).min(axis=0).max())
 
 
-def _longest_strip_m(covers: tuple[Cover, ...], vertices: FloatArray, line: Segment) -> float:
-    """Return how much further from a line a vertex is than its grip at most, in covers that are equally good (m)."""
-    grips = np.array(covers[0])
-    nearest = grips[np.hypot(*(grips[:, None] - vertices).transpose(2, 0, 1)).argmin(axis=0)]
-    return float((np.abs(line.left_distances(vertices)) - np.abs(line.left_distances(nearest))).max())
-
-
 def best_covers(
-    candidates: FloatArray,
-    vertices: FloatArray,
-    radius_m: float,
-    at_most: int,
-    at_least: int = 1,
-    *,
-    line: Segment | None = None,
+    candidates: FloatArray, vertices: FloatArray, radius_m: float, at_most: int, at_least: int = 1
 ) -> tuple[Cover, ...]:
-    """Return the best covers of the vertices among the given candidates, shape (m, 2), ties included.
-
-    With a fold line grips leave no strip longer than `STRIP_M` beyond them, and hold what is not near it firmly.
-    """
+    """Return the best covers of the vertices among the given candidates, shape (m, 2), ties included."""
     distances = np.hypot(*(candidates[:, None, :] - vertices[None, :, :]).transpose(2, 0, 1))
-    if line is not None:
-        out, beyond = (np.abs(line.left_distances(points)) for points in (candidates, vertices))
-        is_loose = (distances > FIRM_M + LENGTH_M) & (beyond > NEAR_LINE_M)
-        distances[is_loose | (beyond - out[:, None] > STRIP_M + LENGTH_M)] = np.inf
     useful = (distances <= radius_m + LENGTH_M).any(axis=1)
     candidates, distances = candidates[useful], distances[useful]
     for count in range(at_least, at_most + 1):

@@ -72,7 +72,7 @@ def farthest_from(held: Cover, vertices: FloatArray) -> Point2:
 
 def _candidates(piece: Region, baseline: Segment, vertices: FloatArray) -> FloatArray:
     if len(vertices) <= _ALL_MAX:
-        return grip_candidates(piece, vertices, baseline)
+        return grip_candidates(piece, vertices, (baseline,))
     if len(vertices) > _PAIRS_MAX:
         return vertices
     found = np.vstack([vertices, piece.nearest_boundary_points(pair_centres(vertices))])

@@ -143,7 +143,7 @@ class FoldSequence:
             vertices = must_hold(moving, fold.line.left, (fold.line,), support_angle_rad)
             if not len(vertices):  # cloth so stiff that it holds itself, but to be folded it must be taken somewhere
                 vertices = moving.coordinates[[np.argmax(fold.line.left_distances(moving.coordinates))]]
-            self._covers[key] = grip_covers(moving, vertices, fold.grip_radius_m, arms, fold.line)
+            self._covers[key] = grip_covers(moving, vertices, fold.grip_radius_m, arms, (fold.line,))
         return self._covers[key]
 
 

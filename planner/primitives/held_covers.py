@@ -47,7 +47,7 @@ class _HeldCovers:
         drawn = context.sequence.folds[fold]
         candidates, must = np.array(points).reshape(-1, 2), np.array(known.vertices)
         if context.is_firm and not drawn.is_red:
-            return best_covers(candidates, must, known.firm_m, len(held), line=known.line)
+            return best_covers(candidates, must, known.firm_m, len(held))
         firm = firm_covers(candidates, must, drawn.grip_radius_m, len(held))
         covers = best_covers(candidates, must, drawn.grip_radius_m, len(held))
         return firm if context.is_firm or firm == covers else (*firm, *covers)

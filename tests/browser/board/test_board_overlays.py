@@ -11,6 +11,7 @@ from tests.browser.board_hand import Hand
 from tests.browser.channel import Message, listened_to
 from tests.browser.searches import SEARCH_MS
 from tests.browser.status_pill import expect_planned
+from tests.required import required
 
 
 @pytest.fixture
@@ -93,7 +94,7 @@ def test_where_a_hand_falls_short_is_marked_with_how_much(page: Page, moved_desk
     expect(status).to_contain_text("No plan: ")
     expect(page.locator(".reason-text")).to_contain_text("too high")
     short = str(page.locator(".reason-text").text_content()).partition(" too")[0]
-    arm = {"L": "left", "R": "right"}[page.locator(".reason-arm").inner_text()]
+    arm = {"L": "left", "R": "right"}[required(page.locator(".reason-arm").text_content())]
     expect(status).to_contain_text(f"the {arm} hand is {short} short")
     expect(page.locator(".table-line")).to_have_count(1)
     # Straight below there is reach, at that height there is none: all that is near is hatched, and no edge is drawn.
