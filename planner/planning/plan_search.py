@@ -31,8 +31,10 @@ MORE_COMFORT_SHARE, NARROWER_SHARE = 2.0, 0.5
 WORTH_SHOWING_S = 0.1
 """Least time by which a plan found meanwhile is quicker than the one shown before (s)."""
 
-WORTH_THOROUGH = 0.01
-"""Share of its cost by which a plan must be above its lower bound so that more tries are made for a quicker one."""
+WORTH_THOROUGH, WORTH_ALL = 0.01, 0.03
+"""Shares of its cost by which a plan must be above its lower bound so that more tries are made for a quicker one, and
+so that restricted tasks get all of their work: nearer to the bound they get less, in proportion.
+"""
 
 _Status: TypeAlias = Literal["solved", "infeasible", "budget_exceeded"]
 
@@ -163,11 +165,18 @@ class _PlanSearch:
         """Look for a quicker plan with larger comfort radii, and with narrower cones; nothing is told meanwhile."""
         spent_s = self.budget.spent_s
         for problem in with_more_comfort(self.problem):
-            self.restrict(problem, MORE_COMFORT_SHARE * spent_s)
+            self.restrict(problem, MORE_COMFORT_SHARE * spent_s * self._worth)
         done_s = 0.0
         for problem in with_narrower_cones(self.problem):
-            done_s += self.restrict(problem, NARROWER_SHARE * spent_s - done_s)
+            done_s += self.restrict(problem, NARROWER_SHARE * spent_s * self._worth - done_s)
         yield from ()
+
+    @property
+    def _worth(self) -> float:
+        """The share of their work that restricted tasks are worth, by what a quicker plan may save."""
+        if not self.exact.has_plan:
+            return 1.0
+        return min(1.0, (1.0 - (self.exact.bound_s or 0.0) / self.exact.limit_s) / WORTH_ALL)
 
     @property
     def _is_in_doubt(self) -> bool:
