@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import chain
 from typing import Literal, TypeAlias
 
 from planner.motion.edge_hands import EdgeHands
@@ -118,14 +119,16 @@ class _PlanSearch:
             yield from self._tried(pause)
 
     def _tried(self, pause: Pause) -> Iterator[Event]:
-        """Show what is found, and try each strategy that is due and was not tried before."""
-        if pause is not Pause.LOOK:
-            yield from self.shown(self.exact.at_edges if pause is Pause.LATE else self.exact.found or ())
-        for strategy in STRATEGIES:  # one of them may try others at its own pauses
-            events = strategy(self, pause) if strategy in self._waiting else None
+        """Try each strategy that is due and was not tried before, and show what is found."""
+        if pause is Pause.LATE:
+            yield from self.shown(self.exact.at_edges)
+        for strategy in tuple(self._waiting):
+            events = strategy(self, pause)
             if events is not None:
                 self._waiting.remove(strategy)
                 yield from events
+        if pause is Pause.ROUND:
+            yield from self.shown(self.exact.found or ())
 
     def shown(self, plan_segments: tuple[PlanSegment, ...]) -> Iterator[Event]:
         """Show segments, if any, while the search for quicker ones continues, unless a plan as quick was shown."""
@@ -232,8 +235,10 @@ def _restrict(search: _PlanSearch, pause: Pause) -> Iterator[Event] | None:
 
     A plan for a restricted task is also a plan for this one.
     """
-    is_late = pause is Pause.ROUND and bool(search.exact.found) and search.budget.spent_s > LESS_ROOM_AFTER_S
-    return search.restricted() if is_late or pause is Pause.END else None
+    if pause is Pause.END:
+        return search.restricted()
+    is_due = pause is Pause.ROUND and bool(search.exact.found) and search.budget.spent_s > LESS_ROOM_AFTER_S
+    return chain(search.shown(search.exact.found or ()), search.restricted()) if is_due else None
 
 
 def _try_thoroughly(search: _PlanSearch, pause: Pause) -> Iterator[Event] | None:

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from planner import Garment, Plan, Scene, Task, make_plan
+from planner import Garment, Plan, Scene, make_plan
 from planner.cloth.garment import DrawnFold
 from planner.geometry.pose import BoolArray, FloatArray, Pose2
 from planner.geometry.table import Table
@@ -26,7 +26,6 @@ from planner.planning import motion_validator as validator
 from planner.planning import path_search, plan_search, problem
 from planner.planning.budget import Budget
 from planner.planning.problem import Problem
-from planner.plans import plan
 from planner.primitives.context import Context
 from planner.primitives.primitive import Step
 from planner.primitives.primitive_set import PRIMITIVES
@@ -133,21 +132,6 @@ def test_a_plan_costs_what_the_search_finds_that_makes_every_run_real_at_once(
     assert (required(plan.cost_s) > seeming_s + 0.01) == (arm_motion_s == HURRIED_S), "else nothing is to be found out"
     assert plan.cost_s == pytest.approx(duration_s(found.plan_segments), abs=1e-6)
     assert plan.cost_s == pytest.approx(Eager(found.context).cost_s(found.context.start), abs=1e-6)
-
-
-def test_a_plan_is_shown_before_restricted_tasks_are_searched(monkeypatch: pytest.MonkeyPatch) -> None:
-    class RestrictedError(Exception):
-        pass
-
-    def restricted(_: Problem) -> None:
-        raise RestrictedError
-
-    monkeypatch.setattr(plan_search, "with_narrower_cones", restricted)
-    shown: list[Plan] = []
-    with pytest.raises(RestrictedError):
-        for event in plan(Task.of(napkin(HALF), scene(HURRIED_S, 0.05), time_limit_s=60.0)):
-            shown.append(event.found.plan)
-    assert shown and shown[-1].is_solved and not shown[-1].is_proven
 
 
 IsBarred = Callable[[int, Pose2], bool]
