@@ -35,8 +35,6 @@ class KnownTransfers:
         can_be_there: whether the arms have free postures where the steps begin and end.
         candidates: the candidates that steps make.
         made: the transfer of each candidate, None where it has none, and the waypoints at which it was blocked, if any.
-        unled: the candidates that have none because no line leads empty hands to them or away; sampled ways may.
-        at_edges: the transfer of each candidate in which hands hold edges, None where it has none.
         transits: how hands come from one transfer to the next, by both and by what the base does meanwhile.
         sampling: how often their ways were sampled in vain.
     """
@@ -44,7 +42,5 @@ class KnownTransfers:
     can_be_there: dict[tuple[object, ...], bool] = field(default_factory=dict)
     candidates: dict[tuple[object, ...], Candidate] = field(default_factory=dict)
     made: dict[tuple[object, ...], tuple[Transfer | None, NoPath | None]] = field(default_factory=dict)
-    unled: set[tuple[object, ...]] = field(default_factory=set)
-    at_edges: dict[tuple[object, ...], Transfer | None] = field(default_factory=dict)
     transits: dict[tuple[object, ...], Transit] = field(default_factory=dict)
     sampling: Sampling = field(default_factory=Sampling)

@@ -131,6 +131,11 @@ class RobotPort(PathFinder, Kinematics, Hashable, Protocol):
         ...
 
     @property
+    def can_mind_arms(self) -> bool:
+        """Whether `reach` differs where the other arm is minded."""
+        ...
+
+    @property
     def mirror(self) -> Callable[[FloatArray], FloatArray] | None:
         """The mirror image of configurations, shape (n, joints); None where the arms are not each other's."""
         ...
@@ -142,6 +147,7 @@ class RobotPort(PathFinder, Kinematics, Hashable, Protocol):
         *,
         is_passing: bool = False,
         minds_body: bool = True,
+        minds_arms: bool = False,
     ) -> Reach:
         """Return the reach with the lift at a height, for a comfort radius (m).
 
@@ -151,6 +157,8 @@ class RobotPort(PathFinder, Kinematics, Hashable, Protocol):
             is_passing: whether it is for a few queries only: it takes no memory from earlier plans and leaves none.
             minds_body: whether a place is out of reach where the robot's body may be in the arm's way. What that leaves
                 is told in cells of 2 cm; a path that keeps clear of the body knows better.
+            minds_arms: whether it is out of reach, too, where the other arm at home may be in the way. That arm may be
+                elsewhere, so this is for restricted tasks.
         """
         ...
 

@@ -23,10 +23,8 @@ _SHORTCUT_TESTED_MAX = 5_000
 _STRIDE_RAD = 1.0
 """The farthest that a tree grows at once: the largest turn of a joint (rad)."""
 
-_BATCH, _GROWTH = 8, 4
-"""Configurations of a line tested together at first, since most lines into an obstacle end within a few, and how many
-times more are each time that all were free. Of those tested as far as the first that is not, whole batches count.
-"""
+_BATCH = 8
+"""Configurations tested together: most lines into an obstacle end within a few."""
 
 _SHORTCUTS = 60
 """Shortcuts tried."""
@@ -73,8 +71,8 @@ class SampledPaths:
 
         None if no path was found. Asked again, it samples on, and may return another path.
         """
-        self.tested = 2
-        if not self._are_free(np.array([start, goal])).all():
+        self.tested = 0
+        if not self._test(np.array([start, goal])).all():
             return None
         trees = _Tree(start), _Tree(goal)
         # Of a question and its image one takes the samples, the other their images. Joints that turn without end may
@@ -116,15 +114,13 @@ class SampledPaths:
 
     def _led(self, start: FloatArray, end: FloatArray) -> FloatArray | None:
         """Return the last free configuration on a line, its end if all of it is free; None if there is none."""
-        line, first, size = sampled(start, end, self._step_rad)[1:], 0, _BATCH
-        while first < len(line):
-            are_free = self._are_free(line[first : first + size])
+        line = sampled(start, end, self._step_rad)[1:]
+        for first in range(0, len(line), _BATCH):
+            batch = line[first : first + _BATCH]
+            are_free = self._test(batch)
             if not are_free.all():
                 count = first + int(are_free.argmin())
-                self.tested += min(len(line), count - count % _BATCH + _BATCH)
                 return None if count == 0 else line[count - 1]
-            first, size = first + size, _GROWTH * size
-        self.tested += len(line)
         return end
 
     def _shortened(self, way: FloatArray) -> FloatArray:
@@ -143,6 +139,10 @@ class SampledPaths:
             if led is not None and np.array_equal(ends[1], led):
                 way = np.concatenate([way[:first], ends, way[last:]])
         return way
+
+    def _test(self, joints: FloatArray) -> BoolArray:
+        self.tested += len(joints)
+        return self._are_free(joints)
 
 
 class _Tree:

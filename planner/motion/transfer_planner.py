@@ -83,16 +83,15 @@ class TransferPlanner:
         """Return the transfer of the first valid choice of steps; None if none is found within the tries.
 
         If all take longer than their steps' estimates, return the quickest of the first few. Once one is found, choices
-        that cannot be quicker are not tried, though they count. Ways of empty hands are sampled only for want of any.
+        that cannot be quicker are not tried, though they count.
         """
         best: Transfer | None = None
-        best_s, late, failed, unled = math.inf, 0, 0, list[Candidate]()
+        best_s, late, failed = math.inf, 0, 0
         for candidate in self.candidates(choices):
             if sum(step.duration_s for step in candidate.steps) >= best_s - TIME_S:
                 late += 1
             elif (made := self.made(candidate)) is None:
                 failed += 1
-                unled += (candidate,) * (candidate.motion in self.known.unled)
             elif not made.is_late:
                 return made
             else:
@@ -102,8 +101,7 @@ class TransferPlanner:
                 search_limits.together if candidate.is_together else search_limits.alone
             ):
                 break
-        sampled = (self.made(candidate, samples=True) for candidate in unled if self.known.sampling.is_worth_a_try)
-        return best or next((made for made in sampled if made is not None), None)
+        return best
 
     def candidates(self, choices: Iterable[tuple[Step, ...]]) -> "Iterator[Candidate]":
         """Yield the choices of steps that pass a quick test, much cheaper than a search for joint paths.
@@ -146,25 +144,18 @@ class TransferPlanner:
         cloths = (before, self._cloths.of(steps[-1].after))
         return Candidate(steps, key, carrying, self._waypoints([phase for _, phase in carrying]), cloths)
 
-    def made(self, candidate: "Candidate", *, samples: bool = False) -> Transfer | None:
-        """Return the transfer of a candidate; None if it has no path. Cached.
-
-        Args:
-            candidate: the candidate.
-            samples: whether ways of empty hands are sampled where no line leads them to it or away.
-        """
+    def made(self, candidate: "Candidate") -> Transfer | None:
+        """Return the transfer of a candidate; None if it has no path. Cached."""
         self.path_requests += 1
-        samples = samples and candidate.motion in self.known.unled
-        if samples or candidate not in self._made:
-            self._made[candidate] = self._made_or_known(candidate, samples=samples)
+        if candidate not in self._made:
+            self._made[candidate] = self._made_or_known(candidate)
         return self._made[candidate]
 
-    def _made_or_known(self, candidate: "Candidate", *, samples: bool) -> Transfer | None:
+    def _made_or_known(self, candidate: "Candidate") -> Transfer | None:
         known = self.known.made
-        if samples or candidate.motion not in known:
+        if candidate.motion not in known:
             found = self._paths.transfer_path(candidate.waypoints, candidate.cloths)
-            made = self._transfer(candidate, found, samples=samples)
-            known[candidate.motion] = (made, found if isinstance(found, NoPath) else None)
+            known[candidate.motion] = (self._transfer(candidate, found), found if isinstance(found, NoPath) else None)
         transfer, blocked = known[candidate.motion]
         if blocked is not None:
             self._blocked.note(candidate, blocked)
@@ -179,14 +170,7 @@ class TransferPlanner:
         return self._transfer(candidate, transfer_path)
 
     def made_at_edges(self, candidate: "Candidate") -> Transfer | None:
-        """Return a candidate's transfer with hands holding edges where they can; None if there is none. Cached."""
-        known = self.known.at_edges
-        if candidate.motion not in known:
-            known[candidate.motion] = self._made_at_edges(candidate)
-        transfer = known[candidate.motion]
-        return None if transfer is None else replace(transfer, steps=candidate.steps)
-
-    def _made_at_edges(self, candidate: "Candidate") -> Transfer | None:
+        """Return a candidate's transfer with hands holding edges where they can; None if there is none."""
         waypoints = candidate.waypoints
         holds = edge_holds(self._machine, waypoints)
         if holds is None or not self._paths.postures.can_hold(waypoints, ways=(holds,)):
@@ -194,9 +178,7 @@ class TransferPlanner:
         self.path_requests += 1
         return self._transfer(candidate, self._paths.transfer_path(waypoints, candidate.cloths, (holds,)))
 
-    def _transfer(
-        self, candidate: "Candidate", transfer_path: TransferPath | NoPath, *, samples: bool = True
-    ) -> Transfer | None:
+    def _transfer(self, candidate: "Candidate", transfer_path: TransferPath | NoPath) -> Transfer | None:
         if isinstance(transfer_path, NoPath):
             return None
         transfer_path = transfer_path.smoothed(self._collisions)
@@ -212,9 +194,7 @@ class TransferPlanner:
         at_grips = joints[first] if transfer_path.settles else None
         openings_m = np.array([opening_of(hold) for hold in transfer_path.lines.holds])
         approach, retreat = self.transits.line(coming, openings_m, at_grips), self.transits.line(leaving, openings_m)
-        samples = samples and self.known.sampling.is_worth_a_try
-        if not self._can_come_and_go(candidate.steps, transfer_path, (approach, retreat), samples=samples):
-            (self.known.unled.discard if samples else self.known.unled.add)(candidate.motion)
+        if not self._can_come_and_go(candidate.steps, transfer_path, approach, retreat):
             return None
         return Transfer(candidate.steps, transfer_path, timing, approach, retreat)
 
@@ -227,25 +207,26 @@ class TransferPlanner:
         return self._contacts.of(self._waypoints(phases))
 
     def _can_come_and_go(
-        self, steps: Sequence[Step], transfer_path: TransferPath, lines: tuple[Line, Line], *, samples: bool
+        self, steps: Sequence[Step], transfer_path: TransferPath, approach: Line, retreat: Line
     ) -> bool:
-        """Return whether hands can come from home to the first line, and go there from the last, while the base stands.
+        """Return whether hands can come from home and go there, beside a base that stands.
 
-        They need not come where they hold the cloth already, nor go after the last fold. Ways may be sampled.
+        They need not come where they hold the cloth already, nor go after the last fold.
         """
-        home, (approach, retreat) = self.transits.home, lines
+        home = self.transits.home
         is_last = steps[-1].after.done == (1 << len(self._context.sequence.folds)) - 1
         (before, after), (first, last) = transfer_path.cloths, (Pose2.of(base) for base in transfer_path.bases[[0, -1]])
-        coming = (home, approach.joints[0]), self.transits.spared(None, approach.joints)
-        leaving = (retreat.joints[-1], home), self.transits.spared(retreat.joints, None)
-        can_come = before is None or self._has_way(first, *coming, before, samples=samples)
-        return can_come and (is_last or self._has_way(last, *leaving, after, samples=samples))
+        can_come = before is None or self._has_way(
+            first, home, approach.joints[0], before, self.transits.spared(None, approach.joints)
+        )
+        return can_come and (
+            is_last or self._has_way(last, retreat.joints[-1], home, after, self.transits.spared(retreat.joints, None))
+        )
 
-    def _has_way(
-        self, base: Pose2, ends: tuple[FloatArray, FloatArray], spared: Spared, cloth: LyingCloth, *, samples: bool
-    ) -> bool:
-        """Return whether empty hands have a way from one configuration to another beside a base that stands."""
-        way = self.transits.way(base, *ends, cloth, spared, samples=samples)
+    def _has_way(self, base: Pose2, start: FloatArray, goal: FloatArray, cloth: LyingCloth, spared: Spared) -> bool:
+        """Return whether empty hands have a way beside a base that stands; sampled while that is worth a try."""
+        samples = self.known.sampling.is_worth_a_try
+        way = self.transits.way(base, start, goal, cloth, spared, samples=samples)
         self.known.sampling.vain += way is None and samples
         return way is not None
 

@@ -7,7 +7,7 @@ arms go one after the other, or by way of raised configurations. Where nothing o
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from itertools import pairwise, product
+from itertools import chain, pairwise, product
 
 import numpy as np
 
@@ -157,16 +157,16 @@ class TransitPaths:
         unturned = start - turns
         first, last = (joints.round(_DIGITS) + 0.0 for joints in (unturned, self.unwound(goal - turns, unturned)))
         key = tuple(part.tobytes() for part in (first, last, *spared))
-        found = self._searched.answer(_WayKey(key, base, cloth, False, first, last, spared), self._search)
-        if found is None and samples:
-            found = self._searched.answer(_WayKey(key, base, cloth, True, first, last, spared), self._search)
+        found = self._searched.answer(_WayKey(key, base, cloth, samples, first, last, spared), self._search)
         return None if found is None else np.array([start, *(found[1:-1] + turns), self.unwound(goal, start)])
 
     def _search(self, wanted: _WayKey) -> FloatArray | None:
         start, goal, cloth, spared = wanted.start, wanted.goal, wanted.cloth, wanted.spared
-        known = _Lines(wanted.base, self._collisions)
-        by_samples = wanted.samples and self._sampled(wanted.base, start, goal, cloth, spared)
-        ways = by_samples or self._by_lines(start, goal)
+        straight, known = np.array([start, goal]), _Lines(wanted.base, self._collisions)
+        if self._is_free(known, straight, cloth, spared):
+            return straight
+        by_samples = self._sampled(wanted.base, start, goal, cloth, spared) if wanted.samples else ()
+        ways = chain(self._roundabout(start, goal), by_samples)
         return next((way for way in ways if self._is_free(known, way, cloth, spared)), None)
 
     def _sampled(
@@ -285,9 +285,8 @@ class TransitPaths:
         """Return the way of an arm's tool in the table's frame up to each of some configurations, shape (n,), m."""
         return lengths_on_table(bases, self._tools(arm, joints))
 
-    def _by_lines(self, start: FloatArray, goal: FloatArray) -> Iterator[FloatArray]:
-        """Yield the straight path, then those that may be free where it is not, the quickest first."""
-        yield np.array([start, goal])
+    def _roundabout(self, start: FloatArray, goal: FloatArray) -> list[FloatArray]:
+        """Return paths that may be free where the straight one is not, the quickest first."""
         raised_start, raised_goal = self._raised(start), self._raised(goal)
         choices = product((False, True), repeat=len(self.layout.arms))
         mixed = [np.where(np.array(first)[self.layout.owners], goal, start) for first in choices]
@@ -299,7 +298,7 @@ class TransitPaths:
         places += [_staggered(start, goal, first, approach) for first in mixed[1:-1] for approach in _LEADS]
         places.append((raised_start, home, raised_goal))
         ways = [np.array([start, *between, goal]) for between in places]
-        yield from sorted(ways, key=lambda way: float(self.needed_s(way).sum()))
+        return sorted(ways, key=lambda way: float(self.needed_s(way).sum()))
 
     def _raised(self, joints: FloatArray) -> FloatArray:
         """Return the arms lifted as at home, with shoulders and hands turned as they are."""

@@ -9,9 +9,6 @@ from planner.geometry.tolerance import TIME_S
 from planner.motion.line import Keyframes
 from planner.motion.transit_paths import TransitPaths
 
-_HALVINGS = 45
-"""How often a share of a line is halved until it is exact within rounding."""
-
 
 def led_along(
     transits: TransitPaths, way: FloatArray, needed: FloatArray, span: tuple[float, float], borders_s: tuple[float, ...]
@@ -41,13 +38,14 @@ def led_along(
 
 def _middle(transits: TransitPaths, start: FloatArray, end: FloatArray, before_s: float, after_s: float) -> FloatArray:
     """Return where on a line to rest so that the ways before and after take equal shares of their times."""
-    near, far = 0.0, 1.0
-    for _ in range(_HALVINGS):
-        share = 0.5 * (near + far)
+
+    def hurry(share: float) -> float:
         middle = start + share * (end - start)
-        to_s, from_s = transits.needed_s(np.array([start, middle, end])).tolist()
-        near, far = (near, share) if to_s * after_s > from_s * before_s else (share, far)
-    return np.asarray(start + near * (end - start))
+        return _least_s(transits, start, middle) * after_s - _least_s(transits, middle, end) * before_s
+
+    from scipy.optimize import brentq  # slow to import, and seldom needed
+
+    return np.asarray(start + brentq(hurry, 0.0, 1.0) * (end - start))
 
 
 def _least_s(transits: TransitPaths, start: FloatArray, end: FloatArray) -> float:

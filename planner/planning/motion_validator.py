@@ -131,9 +131,8 @@ class MotionValidator:
             return at_edges
         found: list[PlanSegment] = []
         transfers: list[tuple[tuple[Step, ...], Transfer]] = []
-        in_time = self._in_time_at_edges(at_edges)
         for first, part in transfers_of(steps):
-            made = in_time.get(first) or (self.real(part) if is_transfer(part) else None)
+            made = self.real(part) if is_transfer(part) else None
             found.append(PlanSegment(first, part if made is None else made.steps, made))
             if made is not None:
                 transfers.append((part, made))
@@ -152,23 +151,6 @@ class MotionValidator:
             return plan_segments
         self.slower = min(plan_segments, at_edges, key=duration_s) if at_edges else plan_segments
         return None
-
-    def _in_time_at_edges(self, at_edges: tuple[PlanSegment, ...]) -> dict[int, Transfer]:
-        """Return the transfers at edges that nothing is late about, by their first steps: no others are quicker.
-
-        Where hands come late to a transfer, the one before it has its share in that.
-        """
-        found: dict[int, Transfer] = {}
-        before: int | None = None
-        for plan_segment in at_edges:
-            if plan_segment.transfer is not None:
-                is_late = sum(plan_segment.durations_s()) > sum(map(self.known_s, plan_segment.steps)) + TIME_S
-                if not is_late:
-                    found[plan_segment.first] = plan_segment.transfer
-                elif before is not None:
-                    found.pop(before, None)
-                before = plan_segment.first
-        return found
 
     def _sooner(self, plan_segments: tuple[PlanSegment, ...]) -> tuple[PlanSegment, ...]:
         """Return segments with quicker ways in place of those to which hands come late, or of those before.

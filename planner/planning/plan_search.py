@@ -15,13 +15,13 @@ from planner.planning.found_plan import FoundPlan
 from planner.planning.path_search import PathSearch, Pause
 from planner.planning.problem import Problem
 from planner.planning.quick_plan import quickly_planned
-from planner.planning.restricted_tasks import with_more_comfort, with_narrower_cones
+from planner.planning.restricted_tasks import with_arms_apart, with_more_comfort, with_narrower_cones
 from planner.search.a_star import Outcome
 
 GREEDY_AFTER_S, PATIENT_GREEDY_AFTER_S = 1.0, 3.0
 """Work without a plan after which some plan to fall back on is looked for, and again, patiently (s, see `Budget`)."""
 
-LESS_ROOM_AFTER_S = 3.0
+LESS_ROOM_AFTER_S = 1.0
 """Work after which a search that found only plans slower than assumed looks at restricted tasks (s, see `Budget`)."""
 
 # A comfort radius below its default is rare, and a larger one then usually pays; a cone that could be narrower is in
@@ -32,10 +32,11 @@ MORE_COMFORT_SHARE, NARROWER_SHARE = 2.0, 0.5
 WORTH_SHOWING_S = 0.1
 """Least time by which a plan found meanwhile is quicker than the one shown before (s)."""
 
-WORTH_THOROUGH, WORTH_ALL = 0.01, 0.03
-"""Shares of its cost by which a plan must be above its lower bound so that more tries are made for a quicker one, and
-so that restricted tasks get all of their work: nearer to the bound they get less, in proportion.
-"""
+APART_SHARE, APART_LEAST_S = 2.0, 0.5
+"""Work on the task whose arms stay apart, as a share of earlier work, and the least of it (s)."""
+
+WORTH_THOROUGH = 0.01
+"""Share of its cost by which a plan must be above its lower bound so that more tries are made for a quicker one."""
 
 _Status: TypeAlias = Literal["solved", "infeasible", "budget_exceeded"]
 
@@ -168,18 +169,11 @@ class _PlanSearch:
         """Look for a quicker plan with larger comfort radii, and with narrower cones; nothing is told meanwhile."""
         spent_s = self.budget.spent_s
         for problem in with_more_comfort(self.problem):
-            self.restrict(problem, MORE_COMFORT_SHARE * spent_s * self._worth)
-        done_s = 0.0
+            self.restrict(problem, MORE_COMFORT_SHARE * spent_s)
+        left_s = NARROWER_SHARE * spent_s
         for problem in with_narrower_cones(self.problem):
-            done_s += self.restrict(problem, NARROWER_SHARE * spent_s * self._worth - done_s)
+            left_s -= self.restrict(problem, left_s)
         yield from ()
-
-    @property
-    def _worth(self) -> float:
-        """The share of their work that restricted tasks are worth, by what a quicker plan may save."""
-        if not self.exact.has_plan:
-            return 1.0
-        return min(1.0, (1.0 - (self.exact.bound_s or 0.0) / self.exact.limit_s) / WORTH_ALL)
 
     @property
     def _is_in_doubt(self) -> bool:
@@ -230,6 +224,20 @@ def _lacks_plan(search: _PlanSearch, pause: Pause, after_s: float) -> bool:
     return pause is Pause.LOOK and not search.exact.is_settled and search.budget.spent_s >= after_s
 
 
+def _keep_arms_apart(search: _PlanSearch, pause: Pause) -> Iterator[Event] | None:
+    """Allow hands only where there is room beside the other arm at home, with limited work.
+
+    Where a way was rejected, mostly the arms were in each other's way. Such a plan is found soon and limits what else
+    is worth a try.
+    """
+    if pause is not Pause.ROUND or not search.exact.has_rejected:
+        return None
+    for problem in with_arms_apart(search.problem):
+        work_s = max(APART_LEAST_S, APART_SHARE * search.budget.spent_s)
+        search.budget.beside_s += search.restrict(problem, work_s)
+    return iter(())
+
+
 def _restrict(search: _PlanSearch, pause: Pause) -> Iterator[Event] | None:
     """Search restricted tasks: with more room, the first few ways tried may all be worse.
 
@@ -255,7 +263,8 @@ def _try_thoroughly(search: _PlanSearch, pause: Pause) -> Iterator[Event] | None
 STRATEGIES: tuple[Strategy, ...] = (
     _fall_back,
     _fall_back_patiently,
-    _try_thoroughly,
+    _keep_arms_apart,
     _restrict,
+    _try_thoroughly,
 )
 """The strategies, in the order in which they are asked."""

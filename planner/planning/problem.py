@@ -89,6 +89,8 @@ class Problem:
         comfort_m: float | None = None,
         behind_max_m: float | None = None,
         grips_apart_m: float | None = None,
+        *,
+        minds_arms: bool = False,
     ) -> "Problem":
         """Return this problem with some values changed, for the same robot; raises as `of` does.
 
@@ -100,8 +102,8 @@ class Problem:
         changed = moved if scene is None else moved.in_scene(_as_given(scene, task.scene))
         sequence = context.sequence if garment is None else replayed(garment)
         wanted, start = _searched(changed, sequence, machine)
-        is_alike = (wanted.torso_m, comfort) == (context.scene.torso_m, context.reach.comfort_m)
-        reach = context.reach if is_alike else machine.reach(wanted.torso_m, comfort)
+        is_alike = (wanted.torso_m, comfort) == (context.scene.torso_m, context.reach.comfort_m) and not minds_arms
+        reach = context.reach if is_alike else machine.reach(wanted.torso_m, comfort, minds_arms=minds_arms)
         behind = context.behind_max_m if behind_max_m is None else behind_max_m
         apart = context.grips_apart_m if grips_apart_m is None else grips_apart_m
         limits = (context.circle_m, behind, apart)
@@ -120,14 +122,16 @@ class Problem:
         known = KnownTransfers(sampling=self.maker.known.sampling)
         return Problem(changed, fresh, machine, TransferPlanner(fresh, machine, known))
 
-    def restricted(self, scene: Scene | None = None, comfort_m: float | None = None) -> "Problem":
-        """Return this problem with a narrower approach cone, or a larger comfort radius.
+    def restricted(
+        self, scene: Scene | None = None, comfort_m: float | None = None, *, minds_arms: bool = False
+    ) -> "Problem":
+        """Return this problem with a narrower approach cone, a larger comfort radius, or arms that stay apart.
 
         There are fewer ways to do the steps. A narrower cone leaves each of them as it is, so that what is known of
         their transfers is shared. With less reach the base may have to drive elsewhere meanwhile.
         """
-        changed = self.varied(scene=scene, comfort_m=comfort_m)
-        if comfort_m is not None:
+        changed = self.varied(scene=scene, comfort_m=comfort_m, minds_arms=minds_arms)
+        if comfort_m is not None or minds_arms:
             return changed
         return replace(changed, maker=TransferPlanner(changed.context, self.robot, self.maker.known))
 

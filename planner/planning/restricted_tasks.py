@@ -17,6 +17,12 @@ _CONES_RAD = (0.0, 0.5, 1.0)
 """Narrower approach cones to try (rad)."""
 
 
+def with_arms_apart(problem: Problem) -> Iterator[Problem]:
+    """Yield the problem with hands only where there is room beside the other arm at home, if the robot minds it."""
+    if problem.robot.can_mind_arms:
+        yield problem.restricted(minds_arms=True)
+
+
 def with_more_comfort(problem: Problem) -> Iterator[Problem]:
     """Yield the problem with larger comfort radii, the smallest first."""
     return (problem.restricted(comfort_m=more_m) for more_m in _COMFORTS_M if problem.context.reach.comfort_m < more_m)

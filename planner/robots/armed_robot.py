@@ -36,11 +36,13 @@ class ArmedRobot(ABC):
     them. Poses are of the tool frame, in the base frame (x ahead, z up from the floor), in m.
     """
 
+    can_mind_arms = False
+
     def __init__(self, card: RobotCard) -> None:
         """Take the robot's card."""
         self._card = card
         self._edges: dict[tuple[int, float, float], float | None] = {}
-        self._memories = lru_cache(_MEMORIES_KEPT)(lambda torso_m, comfort_m: Memories())
+        self._memories = lru_cache(_MEMORIES_KEPT)(lambda torso_m, comfort_m, minds_arms: Memories())
 
     @property
     @abstractmethod
@@ -75,7 +77,7 @@ class ArmedRobot(ABC):
         """Drop the memories of where the arms reach, so that benchmarks measure its computation."""
         self._memories.cache_clear()
 
-    def _memories_of(self, torso_m: float, comfort_m: float) -> Memories:
+    def _memories_of(self, torso_m: float, comfort_m: float, *, minds_arms: bool = False) -> Memories:
         """Return the memories for a height of the lift and a comfort radius (m).
 
         Raises:
@@ -87,7 +89,7 @@ class ArmedRobot(ABC):
             raise SceneError("torso_m", f"{torso_m} m is not between {low} and {high} m")
         if not (math.isfinite(comfort_m) and comfort_m >= 0.0):
             raise RequestError("comfort_radius_m", f"must be 0 or more, got {comfort_m} m")
-        return self._memories(float(torso_m), float(comfort_m))
+        return self._memories(float(torso_m), float(comfort_m), minds_arms)
 
     def arm_path_near(
         self, arm: int, path: ToolPath, torso_m: float, is_free: IsFree, known: FloatArray

@@ -43,6 +43,7 @@ class CardRobot(ArmedRobot):
         *,
         is_passing: bool = False,
         minds_body: bool = True,
+        minds_arms: bool = False,
     ) -> MappedReach:
         """Return the reach with the lift raised by `torso_m`, for a comfort radius (m); see `RobotPort.reach`.
 

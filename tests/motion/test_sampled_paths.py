@@ -3,7 +3,6 @@
 from itertools import pairwise
 
 import numpy as np
-import pytest
 
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.motion.sampled_paths import TESTED_MAX, SampledPaths, sampled
@@ -44,22 +43,6 @@ def test_where_there_is_no_path_the_work_is_bounded() -> None:
 def test_a_start_that_is_not_free_costs_one_test_of_both_ends() -> None:
     paths = SampledPaths(beside_the_wall, LOW, HIGH, STEP_RAD)
     assert paths.path(np.zeros(3), GOAL) is None and paths.tested == 2
-
-
-@pytest.mark.parametrize(("free", "tested", "batches"), [(100, 100, [8, 32, 60]), (45, 48, [8, 32, 60])])
-def test_a_line_is_tested_in_growing_batches_and_counts_in_small_ones(
-    free: int, tested: int, batches: list[int]
-) -> None:
-    asked: list[int] = []
-
-    def are_free(joints: FloatArray) -> BoolArray:
-        asked.append(len(joints))
-        return np.arange(sum(asked) - len(joints), sum(asked)) < free
-
-    paths = SampledPaths(are_free, np.zeros(1), np.ones(1), 0.01)
-    led = paths._led(np.zeros(1), np.ones(1))
-    assert led is not None and led == pytest.approx(0.01 * free)
-    assert (asked, paths.tested) == (batches, tested)
 
 
 def test_joints_that_may_not_move_stay() -> None:

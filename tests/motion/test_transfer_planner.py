@@ -3,11 +3,10 @@
 import math
 from dataclasses import replace
 
-import numpy as np
 import pytest
 
 from planner import Scene, Task
-from planner.geometry.pose import FloatArray, Pose2
+from planner.geometry.pose import Pose2
 from planner.motion.search_limits import QUICK
 from planner.motion.transfer import Transfer
 from planner.motion.transfer_candidate import Candidate, ways_of
@@ -67,22 +66,3 @@ def test_ways_that_cannot_be_quicker_than_one_that_was_found_are_not_led(monkeyp
     monkeypatch.setattr(maker, "made", noted)
     assert maker.first_valid([first, *slower], QUICK) is quick
     assert led == [first]
-
-
-@pytest.mark.parametrize("is_led", [True, False])
-def test_ways_of_empty_hands_are_sampled_only_where_no_choice_has_one(
-    monkeypatch: pytest.MonkeyPatch, is_led: bool
-) -> None:
-    maker, first, _ = some_fold()
-    asked: list[bool] = []
-
-    def way(
-        _base: Pose2, start: FloatArray, goal: FloatArray, *_about: object, samples: bool = True
-    ) -> FloatArray | None:
-        asked.append(samples)
-        return np.array([start, goal]) if is_led or samples else None
-
-    monkeypatch.setattr(maker.transits, "way", way)
-    assert maker.validated(first) is not None
-    assert asked == sorted(asked), "all are tried without first"
-    assert asked.count(True) == (0 if is_led else 1)

@@ -7,7 +7,6 @@ import pytest
 
 from planner import Task, load_garment
 from planner.motion.transit_paths import TransitPaths
-from planner.motion.travel import led_along
 from planner.planning.problem import Problem
 from planner.primitives.g_fold import GFold
 from planner.primitives.state import State
@@ -107,14 +106,3 @@ def test_a_motion_beside_a_driving_base_is_tested_once(monkeypatch: pytest.Monke
     assert transits.is_clear(cloth, bases.copy(), joints.copy(), wide.copy()) and len(asked) == 1
     inside = bases + np.array([1.2, 0.0, 0.0])
     assert not transits.is_clear(cloth, inside, joints, wide)
-
-
-def test_hands_that_rest_between_two_steps_share_their_way_by_the_times_before_and_after() -> None:
-    transits = Problem.of(Task.of(load_garment("hand-towel"))).maker.transits
-    start = transits.home
-    way = np.array([start, start + np.linspace(0.0, 0.5, len(start))])
-    needed = transits.needed_s(way)
-    whole_s = 4.0 * float(needed.sum())
-    first, _ = required(led_along(transits, way, needed, (0.0, whole_s), (0.3 * whole_s,)))
-    before_s, after_s = transits.needed_s(np.array([start, first.joints[-1], way[1]])).tolist()
-    assert before_s / after_s == pytest.approx(0.3 / 0.7)

@@ -9,6 +9,7 @@ from planner import Garment, Plan, Scene, load_garment, make_plan
 from planner.geometry.pose import Point2, Pose2
 from planner.geometry.table import Table
 from planner.planning.problem import Problem
+from planner.planning.restricted_tasks import with_arms_apart
 from planner.primitives.fold_trial import fold_trials
 from planner.primitives.fold_variants import trial_variants
 from planner.task.reason import Code
@@ -16,6 +17,7 @@ from planner.task.scene import DEFAULT_STATIONS
 from planner.task.task import Task
 from tests.builders import fold, garment
 from tests.required import required
+from tests.robots.remade import RemadeRobot
 
 WORK_S = 10.0
 
@@ -108,7 +110,20 @@ def test_a_bound_minds_no_arm_that_may_be_elsewhere() -> None:
     shirt = load_garment("shirt")
     sleeves = replace(shirt, folds=shirt.folds[:4], placement=shirt.placement.moved(0.01, 0.02))
     problem = Problem.of(Task.of(sleeves))
-    assert least_travel(problem, 2, done=0b1011) == 0
+    (apart,) = with_arms_apart(problem)
+    assert (least_travel(problem, 2, done=0b1011), least_travel(apart, 2, done=0b1011)) == (0, 1)
     plan = planned(sleeves)
     assert plan.statistics.bound_s == pytest.approx(36.0)
     assert not plan.is_proven or plan.cost_s == pytest.approx(36.0)
+
+
+def test_with_arms_apart_a_place_beside_the_other_arm_at_home_is_out_of_reach() -> None:
+    problem = Problem.of(Task.of(load_garment("shirt")))
+    (apart,) = with_arms_apart(problem)
+    assert apart.context.reach is not problem.context.reach
+    assert apart.context.reach.comfort_m == problem.context.reach.comfort_m
+
+
+def test_a_robot_that_minds_no_arms_has_no_task_with_arms_apart() -> None:
+    problem = Problem.of(Task.of(load_garment("hand-towel")))
+    assert not list(with_arms_apart(replace(problem, robot=RemadeRobot())))  # type: ignore[arg-type]

@@ -119,6 +119,7 @@ class RemadeReach(Pr2Reach):
 class RemadeRobot:
     """A robot that has these arms, from left to right."""
 
+    can_mind_arms = False
     mirror = None
 
     def __init__(self, *arms: Mounted, **changes: Any) -> None:
@@ -130,9 +131,9 @@ class RemadeRobot:
         shape = self.pr2._arms[0].shape
         self._kinematics = tuple(ShiftedArm(shape, arm.of == 1, arm.aside_m) for arm in arms)
 
-    def reach(self, torso_m: float, comfort_m: float) -> RemadeReach:
+    def reach(self, torso_m: float, comfort_m: float, *, minds_arms: bool = False) -> RemadeReach:
         names, torso_m = tuple(arm.name for arm in self.arms), self.raised(torso_m)
-        return RemadeReach(names, self._kinematics, torso_m, comfort_m, self.pr2._room(torso_m))
+        return RemadeReach(names, self._kinematics, torso_m, comfort_m, self.pr2._room(torso_m, minds_arms))
 
     def collisions(self, table: Table, torso_m: float, **options: Any) -> "RemadeCollisions":
         raised_m = self.raised(torso_m)

@@ -29,11 +29,13 @@ def _mirrored(joints: FloatArray) -> FloatArray:
 class Pr2(ArmedRobot):
     """A PR2; the base frame is ``base_footprint``."""
 
+    can_mind_arms = True
+
     def __init__(self) -> None:
         """Read the robot's description (10 ms); raise `FoldingError` where it is missing."""
         self._model = read_model()
         super().__init__(pr2_card(self._model))
-        self._rooms: dict[float, Room] = {}
+        self._rooms: dict[tuple[float, bool], Room] = {}
 
     @cached_property
     def _arms(self) -> tuple[MirroredArm, ...]:
@@ -52,6 +54,7 @@ class Pr2(ArmedRobot):
         *,
         is_passing: bool = False,
         minds_body: bool = True,
+        minds_arms: bool = False,
     ) -> Pr2Reach:
         """Return the reach with the torso raised by `torso_m`, for a comfort radius (m); see `RobotPort.reach`.
 
@@ -59,16 +62,19 @@ class Pr2(ArmedRobot):
             SceneError: the torso does not go there.
             RequestError: the radius is negative or no number.
         """
-        memories = None if is_passing else self._memories_of(torso_m, comfort_m)
+        memories = None if is_passing else self._memories_of(torso_m, comfort_m, minds_arms=minds_arms)
         names = tuple(arm.name for arm in self._card.arms)
-        room = self._room(float(torso_m)) if minds_body else None
+        room = self._room(float(torso_m), minds_arms) if minds_body else None
         return Pr2Reach(names, self._arms, float(torso_m), float(comfort_m), room, memories)
 
-    def _room(self, torso_m: float) -> Room:
-        """Return the room that the body leaves an arm; the last is kept, because every plan needs it."""
-        if torso_m not in self._rooms:
-            self._rooms = {torso_m: room_beside(self._arms[0].shape, self._parts, torso_m)}
-        return self._rooms[torso_m]
+    def _room(self, torso_m: float, minds_arms: bool) -> Room:
+        """Return the room that the body, and the other arm, leave an arm; cached, because every plan needs it."""
+        key = (torso_m, minds_arms)
+        if key not in self._rooms:
+            home = self.home(1) if minds_arms else None
+            others = {known: room for known, room in self._rooms.items() if known[0] == torso_m}
+            self._rooms = {**others, key: room_beside(self._arms[0].shape, self._parts, torso_m, home)}
+        return self._rooms[key]
 
     def collisions(
         self, table: Table, torso_m: float, opening_m: float = OPENING_M, margin_m: float = 0.0
