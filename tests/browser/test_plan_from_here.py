@@ -140,7 +140,7 @@ def test_the_menu_is_asked_for_chosen_from_and_left_by_keys(page: Page, key: str
     expect(entry).to_be_focused()
     page.keyboard.press("ArrowDown")
     page.keyboard.press("v")  # elsewhere it means the tool Select
-    expect(entry).to_be_focused()
+    expect(menu(page).get_by_role("menuitem", name="Run from here")).to_be_focused()
     page.keyboard.press("Escape")
     expect(menu(page)).to_be_hidden()
     expect(row).to_be_focused()
