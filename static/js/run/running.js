@@ -46,7 +46,8 @@ export class Running {
 
   /** Whether grippers are free as a step begins: a run can begin or pause there. @param {Plan} plan @param {number} step */
   static isFree(plan, step) {
-    return !plan.primitives[step - 1]?.holds;
+    const before = plan.primitives[step - 1];
+    return !(before && "holds" in before && before.holds);
   }
 
   /** The next step before which a run can pause; null: the plan's end. @param {number} step */
