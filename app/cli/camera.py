@@ -11,7 +11,9 @@ from app.rehearsal.vision.picture import read_picture
 from app.rehearsal.vision.vision_errors import PictureError
 from planner.geometry.pose import Pose2
 
-camera = typer.Typer(help="Calibrate a camera over the table.", no_args_is_help=True)
+camera = typer.Typer(
+    help="Print a board of markers, and calibrate a camera over the table with pictures of it.", no_args_is_help=True
+)
 cli.add_typer(camera, name="camera")
 
 
