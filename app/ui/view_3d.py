@@ -150,13 +150,15 @@ class View3D:
             self._folds.clear()
         self._server.flush()
 
-    def show_garment(self, garment: Garment, cloth: ClothSurface, base: Pose2) -> None:
-        """Show a garment that has no plan, and the robot waiting at a station."""
+    def show_garment(
+        self, garment: Garment, cloth: ClothSurface, base: Pose2, done: frozenset[int] = frozenset()
+    ) -> None:
+        """Show a garment that has no plan, with some of its folds done, and the robot waiting at a station."""
         with self._server.atomic():
             self._begin(garment, ())
             self._robot.pose(base, self._waiting_joints())
             self._cloth.show(cloth, garment.layer_m)
-            self._folds.place(garment.placement, cloth, TableTop.of(self.scene.table), frozenset(), None)
+            self._folds.place(garment.placement, cloth, TableTop.of(self.scene.table), done, None)
         self._server.flush()
 
     def show_plan(self, plan: Plan) -> None:

@@ -29,6 +29,7 @@ class CountingView3D:
         self.is_drawn_by_software = False
         self.lying, self.bare, self.plans = 0, 0, 0
         self.times: list[float] = []
+        self.done: object = None
         self.themes: list[bool] = []
         self.languages: list[str] = []
         self.scenes: list[Scene] = []
@@ -46,8 +47,9 @@ class CountingView3D:
     def show_robot(self, card: RobotCard) -> None:
         self.robots.append(card.name)
 
-    def show_garment(self, *_: object) -> None:
+    def show_garment(self, *shown: object) -> None:
         self.lying += 1
+        self.done = shown[3] if len(shown) > 3 else None
 
     def show_bare(self, _: Pose2) -> None:
         self.bare += 1
@@ -344,7 +346,7 @@ def test_where_a_graphics_card_draws_it_the_3d_view_follows_a_hand_at_once(
         player.close()
 
 
-def test_a_plan_that_is_pointed_at_is_shown_to_its_end_and_then_the_own_one_again(
+def test_a_plan_that_is_pointed_at_is_shown_to_its_end_then_the_own_one_and_without_a_plan_the_cloth_alone(
     plan: Plan, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(player_module, "PREVIEW_S", 0.2)
@@ -357,4 +359,6 @@ def test_a_plan_that_is_pointed_at_is_shown_to_its_end_and_then_the_own_one_agai
     assert view.plans == 2 and document.t_s == 0.0
     document.preview(None)
     until(lambda: view.times[-1] == 0.0)
+    document.preview(replace(plan, status="infeasible", steps=(), trajectory=None))
+    until(lambda: view.done == set(range(len(plan.garment.folds))))
     player.close()

@@ -17,13 +17,13 @@ from websockets.typing import Subprotocol
 
 from app.ui.colours import DARK, LIGHT
 from app.ui.lighting import ink, paint
-from app.ui.lying_cloth import lying_cloth
 from app.ui.robot_model import load_robot_model
 from app.ui.view_3d import View3D
 from app.ui.viser_patches import LOOPBACK, SECRET_HEADER
 from planner import Plan, Scene, load_garment
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
+from planner.motion.cloth_alone import spread_cloth
 from planner.motion.timeline import Timeline
 from planner.robots.load_robot import load_robot
 from tests.app.pose_matrix import matrix
@@ -67,7 +67,7 @@ def test_without_cloth_the_robot_waits_as_it_does_with_cloth(view: View3D, plan:
     assert [required(handle(f"/cloth/{part}")).visible for part in ("front", "back", "shade", "edges")] == [False] * 4
     assert handle("/folds/0") is None
     waiting = shown_pose(view, "/robot/l_gripper_tool_frame")
-    view.show_garment(garment, lying_cloth(garment, scene.table), base)
+    view.show_garment(garment, spread_cloth(garment, scene.table), base)
     assert [required(handle(f"/cloth/{part}")).visible for part in ("front", "back", "shade", "edges")] == [True] * 4
     assert handle("/folds/0") is not None
     np.testing.assert_allclose(shown_pose(view, "/robot/l_gripper_tool_frame"), waiting, atol=1e-9)
@@ -102,7 +102,7 @@ def test_stations_are_marked_until_there_is_a_plan(view: View3D, plan: Plan) -> 
     assert is_marked()
     view.show_plan(plan)
     assert not is_marked()
-    view.show_garment(plan.garment, lying_cloth(plan.garment, Scene().table), Scene().stations[0][1])
+    view.show_garment(plan.garment, spread_cloth(plan.garment, Scene().table), Scene().stations[0][1])
     assert is_marked()
 
 
@@ -179,7 +179,7 @@ def test_nothing_is_left_to_see_but_robot_and_cloth_at_the_end(view: View3D, nam
 
 def test_a_fold_that_is_moved_keeps_its_line_so_that_it_does_not_flicker(view: View3D, plan: Plan) -> None:
     garment, base = plan.garment, Scene().stations[0][1]
-    cloth = lying_cloth(garment, Scene().table)
+    cloth = spread_cloth(garment, Scene().table)
     view.show_garment(garment, cloth, base)
     line, before = view._server.scene.get_handle_by_name("/folds/0"), line_points(view, 0)
     first, *others = garment.folds
@@ -241,7 +241,7 @@ def test_another_scene_has_another_table_other_stations_and_another_floor(view: 
     other = replace(Scene(), table=Table(1.0, 0.8, 0.9), stations=(("corner", Pose2(-0.8, 0.3, 0.0)),))
     try:
         view.show_scene(other)
-        view.show_garment(plan.garment, lying_cloth(plan.garment, other.table), other.stations[0][1])
+        view.show_garment(plan.garment, spread_cloth(plan.garment, other.table), other.stations[0][1])
         top = scene.get_handle_by_name("/table/top")
         assert isinstance(top, viser.BoxHandle) and tuple(top.dimensions[:2]) == (1.0, 0.8)
         assert scene.get_handle_by_name("/stations/corner") is not None
