@@ -121,8 +121,6 @@ class Player:
         shown, self._shown = self._shown, state
         if shown is None or shown.is_dark != state.is_dark:
             self._view.set_theme(is_dark=state.is_dark)
-        if shown is None or shown.language != state.language:
-            self._view.set_language(state.language)
         if state.preview is not None:
             self._show_preview(state, state.preview)
             return

@@ -31,15 +31,11 @@ class CountingView3D:
         self.times: list[float] = []
         self.done: object = None
         self.themes: list[bool] = []
-        self.languages: list[str] = []
         self.scenes: list[Scene] = []
         self.robots: list[str] = []
 
     def set_theme(self, *, is_dark: bool) -> None:
         self.themes.append(is_dark)
-
-    def set_language(self, language: str) -> None:
-        self.languages.append(language)
 
     def show_scene(self, scene: Scene) -> None:
         self.scenes.append(scene)
@@ -155,20 +151,6 @@ def test_the_3d_view_follows_the_theme_and_another_garment_keeps_it() -> None:
         until(lambda: view.lying == 2)
         assert document.state.is_dark
         assert view.themes == [False, True]
-    finally:
-        player.close()
-
-
-def test_the_3d_view_follows_the_language() -> None:
-    document, view = towel_document(), CountingView3D(True)
-    player = player_of(document, view)
-    try:
-        until(lambda: view.lying == 1)
-        document.set_language("de")
-        until(lambda: view.languages == ["en", "de"])
-        document.set_theme(is_dark=True)
-        until(lambda: view.themes == [False, True])
-        assert view.languages == ["en", "de"]
     finally:
         player.close()
 
