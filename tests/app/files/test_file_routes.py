@@ -4,7 +4,7 @@ from typing import Any
 import httpx
 import pytest
 
-from app.distribution import installing, is_installed
+from app.distribution import Extra, installing, is_installed
 from planner import Plan, load_garment
 from tests.app.document_requests import planned
 from tests.app.samples import towel
@@ -30,8 +30,12 @@ FILES = [
     "poses.yaml",
     "glb",
     "mjcf",
+    "usd",
     "lerobot",
 ]
+OPTIONAL: dict[str, tuple[str, str, Extra]] = {"mp4": ("av", "PyAV", "video"), "usd": ("pxr", "usd-core", "usd")}
+"""The module, library and extra of the files that few installations make."""
+
 SVG = (
     b'<svg xmlns="http://www.w3.org/2000/svg" width="40cm" height="30cm" viewBox="0 0 40 30">'
     b'<rect width="40" height="30"/><line x1="40" y1="15" x2="0" y2="15" stroke="blue"/></svg>'
@@ -134,8 +138,10 @@ async def test_all_files_of_a_planned_document_can_be_saved(client: httpx.AsyncC
     entries = (await client.get(f"/api/documents/{document_id}/files")).json()
     assert [entry["what"] for entry in entries] == FILES
     for entry in entries:
-        if entry["what"] == "mp4" and not is_installed("av"):
-            says = {"code": "library_missing", "library": "PyAV", "install": installing("video")}
+        optional = OPTIONAL.get(entry["what"])
+        if optional and not is_installed(optional[0]):
+            _, library, extra = optional
+            says = {"code": "library_missing", "library": library, "install": installing(extra)}
             assert (entry["available"], entry["says"]) == (False, says)
             continue
         assert (entry["available"], entry["reason"]) == (True, None)
