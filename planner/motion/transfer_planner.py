@@ -170,13 +170,21 @@ class TransferPlanner:
         return self._transfer(candidate, transfer_path)
 
     def made_at_edges(self, candidate: "Candidate") -> Transfer | None:
-        """Return a candidate's transfer with hands holding edges where they can; None if there is none."""
+        """Return a candidate's transfer with hands holding edges where they can; None if there is none. Cached."""
+        known = self.known.made_at_edges
+        if candidate.motion not in known:
+            known[candidate.motion] = self._searched_at_edges(candidate)
+        is_searched, transfer = known[candidate.motion]
+        self.path_requests += is_searched
+        return None if transfer is None else replace(transfer, steps=candidate.steps)
+
+    def _searched_at_edges(self, candidate: "Candidate") -> tuple[bool, Transfer | None]:
         waypoints = candidate.waypoints
         holds = edge_holds(self._machine, waypoints)
         if holds is None or not self._paths.postures.can_hold(waypoints, ways=(holds,)):
-            return None
-        self.path_requests += 1
-        return self._transfer(candidate, self._paths.transfer_path(waypoints, candidate.cloths, (holds,)))
+            return False, None
+        found = self._paths.transfer_path(waypoints, candidate.cloths, (holds,))
+        return True, self._transfer(candidate, found)
 
     def _transfer(self, candidate: "Candidate", transfer_path: TransferPath | NoPath) -> Transfer | None:
         if isinstance(transfer_path, NoPath):
