@@ -160,6 +160,14 @@ class TransitPaths:
         found = self._searched.answer(_WayKey(key, base, cloth, samples, first, last, spared), self._search)
         return None if found is None else np.array([start, *(found[1:-1] + turns), self.unwound(goal, start)])
 
+    def way_near(
+        self, base: Pose2, start: FloatArray, goal: FloatArray, cloth: LyingCloth, spared: Spared, near: FloatArray
+    ) -> FloatArray | None:
+        """Return a path as `way` does, by the same corners as another one; None if it is not free."""
+        corners = [self.unwound(joints, start) for joints in (*near[1:-1], goal)]
+        way = np.array([start, *corners])
+        return way if self._is_free(_Lines(base, self._collisions), way, cloth, spared) else None
+
     def _search(self, wanted: _WayKey) -> FloatArray | None:
         start, goal, cloth, spared = wanted.start, wanted.goal, wanted.cloth, wanted.spared
         straight, known = np.array([start, goal]), _Lines(wanted.base, self._collisions)
