@@ -67,7 +67,7 @@ class Bodies:
             is_certain: accept only postures that the compiled pass proves free; faster, but misses some free ones.
         """
         if is_certain:
-            close, _ = self.first_close(pairs, rows(bases), joints, arms, np.zeros(len(joints), dtype=np.int64))
+            close, _, _ = self.first_close(pairs, rows(bases), joints, arms, np.zeros(len(joints), dtype=np.int64))
             return close < 0
         is_free = np.ones(len(joints), dtype=np.bool_)
         is_free[[*self.touching(pairs, bases, joints, arms)]] = False
@@ -80,10 +80,10 @@ class Bodies:
         """
         stands, asked, start = rows(bases), np.arange(len(joints)), np.zeros(len(joints), dtype=np.int64)
         while len(asked):
-            close, places = self.first_close(pairs, stands, joints, arms, start)
+            close, places, do_touch = self.first_close(pairs, stands, joints, arms, start)
             apart: list[int] = []
             for k in (close >= 0).nonzero()[0].tolist():
-                if self._touch(pairs, int(close[k]), places[k]):
+                if do_touch[k] or self._touch(pairs, int(close[k]), places[k]):
                     yield int(asked[k])
                 else:
                     apart.append(k)
@@ -96,11 +96,11 @@ class Bodies:
         """Return the number of postures before the first one in which some pair touches; see `are_free`."""
         stands, first, start = rows(bases), 0, np.zeros(len(joints), dtype=np.int64)
         while True:
-            close, places = self.first_close(pairs, stands, joints[first:], arms, start, is_one_enough=True)
+            close, places, do_touch = self.first_close(pairs, stands, joints[first:], arms, start, is_one_enough=True)
             at = int((close >= 0).argmax()) if len(close) else 0
             if not len(close) or close[at] < 0:
                 return len(joints)
-            if self._touch(pairs, int(close[at]), places[at]):
+            if do_touch[at] or self._touch(pairs, int(close[at]), places[at]):
                 return first + at
             first, start = first + at, start[at:]
             stands = stands if len(stands) == 1 else stands[at:]
@@ -115,7 +115,7 @@ class Bodies:
         start: Index,
         *,
         is_one_enough: bool = False,
-    ) -> tuple[Index, FloatArray]:
+    ) -> tuple[Index, FloatArray, BoolArray]:
         """Return for every posture the first pair from a start that is not certainly apart; see `first_close`."""
         return first_close(
             self.kinematics,

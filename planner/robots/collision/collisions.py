@@ -164,7 +164,7 @@ class Collisions:
         base, start, arms = rows(base_in_table), np.zeros(1, dtype=np.int64), np.array(self._every_arm)
         found: list[Contact] = []
         while True:
-            (pair,), (poses,) = self._bodies.first_close(self._all, base, joints.reshape(1, -1), arms, start)
+            (pair,), (poses,), _ = self._bodies.first_close(self._all, base, joints.reshape(1, -1), arms, start)
             if pair < 0:
                 return max(found, key=lambda contact: contact.depth_m, default=None)
             if (depth_m := self._bodies.depth_m(self._all, int(pair), poses)) >= 0.0:

@@ -18,11 +18,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from planner.geometry.pose import FloatArray
+from planner.geometry.pose import BoolArray, FloatArray
 from planner.kernels import inlined, kernel
 from planner.robots.collision.arm_kinematics import ArmKinematics, pose_parts
 from planner.robots.collision.part_poses import MIDDLE, Index, pose_table, set_middles
-from planner.robots.collision.plane import room_at_plane
+from planner.robots.collision.plane import TOUCHING, room_at_plane
 
 HALF, RADIUS, ROUNDING = 3, 6, 7
 """Columns of bounds, after the bounding box's centre: half its extents, the sphere's radius, the rounding (m)."""
@@ -31,17 +31,13 @@ FIRST, HAND, END, JOINTS = range(4)
 """Columns of arms: the arm's first part, its first one of those that move with the tool, the one after its last; and
 how many joints it has."""
 
-OWNER = 2
-"""The column of spans that tells whose a part is."""
-
 
 class Parts(NamedTuple):
     """All parts: those of the arms first, arm after arm, then those that stand still while arms move.
 
     Attributes:
         corners: the corners of all hulls, each in its part's frame (m), shape (c, 3).
-        spans: the number of each part's first corner, of the one after its last, and of the arm to which it belongs, -1
-            for none, shape (p, 3).
+        spans: the number of each part's first corner, and of the one after its last, shape (p, 2).
         bounds: for each part its bounding box's centre, in its frame, half the box's extents, the radius of the sphere
             about that centre that contains the part, and the part's rounding beyond its hull (m), shape (p, 8).
         arms: which parts and how many joints each arm has (`FIRST`, `HAND`, `END`, `JOINTS`), shape (a, 4).
@@ -74,21 +70,17 @@ def _towards(bounds: FloatArray, poses: FloatArray, a: int, b: int) -> tuple[flo
 def _room_between(
     corners: FloatArray, spans: Index, bounds: FloatArray, poses: FloatArray, a: int, b: int, margin: float
 ) -> float:
-    """Return by how much more than a margin two parts are certainly apart (m); negative where that is not certain."""
+    """Return by how much more than a margin two parts are apart (m), at least; see `room_at_plane`."""
     wx, wy, wz = _towards(bounds, poses, a, b)
     room: float = math.sqrt(wx * wx + wy * wy + wz * wz) - bounds[a, RADIUS] - margin
     if room > 0.0:
         return room
-    bx, by, bz = _towards(bounds, poses, b, a)
-    room = math.sqrt(bx * bx + by * by + bz * bz) - bounds[b, RADIUS] - margin
+    x, y, z = _towards(bounds, poses, b, a)
+    room = math.sqrt(x * x + y * y + z * z) - bounds[b, RADIUS] - margin
     if room > 0.0:
         return room
     gap = margin + bounds[a, ROUNDING] + bounds[b, ROUNDING]
-    room = room_at_plane(corners, spans, poses, a, b, gap, (wx, wy, wz))
-    if room < 0.0 and spans[a, OWNER] >= 0 and spans[b, OWNER] >= 0 and spans[a, OWNER] != spans[b, OWNER]:
-        # Which of two arms finds a plane may be chance; a mirror image must give the same answer.
-        room = room_at_plane(corners, spans, poses, b, a, gap, (bx, by, bz))
-    return room
+    return room_at_plane(corners, spans, poses, a, b, gap, (wx, wy, wz))
 
 
 @kernel
@@ -151,7 +143,7 @@ def first_close(
     start: Index,
     margins: FloatArray,
     is_one_enough: bool,
-) -> tuple[Index, FloatArray]:
+) -> tuple[Index, FloatArray, BoolArray]:
     """Return for every posture the first pair, from a start, that is not certainly apart.
 
     Args:
@@ -170,10 +162,12 @@ def first_close(
         is_one_enough: stop at the first posture with such a pair; those after it get -1.
 
     Returns:
-        The pair, -1 if all are apart, shape (n,); and the poses of its two parts, shape (n, 2, 5, 3).
+        The pair, -1 if all are apart, shape (n,); the poses of its two parts, shape (n, 2, 5, 3); and whether they
+            certainly touch, shape (n,).
     """
     corners, spans, bounds, _ = parts
     found, places = np.full(len(joints), -1, dtype=np.int64), np.empty((len(joints), 2, 5, 3))
+    do_touch = np.zeros(len(joints), dtype=np.bool_)
     first = len(poses) - len(tables)
     poses = poses.copy()
     before, gone, apart_until = poses.copy(), np.zeros(len(poses)), np.zeros(len(pairs))
@@ -191,7 +185,7 @@ def first_close(
                 continue
             room = _room_between(corners, spans, bounds, poses, a, b, margins[pair])
             if room < 0.0:
-                found[i] = pair
+                found[i], do_touch[i] = pair, room == TOUCHING
                 break
             apart_until[pair] = gone[a] + gone[b] + room
         if found[i] >= 0:
@@ -199,4 +193,4 @@ def first_close(
                 places[i, side] = poses[pairs[found[i], side]]
             if is_one_enough:
                 break
-    return found, places
+    return found, places, do_touch

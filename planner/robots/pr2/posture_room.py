@@ -172,5 +172,5 @@ def room_beside(shape: ArmShape, robot: RobotParts, torso_m: float, home: FloatA
 def no_walls() -> Room:
     """Return a room without obstacles."""
     corners, bounds = np.empty((0, 3)), np.empty((0, 8))
-    nothing = Parts(corners, np.empty((0, 3), dtype=np.int64), bounds, np.empty((0, 4), dtype=np.int64))
+    nothing = Parts(corners, np.empty((0, 2), dtype=np.int64), bounds, np.empty((0, 4), dtype=np.int64))
     return Room(0.0, nothing, np.empty((0, 5, 3)), np.empty((0, 2), dtype=np.int64), 0.0, empty_memory(1))
