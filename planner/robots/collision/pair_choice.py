@@ -108,7 +108,8 @@ class _Sample:
 
     def touching(self, arms: tuple[int, ...], pair: Sequence[int]) -> list[int]:
         """Return the postures in which the hulls of a pair touch."""
-        return sorted(self._bodies.touching(Pairs(_pairs([pair]), np.zeros(1)), _ORIGIN, *self._of(arms)))
+        are_free = self._bodies.are_free(Pairs(_pairs([pair]), np.zeros(1)), _ORIGIN, *self._of(arms))
+        return np.flatnonzero(~are_free).tolist()
 
     def asks(self, arms: tuple[int, ...], pair: Sequence[int], between: int) -> bool:
         """Return whether a pair with so many joints between its parts is to be compared."""
@@ -121,7 +122,7 @@ class _Sample:
         joints, numbers = self._of(arms)
         some = joints[touching[:MESH_SAMPLES]]
         pairs, start = Pairs(_pairs([pair]), np.zeros(1)), np.zeros(len(some), dtype=np.int64)
-        _, poses, _ = self._bodies.first_close(pairs, rows(_ORIGIN), some, numbers, start)
+        _, poses = self._bodies.first_close(pairs, rows(_ORIGIN), some, numbers, start)
         return any(self._solids_touch(pair, both) for both in poses)
 
     def _of(self, arms: tuple[int, ...]) -> tuple[FloatArray, Index]:

@@ -16,9 +16,6 @@ from planner.kernels import kernel
 from planner.robots.collision.part_poses import MIDDLE, PLACE, Index
 from planner.robots.collision.simplex import Vector, are_round_origin, nearest_face
 
-TOUCHING, UNTOLD = -1.0, -2.0
-"""The room of parts that have a point in common, and of those of which that was not found out."""
-
 _DIRECTIONS = 32
 """Directions tried for a pair."""
 
@@ -71,7 +68,7 @@ def _nearest_along(
 
 @kernel
 def room_at_plane(corners: FloatArray, spans: Index, r: FloatArray, a: int, b: int, gap: float, way: Vector) -> float:
-    """Return by how much more than a gap parts b and a are apart at a separating plane (m), or why there is none.
+    """Return by how much more than a gap parts b and a are apart at a separating plane (m); -1 if there is none.
 
     The search starts along `way`.
 
@@ -104,10 +101,10 @@ def room_at_plane(corners: FloatArray, spans: Index, r: FloatArray, a: int, b: i
         points[count, 0], points[count, 1], points[count, 2] = wx, wy, wz
         count += 1
         if count == 4 and are_round_origin(points):
-            return TOUCHING
+            break
         count, (dx, dy, dz) = nearest_face(points, count)
         squared = dx * dx + dy * dy + dz * dz
         if squared >= (1.0 - _NEARER) * least:
             break
         least = squared
-    return UNTOLD
+    return -1.0

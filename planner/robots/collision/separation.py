@@ -1,8 +1,6 @@
-"""Tests for which pairs of convex parts are certainly apart: compiled, for many postures at once.
+"""Tests for which pairs of convex parts are apart: compiled, for many postures at once.
 
-Nearly all pairs are far apart in nearly all postures, and passing them to coal one by one costs far more than testing
-them here. So this finds, for every posture, the first pair that is *not* certainly apart; only those go to the exact
-algorithm. A pair is certainly apart if
+For every posture the first pair that is not apart is found. A pair is apart if
 
 - the sphere round one does not reach the box round the other, or
 - a plane separates the two (`planner.robots.collision.plane`).
@@ -18,11 +16,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from planner.geometry.pose import BoolArray, FloatArray
+from planner.geometry.pose import FloatArray
 from planner.kernels import inlined, kernel
 from planner.robots.collision.arm_kinematics import ArmKinematics, pose_parts
 from planner.robots.collision.part_poses import MIDDLE, Index, pose_table, set_middles
-from planner.robots.collision.plane import TOUCHING, room_at_plane
+from planner.robots.collision.plane import room_at_plane
 
 HALF, RADIUS, ROUNDING = 3, 6, 7
 """Columns of bounds, after the bounding box's centre: half its extents, the sphere's radius, the rounding (m)."""
@@ -70,7 +68,7 @@ def _towards(bounds: FloatArray, poses: FloatArray, a: int, b: int) -> tuple[flo
 def _room_between(
     corners: FloatArray, spans: Index, bounds: FloatArray, poses: FloatArray, a: int, b: int, margin: float
 ) -> float:
-    """Return by how much more than a margin two parts are apart (m), at least; see `room_at_plane`."""
+    """Return by how much more than a margin two parts are apart (m), at least; negative where they are not."""
     wx, wy, wz = _towards(bounds, poses, a, b)
     room: float = math.sqrt(wx * wx + wy * wy + wz * wz) - bounds[a, RADIUS] - margin
     if room > 0.0:
@@ -87,7 +85,7 @@ def _room_between(
 def first_close_pair(
     corners: FloatArray, spans: Index, bounds: FloatArray, poses: FloatArray, pairs: Index, start: int, margin: float
 ) -> int:
-    """Return the first pair, from a start, that is not certainly apart by a margin (m); -1 if all are."""
+    """Return the first pair, from a start, that is not apart by a margin (m); -1 if all are."""
     for pair in range(start, len(pairs)):
         if _room_between(corners, spans, bounds, poses, pairs[pair, 0], pairs[pair, 1], margin) < 0.0:
             return pair
@@ -143,8 +141,8 @@ def first_close(
     start: Index,
     margins: FloatArray,
     is_one_enough: bool,
-) -> tuple[Index, FloatArray, BoolArray]:
-    """Return for every posture the first pair, from a start, that is not certainly apart.
+) -> tuple[Index, FloatArray]:
+    """Return for every posture the first pair, from a start, that is not apart.
 
     Args:
         kinematics: the arms.
@@ -162,12 +160,10 @@ def first_close(
         is_one_enough: stop at the first posture with such a pair; those after it get -1.
 
     Returns:
-        The pair, -1 if all are apart, shape (n,); the poses of its two parts, shape (n, 2, 5, 3); and whether they
-            certainly touch, shape (n,).
+        The pair, -1 if all are apart, shape (n,); and the poses of its two parts, shape (n, 2, 5, 3).
     """
     corners, spans, bounds, _ = parts
     found, places = np.full(len(joints), -1, dtype=np.int64), np.empty((len(joints), 2, 5, 3))
-    do_touch = np.zeros(len(joints), dtype=np.bool_)
     first = len(poses) - len(tables)
     poses = poses.copy()
     before, gone, apart_until = poses.copy(), np.zeros(len(poses)), np.zeros(len(pairs))
@@ -185,7 +181,7 @@ def first_close(
                 continue
             room = _room_between(corners, spans, bounds, poses, a, b, margins[pair])
             if room < 0.0:
-                found[i], do_touch[i] = pair, room == TOUCHING
+                found[i] = pair
                 break
             apart_until[pair] = gone[a] + gone[b] + room
         if found[i] >= 0:
@@ -193,4 +189,4 @@ def first_close(
                 places[i, side] = poses[pairs[found[i], side]]
             if is_one_enough:
                 break
-    return found, places, do_touch
+    return found, places

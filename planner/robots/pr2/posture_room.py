@@ -129,7 +129,7 @@ def has_room(shape: ArmShape, room: Room, aim: ToolPose, arcs: FloatArray) -> bo
 
 @kernel
 def _is_clear(shape: ArmShape, room: Room, joints: FloatArray) -> bool:
-    """Return whether the left arm's parts are certainly apart from what they are compared with."""
+    """Return whether the left arm's parts are apart from what they are compared with."""
     corners, spans, bounds, _ = room.parts
     pose_arm(shape, room.lift, joints, 1.0, room.poses[:EACH])
     set_middles(bounds[:EACH], room.poses[:EACH])
