@@ -78,10 +78,12 @@ def test_a_robot_without_a_card_is_drafted_and_what_was_guessed_is_corrected_and
     table.fill("70")
     table.press("Tab")
     expect(page.get_by_role("combobox", name="Robot")).to_have_value("my-arm@scene.table.height_m=0.7")
-    assert sheet.drawing["scene"]["table"]["height_m"] == 0.7
+    sheet.edit(lambda drawing: drawing.update(comfort_radius_m=0.02))  # the drawing goes on with it
     robot.get_by_label("Name").fill("Bench arm")
     robot.get_by_role("button", name="Save the robot").click()
     expect(robot).to_be_hidden()
     expect(page.get_by_role("combobox", name="Robot")).to_have_value("my-arm")
     card = REST.get(f"{sheet.path.partition('/api/')[0]}/api/robots/my-arm").json()
+    drawing = sheet.drawing
     assert (card["title"], card["scene"]["table"]["height_m"]) == ("Bench arm", 0.7)
+    assert (drawing["robot"], drawing["scene"]["table"]["height_m"]) == ("my-arm", 0.7)

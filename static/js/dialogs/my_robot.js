@@ -6,7 +6,7 @@
 import { number, parsed, unit } from "../board/units.js";
 import { button, element } from "../dom.js";
 import { numeral } from "../language/numeral.js";
-import { say } from "../language/say.js";
+import { inEnglish, say } from "../language/say.js";
 import { armTitle } from "../messages/arms.js";
 import { OFFLINE, openDialog, sentenceOf } from "./dialog.js";
 
@@ -124,7 +124,7 @@ class MyRobot {
     }
     dispatchEvent(new Event("robots"));
     this.dialog.close();
-    await this.store.putRobot(card.name);
+    this.store.edit(inEnglish("my_robot.save"), (drawing) => Object.assign(drawing, { robot: card.name }));
   }
 }
 
