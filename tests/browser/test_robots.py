@@ -66,8 +66,7 @@ def test_a_robot_without_a_card_is_drafted_and_what_was_guessed_is_corrected_and
     page.goto(sheet.page_url)
     page.get_by_role("button", name="Import").click()
     given = page.get_by_role("dialog", name="Import").get_by_label("File")
-    urdf = {"name": "My arm.urdf", "mimeType": "application/xml", "buffer": single_urdf().encode()}
-    given.set_input_files(urdf)
+    given.set_input_files({"name": "My arm.urdf", "mimeType": "application/xml", "buffer": single_urdf().encode()})
     robot = page.get_by_role("dialog", name="My robot")
     expect(robot).to_be_visible()
     table = robot.get_by_label("Height of the table")
