@@ -18,6 +18,16 @@ def rgb(code: str) -> Rgb:
     return red, green, blue
 
 
+def linear(colour: Rgb) -> tuple[float, float, float]:
+    """Return a colour of a screen as shares of light, 0..1."""
+    red, green, blue = (part / 255.0 for part in colour)
+    return _light(red), _light(green), _light(blue)
+
+
+def _light(part: float) -> float:
+    return part / 12.92 if part <= 0.04045 else float(((part + 0.055) / 1.055) ** 2.4)
+
+
 @dataclass(frozen=True, slots=True)
 class Palette:
     """The colour of each thing in the 3D view."""

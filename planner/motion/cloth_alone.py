@@ -6,7 +6,7 @@ from planner.cloth.garment import Garment
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.table import Table
 from planner.geometry.table_top import TableTop
-from planner.motion.cloth_surface import ClothSurfaces
+from planner.motion.cloth_surface import ClothMoment, ClothSurfaces
 from planner.motion.sample import ClothSurface
 from planner.task.phase import ClothMotion
 
@@ -36,7 +36,8 @@ class ClothAlone:
         placement = self.sequence.garment.placement
         fold = done if done < count else None
         motion = ClothMotion((1 << done) - 1, placement, placement, TableTop.of(self.table), fold, (0.0, 2.0))
-        return self._surfaces.at(motion, share * count - done), frozenset(range(done))
+        moment = ClothMoment.of(motion, share * count - done, 1.0)
+        return self._surfaces.at(moment), frozenset(range(done))
 
 
 def spread_cloth(garment: Garment, table: Table) -> ClothSurface:
