@@ -15,7 +15,18 @@ NAME = "pleat-fold"
 """The distribution: on the package index `pleat` is another project."""
 
 Extra = Literal[
-    "cluster", "exports", "imports", "lerobot", "metrics", "physics", "postgres", "ur", "video", "vision", "xacro"
+    "cluster",
+    "exports",
+    "imports",
+    "lerobot",
+    "metrics",
+    "physics",
+    "postgres",
+    "ur",
+    "usd",
+    "video",
+    "vision",
+    "xacro",
 ]
 
 _LIBRARIES: Final[Mapping[str, tuple[str, Extra]]] = {
@@ -28,6 +39,7 @@ _LIBRARIES: Final[Mapping[str, tuple[str, Extra]]] = {
     "mujoco": ("MuJoCo", "physics"),
     "prometheus_client": ("prometheus-client", "metrics"),
     "psycopg": ("psycopg", "postgres"),
+    "pxr": ("usd-core", "usd"),
     "pyarrow": ("PyArrow", "exports"),
     "rosbags": ("rosbags", "exports"),
     "rtde_control": ("ur-rtde", "ur"),

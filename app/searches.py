@@ -1,15 +1,13 @@
 """The functions that run in workers; their arguments and results are picklable."""
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from app.files.crease_reading import Creases
 from app.files.import_file import Imported, import_file
 from app.files.robot_archive import unpack_robot
-from app.files.seam_allowance import Line
 from app.jobs.job_kind import Progress
 from app.robot_warnings import warnings_of
 from app.store.packed_plan import PackedPlan
@@ -17,7 +15,6 @@ from app.store.storage_error import storing
 from app.worker.bounded import bounded, one_at_a_time
 from app.worker.process import Caller
 from planner import make_plan
-from planner.cloth.garment import Garment
 from planner.errors import RobotError
 from planner.explain.suggestion_map import PlacementMap, placement_map
 from planner.explain.suggestions import suggestions
@@ -124,20 +121,9 @@ def map_places(caller: Caller, task: Task, step_m: float) -> PlacementMap:
     return placement_map(task, step_m=step_m, should_stop=caller.should_stop)
 
 
-def read_file(
-    _: Caller,
-    filename: str,
-    data: bytes,
-    units: str | None,
-    scale: float,
-    creases: Creases | None,
-    measured: str | None,
-    like: str | Garment | None,
-    line: Line | None,
-    size: str | None,
-) -> Imported:
-    """Read a garment from a file, as `import_file` does."""
-    return import_file(filename, data, units, scale, creases, measured, like, line, size)
+def read_file(_: Caller, filename: str, data: bytes, how: Mapping[str, Any]) -> Imported:
+    """Read a garment from a file, as `import_file` does with some of its arguments."""
+    return import_file(filename, data, **how)
 
 
 READING_BYTES_MAX, READING_CPU_S = 3 << 29, 120

@@ -77,6 +77,7 @@ LIBRARY_HOMES: Mapping[str, tuple[str, ...]] = {
     "pyarrow": ("app.studies", "app.files"),
     "distributed": ("app.studies",),
     "mujoco": ("app.rehearsal.physics", "app.files.mjcf"),
+    "pxr": ("app.files",),
     "fastapi": ("app.api",),
     "fastapi_offline": ("app.api",),
     "starlette": ("app.api", "app.server"),

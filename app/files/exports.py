@@ -124,6 +124,12 @@ def _mjcf(state: DocumentState, _: float, __: ShouldStop) -> bytes:
     return mujoco_scene(plan_in(state))
 
 
+def _usd(state: DocumentState, _: float, should_stop: ShouldStop) -> bytes:
+    from app.files.usd_scene import usd_scene
+
+    return usd_scene(plan_in(state), should_stop)
+
+
 def _lerobot(state: DocumentState, _: float, __: ShouldStop) -> bytes:
     from app.files.lerobot_dataset import lerobot_folder
 
@@ -292,6 +298,16 @@ EXPORTS = (
         no_plan,
         _mjcf,
         is_folder=True,
+    ),
+    Export(
+        "usd",
+        "Animation (USD)",
+        "Robot, table and cloth in motion, the cloth one mesh whose points move, for Isaac Sim, Omniverse and Blender.",
+        ".usd",
+        "model/vnd.usd",
+        no_plan,
+        _usd,
+        needs=("pxr",),
     ),
     Export(
         "lerobot",

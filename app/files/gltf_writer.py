@@ -6,12 +6,14 @@ keyframes. Whatever is given as an array here is in its numbers and its order.
 
 import json
 import struct
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from app.files.scene_animation import Moved
+from app.ui.colours import Rgb, linear
 from planner.geometry.pose import FloatArray
 
 _KINDS: Final = {1: "SCALAR", 3: "VEC3", 4: "VEC4"}
@@ -28,44 +30,29 @@ class GltfWriter:
         self._data = bytearray()
         self._scene: dict[str, Any] = {"name": title, "nodes": []}
         self._animation: dict[str, Any] = {"name": title, "channels": [], "samplers": []}
+        self._times: dict[bytes, int] = {}
         self._lists: dict[str, list[Any]] = {
             name: [] for name in ("accessors", "bufferViews", "materials", "meshes", "nodes")
         }
 
-    def numbers(self, values: FloatArray, *, is_bounded: bool = False) -> int:
-        """Store numbers, shape (n,), (n, 3) or (n, 4), and return their accessor.
-
-        Args:
-            values: the numbers; stored in single precision.
-            is_bounded: whether their least and greatest are told, as glTF asks of positions and of times.
-        """
-        stored = np.ascontiguousarray(values, dtype=np.float32)
-        rows = stored.reshape(len(stored), -1)
-        bounds = {"min": rows.min(axis=0).tolist(), "max": rows.max(axis=0).tolist()} if is_bounded else {}
-        return self._accessor(self._view(stored), _FLOAT, len(rows), _KINDS[rows.shape[1]], **bounds)
-
-    def indices(self, triangles: NDArray[np.int64]) -> int:
-        """Store triangles, shape (n, 3), and return their accessor."""
-        stored = np.ascontiguousarray(triangles.reshape(-1), dtype=np.uint32)
-        view = self._view(stored, target=_ELEMENT_ARRAY_BUFFER)
-        return self._accessor(view, _UNSIGNED_INT, len(stored), "SCALAR")
-
-    def material(self, name: str, rgb: tuple[int, int, int]) -> int:
+    def material(self, name: str, rgb: Rgb) -> int:
         """Add a dull material of a colour (screen values, 0..255) and return it."""
-        screen = np.array(rgb) / 255.0
-        light = np.where(screen <= 0.04045, screen / 12.92, ((screen + 0.055) / 1.055) ** 2.4)
-        factors = {"baseColorFactor": [*light.tolist(), 1.0], "metallicFactor": 0.0, "roughnessFactor": _ROUGHNESS}
+        factors = {"baseColorFactor": [*linear(rgb), 1.0], "metallicFactor": 0.0, "roughnessFactor": _ROUGHNESS}
         return self._add("materials", {"name": name, "pbrMetallicRoughness": factors})
 
-    def mesh(self, parts: Sequence[dict[str, Any]]) -> int:
-        """Add a mesh of parts and return it."""
-        return self._add("meshes", {"primitives": list(parts)})
+    def mesh(
+        self, vertices: FloatArray, triangles: NDArray[np.int64], material: int, normals: FloatArray | None = None
+    ) -> int:
+        """Add a mesh, shapes (n, 3), m, and (m, 3), and return it; without normals it is shaded flat."""
+        attributes = {"POSITION": self._numbers(vertices, is_bounded=True)}
+        if normals is not None:
+            attributes["NORMAL"] = self._numbers(normals)
+        return self._mesh([(attributes, triangles, material)])
 
-    @staticmethod
-    def part(positions: int, indices: int, material: int, normals: int | None = None) -> dict[str, Any]:
-        """Return a part of a mesh; without normals it is shaded flat."""
-        attributes = {"POSITION": positions} | ({} if normals is None else {"NORMAL": normals})
-        return {"attributes": attributes, "indices": indices, "material": material}
+    def two_sided(self, vertices: FloatArray, triangles: NDArray[np.int64], front: int, back: int) -> int:
+        """Add a mesh that is seen from both sides, each in a material of its own, and return it."""
+        attributes = {"POSITION": self._numbers(vertices, is_bounded=True)}
+        return self._mesh([(attributes, triangles, front), (attributes, triangles[:, ::-1], back)])
 
     def node(
         self,
@@ -84,11 +71,16 @@ class GltfWriter:
         above.setdefault("nodes" if parent is None else "children", []).append(added)
         return added
 
-    def animate(self, node: int, path: str, times: int, values: int, interpolation: str = "LINEAR") -> None:
-        """Let a node's `translation`, `rotation` or `scale` go through values at times, given as accessors."""
+    def animate(
+        self, node: int, what: Moved, times_s: FloatArray, values: FloatArray, interpolation: str = "LINEAR"
+    ) -> None:
+        """Let a node's translation (m), rotation (x, y, z, w) or scale go through values, shape (n, 3 or 4)."""
         samplers = self._animation["samplers"]
-        samplers.append({"input": times, "interpolation": interpolation, "output": values})
-        channel = {"sampler": len(samplers) - 1, "target": {"node": node, "path": path}}
+        times = self._times.get(stored := times_s.tobytes())
+        if times is None:
+            times = self._times[stored] = self._numbers(times_s, is_bounded=True)
+        samplers.append({"input": times, "interpolation": interpolation, "output": self._numbers(values)})
+        channel = {"sampler": len(samplers) - 1, "target": {"node": node, "path": what}}
         self._animation["channels"].append(channel)
 
     def file(self) -> bytes:
@@ -108,6 +100,32 @@ class GltfWriter:
             for kind, chunk in ((_JSON, text.ljust(-(-len(text) // 4) * 4)), (_BIN, bytes(self._data)))
         )
         return struct.pack("<III", _MAGIC, _VERSION, 12 + len(chunks)) + chunks
+
+    def _mesh(self, parts: Iterable[tuple[dict[str, int], NDArray[np.int64], int]]) -> int:
+        """Add a mesh of parts: attributes, triangles and material of each."""
+        primitives = [
+            {"attributes": attributes, "indices": self._indices(triangles), "material": material}
+            for attributes, triangles, material in parts
+        ]
+        return self._add("meshes", {"primitives": primitives})
+
+    def _numbers(self, values: FloatArray, *, is_bounded: bool = False) -> int:
+        """Store numbers, shape (n,), (n, 3) or (n, 4), and return their accessor.
+
+        Args:
+            values: the numbers; stored in single precision.
+            is_bounded: whether their least and greatest are told, as glTF asks of positions and of times.
+        """
+        stored = np.ascontiguousarray(values, dtype=np.float32)
+        rows = stored.reshape(len(stored), -1)
+        bounds = {"min": rows.min(axis=0).tolist(), "max": rows.max(axis=0).tolist()} if is_bounded else {}
+        return self._accessor(self._view(stored), _FLOAT, len(rows), _KINDS[rows.shape[1]], **bounds)
+
+    def _indices(self, triangles: NDArray[np.int64]) -> int:
+        """Store triangles, shape (n, 3), and return their accessor."""
+        stored = np.ascontiguousarray(triangles.reshape(-1), dtype=np.uint32)
+        view = self._view(stored, target=_ELEMENT_ARRAY_BUFFER)
+        return self._accessor(view, _UNSIGNED_INT, len(stored), "SCALAR")
 
     def _view(self, stored: NDArray[np.float32] | NDArray[np.uint32], **target: int) -> int:
         """Append numbers, which all have four bytes, so that each view is aligned."""

@@ -19,7 +19,8 @@ _MACROS = re.compile(r"<xacro:(?!arg|property)|\$[({]")
 _LEVELS = 4
 """How many folders above a description its packages and meshes are looked for."""
 
-_FILENAME = re.compile(r"(?<=filename=)(\"[^\"]*\"|'[^']*')")
+_MESH = re.compile(r"""(<mesh\s[^>]*?\bfilename=)("[^"]*"|'[^']*')""")
+"""A mesh and its file's name; plugins and textures have files too, which nothing here needs."""
 
 
 def robot_description(path: Path, folder: Path) -> Source:
@@ -44,11 +45,11 @@ def robot_description(path: Path, folder: Path) -> Source:
     text = _expanded(path, tops) if is_xacro else text
     if re.search(r"<mujoco[\s>]", text):
         return Source(urdf_of_mjcf(path, folder), folder)
-    root = _root(path.parent, tops, [name.strip("\"'") for name in _FILENAME.findall(text)])
+    root = _root(path.parent, tops, [name.strip("\"'") for _, name in _MESH.findall(text)])
     if not is_xacro:
         return Source(path, root)
     urdf = folder / f"{path.name.removesuffix(_XACRO).removesuffix('.urdf')}.urdf"
-    urdf.write_text(_FILENAME.sub(lambda found: _below(root, path.parent, found[0]), text), encoding="utf-8")
+    urdf.write_text(_MESH.sub(lambda found: found[1] + _below(root, path.parent, found[2]), text), encoding="utf-8")
     return Source(urdf, root)
 
 

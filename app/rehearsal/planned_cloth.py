@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from planner.cloth.layer import Layer
+from planner.cloth.layer import Layer, nearest_layers
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.pose import FloatArray, Point2, Pose2
 from planner.geometry.region import Region
@@ -39,8 +39,7 @@ def planned_positions(
 
 def layer_numbers(sequence: FoldSequence, pattern: FloatArray, done: int) -> NDArray[np.int64]:
     """Return the layer to which each point belongs, 0 at the bottom, shape (n,)."""
-    layers = sequence.cloth(done).layers
-    return np.asarray(np.argmin([layer.pattern_piece.distances_to(pattern) for layer in layers], axis=0))
+    return nearest_layers(sequence.cloth(done).layers, pattern)
 
 
 def creases(layer: Layer, pattern: Region) -> Iterator[Segment]:

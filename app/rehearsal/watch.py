@@ -118,6 +118,7 @@ class Watch:
     def _clear_look(self, plan: Plan, step: PlanStep, ought: WorldState, made: int) -> Sight | None:
         """Look, unless nothing has moved since, and again with the arms out of the way where that does not tell."""
         latest, is_clear = self._latest, False
+        sight: Sight | None
         if latest is not None and latest.ought == ought:
             sight, is_clear = latest.sight, latest.is_clear
         else:

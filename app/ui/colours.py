@@ -18,6 +18,16 @@ def rgb(code: str) -> Rgb:
     return red, green, blue
 
 
+def linear(colour: Rgb) -> tuple[float, float, float]:
+    """Return a colour of a screen as shares of light, 0..1."""
+    red, green, blue = (part / 255.0 for part in colour)
+    return _light(red), _light(green), _light(blue)
+
+
+def _light(part: float) -> float:
+    return part / 12.92 if part <= 0.04045 else float(((part + 0.055) / 1.055) ** 2.4)
+
+
 @dataclass(frozen=True, slots=True)
 class Palette:
     """The colour of each thing in the 3D view."""
@@ -36,7 +46,6 @@ class Palette:
     floor: Rgb = rgb("B4B9BF")
     floor_cell: Rgb = rgb("C6C9CD")
     floor_section: Rgb = rgb("CFD2D5")
-    station: Rgb = rgb("8A8F98")
     route: Rgb = rgb("4A525D")
     grip: Rgb = rgb("202226")
     robot_light: Rgb = rgb("E6E8EA")
@@ -59,7 +68,6 @@ DARK = Palette(
     floor=rgb("202329"),
     floor_cell=rgb("30343B"),
     floor_section=rgb("3A3F47"),
-    station=rgb("5C626C"),
     route=rgb("B6BCC6"),
     grip=rgb("E8E8E4"),
     robot_light=rgb("A4A9B0"),

@@ -1,7 +1,11 @@
 """A layer: one piece of the pattern, and the isometry by which folding has carried it."""
 
+from collections.abc import Sequence
 from functools import cached_property
 from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray, Point2
@@ -75,3 +79,8 @@ class Layer:
     def to_dict(self) -> dict[str, Any]:
         """Return the layer as JSON: its polygon in the article frame and the face that looks up."""
         return {"polygon": [[float(x), float(y)] for x, y in self.ring], "face": self.face}
+
+
+def nearest_layers(layers: Sequence[Layer], pattern: FloatArray) -> NDArray[np.int64]:
+    """Return which of the layers each point of the pattern, shape (n, 2), m, belongs to, shape (n,)."""
+    return np.asarray(np.argmin([layer.pattern_piece.distances_to(pattern) for layer in layers], axis=0))

@@ -8,6 +8,7 @@ cloth keeps its lengths, so it ends between the fingertips, below the tool frame
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,8 +25,33 @@ from planner.geometry.triangles import creased, parted
 from planner.motion.sample import ClothSurface
 from planner.task.phase import ClothMotion
 
-_Seen = tuple[int, int | None, float, Pose2, TableTop, float]
-"""The key of a shape of the cloth: folds done, current fold, its sweep, placement, table top, droop."""
+
+class ClothMoment(NamedTuple):
+    """What the shape of the cloth depends on at one time.
+
+    Attributes:
+        done: the folds done, as a bit mask.
+        fold: the fold in progress; None if no cloth is lifted.
+        sweep: its sweep, from 0 to 2 (`FoldPath.swept`).
+        placement: the article frame in the table frame.
+        top: the table top over which cloth does not hang.
+        droop: how far cloth beyond its edges has turned down: 0 level, 1 hanging.
+    """
+
+    done: int
+    fold: int | None
+    sweep: float
+    placement: Pose2
+    top: TableTop
+    droop: float
+
+    @staticmethod
+    def of(motion: ClothMotion, fraction: float, droop: float) -> "ClothMoment":
+        """Return the moment a fraction of the way through a phase's motion."""
+        first, last = motion.sweep
+        sweep = 0.0 if motion.fold is None else max(first + fraction * (last - first), 0.0)
+        fold = motion.fold if sweep > 0.0 else None
+        return ClothMoment(motion.done, fold, sweep, motion.start.between(motion.end, fraction), motion.top, droop)
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,11 +62,13 @@ class _Pieces:
         triangles: article frame, counter-clockwise, shape (n, 3, 2), m.
         numbers: the layer of each, shape (n,).
         is_back: whether it shows its back, shape (n,).
+        to_pattern: the map of each to the pattern, shape (n, 2, 3): a matrix and what is added (m).
     """
 
     triangles: FloatArray
     numbers: NDArray[np.int64]
     is_back: BoolArray
+    to_pattern: FloatArray
 
     @staticmethod
     def of(layers: Sequence[Layer], numbers: Sequence[int]) -> "_Pieces":
@@ -49,11 +77,13 @@ class _Pieces:
         counts = [len(mesh) for mesh in meshes]
         is_back = np.repeat(np.array([layer.face == "back" for layer in layers], dtype=np.bool_), counts)
         triangles = np.concatenate([np.empty((0, 3, 2)), *meshes])
-        return _Pieces(triangles, np.repeat(np.array(numbers, dtype=np.int64), counts), is_back)
+        maps = np.array([layer.isometry.inverse.matrix for layer in layers]).reshape(-1, 2, 3)
+        numbered = np.repeat(np.array(numbers, dtype=np.int64), counts)
+        return _Pieces(triangles, numbered, is_back, np.repeat(maps, counts, axis=0))
 
     def parts(self, triangles: FloatArray, sources: NDArray[np.int64]) -> "_Pieces":
         """Return triangles cut from these; `sources` are the indices of the originals."""
-        return _Pieces(triangles, self.numbers[sources], self.is_back[sources])
+        return _Pieces(triangles, self.numbers[sources], self.is_back[sources], self.to_pattern[sources])
 
     def parted(self, line: Segment) -> tuple["_Pieces", "_Pieces"]:
         """Return the parts to the left and to the right of the infinite line through a segment."""
@@ -62,7 +92,16 @@ class _Pieces:
 
     def turned(self, line: Segment) -> "_Pieces":
         """Return the pieces turned over a line; each keeps its number."""
-        return _Pieces(Isometry.reflection(line).apply(self.triangles)[:, ::-1], self.numbers, ~self.is_back)
+        over = Isometry.reflection(line)
+        to_pattern = self.to_pattern[..., :2] @ over.matrix
+        to_pattern[..., 2] += self.to_pattern[..., 2]
+        return _Pieces(over.apply(self.triangles)[:, ::-1], self.numbers, ~self.is_back, to_pattern)
+
+    @property
+    def pattern(self) -> FloatArray:
+        """The corners in the pattern, shape (n, 3, 2), m."""
+        turned = self.triangles @ self.to_pattern[..., :2].transpose(0, 2, 1)
+        return np.asarray(turned + self.to_pattern[:, None, :, 2])
 
 
 @dataclass(slots=True)
@@ -82,6 +121,7 @@ class _Mesh:
     layer_m: float
     corners: list[FloatArray] = field(default_factory=list)
     unrolled: list[FloatArray] = field(default_factory=list)
+    pattern: list[FloatArray] = field(default_factory=list)
     layers: list[NDArray[np.int64]] = field(default_factory=list)
 
     def lay(self, pieces: _Pieces) -> None:
@@ -109,15 +149,15 @@ class _Mesh:
 
     def _add(self, pieces: _Pieces, corners: FloatArray, unrolled: FloatArray) -> None:
         """Add triangles, shape (n, 3, 3), and their unrolled positions; turn over those that show their backs."""
-        for kept, points in ((self.corners, corners), (self.unrolled, unrolled)):
+        for kept, points in ((self.corners, corners), (self.unrolled, unrolled), (self.pattern, pieces.pattern)):
             kept.append(np.where(pieces.is_back[:, None, None], points[:, ::-1], points))
         self.layers.append(pieces.numbers)
 
     def surface(self) -> ClothSurface:
         vertices = np.concatenate(self.corners).reshape(-1, 3)
         triangles = np.arange(len(vertices), dtype=np.int64).reshape(-1, 3)
-        unrolled = np.concatenate(self.unrolled).reshape(-1, 3)
-        return ClothSurface(vertices, triangles, np.concatenate(self.layers), unrolled)
+        unrolled, pattern = np.concatenate(self.unrolled).reshape(-1, 3), np.concatenate(self.pattern).reshape(-1, 2)
+        return ClothSurface(vertices, triangles, np.concatenate(self.layers), unrolled, pattern)
 
 
 class ClothSurfaces:
@@ -125,31 +165,23 @@ class ClothSurfaces:
 
     def __init__(self, sequence: FoldSequence) -> None:
         self._sequence = sequence
-        self._last: tuple[_Seen, ClothSurface] | None = None
+        self._last: tuple[ClothMoment, ClothSurface] | None = None
 
-    def at(self, motion: ClothMotion, fraction: float, droop: float = 1.0) -> ClothSurface:
-        """Return the cloth a fraction of the way through a phase's motion; `droop` as in `draped`.
-
-        While no part of it moves, the result is the same object.
-        """
-        first, last = motion.sweep
-        sweep = 0.0 if motion.fold is None else max(first + fraction * (last - first), 0.0)
-        fold = motion.fold if sweep > 0.0 else None
-        seen = (motion.done, fold, sweep, motion.start.between(motion.end, fraction), motion.top, droop)
+    def at(self, moment: ClothMoment) -> ClothSurface:
+        """Return the cloth at a moment; while no part of it moves, the result is the same object."""
         known = self._last
-        if known is None or known[0] != seen:
-            self._last = known = (seen, self._surface(*seen))
+        if known is None or known[0] != moment:
+            self._last = known = (moment, self._surface(moment))
         return known[1]
 
-    def _surface(
-        self, done: int, fold: int | None, sweep: float, placement: Pose2, top: TableTop, droop: float
-    ) -> ClothSurface:
-        mesh = _Mesh(placement, top, droop, self._sequence.garment.layer_m)
+    def _surface(self, moment: ClothMoment) -> ClothSurface:
+        done, fold = moment.done, moment.fold
+        mesh = _Mesh(moment.placement, moment.top, moment.droop, self._sequence.garment.layer_m)
         if fold is None:
             layers = self._sequence.cloth(done).layers
             mesh.lay(_Pieces.of(layers, range(len(layers))))
         else:
-            self._fold(mesh, done, fold, sweep)
+            self._fold(mesh, done, fold, moment.sweep)
         return mesh.surface()
 
     def _fold(self, mesh: _Mesh, done: int, fold: int, sweep: float) -> None:
@@ -163,7 +195,7 @@ class ClothSurfaces:
         standing, lying = moving.parted(_baseline(line, depth * abs(1.0 - sweep)))
         mesh.lay(_Pieces.of(folded.cloth.layers[:staying], range(staying)))
         mesh.lay(lying.turned(line) if is_falling else lying)
-        mesh.erect(standing, FoldPath(_placed(line, mesh.placement), depth, mesh.top, mesh.top), sweep)
+        mesh.erect(standing, FoldPath(placed(line, mesh.placement), depth, mesh.top, mesh.top), sweep)
 
 
 def _baseline(line: Segment, distance: float) -> Segment:
@@ -173,6 +205,7 @@ def _baseline(line: Segment, distance: float) -> Segment:
     return Segment((ax + distance * nx, ay + distance * ny), (bx + distance * nx, by + distance * ny))
 
 
-def _placed(line: Segment, placement: Pose2) -> Segment:
+def placed(line: Segment, placement: Pose2) -> Segment:
+    """Return a segment of the article frame in the table frame."""
     start, end = placement.to_outer(np.array([line.start, line.end])).tolist()
     return Segment(tuple(start), tuple(end))

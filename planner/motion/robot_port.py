@@ -30,8 +30,8 @@ class Collisions(Together, Hashable, Protocol):
     Bases are poses of the table frame: one for all, or x (m), y (m), yaw (rad) of each, shape (n, 3).
     """
 
-    def free(self, bases: Pose2 | FloatArray, joints: FloatArray) -> BoolArray:
-        """Return at which configurations nothing touches, shape (n,)."""
+    def free_until(self, bases: Pose2 | FloatArray, joints: FloatArray) -> int:
+        """Return the number of configurations before the first one at which something touches."""
         ...
 
     def are_all_free(self, bases: Pose2 | FloatArray, joints: FloatArray) -> bool:

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from planner.errors import RequestError, UnsolvedPlanError
 from planner.geometry.pose import Pose2
 from planner.geometry.tolerance import TIME_S
-from planner.motion.cloth_surface import ClothSurfaces
+from planner.motion.cloth_surface import ClothMoment, ClothSurfaces
 from planner.motion.sample import Sample
 from planner.task.plan import Plan
 from planner.task.trajectory import Trajectory
@@ -54,9 +54,7 @@ class Timeline:
         """Return the sample at a time (s); times before the start or after the end give the first or last sample."""
         path = self.trajectory
         t = min(max(t_s, 0.0), self.duration_s)
-        number = path.index_at(t)
-        segment = path.segments[number]
-        cloth = segment.phase.cloth
+        segment = path.segment_at(t)
         return Sample(
             t,
             segment.step,
@@ -66,9 +64,15 @@ class Timeline:
             path.velocities_at(t),
             {track.arm: track.opening_at(t) for track in path.grippers},
             segment.placement_at(t),
-            self._surfaces.at(cloth, segment.fraction_at(t), self._droop(number, t)),
-            cloth.top,
+            self._surfaces.at(self.cloth_at(t)),
+            segment.phase.cloth.top,
         )
+
+    def cloth_at(self, t_s: float) -> ClothMoment:
+        """Return what the shape of the cloth depends on at a time of the plan (s)."""
+        number = self.trajectory.index_at(t_s)
+        segment = self.trajectory.segments[number]
+        return ClothMoment.of(segment.phase.cloth, segment.fraction_at(t_s), self._droop(number, t_s))
 
     def base_at(self, t_s: float) -> Pose2:
         """Return the base's pose at a time, table frame: as in the sample of that time, but cheaper."""

@@ -40,6 +40,9 @@ _EASY_SWING_M, _SWING_EFFORT_PER_M = 0.4, 2.0
 _EDGE_MIN_M, _EDGES_MAX = 0.08, 6
 """The shortest edge that is folded onto another (m), and the most edges that are, the longest ones."""
 
+_ROLL_MIN_M = 0.05
+"""The narrowest turns of a roll (m)."""
+
 SLANTED = 2
 """The axis of moves whose lines are not along the axes."""
 
@@ -111,6 +114,17 @@ def inward_moves(bounds: Bounds, sides_m: Iterable[float]) -> Iterator[Move]:
             if cut < extent / 2 - SNAP_M:
                 yield move("side", 1.5, "side", (low + cut, True))
                 yield move("side", 1.5, "side", (high - cut, False))
+
+
+def roll_moves(bounds: Bounds) -> Iterator[tuple[float, Move]]:
+    """Yield how wide a roll is (m) and the move that rolls up a silhouette, from its bounds: turns of one width."""
+    for axis in (0, 1):
+        low, extent = bounds[axis], bounds[axis + 2] - bounds[axis]
+        for parts in range(3, int(extent / _ROLL_MIN_M) + 1):
+            width = extent / parts
+            turns = [low + width * number for number in range(1, parts)]
+            for places in ([(turn, True) for turn in turns], [(turn, False) for turn in reversed(turns)]):
+                yield width, _across(bounds, axis, f"roll of {parts}", 1.0, "roll", *places)
 
 
 def flap_moves(silhouette: Region) -> Iterator[Move]:

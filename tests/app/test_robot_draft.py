@@ -86,6 +86,7 @@ def test_an_archive_in_ros_layout_is_drafted_with_its_meshes(tmp_path: Path) -> 
         '<link name="plate"><visual><geometry><mesh filename="package://one_description/meshes/Plate.stl"/></geometry>'
         "</visual>",
     )
+    urdf = urdf.replace("</robot>", '<gazebo><plugin filename="libcontrol.so"/></gazebo></robot>')  # is no mesh
     packed = io.BytesIO()
     with zipfile.ZipFile(packed, "w") as archive:
         archive.writestr("one_description/urdf/one.urdf", urdf)

@@ -283,12 +283,13 @@ class RemadeCollisions:
     def are_some_apart(self, arms: tuple[int, int], first: FloatArray, second: FloatArray) -> bool:
         return bool(self.postures_apart(arms, first, second).any())
 
-    def free(self, bases: Pose2 | FloatArray, joints: FloatArray) -> BoolArray:
+    def free_until(self, bases: Pose2 | FloatArray, joints: FloatArray) -> int:
         alone = [self.arm_free(arm, bases, joints[:, self._layout.spans[arm]]) for arm in self._layout.arms]
-        return np.asarray(np.all([*alone, self.arms_apart(tuple(self._layout.arms), joints)], axis=0))
+        are_free = np.all([*alone, self.arms_apart(tuple(self._layout.arms), joints)], axis=0)
+        return int(np.append(are_free, False).argmin())
 
     def are_all_free(self, bases: Pose2 | FloatArray, joints: FloatArray) -> bool:
-        return bool(self.free(bases, joints).all())
+        return self.free_until(bases, joints) == len(joints)
 
     def over_cloth(self, pieces: Sequence[FloatArray], over_m: float) -> RemadeClearance:
         return RemadeClearance(self._arms, self._real.over_cloth(pieces, over_m))

@@ -148,6 +148,7 @@ def test_a_posture_is_answered_alike_alone_and_among_others() -> None:
     alone = [bool(COLLISIONS.free(FRONT, posture[None])[0]) for posture in postures]
     assert COLLISIONS.free(FRONT, postures).tolist() == alone
     assert len(set(alone)) == 2
+    assert COLLISIONS.free_until(FRONT, postures) == alone.index(False)
     assert COLLISIONS.free(FRONT, postures[:0]).shape == (0,)
 
 
@@ -184,6 +185,7 @@ def test_each_posture_may_have_a_base_of_its_own() -> None:
         bool(COLLISIONS.free(Pose2(*base), posture[None])[0]) for base, posture in zip(bases, postures, strict=True)
     ]
     assert COLLISIONS.free(bases, postures).tolist() == alone
+    assert COLLISIONS.free_until(bases[alone], postures[alone]) == sum(alone)
     assert len(set(alone)) == 2
 
 

@@ -48,9 +48,9 @@ def first_edges(
     cloth = colours[:, shares * length_m <= _START_M]
     middle = np.median(cloth.reshape(-1, 3), axis=0)
     spread = 1.4826 * float(np.median(np.linalg.norm(cloth - middle, axis=2)))
-    differs = np.linalg.norm(colours - middle, axis=2) > max(_LEAST, _SPREADS * spread)
+    differs = np.asarray(np.linalg.norm(colours - middle, axis=2) > max(_LEAST, _SPREADS * spread))
     count = max(1, round(_FOR_GOOD_M / _STEP_M))
-    changed = np.lib.stride_tricks.sliding_window_view(differs | is_hidden, count, axis=1).all(axis=2)
+    changed = np.asarray(np.lib.stride_tricks.sliding_window_view(differs | is_hidden, count, axis=1).all(axis=2))
     first = changed.argmax(axis=1)
     rows = np.arange(len(first))
     is_seen = changed[rows, first] & ~is_hidden[rows, first]

@@ -92,8 +92,29 @@ class Bodies:
             stands = stands if len(stands) == 1 else stands[apart]
             asked, joints, start = asked[apart], joints[apart], close[apart] + 1
 
+    def free_until(self, pairs: Pairs, bases: Pose2 | FloatArray, joints: FloatArray, arms: Index) -> int:
+        """Return the number of postures before the first one in which some pair touches; see `are_free`."""
+        stands, first, start = rows(bases), 0, np.zeros(len(joints), dtype=np.int64)
+        while True:
+            close, places = self.first_close(pairs, stands, joints[first:], arms, start, is_one_enough=True)
+            at = int((close >= 0).argmax()) if len(close) else 0
+            if not len(close) or close[at] < 0:
+                return len(joints)
+            if self._touch(pairs, int(close[at]), places[at]):
+                return first + at
+            first, start = first + at, start[at:]
+            stands = stands if len(stands) == 1 else stands[at:]
+            start[0] = close[at] + 1
+
     def first_close(
-        self, pairs: Pairs, bases: FloatArray, joints: FloatArray, arms: Index, start: Index
+        self,
+        pairs: Pairs,
+        bases: FloatArray,
+        joints: FloatArray,
+        arms: Index,
+        start: Index,
+        *,
+        is_one_enough: bool = False,
     ) -> tuple[Index, FloatArray]:
         """Return for every posture the first pair from a start that is not certainly apart; see `first_close`."""
         return first_close(
@@ -108,6 +129,7 @@ class Bodies:
             self.places,
             start,
             pairs.margins,
+            is_one_enough,
         )
 
     def depth_m(self, pairs: Pairs, pair: int, poses: FloatArray) -> float:

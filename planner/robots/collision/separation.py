@@ -150,6 +150,7 @@ def first_close(
     tables: FloatArray,
     start: Index,
     margins: FloatArray,
+    is_one_enough: bool,
 ) -> tuple[Index, FloatArray]:
     """Return for every posture the first pair, from a start, that is not certainly apart.
 
@@ -166,12 +167,13 @@ def first_close(
             shape (t, 3).
         start: the pair with which to start, shape (n,).
         margins: the distance that each pair should keep (m), shape (q,).
+        is_one_enough: stop at the first posture with such a pair; those after it get -1.
 
     Returns:
         The pair, -1 if all are apart, shape (n,); and the poses of its two parts, shape (n, 2, 5, 3).
     """
     corners, spans, bounds, _ = parts
-    found, places = np.empty(len(joints), dtype=np.int64), np.empty((len(joints), 2, 5, 3))
+    found, places = np.full(len(joints), -1, dtype=np.int64), np.empty((len(joints), 2, 5, 3))
     first = len(poses) - len(tables)
     poses = poses.copy()
     before, gone, apart_until = poses.copy(), np.zeros(len(poses)), np.zeros(len(pairs))
@@ -183,7 +185,6 @@ def first_close(
         _pose_arms(kinematics, lift_m, parts, arms, joints[i], poses)
         for arm in arms:
             _add_ways(bounds, before, poses, gone, parts.arms[arm, FIRST], parts.arms[arm, END])
-        found[i] = -1
         for pair in range(start[i], len(pairs)):
             a, b = pairs[pair, 0], pairs[pair, 1]
             if gone[a] + gone[b] < apart_until[pair]:
@@ -196,4 +197,6 @@ def first_close(
         if found[i] >= 0:
             for side in range(2):
                 places[i, side] = poses[pairs[found[i], side]]
+            if is_one_enough:
+                break
     return found, places

@@ -9,12 +9,12 @@ import { openDialog, OFFLINE, sentenceOf } from "./dialog.js";
 /** @import { Store } from "../store.js" */
 
 /** Files that take a while to be made. */
-const SLOW = new Set(["recording.html", "mp4", "gif", "picture.png", "mcap", "rosbag2", "glb", "mjcf", "lerobot"]);
+const SLOW = new Set(["recording.html", "mp4", "gif", "picture.png", "mcap", "rosbag2", "glb", "mjcf", "usd", "lerobot"]);
 
 /** What files are for; what is in no group is to be opened again. @type {Record<string, Set<string>>} */
 const GROUPS = {
   look: new Set(["sheet.pdf", "sheet.svg", "recording.html", "mp4", "gif", "picture.png", "glb"]),
-  robot: new Set(["mcap", "rosbag2", "mjcf", "lerobot", "poses.json", "poses.yaml", "plan.csv"]),
+  robot: new Set(["mcap", "rosbag2", "mjcf", "usd", "lerobot", "poses.json", "poses.yaml", "plan.csv"]),
 };
 const TITLES = { look: say("export.group.look"), robot: say("export.group.robot"), open: say("export.group.open") };
 

@@ -4,7 +4,7 @@ from typing import Any
 import httpx
 import pytest
 
-from app.distribution import installing, is_installed
+from app.distribution import Extra, installing, is_installed
 from planner import Plan, load_garment
 from tests.app.document_requests import planned
 from tests.app.samples import towel
@@ -30,8 +30,12 @@ FILES = [
     "poses.yaml",
     "glb",
     "mjcf",
+    "usd",
     "lerobot",
 ]
+OPTIONAL: dict[str, tuple[str, str, Extra]] = {"mp4": ("av", "PyAV", "video"), "usd": ("pxr", "usd-core", "usd")}
+"""The module, library and extra of the files that few installations make."""
+
 SVG = (
     b'<svg xmlns="http://www.w3.org/2000/svg" width="40cm" height="30cm" viewBox="0 0 40 30">'
     b'<rect width="40" height="30"/><line x1="40" y1="15" x2="0" y2="15" stroke="blue"/></svg>'
@@ -134,8 +138,10 @@ async def test_all_files_of_a_planned_document_can_be_saved(client: httpx.AsyncC
     entries = (await client.get(f"/api/documents/{document_id}/files")).json()
     assert [entry["what"] for entry in entries] == FILES
     for entry in entries:
-        if entry["what"] == "mp4" and not is_installed("av"):
-            says = {"code": "library_missing", "library": "PyAV", "install": installing("video")}
+        optional = OPTIONAL.get(entry["what"])
+        if optional and not is_installed(optional[0]):
+            _, library, extra = optional
+            says = {"code": "library_missing", "library": library, "install": installing(extra)}
             assert (entry["available"], entry["says"]) == (False, says)
             continue
         assert (entry["available"], entry["reason"]) == (True, None)
@@ -225,20 +231,25 @@ async def test_the_size_of_a_graded_pattern_can_be_chosen(client: httpx.AsyncCli
     assert problem["errors"][0]["says"]["sizes"] == ["S", "M", "L"]
 
 
-@pytest.mark.parametrize(
-    ("content", "code", "told"),
-    [
-        ({"pattern": {"panels": {"front": {}, "back": {}}}, "parameters": {}}, "pattern_specification", "GarmentCode"),
-        ({"file_spec": 1.2, "vertices_coords": [], "edges_vertices": []}, "fold_file", "FOLD"),
-        ({"pleat_robot": 1, "name": "bench"}, "robot_card_file", "robot"),
-    ],
-)
-async def test_a_json_file_of_another_kind_is_said_to_be_that(
-    client: httpx.AsyncClient, content: dict[str, Any], code: str, told: str
-) -> None:
-    problem = assert_problem(await imported(client, json.dumps(content).encode(), filename="a.json"), 422)
+async def test_a_piece_of_a_pattern_can_be_chosen(client: httpx.AsyncClient) -> None:
+    rects = '<rect id="back" width="40" height="30"/><rect id="pocket" x="45" width="12" height="10"/>'
+    data = (
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="60cm" height="40cm" viewBox="0 0 60 40">{rects}</svg>'.encode()
+    )
+    answer = (await imported(client, data, filename="back.svg")).json()
+    assert answer["pieces"] == {"piece": "back", "pieces": ["back", "pocket"]}
+    assert {"code": "pieces", "piece": "back", "pieces": ["back", "pocket"]} in answer["says"]
+    pocket = (await imported(client, data, filename="back.svg", piece="pocket")).json()
+    assert pocket["sizes"]["cm"] == pytest.approx([0.12, 0.1])
+    problem = assert_problem(await imported(client, data, filename="back.svg", piece="front"), 422)
+    assert problem["errors"][0]["field"] == "piece" and "back, pocket" in problem["errors"][0]["message"]
+
+
+async def test_the_card_of_a_robot_is_said_to_be_that(client: httpx.AsyncClient) -> None:
+    content = json.dumps({"pleat_robot": 1, "name": "bench"}).encode()
+    problem = assert_problem(await imported(client, content, filename="a.json"), 422)
     (error,) = problem["errors"]
-    assert error["field"] == "file" and told in error["message"] and error["says"]["code"] == code
+    assert error["field"] == "file" and "robot" in error["message"] and error["says"]["code"] == "robot_card_file"
 
 
 async def test_without_a_plan_there_is_its_reason_but_no_table_and_no_recording(client: httpx.AsyncClient) -> None:
