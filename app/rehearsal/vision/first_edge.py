@@ -44,7 +44,7 @@ def first_edges(
     pixels = camera.pixels(flat).astype(np.float32).reshape(*points.shape[:2], 2)
     across, down = pixels[..., 0], pixels[..., 1]
     colours = cv2.remap(image, across, down, cv2.INTER_LINEAR).astype(np.float64)
-    is_hidden = cv2.remap(hidden.astype(np.uint8), across, down, cv2.INTER_NEAREST, borderValue=1) > 0
+    is_hidden = np.asarray(cv2.remap(hidden.astype(np.uint8), across, down, cv2.INTER_NEAREST, borderValue=1)) > 0
     cloth = colours[:, shares * length_m <= _START_M]
     middle = np.median(cloth.reshape(-1, 3), axis=0)
     spread = 1.4826 * float(np.median(np.linalg.norm(cloth - middle, axis=2)))
