@@ -124,7 +124,7 @@ def _rest_rows() -> list[Row]:
 
         took_ms([REST_ARTICLE])
         again_ms, new_ms = (took_ms(some) / _REST_TIMES for some in ([REST_ARTICLE] * _REST_TIMES, new))
-        nine_ms = took_ms(TABLE_2)
+        nine_ms = took_ms(list(TABLE_2))
     return [
         _row(f"{REST_ARTICLE} by REST, planned before", REST_AGAIN_MS, again_ms),
         _row(f"{REST_ARTICLE} by REST, new", REST_NEW_MS, new_ms),
