@@ -23,7 +23,7 @@ import { OFFLINE, openDialog, sentenceOf } from "./dialog.js";
  */
 
 const DEGREES = 180 / Math.PI;
-const BASES = ["fixed", "omni", "differential"];
+const BASES = /** @type {const} */ (["fixed", "omni", "differential"]);
 
 /** @param {Store} store @param {string} name the robot's @param {Draft} draft */
 export async function showMyRobot(store, name, draft) {
