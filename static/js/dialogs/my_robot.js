@@ -23,7 +23,7 @@ import { OFFLINE, openDialog, sentenceOf } from "./dialog.js";
  */
 
 const DEGREES = 180 / Math.PI;
-const BASES = ["fixed", "omni", "differential"];
+const BASES = /** @type {const} */ (["fixed", "omni", "differential"]);
 
 /** @param {Store} store @param {string} name the robot's @param {Draft} draft */
 export async function showMyRobot(store, name, draft) {
@@ -98,8 +98,9 @@ class MyRobot {
     const input = field(numbers.map((one) => (isLength ? number(one) : numeral(one * DEGREES, 1))).join("; "));
     input.addEventListener("change", () => {
       const read = input.value.split(";").map((text) => inMetresOrRadians(text, isLength));
-      if (read.length === numbers.length && !read.includes(null)) return this.change(path, Array.isArray(value) ? read : read[0]);
-      this.problem.textContent = say("length.no_number", { text: input.value });
+      const isRead = read.length === numbers.length && !read.includes(null);
+      if (isRead) void this.change(path, Array.isArray(value) ? read : read[0]);
+      else this.problem.textContent = say("length.no_number", { text: input.value });
     });
     return labelled(isLength ? `${label} (${unit.name})` : `${label} (°)`, input);
   }
@@ -113,6 +114,7 @@ class MyRobot {
   }
 
   async save() {
+    /** @type {Card} */
     const card = { ...structuredClone(this.card), title: this.title };
     for (const [path, value] of this.changes) put(card, path, value);
     const headers = { "content-type": "application/json" };
