@@ -98,9 +98,9 @@ class MyRobot {
     const input = field(numbers.map((one) => (isLength ? number(one) : numeral(one * DEGREES, 1))).join("; "));
     input.addEventListener("change", () => {
       const read = input.value.split(";").map((text) => inMetresOrRadians(text, isLength));
-      if (read.length !== numbers.length || read.includes(null))
-        this.problem.textContent = say("length.no_number", { text: input.value });
-      else this.change(path, Array.isArray(value) ? read : read[0]);
+      const isRead = read.length === numbers.length && !read.includes(null);
+      if (isRead) void this.change(path, Array.isArray(value) ? read : read[0]);
+      else this.problem.textContent = say("length.no_number", { text: input.value });
     });
     return labelled(isLength ? `${label} (${unit.name})` : `${label} (°)`, input);
   }
