@@ -7,7 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from app.files.import_file import Imported, import_file
-from app.files.robot_archive import unpack_robot
+from app.files.robot_archive import has_card, unpack_robot
+from app.files.robot_draft import drafted_alone
 from app.jobs.job_kind import Progress
 from app.robot_warnings import warnings_of
 from app.store.packed_plan import PackedPlan
@@ -24,6 +25,7 @@ from planner.robots.collision.described_parts import described_parts
 from planner.robots.collision.link_shapes import require_shown
 from planner.robots.described_robot import DescribedRobot
 from planner.robots.described_robot import read_robot as read_known
+from planner.robots.drafting.draft import Draft
 from planner.robots.known_robots import read_card, robot_names
 from planner.robots.own_robots import CARD
 from planner.task.plan import Plan
@@ -150,14 +152,31 @@ def read_archive(folder: Path) -> tuple[Path, CardFile]:
     return unpacked, _read_robot(unpacked, data)
 
 
+@dataclass(frozen=True, slots=True)
+class Described:
+    """A file that describes a robot, with or without a card."""
+
+    filename: str
+    data: bytes
+
+
 def robot_warnings(_: Caller, name: str) -> list[dict[str, Any]]:
     """Return the warnings about the card of a robot that is known by its name."""
     return warnings_of(read_known(name))
 
 
-def read_robot(_: Caller, folder: Path, given: bytes | CardFile) -> CardFile:
-    """Return a robot's card once all that it names is there, as `_read_robot` does."""
-    return _read_robot(folder, given)
+def read_robot(_: Caller, folder: Path, given: bytes | Described | CardFile) -> tuple[CardFile, Draft | None]:
+    """Return a robot's card once all that it names is there, as `_read_robot` does, and what was drafted for it.
+
+    It is the card of an archive, or else one drafted of a file.
+    """
+    if not isinstance(given, Described):
+        return _read_robot(folder, given), None
+    if has_card(given.data):
+        return _read_robot(folder, given.data), None
+    with storing("the robot could not be saved"), bounded(READING_BYTES_MAX, READING_CPU_S):
+        draft = drafted_alone(given.filename, given.data, folder)
+    return _read_robot(folder, draft.card), draft
 
 
 def _read_robot(folder: Path, given: bytes | CardFile) -> CardFile:

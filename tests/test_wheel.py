@@ -8,8 +8,10 @@ from pathlib import Path
 
 import httpx
 import pytest
+from playwright.sync_api import expect, sync_playwright
 
 from app.distribution import NAME, installing
+from tests.browser.conftest import FLAT, NO_VIEW, PATIENCE_MS
 from tests.patience import PATIENCE_S
 from tests.test_deploy import ROOT
 from tests.test_deploy_tried import started
@@ -42,15 +44,20 @@ def test_the_wheel_runs_outside_of_the_checkout(pleat: Path) -> None:
     assert Path(where).is_relative_to(pleat.parents[1]) and version == VERSION
 
 
-def test_the_wheel_serves_its_page_and_its_garments(pleat: Path, tmp_path: Path) -> None:
+@pytest.mark.browser
+def test_the_wheel_serves_its_page_and_its_garments(pleat: Path, tmp_path: Path, chromium_path: str | None) -> None:
     options = ["serve", "--data", str(tmp_path / "data"), "--log-json"]
     with (
         started(options, tmp_path, {}, [str(pleat)]) as (port, _),
         httpx.Client(base_url=f"http://127.0.0.1:{port}", timeout=PATIENCE_S, follow_redirects=True) as client,
     ):
         assert client.get("/api/health").json()["version"] == VERSION
-        assert "<html" in client.get("/").text
         assert client.get("/api/garments/vest").json()["folds"]
+        with sync_playwright() as playwright:
+            page = playwright.chromium.launch(executable_path=chromium_path, args=FLAT).new_page()
+            page.add_init_script(NO_VIEW)
+            page.goto(f"http://127.0.0.1:{port}")
+            expect(page.locator("#drafting-board .corner").first).to_be_visible(timeout=PATIENCE_MS)
 
 
 @pytest.mark.long

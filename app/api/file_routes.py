@@ -20,7 +20,7 @@ from app.api.problems import ProblemResponse
 from app.api.request_parsing import HasGarments, workspace_of
 from app.document_state import DocumentState
 from app.files.crease_reading import Creases
-from app.files.export import DEFAULT_RATE_HZ, RATES_HZ, Export, UnavailableFileError
+from app.files.export import DEFAULT_RATE_HZ, RATES_HZ, Export, Group, UnavailableFileError
 from app.files.exports import EXPORTS, find_export
 from app.files.import_errors import ImportedFileError, UnitsNeededError
 from app.files.import_file import ENDINGS, SCALES, Imported, largest
@@ -140,13 +140,18 @@ class ImportAnswer(BaseModel):
 
 
 class FileEntry(BaseModel):
-    """A kind of file that a document exports to; `reason` says why it is unavailable, `says` has the numbers."""
+    """A kind of file that a document exports to; `reason` says why it is unavailable, `says` has the numbers.
+
+    `group` is what it is for: to look at, for robots, or to be opened again. `is_slow` is true where it takes seconds.
+    """
 
     what: str
     title: str
     text: str
     filename: str
     media_type: str
+    group: Group
+    is_slow: bool
     available: bool
     reason: str | None
     says: Says | None

@@ -101,6 +101,9 @@ def inward_moves(bounds: Bounds, sides_m: Iterable[float]) -> Iterator[Move]:
         move, third = partial(_across, bounds, axis), extent / 3
         for is_low in (True, False):
             yield move("half", 1.0, "half", (middle, is_low))
+            if extent > 2 * _EASY_SWING_M:  # a quarter first, and on with it: no arm swings so wide as for the half
+                quarter = low + extent / 4 if is_low else high - extent / 4
+                yield move("quarters", 1.0, "side", (quarter, is_low), (middle, is_low))
         yield move("thirds", 1.0, "third", (low + third, True), (high - third, False))
         yield move("roll", 1.1, "third", (low + third, True), (high - third, True))
         yield move("roll", 1.1, "third", (high - third, False), (low + third, False))

@@ -18,7 +18,7 @@ import { takeRobot } from "./take_robot.js";
 
 /** Files that draw arcs, which stay curves on the board. */
 const DRAWINGS = new Set(["svg", "dxf"]);
-const KINDS = ".json,.fold,.svg,.dxf,.png,.jpg,.jpeg,.zip";
+const KINDS = ".json,.fold,.svg,.dxf,.png,.jpg,.jpeg,.zip,.urdf,.xml";
 /** @typedef {NonNullable<Imported["creases"]>} Creases */
 /** @typedef {NonNullable<Imported["sizes"]>} Sizes by unit, how wide and how high (m) */
 
@@ -76,7 +76,7 @@ function ask(store, body, problem = "") {
 /** @param {Store} store @param {HTMLElement} body @param {File} file @param {How} how */
 async function read(store, body, file, how) {
   body.replaceChildren(element("p", "dialog-text", say("import.reading", { name: file.name })));
-  if (/\.zip$/i.test(file.name)) {
+  if (/\.(zip|urdf|xacro|xml)$/i.test(file.name)) {
     const problem = await takeRobot(store, file);
     if (problem) ask(store, body, problem);
     else body.closest("dialog")?.close();

@@ -98,9 +98,11 @@ def test_numbers_do_not_come_to_lie_under_the_pointer(page: Page, desk: Desk) ->
 
 
 def test_on_a_phone_the_numbers_cover_neither_what_would_help_nor_the_inset(page: Page, cloth: Desk) -> None:
-    def box(name: str) -> tuple[float, float, float, float]:
-        sides = page.evaluate(f"(({{x, y, right, bottom}}) => [x, y, right, bottom])({name}.getBoundingClientRect())")
-        return tuple(map(float, sides))  # type: ignore[return-value]
+    def box(name: str) -> list[float]:
+        sides: list[float] = page.evaluate(
+            f"(({{x, y, right, bottom}}) => [x, y, right, bottom])({name}.getBoundingClientRect())"
+        )
+        return sides
 
     def covers(name: str) -> bool:
         one, other = box("document.querySelector('.numbers-at')"), box(f"document.querySelector('{name}')")
