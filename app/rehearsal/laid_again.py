@@ -20,8 +20,8 @@ from planner.geometry.pose import Point3
 SHORT_M = 0.012
 """An edge further short of its place is laid down again (m)."""
 
-_INSIDE_M = 0.005
-"""How far inside of an edge fingers pinch it (m): within their pads, whichever way the hand is off by some mm."""
+_INSIDE_M = 0.01
+"""How far inside of an edge fingers pinch it (m)."""
 
 _POINTS = 121
 """Points of its way from which is measured how far a hand leaves it."""
