@@ -247,7 +247,7 @@ class Document(Played):
         self._state.change(lambda state: replace(state, is_dark=is_dark))
 
     def set_language(self, language: Language) -> None:
-        """Set the language of the 3D view's words and of the instruction sheet."""
+        """Set the language of the instruction sheet."""
         self._state.change(lambda state: replace(state, language=language))
 
     def set_effort(self, work_s: float | None) -> None:

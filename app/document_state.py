@@ -13,6 +13,8 @@ from app.language import ENGLISH, Language
 from app.playback import Playback
 from app.rehearsal.trace import RunTrace
 from planner.errors import FieldError, RequestError
+from planner.geometry.pose import Pose2
+from planner.motion.cloth_alone import ClothAlone
 from planner.motion.timeline import Timeline
 from planner.robots.card import RobotCard
 from planner.robots.load_robot import load_robot
@@ -92,10 +94,11 @@ class DocumentState:
         is_thorough: whether a user has requested more search than usual for this version.
         playback: the playback.
         is_dark: whether the background is dark; the last page to set it decides for all.
-        language: the language of the 3D view and the instruction sheet; decided in the same way.
+        language: the language of the instruction sheet; decided in the same way.
         work_s: the limit on the work of a search (s on the machine of `planner.planning.budget`), None for the usual
             one; decided in the same way.
-        preview: the plan of a change that is pointed at; the 3D view shows it in place of `shown`.
+        preview: the plan of a change that is pointed at; the 3D view shows it in place of `shown`, and where it is not
+            solved, the cloth folded by nobody.
         rehearsed: a run whose cloth the 3D view shows along with its plan.
     """
 
@@ -115,7 +118,7 @@ class DocumentState:
     is_dark: bool = False
     language: Language = ENGLISH
     work_s: float | None = None
-    preview: ShownPlan | None = None
+    preview: ShownPlan | ClothAlone | None = None
     rehearsed: Rehearsed | None = None
 
     @property
@@ -167,6 +170,12 @@ class DocumentState:
         if self.is_thorough or self.answer is None or not self.is_answered or not self.answer.is_final:
             return False
         return self.answer.plan.statistics.is_cut_short
+
+    @property
+    def waiting_base(self) -> Pose2:
+        """Where the robot waits before a plan begins."""
+        stations = dict(self.drawing.scene.stations)
+        return stations.get(self.drawing.start_station) or next(iter(stations.values()))
 
     @property
     def is_planning(self) -> bool:
@@ -239,6 +248,8 @@ class DocumentState:
         """Return the state in which the 3D view shows the plan of a change that is pointed at; None: its own again."""
         if plan is None:
             return self if self.preview is None else replace(self, preview=None)
+        if not plan.is_solved:
+            return replace(self, preview=ClothAlone.of(plan.sequence, plan.scene.table))
         return replace(self, preview=ShownPlan(self.version, plan, Timeline.of(plan)))
 
     def tracing(self, trace: RunTrace | None) -> "DocumentState":

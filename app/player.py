@@ -6,12 +6,12 @@ import time
 
 from app.document import Document
 from app.document_state import DocumentState, ShownPlan, shown_robot
-from app.ui.lying_cloth import lying_cloth
 from app.ui.view_3d import View3D
 from app.ui.viewpoints.sessions import Sessions
 from app.visitors_view import VisitorsView
 from planner.cloth.garment import Garment
 from planner.geometry.pose import Pose2
+from planner.motion.cloth_alone import ClothAlone, spread_cloth
 from planner.task.plan import Plan
 from planner.task.scene import Scene
 
@@ -65,7 +65,7 @@ class Player:
         self._plan: Plan | None = None
         self._spread: Garment | None = None
         self._bare: tuple[str, Pose2] | None = None
-        self._preview: tuple[ShownPlan, float] | None = None
+        self._preview: tuple[ShownPlan | ClothAlone, float] | None = None
         self._changed.set()
         self._unsubscribe = document.subscribe(self._changed.set)
         if sessions is not None:
@@ -121,10 +121,8 @@ class Player:
         shown, self._shown = self._shown, state
         if shown is None or shown.is_dark != state.is_dark:
             self._view.set_theme(is_dark=state.is_dark)
-        if shown is None or shown.language != state.language:
-            self._view.set_language(state.language)
         if state.preview is not None:
-            self._show_preview(state.preview)
+            self._show_preview(state, state.preview)
             return
         self._preview = None
         if self._is_to_rest(state):
@@ -144,16 +142,24 @@ class Player:
         """Return whether the plan of a change has still to be shown to its end."""
         return self._preview is None or now_s < self._preview[1] + PREVIEW_S
 
-    def _show_preview(self, shown: ShownPlan) -> None:
-        """Show the plan of a change that is pointed at, in a few seconds from its start; it stays at its end."""
+    def _show_preview(self, state: DocumentState, shown: ShownPlan | ClothAlone) -> None:
+        """Show a change that is pointed at, in a few seconds from its start; it stays at its end."""
         now_s = time.monotonic()
         if self._preview is None or self._preview[0] is not shown:
             self._preview = (shown, now_s)
-            self._plan, self._spread, self._bare, self._waits_until_s = shown.plan, None, None, None
-            self._set(shown.plan.task.robot, shown.plan.scene)
-            self._view.show_plan(shown.plan)
+            self._plan = self._spread = self._bare = self._waits_until_s = None
+            if isinstance(shown, ShownPlan):
+                self._plan = shown.plan
+                self._set(shown.plan.task.robot, shown.plan.scene)
+                self._view.show_plan(shown.plan)
+            else:
+                self._set(state.drawing.robot, state.drawing.scene)
         share = min((now_s - self._preview[1]) / PREVIEW_S, 1.0)
-        self._view.show(shown.timeline.at(share * shown.timeline.duration_s))
+        if isinstance(shown, ShownPlan):
+            self._view.show(shown.timeline.at(share * shown.timeline.duration_s))
+        else:
+            cloth, done = shown.at(share)
+            self._view.show_garment(shown.sequence.garment, cloth, state.waiting_base, done)
 
     def _is_to_rest(self, state: DocumentState) -> bool:
         """Return whether to leave the 3D view as it is, because drawing it would slow down a gesture."""
@@ -174,9 +180,7 @@ class Player:
 
     def _show_spread(self, state: DocumentState) -> None:
         """Show the garment spread out; while the drawing is invalid, leave the 3D view as it is."""
-        spread, scene = state.solution.spread, state.drawing.scene
-        stations = dict(scene.stations)
-        base = stations.get(state.drawing.start_station) or next(iter(stations.values()))
+        spread, scene, base = state.solution.spread, state.drawing.scene, state.waiting_base
         if spread is None:
             if not state.drawing.outline or (self._plan is None and self._spread is None):
                 self._show_bare(state.drawing.robot, scene, base)
@@ -185,7 +189,7 @@ class Player:
             return
         self._spread, self._plan, self._bare, self._waits_until_s = spread, None, None, None
         self._set(state.drawing.robot, scene)
-        self._view.show_garment(spread, lying_cloth(spread, scene.table), base)
+        self._view.show_garment(spread, spread_cloth(spread, scene.table), base)
 
     def _show_bare(self, robot: str, scene: Scene, base: Pose2) -> None:
         """Show the robot at a table without cloth, for an empty or still invalid drawing."""

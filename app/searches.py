@@ -1,15 +1,14 @@
 """The functions that run in workers; their arguments and results are picklable."""
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from app.files.crease_reading import Creases
 from app.files.import_file import Imported, import_file
-from app.files.robot_archive import unpack_robot
-from app.files.seam_allowance import Line
+from app.files.robot_archive import has_card, unpack_robot
+from app.files.robot_draft import drafted_alone
 from app.jobs.job_kind import Progress
 from app.robot_warnings import warnings_of
 from app.store.packed_plan import PackedPlan
@@ -17,7 +16,6 @@ from app.store.storage_error import storing
 from app.worker.bounded import bounded, one_at_a_time
 from app.worker.process import Caller
 from planner import make_plan
-from planner.cloth.garment import Garment
 from planner.errors import RobotError
 from planner.explain.suggestion_map import PlacementMap, placement_map
 from planner.explain.suggestions import suggestions
@@ -27,6 +25,7 @@ from planner.robots.collision.described_parts import described_parts
 from planner.robots.collision.link_shapes import require_shown
 from planner.robots.described_robot import DescribedRobot
 from planner.robots.described_robot import read_robot as read_known
+from planner.robots.drafting.draft import Draft
 from planner.robots.known_robots import read_card, robot_names
 from planner.robots.own_robots import CARD
 from planner.task.plan import Plan
@@ -124,20 +123,9 @@ def map_places(caller: Caller, task: Task, step_m: float) -> PlacementMap:
     return placement_map(task, step_m=step_m, should_stop=caller.should_stop)
 
 
-def read_file(
-    _: Caller,
-    filename: str,
-    data: bytes,
-    units: str | None,
-    scale: float,
-    creases: Creases | None,
-    measured: str | None,
-    like: str | Garment | None,
-    line: Line | None,
-    size: str | None,
-) -> Imported:
-    """Read a garment from a file, as `import_file` does."""
-    return import_file(filename, data, units, scale, creases, measured, like, line, size)
+def read_file(_: Caller, filename: str, data: bytes, how: Mapping[str, Any]) -> Imported:
+    """Read a garment from a file, as `import_file` does with some of its arguments."""
+    return import_file(filename, data, **how)
 
 
 READING_BYTES_MAX, READING_CPU_S = 3 << 29, 120
@@ -164,14 +152,31 @@ def read_archive(folder: Path) -> tuple[Path, CardFile]:
     return unpacked, _read_robot(unpacked, data)
 
 
+@dataclass(frozen=True, slots=True)
+class Described:
+    """A file that describes a robot, with or without a card."""
+
+    filename: str
+    data: bytes
+
+
 def robot_warnings(_: Caller, name: str) -> list[dict[str, Any]]:
     """Return the warnings about the card of a robot that is known by its name."""
     return warnings_of(read_known(name))
 
 
-def read_robot(_: Caller, folder: Path, given: bytes | CardFile) -> CardFile:
-    """Return a robot's card once all that it names is there, as `_read_robot` does."""
-    return _read_robot(folder, given)
+def read_robot(_: Caller, folder: Path, given: bytes | Described | CardFile) -> tuple[CardFile, Draft | None]:
+    """Return a robot's card once all that it names is there, as `_read_robot` does, and what was drafted for it.
+
+    It is the card of an archive, or else one drafted of a file.
+    """
+    if not isinstance(given, Described):
+        return _read_robot(folder, given), None
+    if has_card(given.data):
+        return _read_robot(folder, given.data), None
+    with storing("the robot could not be saved"), bounded(READING_BYTES_MAX, READING_CPU_S):
+        draft = drafted_alone(given.filename, given.data, folder)
+    return _read_robot(folder, draft.card), draft
 
 
 def _read_robot(folder: Path, given: bytes | CardFile) -> CardFile:

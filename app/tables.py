@@ -31,7 +31,7 @@ _SUPPORTS = {
     "cloth_nearly_above": "need not, held by the cloth nearly straight above",
     "within_the_hull": "need not, held by the cloth on both sides: no corner of the convex hull",
 }
-"""Each `planner.explain.vertex_check.Support` in words, those for corners that must be held first."""
+"""Each `planner.explain.garment_check.Support` in words, those for corners that must be held first."""
 
 _WHY = (
     '"Above" leads away from the fold line: so the part hangs while it is folded. A corner of its convex hull must be '

@@ -11,13 +11,17 @@ import resource
 import subprocess
 import sys
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from itertools import pairwise
 from statistics import median
 from time import process_time
 
 from bench.paper import TABLE_2
+from bench.processes import family, family_cpu_s
 from bench.re_plan import ILLEGAL, replanned
 from bench.report import Report, Row
+from bench.served import ask, served
+from planner import load_garment
 from planner.cloth.garment import Garment
 
 COLUMNS = ("what", "goal [ms]", "CPU [ms]", "times the goal")
@@ -32,6 +36,12 @@ COMMANDS = (
 
 NINE_COLD_MS, NINE_KNOWN_MS = 1_000.0, 450.0
 EDITS_MS = {"t-shirt": 60.0, "shirt": 90.0, "tie": 60.0}
+REST_ARTICLE, REST_AGAIN_MS, REST_NEW_MS, REST_NINE_MS = "vest", 40.0, 130.0, 1_400.0
+"""A garment asked for over REST, and the goals for it, for others like it, and for the nine garments in turn."""
+
+_REST_TIMES, _REST_STEP_M = 8, 0.002
+"""Requests of each kind, and by how much each new garment lies further back than the one before (m)."""
+
 CORNERS, CORNERS_MS = 400, 20.0
 
 _NINE = """
@@ -61,6 +71,7 @@ def goals(articles: Sequence[str], repetitions: int) -> Report:
         _row("the nine garments, known", NINE_KNOWN_MS, known_ms),
         _row(f"reading {CORNERS} corners", CORNERS_MS, _least_ms(_read_many_corners, repetitions)),
     ]
+    rows += _rest_rows()
     for article, goal in EDITS_MS.items():
         if article in articles:
             first = [1e3 * one.first_cpu_s for one in replanned(article, 8) if one.status != ILLEGAL]
@@ -94,6 +105,31 @@ def _nine_ms() -> tuple[float, float]:
     done = subprocess.run(program, check=True, capture_output=True, text=True)
     cold_s, known_s = json.loads(done.stdout)
     return 1e3 * cold_s, 1e3 * known_s
+
+
+def _rest_rows() -> list[Row]:
+    """Measure plans over REST, on a server that has planned once: server and workers together."""
+    garment = load_garment(REST_ARTICLE)
+    new = [
+        replace(garment, placement=garment.placement.moved(-_REST_STEP_M * number, 0.0)).to_dict()
+        for number in range(1, _REST_TIMES + 1)
+    ]
+    with served() as (url, process):
+
+        def took_ms(garments: Sequence[object]) -> float:
+            before_s = family_cpu_s(family(process.pid))
+            for one in garments:
+                ask("POST", f"{url}/api/plans", {"garment": one})
+            return 1e3 * (family_cpu_s(family(process.pid)) - before_s)
+
+        took_ms([REST_ARTICLE])
+        again_ms, new_ms = (took_ms(some) / _REST_TIMES for some in ([REST_ARTICLE] * _REST_TIMES, new))
+        nine_ms = took_ms(list(TABLE_2))
+    return [
+        _row(f"{REST_ARTICLE} by REST, planned before", REST_AGAIN_MS, again_ms),
+        _row(f"{REST_ARTICLE} by REST, new", REST_NEW_MS, new_ms),
+        _row("the nine by REST, in turn", REST_NINE_MS, nine_ms),
+    ]
 
 
 def _read_many_corners() -> None:

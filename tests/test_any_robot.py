@@ -56,6 +56,7 @@ ALLOWED: Mapping[str, tuple[str, str]] = {
     "app/rehearsal/vision/outline_edges.py": (r"right", "a side of numpy's searchsorted"),
     "planner/proposals/moves.py": (r"left|right", "names of parts of a garment"),
     "app/drivers/ur_arms.py": (r"shoulder_pan_joint", "the first joint of the arms that the driver is for"),
+    "app/files/pattern_panels.py": (r"left|right", "names of the halves of a pattern"),
     "app/templates/mirrored.py": (r"left|right", "names of folds on the halves of a garment"),
     "static/js/board/edits.js": (r"left|right", "names of folds on the halves of a garment"),
     "static/js/messages/changes.js": (r"left|right", "ways to turn the cloth"),

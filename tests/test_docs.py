@@ -40,6 +40,13 @@ def test_every_name_that_the_planner_exports_is_in_the_reference() -> None:
     assert set(planner.__all__) <= set(described)
 
 
+def test_the_files_that_the_architecture_names_are_there() -> None:
+    text = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
+    named = set(re.findall(r"`((?:app|planner|static|tests)/[\w/*.]+)`", text))
+    assert len(named) > 40
+    assert [name for name in sorted(named) if not list(ROOT.glob(name))] == []
+
+
 def test_the_modules_on_the_ways_through_the_program_are_there() -> None:
     text = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
     ways = text.partition("## Two ways through the program")[2].partition("\n## ")[0]

@@ -76,6 +76,19 @@ class RobotEntry(BaseModel):
     shipped: bool
 
 
+class DraftAnswer(BaseModel):
+    """What was guessed of a drafted robot, and what only its owner knows, a sentence each."""
+
+    guesses: list[str]
+    unknown: list[str]
+
+
+class RobotTaken(RobotEntry):
+    """A robot that was imported; `draft` is there if its card was drafted."""
+
+    draft: DraftAnswer | None = None
+
+
 class LayerAnswer(BaseModel):
     """A layer of the folded cloth, article frame (m)."""
 

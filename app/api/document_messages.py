@@ -209,7 +209,7 @@ class ShowTrace(StrictModel):
 
 
 class Preview(StrictModel):
-    """Have the 3D view show a plan by its id, that of a suggestion; null: the document's own again."""
+    """Have the 3D view show a plan by its id, that of a suggestion or a proposal; null: the document's own again."""
 
     do: Literal["preview"]
     plan: Annotated[str, Field(max_length=64)] | None

@@ -1,5 +1,6 @@
 """Routes of files: importing a garment, and exporting a document."""
 
+from collections.abc import Mapping
 from dataclasses import asdict
 from functools import partial
 from typing import Annotated, Any, Literal
@@ -19,7 +20,7 @@ from app.api.problems import ProblemResponse
 from app.api.request_parsing import HasGarments, workspace_of
 from app.document_state import DocumentState
 from app.files.crease_reading import Creases
-from app.files.export import DEFAULT_RATE_HZ, RATES_HZ, Export, UnavailableFileError
+from app.files.export import DEFAULT_RATE_HZ, RATES_HZ, Export, Group, UnavailableFileError
 from app.files.exports import EXPORTS, find_export
 from app.files.import_errors import ImportedFileError, UnitsNeededError
 from app.files.import_file import ENDINGS, SCALES, Imported, largest
@@ -47,7 +48,7 @@ FileName = Annotated[str, Query(max_length=300, json_schema_extra={"pattern": rf
 Units = Annotated[
     str | None,
     Query(
-        description="what one unit of the drawing is: mm, cm, m or in",
+        description="what one unit of the drawing is: mm, cm, m, in, pt (1/72 in) or px (1/96 in)",
         json_schema_extra={"anyOf": [{"enum": list(UNITS_M)}, {"type": "null"}]},
     ),
 ]
@@ -65,6 +66,14 @@ Size = Annotated[
         max_length=40,
         description="which of the sizes of a pattern that is graded, as M or 40; without it the sample size, or the "
         "middle one",
+    ),
+]
+Piece = Annotated[
+    str | None,
+    Query(
+        max_length=80,
+        description="which of the pieces of a pattern, by its name or number as `pieces` lists them; without it the "
+        "largest",
     ),
 ]
 Measured = Annotated[
@@ -101,6 +110,13 @@ class GradedAnswer(BaseModel):
     sizes: list[str]
 
 
+class PiecesAnswer(BaseModel):
+    """The pieces of a pattern, the largest first, and which of them was taken."""
+
+    piece: str
+    pieces: list[str]
+
+
 class ImportAnswer(BaseModel):
     """An imported garment, and notes about the import.
 
@@ -108,10 +124,10 @@ class ImportAnswer(BaseModel):
     gives the width and height of the drawing in other units (m). `says` has the numbers of the notes, by name, null
     for a note without numbers. `seen` says of a picture where the garment lies in it, what gave the scale, and how sure
     that is, as `pleat see` does; null for other files. `allowance` is told of a drawing
-    with a seam line inside a cut line, `graded` of one in several sizes.
+    with a seam line inside a cut line, `graded` of one in several sizes, `pieces` of one with several pieces.
     """
 
-    format: Literal["json", "svg", "dxf", "png", "jpeg"]
+    format: Literal["json", "fold", "svg", "dxf", "png", "jpeg"]
     garment: GarmentAnswer
     notes: list[str]
     says: list[Says | None]
@@ -120,16 +136,22 @@ class ImportAnswer(BaseModel):
     seen: dict[str, Any] | None
     allowance: AllowanceAnswer | None
     graded: GradedAnswer | None
+    pieces: PiecesAnswer | None
 
 
 class FileEntry(BaseModel):
-    """A kind of file that a document exports to; `reason` says why it is unavailable, `says` has the numbers."""
+    """A kind of file that a document exports to; `reason` says why it is unavailable, `says` has the numbers.
+
+    `group` is what it is for: to look at, for robots, or to be opened again. `is_slow` is true where it takes seconds.
+    """
 
     what: str
     title: str
     text: str
     filename: str
     media_type: str
+    group: Group
+    is_slow: bool
     available: bool
     reason: str | None
     says: Says | None
@@ -150,20 +172,25 @@ async def post_import(
     like: LikeName = None,
     line: Outlined = None,
     size: Size = None,
+    piece: Piece = None,
 ) -> Response:
-    """Import a garment from a file in the body: a garment or plan file, SVG, DXF, PNG or JPEG, by its name's ending.
+    """Import a garment from a file in the body, by its name's ending: JSON, FOLD, SVG, DXF, PNG or JPEG.
 
-    A plan file gives its garment, placed as at the plan's start.
+    JSON is a garment file, a pattern specification of GarmentCode, or a plan file, which gives its garment, placed as
+    at the plan's start.
 
     If the file has no unit of length, or an impossible one, the problem is about the field `units` and has `sizes`:
     the size of the garment in each unit. Unless `creases` says otherwise, fold lines are read on the cloth, flat or
     folded, on which more of them are legal. If nothing in a picture gives its scale, the problem is about the field
-    `measured`. A pattern in several sizes gives one of them; the problem of a `size` that it has not got lists them.
+    `measured`. A pattern in several sizes, or with several pieces, gives one of them; the problem of a `size` or
+    `piece` that it has not got lists them.
     """
     known = None if like is None else await run_in_threadpool(_liked, workspace_of(request), like)
     data = await read_bytes(request, largest(filename))
     lanes = workspace_of(request).lanes
-    work = partial(_read, lanes.workers, filename, data, units, scale, creases, measured, known, line, size)
+    how = {"units": units, "scale": scale, "creases": creases, "measured": measured, "like": known}
+    how |= {"line": line, "size": size, "piece": piece}
+    work = partial(_read, lanes.workers, filename, data, how)
     try:
         return JSONResponse(_imported(await answer_of(request, lanes.files, work)))
     except UnitsNeededError as error:
@@ -203,21 +230,8 @@ async def read_file(request: Request, document_id: str, what: What, rate_hz: Rat
     return Response(made, media_type=export.media_type, headers={"content-disposition": disposition})
 
 
-def _read(
-    workers: Workers,
-    filename: str,
-    data: bytes,
-    units: str | None,
-    scale: float,
-    creases: Creases | None,
-    measured: str | None,
-    like: str | Garment | None,
-    line: Line | None,
-    size: str | None,
-    stop: Stop,
-) -> Imported:
-    asked = (filename, data, units, scale, creases, measured, like, line, size)
-    return workers.run_alone(searches.read_file, stop, ignore, *asked)
+def _read(workers: Workers, filename: str, data: bytes, how: Mapping[str, Any], stop: Stop) -> Imported:
+    return workers.run_alone(searches.read_file, stop, ignore, filename, data, how)
 
 
 def _liked(within: HasGarments, name: str) -> str | Garment:
@@ -245,4 +259,5 @@ def _imported(imported: Imported) -> dict[str, Any]:
         "seen": imported.seen,
         "allowance": None if imported.allowance is None else asdict(imported.allowance),
         "graded": None if imported.graded is None else asdict(imported.graded),
+        "pieces": None if imported.pieces is None else asdict(imported.pieces),
     }

@@ -13,6 +13,7 @@ from app.open_document import OpenDocument
 from app.visitors_view import VisitorsView
 from planner.geometry.pose import Point2
 from planner.robots.load_robot import robot_card_file
+from planner.robots.varied_card import split_changes
 from planner.task.statistics import Statistics
 
 
@@ -71,7 +72,7 @@ def document_message(document_id: str, state: DocumentState) -> dict[str, Any]:
         "version": state.version,
         "robot": {
             "name": robot,
-            "title": card.title if card.name == robot else robot,
+            "title": card.title if card.name == split_changes(robot)[0] else robot,
             "arms": [arm.name for arm in card.arms],
             "base": card.base.kind,
             "mounts": [[mount.x_m, mount.y_m] for mount in card.mounts],

@@ -4,12 +4,12 @@ from functools import partial
 from pathlib import Path as FilePath
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Depends, Header, Path, Request, Response
+from fastapi import APIRouter, Depends, Header, Path, Query, Request, Response
 from fastapi.concurrency import run_in_threadpool
 from starlette.responses import JSONResponse
 
 from app import searches
-from app.api.answers import RobotEntry
+from app.api.answers import RobotEntry, RobotTaken
 from app.api.body import JsonBody, read_bytes
 from app.api.described import DescribedRoute, problems
 from app.api.disconnect import answer_of
@@ -25,6 +25,7 @@ from app.worker.template import LostProcessError
 from app.workspace import Workspace
 from planner.errors import RobotError
 from planner.robots.card_file import CardFile
+from planner.robots.drafting.draft import Draft
 from planner.robots.known_robots import card_of, robot_cards, robot_entry, shipped_card
 from planner.task.task import DEFAULT_ROBOT
 
@@ -44,6 +45,7 @@ _BENCH = {**shipped_card("so101-pair").to_dict(), "name": "bench", "title": "My 
 CardBody = Annotated[CardFile, Depends(JsonBody(CardFile, _BENCH))]
 _ASYNC = "respond-async"
 Prefer = Annotated[str | None, Header(description=f"`{_ASYNC}`: import it as a job.")]
+FileName = Annotated[str | None, Query(max_length=300, description="the file's name, by whose ending it is read")]
 AnyName = Annotated[str, Path(examples=[DEFAULT_ROBOT])]
 OwnName = Annotated[str, Path(examples=[_BENCH["name"]])]
 
@@ -59,18 +61,21 @@ async def list_robots() -> list[dict[str, Any]]:
     "/imports",
     openapi_extra=_ARCHIVE,
     responses={
-        200: {"model": RobotEntry},
-        201: {"model": RobotEntry},
+        200: {"model": RobotTaken},
+        201: {"model": RobotTaken},
         202: {"model": JobAnswer},
         **problems(403, 409, 413, 422, 429, 503, 507),
     },
 )
-async def post_robot_import(request: Request, prefer: Prefer = None) -> JSONResponse:
+async def post_robot_import(request: Request, prefer: Prefer = None, filename: FileName = None) -> JSONResponse:
     """Save or replace a robot of one's own: 201 if it is new, 200 if it existed.
 
     The body is a zip archive of `robot.json`, its URDF and its meshes. The errors name the card's field, and the frame,
     joint or mesh that is missing; those of the archive itself are about the field `file`. Where the robot's arms can
     reach is found when it is first planned for, which takes up to half a minute an arm.
+
+    With the file's name as `filename` it may also be a URDF, MuJoCo's XML, or an archive of one with its meshes: then
+    the card is drafted, and `draft` has what was guessed and what is not known, a sentence each.
 
     With `Prefer: respond-async` it is a job, answered by 202, which also finds where the arms can reach; its result has
     `robot` and `is_new`.
@@ -79,9 +84,10 @@ async def post_robot_import(request: Request, prefer: Prefer = None) -> JSONResp
     workspace = workspace_of(request)
     if _ASYNC in (prefer or "").replace(" ", "").lower().split(","):
         return await _as_job(request, workspace.robots, data)
-    work = partial(_imported, workspace, data)
-    card, is_new = await answer_of(request, workspace.lanes.robots, work)
-    return JSONResponse(robot_entry(card), status_code=201 if is_new else 200)
+    work = partial(_imported, workspace, data if filename is None else searches.Described(filename, data))
+    card, draft, is_new = await answer_of(request, workspace.lanes.robots, work)
+    told = {} if draft is None else {"draft": {"guesses": draft.guesses, "unknown": draft.unknown}}
+    return JSONResponse({**robot_entry(card), **told}, status_code=201 if is_new else 200)
 
 
 @router.get("/{name}", responses={200: {"model": CardFile}, **problems(404, 422)})
@@ -143,10 +149,12 @@ async def _as_job(request: Request, robots: RobotRepository, data: bytes) -> JSO
     return answer
 
 
-def _imported(workspace: Workspace, data: bytes, stop: Stop) -> tuple[CardFile, bool]:
+def _imported(
+    workspace: Workspace, given: bytes | searches.Described, stop: Stop
+) -> tuple[CardFile, Draft | None, bool]:
     with workspace.robots.beside() as unpacked:
-        card = _looked_at(workspace, stop, unpacked, data)
-        return card, workspace.robots.take(card.name, unpacked)
+        card, draft = _looked_at(workspace, stop, unpacked, given)
+        return card, draft, workspace.robots.take(card.name, unpacked)
 
 
 def _saved(workspace: Workspace, card: CardFile, stop: Stop) -> bool:
@@ -154,8 +162,10 @@ def _saved(workspace: Workspace, card: CardFile, stop: Stop) -> bool:
     return workspace.robots.save(card)
 
 
-def _looked_at(workspace: Workspace, stop: Stop, folder: FilePath, given: bytes | CardFile) -> CardFile:
-    """Return the card of an archive or a card as it stands in a folder; raise `RobotError` if it is not valid."""
+def _looked_at(
+    workspace: Workspace, stop: Stop, folder: FilePath, given: bytes | searches.Described | CardFile
+) -> tuple[CardFile, Draft | None]:
+    """Return the card of a file, or a card as it stands in a folder, and what was drafted; raise if it is not valid."""
     try:
         return workspace.lanes.workers.run_alone(searches.read_robot, stop, ignore, folder, given)
     except LostProcessError:

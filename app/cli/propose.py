@@ -41,7 +41,7 @@ def propose(
     to: Annotated[
         str | None,
         typer.Option(
-            metavar="SIZE", help="25x30cm, 0.25x0.30 (m), shelf, drawer, suitcase, halves, thirds or smallest."
+            metavar="SIZE", help="25x30cm, 0.25x0.30 (m), shelf, drawer, suitcase, halves, thirds, roll or smallest."
         ),
     ] = None,
     like: Annotated[

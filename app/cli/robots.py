@@ -1,11 +1,8 @@
 """``pleat robots`` and ``pleat robot``: list the robots, and check or draft a robot's card."""
 
-import json
-import re
 import shutil
 from dataclasses import asdict
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Annotated
 
 import typer
@@ -22,7 +19,6 @@ from app.cli.program import (
     output,
     refusing,
     write_json,
-    write_text,
 )
 from app.tables import robot_check_table, robots_table
 from planner.robots.known_robots import robot_cards, robot_entry
@@ -88,10 +84,9 @@ def draft(
 
     Exit status: 0 drafted; 2 bad input, or no arm that ends in a gripper.
     """
-    from app.files.robot_description import robot_description
+    from app.files.robot_draft import drafted
     from app.robot_warnings import warnings_of
     from planner.robots.described_robot import read_described
-    from planner.robots.drafting.draft import draft_robot
 
     with refusing(out):
         if out.exists() and any(out.iterdir()):
@@ -99,24 +94,17 @@ def draft(
         is_new = not out.exists()
         out.mkdir(parents=True, exist_ok=True)
     try:
-        with blaming(file), refusing(file), TemporaryDirectory() as scratch:
-            title = name or out.resolve().name
-            drafted = draft_robot(robot_description(file, Path(scratch)), _robot_name(title), title, out)
-            write_text(json.dumps(drafted.card.to_dict(), indent=2) + "\n", str(out / CARD))
+        with blaming(file), refusing(file):
+            draft = drafted(file, name or out.resolve().name, out)
             warnings = warnings_of(read_described(out / CARD))
     except typer.Exit:
         if is_new:
             shutil.rmtree(out)
         raise
-    output.print(f"{out / CARD}: {len(drafted.card.arms)} arms, each with a gripper", soft_wrap=True)
-    for title, told in (("Guessed", drafted.guesses), ("Not known", drafted.unknown)):
+    output.print(f"{out / CARD}: {len(draft.card.arms)} arms, each with a gripper", soft_wrap=True)
+    for title, told in (("Guessed", draft.guesses), ("Not known", draft.unknown)):
         for one in told:
             output.print(f"{title}: {one}.", soft_wrap=True)
     for warning in warnings:
         output.print(f"Warning: {warning['message']}.", soft_wrap=True)
     output.print(f"Look through it, then: pleat robot check {out / CARD}", soft_wrap=True)
-
-
-def _robot_name(title: str) -> str:
-    """Return a name that a card may have."""
-    return re.sub(r"[^a-z0-9]+", "-", title.lower()).strip("-")[:64] or "robot"

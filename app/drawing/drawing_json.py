@@ -36,6 +36,8 @@ Fraction = Annotated[float, Field(ge=0.0, le=1.0)]
 ChordPart = Annotated[float, Field(ge=-CURVE_MAX, le=CURVE_MAX)]
 Title = Annotated[str, Field(max_length=TITLE_MAX)]
 Name = Annotated[str, Field(pattern=rf"^{NAME_PATTERN.pattern}$")]
+RobotName = Annotated[str, Field(pattern=rf"^{NAME_PATTERN.pattern}(@\S{{1,2000}})?$")]
+"""A robot's name, and changes of its card (see `planner.robots.varied_card`)."""
 
 
 class CornerTieModel(StrictModel):
@@ -146,7 +148,7 @@ class DrawingModel(StrictModel):
     scene: dict[str, Any]
     start_station: Annotated[str, Field(max_length=TITLE_MAX)]
     comfort_radius_m: Annotated[float, Field(ge=0.0, le=COMFORT_MAX_M)]
-    robot: Name = DEFAULT_ROBOT
+    robot: RobotName = DEFAULT_ROBOT
     thickness_m: Thickness = DEFAULT_THICKNESS_M
 
     def value(self) -> Drawing:

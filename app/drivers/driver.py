@@ -4,7 +4,7 @@ import time
 from collections.abc import Callable, Mapping
 from typing import Protocol
 
-from app.files.step_motion import StepMotion
+from app.files.joint_motion import JointMotion
 from planner.errors import FoldingError
 
 Joints = Mapping[str, float]
@@ -33,7 +33,7 @@ class Driver(Protocol):
         """Return where the joints of arms and grippers are."""
         ...
 
-    def send(self, motion: StepMotion, seen: Seen) -> None:
+    def send(self, motion: JointMotion, seen: Seen) -> None:
         """Have a motion performed from now on; return at its end."""
         ...
 

@@ -3,7 +3,7 @@
 from typing import Any
 
 from app.drivers.driver import Clock, Joints, RealClock
-from app.files.step_motion import StepMotion
+from app.files.joint_motion import JointMotion
 from planner.robots.card import RobotCard
 
 
@@ -17,9 +17,9 @@ class Recording:
     def __init__(self, card: RobotCard, clock: Clock | None = None) -> None:
         """Begin a recording of a robot."""
         self._card, self._clock = card, clock or RealClock()
-        self._start_s, self._kept = self._clock.now_s(), list[tuple[int, StepMotion | Joints]]()
+        self._start_s, self._kept = self._clock.now_s(), list[tuple[int, JointMotion | Joints]]()
 
-    def sent(self, motion: StepMotion) -> None:
+    def sent(self, motion: JointMotion) -> None:
         """Keep a motion."""
         self._kept.append((self._now_ns(), motion))
 
@@ -34,7 +34,7 @@ class Recording:
 
         written, messages = JointMessages(message_types()), list[RosMessage]()
         for stamp_ns, kept in self._kept:
-            if isinstance(kept, StepMotion):
+            if isinstance(kept, JointMotion):
                 messages.extend(written.trajectories(kept, self._card, stamp_ns))
             else:
                 messages.append(written.state(kept, stamp_ns))

@@ -14,7 +14,7 @@ import numpy as np
 
 from app.drivers.driver import Clock, DriverError, Joints, LostError, RealClock, Seen
 from app.drivers.streamed import FINGERS_S
-from app.files.step_motion import StepMotion, controller_name, controllers
+from app.files.joint_motion import JointMotion, controller_name, controllers
 from planner.robots.card import RobotCard
 
 ADDRESS = "ws://localhost:9090"
@@ -72,7 +72,7 @@ class RosbridgeDriver:
             raise LostError("the connection to rosbridge is lost")
         return dict(self._state)
 
-    def send(self, motion: StepMotion, seen: Seen) -> None:
+    def send(self, motion: JointMotion, seen: Seen) -> None:
         """Send a goal to each controller of which the motion has the joints, and wait for all results."""
         while not self._results.empty():  # of goals that were stopped
             self._results.get_nowait()
@@ -107,7 +107,7 @@ class RosbridgeDriver:
         here = self.read()
         positions = np.array([[here[name] for name in names], [fingers[name] for name in names]])
         none = np.zeros_like(positions)
-        motion = StepMotion(names, np.array([0.0, FINGERS_S]), positions, none, none)
+        motion = JointMotion(names, np.array([0.0, FINGERS_S]), positions, none, none)
         self.send(motion, lambda _t_s, _joints: None)
 
     def stop(self) -> None:
@@ -159,7 +159,7 @@ class RosbridgeDriver:
         self._is_lost.set()
 
 
-def _trajectory(motion: StepMotion) -> dict[str, Any]:
+def _trajectory(motion: JointMotion) -> dict[str, Any]:
     """Return a motion as a JointTrajectory in JSON: stamp 0, to begin at once."""
     orders = (motion.positions.tolist(), motion.velocities.tolist(), motion.accelerations.tolist())
     points = [

@@ -7,8 +7,8 @@ from typing import Literal
 
 from app.drivers.driver import Driver, Joints, LostError
 from app.drivers.recording import Recording
+from app.files.joint_motion import JointMotion
 from app.files.slowed import slowed
-from app.files.step_motion import StepMotion
 from app.step_kinds import step_words
 from planner.errors import UnsolvedPlanError
 from planner.planning.way_to_step import WayToStep, require_beginning
@@ -129,21 +129,21 @@ class _Run:
         self._plan, self._path, self._card, self._speed = plan, plan.trajectory, card, speed
         self._driver, self._recording = driver, recording
 
-    def legs(self, way: WayToStep, from_step: int, until_step: int | None) -> Iterator[tuple[Leg, StepMotion]]:
+    def legs(self, way: WayToStep, from_step: int, until_step: int | None) -> Iterator[tuple[Leg, JointMotion]]:
         """Yield the parts of the run, each when the one before is done."""
         here = self._read()
         if max(abs(here[name] - q) for name, q in zip(way.names, way.goal.tolist(), strict=True)) > THERE:
             found = way.way(here)
             if found is None:
                 raise LostError("no way leads from where the joints are to the first pose; move the arms by hand")
-            motion = StepMotion.along(way.names, found, self._speed)
+            motion = JointMotion.along(way.names, found, self._speed)
             yield Leg("to the first pose", motion.duration_s), motion
         for number, step in enumerate(self._plan.steps[from_step:until_step], start=from_step):
-            motion = StepMotion.of(self._path, step, self._card, self._plan.scene)
+            motion = JointMotion.of(self._path, step, self._card, self._plan.scene)
             words = step_words(step, self._plan.garment)
             yield Leg(f"{step.kind} {words}".strip(), motion.duration_s, number), motion
 
-    def perform(self, motion: StepMotion, progress: Callable[[float], None]) -> None:
+    def perform(self, motion: JointMotion, progress: Callable[[float], None]) -> None:
         """Have a motion performed; raise `LostError` unless the arms are where it begins, and then where it ends."""
         self._require_arms(motion.at(0.0), "begins")
         self._bring_fingers(motion.at(0.0))

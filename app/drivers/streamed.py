@@ -4,7 +4,7 @@ import math
 from abc import ABC, abstractmethod
 
 from app.drivers.driver import Clock, Joints, Seen
-from app.files.step_motion import StepMotion
+from app.files.joint_motion import JointMotion
 
 FINGERS_S = 1.0
 """The time in which fingers are brought somewhere (s)."""
@@ -28,7 +28,7 @@ class StreamedDriver(ABC):
     def read(self) -> Joints:
         """Return where the joints are."""
 
-    def send(self, motion: StepMotion, seen: Seen) -> None:
+    def send(self, motion: JointMotion, seen: Seen) -> None:
         """Send a motion's positions, the last of them at its end."""
         start_s, next_look_s = self._clock.now_s(), 0.0
         while True:

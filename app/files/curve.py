@@ -22,6 +22,11 @@ class Curve(Protocol):
     """A connected line in a drawing."""
 
     @property
+    def piece(self) -> str | None:
+        """The name of the pattern piece that it belongs to; None if the file has none."""
+        ...
+
+    @property
     def extent(self) -> FloatArray:
         """Points whose convex hull holds the line except bulges of arcs, its ends first and last, shape (n, 2)."""
         ...
@@ -43,10 +48,12 @@ class SvgCurve:
     Attributes:
         segments: its segments, each starting at the end of the previous one.
         matrix: the transform from its coordinates to the drawing's, shape (3, 3).
+        piece: the name of the pattern piece that it belongs to, or None.
     """
 
     segments: tuple[Line | QuadraticBezier | CubicBezier | Arc, ...]
     matrix: FloatArray
+    piece: str | None = None
 
     @property
     def extent(self) -> FloatArray:
@@ -83,11 +90,13 @@ class DrawnCurve:
         extent: its ends and control points, shape (n, 2).
         cut: returns points on it for a tolerance, shape (n, 2).
         is_bent: whether it is more than straight segments.
+        piece: the name of the pattern piece that it belongs to, or None.
     """
 
     extent: FloatArray
     cut: Callable[[float], FloatArray]
     is_bent: bool
+    piece: str | None = None
 
     def flattened(self, tolerance: float) -> FloatArray:
         """Return points on the line."""

@@ -30,6 +30,7 @@ INTERNAL_LINES = "8"
 _NUMBERED = re.compile(r"\d{1,2}")
 _METRIC_UNITS = re.compile(r"^\s*units\s*:?\s*(metric|english)", re.IGNORECASE)
 _SIZE = re.compile(r"^\s*size\s*:\s*(\S.{0,30}?)\s*$", re.IGNORECASE)
+_PIECE = re.compile(r"^\s*piece\s*name\s*:\s*(\S.{0,39}?)\s*$", re.IGNORECASE)
 _SAMPLE = re.compile(r"^\s*sample\s*size\s*:\s*(\S.{0,30}?)\s*$", re.IGNORECASE)
 _UNIT_M = {"metric": 1e-3, "english": 0.0254}
 
@@ -57,6 +58,11 @@ def unit_by_text(texts: Iterable[str]) -> float | None:
 def size_by_text(texts: Iterable[str]) -> str | None:
     """Return a piece's size by the text ``SIZE: M`` in its block, or None."""
     return next((match[1] for match in map(_SIZE.match, texts) if match), None)
+
+
+def piece_by_text(texts: Iterable[str]) -> str | None:
+    """Return a piece's name by the text ``PIECE NAME: FRONT`` in its block, or None."""
+    return next((match[1] for match in map(_PIECE.match, texts) if match), None)
 
 
 def sample_by_text(texts: Iterable[str]) -> str | None:

@@ -25,13 +25,14 @@ from app.files.dxf_layers import (
     MIRROR_LINE,
     kind_by_name,
     may_carry_folds,
+    piece_by_text,
     sample_by_text,
     size_by_text,
     unit_by_text,
 )
 from app.files.fold_colour import Rgb, kind_of
 from app.files.import_errors import broken
-from app.files.piece_labels import says_on_fold, size_in
+from app.files.piece_labels import piece_in, says_on_fold, size_in
 from app.files.sketch import DrawnLine, FoldLine, MirrorLine, Role, Sketch
 from planner.geometry.pose import FloatArray
 
@@ -75,11 +76,12 @@ class _Line:
 
 @dataclass(frozen=True, slots=True)
 class _Inherited:
-    """The layer, the colour (ACI) and the size that entities in a block inherit from the block's insertion."""
+    """What entities in a block inherit from the block's insertion: layer, colour (ACI), size, name of the piece."""
 
     layer: str = "0"
     colour: int = 7
     size: str | None = None
+    piece: str | None = None
 
 
 def read_dxf(data: bytes) -> Sketch:
@@ -148,12 +150,18 @@ def _all(drawing: Drawing) -> Iterator[tuple[DXFEntity, _Inherited]]:
         yield from _within(space, _Inherited(), 0, counts)
         return
     for block in blocks:
-        yield from _within(block, _Inherited(size=_size_of(block, block.name)), 0, counts)
+        named = _Inherited(size=_size_of(block, block.name), piece=_piece_of(block, block.name))
+        yield from _within(block, named, 0, counts)
 
 
 def _size_of(entities: Iterable[DXFEntity], name: str) -> str | None:
     """Return the size of the piece in a block, by a text in it or else by its name."""
     return size_by_text(_texts(entities)) or size_in(name)
+
+
+def _piece_of(entities: Iterable[DXFEntity], name: str) -> str | None:
+    """Return the name of the piece in a block, by a text in it or else the block's."""
+    return piece_by_text(_texts(entities)) or piece_in(name)
 
 
 def _within(
@@ -166,8 +174,10 @@ def _within(
         elif deep < _BLOCKS_DEEP:
             _count(counts, "blocks inserted", INSERTS_MAX)
             block = entity.block()
-            size = None if block is None else _size_of(block, block.name)
-            inner = _Inherited(_layer(entity, around), _colour(entity, around), size or around.size)
+            size, piece = (None, None) if block is None else (read(block, block.name) for read in (_size_of, _piece_of))
+            inner = _Inherited(
+                _layer(entity, around), _colour(entity, around), size or around.size, piece or around.piece
+            )
             yield from _within(entity.virtual_entities(), inner, deep + 1, counts)
 
 
@@ -192,10 +202,10 @@ def _lines(drawing: Drawing, entity: DXFEntity, around: _Inherited) -> Iterator[
     kind = kind_by_name(layer) or kind_of(_rgb(drawing, entity, layer, around))
     for part in path.sub_paths():
         if len(part):
-            yield _Line(_curve(part), layer, kind, part.is_closed, around.size or size_in(layer))
+            yield _Line(_curve(part, around.piece), layer, kind, part.is_closed, around.size or size_in(layer))
 
 
-def _curve(path: Path) -> DrawnCurve:
+def _curve(path: Path, piece: str | None) -> DrawnCurve:
     def cut(tolerance: float) -> FloatArray:
         points = list(islice(path.flattening(tolerance, segments=4), POINTS_MAX + 1))
         if len(points) > POINTS_MAX:
@@ -205,7 +215,7 @@ def _curve(path: Path) -> DrawnCurve:
     extent = _plane(path.control_vertices())
     if not np.all(np.isfinite(extent)):
         raise broken("a number in it is too large")
-    return DrawnCurve(extent, cut, path.has_curves)
+    return DrawnCurve(extent, cut, path.has_curves, piece)
 
 
 def _plane(points: Iterable[Vec3]) -> FloatArray:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from app.distribution import missing
 from planner.errors import FoldingError, GarmentError
@@ -21,6 +21,8 @@ RATES_HZ = (1.0, 30.0)
 
 DEFAULT_RATE_HZ = 10.0
 """Frame rate where none is given (Hz)."""
+
+Group = Literal["look", "robot", "open"]
 
 Make = Callable[["DocumentState", float, "ShouldStop"], bytes]
 """Makes a file from a document's state and a frame rate (Hz), unless it should stop."""
@@ -42,6 +44,8 @@ class Export:
         media_type: its media type.
         why_not: returns the reason why a state cannot be exported now; None if it can.
         make: makes the file from a state that can be exported.
+        group: what it is for: to look at, for robots and simulators, or to be opened again.
+        is_slow: whether it takes a while to be made.
         is_folder: whether the file is a zipped folder, which the command line unpacks.
         needs: the modules of optional libraries that make it.
     """
@@ -53,6 +57,8 @@ class Export:
     media_type: str
     why_not: Callable[[DocumentState], Message | None]
     make: Make
+    group: Group = "open"
+    is_slow: bool = False
     is_folder: bool = False
     needs: tuple[str, ...] = ()
 
@@ -84,6 +90,8 @@ class Export:
             "text": self.text,
             "filename": self.filename(state),
             "media_type": self.media_type,
+            "group": self.group,
+            "is_slow": self.is_slow,
             "available": reason is None,
             "reason": None if reason is None else reason.text,
             "says": None if reason is None else reason.to_dict(),

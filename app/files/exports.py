@@ -181,6 +181,7 @@ EXPORTS = (
         "text/csv; charset=utf-8",
         no_plan,
         _plan_csv,
+        group="robot",
     ),
     Export(
         "sheet.pdf",
@@ -190,6 +191,7 @@ EXPORTS = (
         "application/pdf",
         no_plan,
         _sheet_pdf,
+        group="look",
         needs=("matplotlib",),
     ),
     Export(
@@ -200,6 +202,7 @@ EXPORTS = (
         "image/svg+xml",
         no_plan,
         _sheet_svg,
+        group="look",
     ),
     Export(
         "recording.html",
@@ -209,6 +212,8 @@ EXPORTS = (
         "text/html; charset=utf-8",
         no_plan,
         _recording,
+        group="look",
+        is_slow=True,
     ),
     Export(
         "mp4",
@@ -218,6 +223,8 @@ EXPORTS = (
         "video/mp4",
         no_plan,
         _mp4,
+        group="look",
+        is_slow=True,
         needs=("matplotlib", "av"),
     ),
     Export(
@@ -228,6 +235,8 @@ EXPORTS = (
         "image/gif",
         no_plan,
         _gif,
+        group="look",
+        is_slow=True,
         needs=("matplotlib",),
     ),
     Export(
@@ -238,6 +247,8 @@ EXPORTS = (
         "image/png",
         no_plan,
         _picture,
+        group="look",
+        is_slow=True,
         needs=("matplotlib",),
     ),
     Export(
@@ -248,6 +259,8 @@ EXPORTS = (
         "application/octet-stream",
         no_plan,
         _mcap,
+        group="robot",
+        is_slow=True,
         needs=("rosbags",),
     ),
     Export(
@@ -258,6 +271,8 @@ EXPORTS = (
         "application/zip",
         no_plan,
         _rosbag2,
+        group="robot",
+        is_slow=True,
         is_folder=True,
         needs=("rosbags",),
     ),
@@ -269,6 +284,7 @@ EXPORTS = (
         "application/json",
         no_plan,
         _poses_json,
+        group="robot",
     ),
     Export(
         "poses.yaml",
@@ -278,6 +294,7 @@ EXPORTS = (
         "application/yaml",
         no_plan,
         _poses_yaml,
+        group="robot",
         needs=("ruamel",),
     ),
     Export(
@@ -288,6 +305,8 @@ EXPORTS = (
         "model/gltf-binary",
         no_plan,
         _glb,
+        group="look",
+        is_slow=True,
     ),
     Export(
         "mjcf",
@@ -297,6 +316,8 @@ EXPORTS = (
         "application/zip",
         no_plan,
         _mjcf,
+        group="robot",
+        is_slow=True,
         is_folder=True,
     ),
     Export(
@@ -307,6 +328,8 @@ EXPORTS = (
         "model/vnd.usd",
         no_plan,
         _usd,
+        group="robot",
+        is_slow=True,
         needs=("pxr",),
     ),
     Export(
@@ -317,6 +340,8 @@ EXPORTS = (
         "application/zip",
         no_plan,
         _lerobot,
+        group="robot",
+        is_slow=True,
         is_folder=True,
         needs=("pyarrow",),
     ),

@@ -7,9 +7,10 @@ from typing import Any
 
 from app.distribution import missing
 from app.files.crease_reading import Creases
-from app.files.garment_json import read_garment_json
+from app.files.garment_json import read_json
 from app.files.graded_sizes import Graded
 from app.files.import_errors import ImportedFileError
+from app.files.pieces import Pieces
 from app.files.seam_allowance import Allowance, Line
 from app.files.sketch import Sketch
 from app.files.sketch_garment import garment_of
@@ -39,13 +40,13 @@ def _read_dxf(data: bytes) -> Sketch:
 
 
 _SKETCHES: dict[str, Callable[[bytes], Sketch]] = {"svg": read_svg, "dxf": _read_dxf}
-_JSON = "json"
+_JSON, _FOLD = "json", "fold"
 _NEEDS = {"dxf": "ezdxf", "png": "cv2", "jpg": "cv2", "jpeg": "cv2"}
 """The modules of the optional libraries that read files, by the ending of their names."""
 
 _PICTURES = {"png": "png", "jpg": "jpeg", "jpeg": "jpeg"}
 
-ENDINGS = (_JSON, *_SKETCHES, *_PICTURES)
+ENDINGS = (_JSON, _FOLD, *_SKETCHES, *_PICTURES)
 """The endings of the names of files that can be imported, in lower case."""
 
 
@@ -54,7 +55,7 @@ class Imported:
     """The content of an imported file.
 
     Attributes:
-        format: "json", "svg", "dxf", "png" or "jpeg".
+        format: "json", "fold", "svg", "dxf", "png" or "jpeg".
         garment: the garment.
         notes: remarks on the import, in sentences.
         creases: the cloth on which the fold lines were read; None if it makes no difference.
@@ -62,6 +63,7 @@ class Imported:
         seen: how sure a garment in a picture is, as JSON; None for other files.
         allowance: a drawing's seam allowance, and whether it was taken along; None for none.
         graded: a drawing's graded sizes, and which was taken; None for one size.
+        pieces: a drawing's pieces, and which was taken; None for one piece.
     """
 
     format: str
@@ -72,6 +74,7 @@ class Imported:
     seen: dict[str, Any] | None = None
     allowance: Allowance | None = None
     graded: Graded | None = None
+    pieces: Pieces | None = None
 
 
 def largest(filename: str) -> int:
@@ -91,6 +94,7 @@ def import_file(
     like: str | Garment | None = None,
     line: Line | None = None,
     size: str | None = None,
+    piece: str | None = None,
 ) -> Imported:
     """Return the garment in a file.
 
@@ -105,10 +109,11 @@ def import_file(
             None to take the outline as it is seen.
         line: which line of a drawing that has a cut line and a seam line is the outline; None for the seam line.
         size: the size to take of a drawing in graded sizes; None for its sample size, or the middle one.
+        piece: the piece to take of a drawing with several, by name or number; None for the largest.
 
     Raises:
         ImportedFileError: the file is not a garment; the field is ``file``, ``filename``, ``units``, ``scale``,
-            ``measured``, ``like`` or ``size``.
+            ``measured``, ``like``, ``size`` or ``piece``.
         UnitsNeededError: the drawing's unit is unknown, or the one in the file is impossible.
         GarmentError: the garment is invalid; the field is that of a garment file.
         RequestError: the file claims to be a plan but is invalid; the field is that of a plan file.
@@ -121,14 +126,15 @@ def import_file(
         raise ImportedFileError("scale", f"{scale} is not between {SCALES[0]:g} and {SCALES[1]:g}")
     if ending in _NEEDS and (lacking := missing(_NEEDS[ending])) is not None:
         raise ImportedFileError("filename", lacking)
-    if ending == _JSON:
-        return Imported(_JSON, *read_garment_json(data))
+    drawn = read_json(data) if ending in (_JSON, _FOLD) else None
+    if isinstance(drawn, tuple):
+        return Imported(ending, *drawn)
     if ending in _PICTURES:
         return _picture(_PICTURES[ending], path.stem, data, measured, like)
-    if ending not in _SKETCHES:
+    if drawn is None and ending not in _SKETCHES:
         endings = ", ".join(f".{known}" for known in ENDINGS)
         raise ImportedFileError("filename", f"{path.name[:80]!r} ends in none of {endings}")
-    found = garment_of(_SKETCHES[ending](data), path.stem, units, scale, creases, line, size)
+    found = garment_of(drawn or _SKETCHES[ending](data), path.stem, units, scale, creases, line, size, piece)
     return Imported(
         ending,
         found.garment,
@@ -137,6 +143,7 @@ def import_file(
         found.sizes,
         allowance=found.allowance,
         graded=found.graded,
+        pieces=found.pieces,
     )
 
 

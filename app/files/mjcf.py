@@ -31,13 +31,13 @@ def urdf_of_mjcf(path: Path, folder: Path) -> Path:
         OSError: the system refuses to write.
     """
     if (lacking := missing("mujoco")) is not None:
-        raise RobotError("FILE", f"{path.name} is MuJoCo's XML: convert it to a URDF. {lacking.text}")
+        raise RobotError("file", f"{path.name} is MuJoCo's XML: convert it to a URDF. {lacking.text}")
     import mujoco
 
     try:
         model = mujoco.MjModel.from_xml_path(str(path))
     except ValueError as error:
-        raise RobotError("FILE", f"MuJoCo refuses {path.name}: {' '.join(str(error).split())}") from None
+        raise RobotError("file", f"MuJoCo refuses {path.name}: {' '.join(str(error).split())}") from None
     urdf = folder / f"{path.stem}.urdf"
     urdf.write_bytes(tostring(_Conversion(model, folder).urdf()))
     return urdf
@@ -92,7 +92,7 @@ class _Conversion:
     def _add_moving(self, joint: int, parent: str, child: str, place: FloatArray, turn: FloatArray) -> None:
         model, name = self._model, self._joint_name(joint)
         if model.jnt_type[joint] == _BALL:
-            raise RobotError("FILE", f"joint {name!r} is a ball, which no URDF has")
+            raise RobotError("file", f"joint {name!r} is a ball, which no URDF has")
         slides, is_limited = model.jnt_type[joint] == _SLIDE, bool(model.jnt_limited[joint])
         kind = "prismatic" if slides else "revolute" if is_limited else "continuous"
         element = self._add_joint(name, kind, parent, child, place, turn)

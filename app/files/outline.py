@@ -1,4 +1,4 @@
-"""Finds the outline of a garment among the curves of a drawing: the largest closed one."""
+"""Finds the outline of a garment among the curves of a drawing: the largest closed one, or that of a named piece."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -9,6 +9,7 @@ from app.files.curve import POINTS_MAX as CURVE_POINTS_MAX
 from app.files.curve import Curve
 from app.files.halves import fold_edge, joined, unfolded
 from app.files.import_errors import broken
+from app.files.pieces import in_pieces, joined_name, named_pieces, piece_wanted
 from app.files.seam_allowance import Allowance, Line, seam_line
 from app.files.sketch import MirrorLine, Sketch
 from planner.cloth.outline import AREA_MIN_M2, EDGE_MIN_M, POINTS_MAX
@@ -46,6 +47,8 @@ class FoundOutline:
         fold: where the half piece that was drawn is folded (m); None for a piece that was drawn whole.
         is_joined: whether it was drawn as two halves beside each other.
         has_unfolded: whether any piece of the drawing was mirrored over a fold line.
+        piece: the name of the piece that it is.
+        pieces: the names of all pieces, the largest first.
     """
 
     points: FloatArray
@@ -57,6 +60,8 @@ class FoundOutline:
     fold: Segment | None = None
     is_joined: bool = False
     has_unfolded: bool = False
+    piece: str = ""
+    pieces: tuple[str, ...] = ()
 
     def is_about(self, line: FloatArray) -> bool:
         """Return whether a line, shape (n, 2), may belong to this outline: not to another, and not far away."""
@@ -76,10 +81,12 @@ class _Line:
     Attributes:
         points: its points (m), shape (n, 2).
         is_bent: whether the curve is more than straight segments.
+        piece: the name of the piece that it belongs to, or None.
     """
 
     points: FloatArray
     is_bent: bool
+    piece: str | None
 
     @property
     def is_closed(self) -> bool:
@@ -96,10 +103,12 @@ class _Ring:
         is_bent: whether any of the curves that it is made of is more than straight segments.
         fold: where it was folded (m); None if it was drawn whole.
         is_joined: whether it is two halves.
+        piece: the name of the piece that it belongs to, or None.
     """
 
     points: FloatArray
     is_bent: bool
+    piece: str | None
     fold: Segment | None = None
     is_joined: bool = False
 
@@ -110,7 +119,7 @@ class _Ring:
 
 
 def find_outline(sketch: Sketch, unit_m: float, wanted: Line = "seam") -> FoundOutline:
-    """Return the largest closed line of a drawing, with at most 400 corners.
+    """Return the largest closed line of a drawing, or of the piece that is wanted, with at most 400 corners.
 
     Open lines are joined where they meet or nearly meet, half pieces unfolded, and halves that lie beside each other
     joined.
@@ -121,7 +130,8 @@ def find_outline(sketch: Sketch, unit_m: float, wanted: Line = "seam") -> FoundO
         wanted: which line to take where a seam line runs along inside the largest one.
 
     Raises:
-        ImportedFileError: there is no closed line, or there are too many points or crossings.
+        ImportedFileError: there is no closed line, or there are too many points or crossings; or there is no such
+            piece, the field is ``piece`` then.
     """
     lines: list[_Line] = []
     rings: list[_Ring] = []
@@ -131,12 +141,15 @@ def find_outline(sketch: Sketch, unit_m: float, wanted: Line = "seam") -> FoundO
             break
     if not rings:
         raise broken("there is no closed line in it that could be the outline of a garment")
-    rings = _whole(rings, sketch.mirrors, unit_m)
+    every = _whole(rings, sketch.mirrors, unit_m)
+    pieces = in_pieces([ring.points for ring in every])
+    names = named_pieces([every[piece[0]].piece for piece in pieces])
+    number = piece_wanted(names, sketch.piece)
+    rings = [every[within] for within in pieces[number]]
     seam = seam_line([_cornered(ring.points)[0] for ring in rings[:_PAIRED_MAX]])
-    taken = seam[0] if seam is not None and wanted == "seam" else 0
-    left = [ring for number, ring in enumerate(rings) if number and (seam is None or number != seam[0])]
-    others = [(ring.points.min(axis=0), ring.points.max(axis=0)) for ring in left]
-    ring = rings[taken]
+    ring = rings[seam[0] if seam is not None and wanted == "seam" else 0]
+    about = (rings[0], ring if seam is None else rings[seam[0]])
+    others = [(one.points.min(axis=0), one.points.max(axis=0)) for one in every if one not in about]
     points, spacing_m, tolerance_m = _cornered(ring.points)
     return FoundOutline(
         points,
@@ -147,7 +160,9 @@ def find_outline(sketch: Sketch, unit_m: float, wanted: Line = "seam") -> FoundO
         None if seam is None else Allowance(wanted, seam[1]),
         ring.fold,
         ring.is_joined,
-        any(one.fold is not None for one in rings),
+        any(one.fold is not None for one in every),
+        names[number],
+        names,
     )
 
 
@@ -155,7 +170,7 @@ def _flattened(curves: Iterable[Curve], unit_m: float) -> list[_Line]:
     lines: list[_Line] = []
     count = 0
     for curve in curves:
-        lines.append(_Line(curve.flattened(TOLERANCE_M / unit_m) * unit_m, curve.is_bent))
+        lines.append(_Line(curve.flattened(TOLERANCE_M / unit_m) * unit_m, curve.is_bent, curve.piece))
         count += len(lines[-1].points)
         if count > 2 * CURVE_POINTS_MAX:
             raise broken(f"its curves need more than {2 * CURVE_POINTS_MAX} points")
@@ -181,7 +196,9 @@ def area(ring: FloatArray) -> float:
 
 def _rings(lines: Sequence[_Line]) -> list[_Ring]:
     """Return the closed lines that are large enough to be cloth, the largest first."""
-    closed = [_Ring(line.points[:-1], line.is_bent) for line in lines if len(line.points) > 3 and line.is_closed]
+    closed = [
+        _Ring(line.points[:-1], line.is_bent, line.piece) for line in lines if len(line.points) > 3 and line.is_closed
+    ]
     loose = [line for line in lines if len(line.points) > 1 and not line.is_closed]
     return _sorted([*closed, *_enclosing(loose)])
 
@@ -193,9 +210,12 @@ def _enclosing(lines: Sequence[_Line]) -> list[_Ring]:
         return []
     if are_tangled(points, _CROSSINGS_MAX):
         raise broken(f"its open lines cross each other more than {_CROSSINGS_MAX} times")
-    bent = [line.points for line in lines if line.is_bent]
-    rings = enclosing_rings(points, _GAP_M)
-    return [_Ring(ring, any(_overlap(ring, line) for line in bent)) for ring in rings]
+    found = []
+    for ring in enclosing_rings(points, _GAP_M):
+        near = [line for line in lines if (line.is_bent or line.piece) and _overlap(ring, line.points)]
+        piece = next((line.piece for line in near if line.piece), None)
+        found.append(_Ring(ring, any(line.is_bent for line in near), piece))
+    return found
 
 
 def _overlap(one: FloatArray, other: FloatArray) -> bool:
@@ -210,11 +230,12 @@ def _whole(rings: list[_Ring], mirrors: Sequence[MirrorLine], unit_m: float) -> 
         folds = (fold_edge(ring.points, mirror, unit_m) for mirror in mirrors[:_UNFOLDED_MAX])
         fold = next((line for line in folds if line is not None), None)
         points = None if fold is None else unfolded(ring.points, fold)
-        found.append(ring if points is None else _Ring(points, ring.is_bent, fold))
+        found.append(ring if points is None else _Ring(points, ring.is_bent, ring.piece, fold))
     found = _sorted(found)
     while (pair := joined([_cornered(ring.points)[0] for ring in found[:_PAIRED_MAX]])) is not None:
         one, other, points = pair
-        both = _Ring(points, found[one].is_bent or found[other].is_bent, is_joined=True)
+        piece = joined_name(found[one].piece, found[other].piece)
+        both = _Ring(points, found[one].is_bent or found[other].is_bent, piece, is_joined=True)
         found = _sorted([both, *(ring for number, ring in enumerate(found) if number not in (one, other))])
     return found
 

@@ -27,6 +27,10 @@ _LETTER = re.compile(r"x{0,4}[sl]|m|[2-6]x[sl]")
 _SIZE = re.compile(
     r"(?:^|[^a-z])(?:size|groesse|größe|gr|taille|talla|maat)[\W_]*([0-9]{1,3}[a-z]?|[2-6]?x{0,4}[sml])(?![a-z0-9])"
 )
+_GIVEN = re.compile(
+    r"(path|rect|polygon|polyline|line|circle|ellipse|curve|shape|object|group|layer|ebene|calque|capa|svg|use|clip|g)?"
+    r"[\W_\d]*|.*\d{3,}"
+)
 _ALONE = re.compile(r"_?(\d{2,3})")
 
 
@@ -46,6 +50,12 @@ def size_in(label: str) -> str | None:
     words = [word for word in re.split(r"[\W_]+", text) if word]
     ends = (words[-1], words[0]) if words else ()
     return next((word.upper() for word in ends if _LETTER.fullmatch(word)), None)
+
+
+def piece_in(label: str) -> str | None:
+    """Return the piece that a label names; None for a name that a program gave, as ``path12`` or ``Layer 1``."""
+    plain = " ".join(label.split())[:40]
+    return plain if plain and not _GIVEN.fullmatch(plain.lower()) else None
 
 
 def in_order(sizes: Iterable[str]) -> list[str]:

@@ -39,6 +39,17 @@ def unpack_robot(data: bytes, folder: Path) -> None:
     _unpack(data, folder, _below_card)
 
 
+def has_card(data: bytes) -> bool:
+    """Return whether this is an archive with a robot's card in it."""
+    if data.count(_ENTRY) > FILES_MAX:
+        return False
+    try:
+        with ZipFile(io.BytesIO(data)) as archive:
+            return any(PurePosixPath(name).name == CARD for name in archive.namelist())
+    except (BadZipFile, ValueError, NotImplementedError):
+        return False
+
+
 def unpack_archive(data: bytes, folder: Path) -> None:
     """Unpack an archive that need not have a card into an empty folder; raise as `unpack_robot` does."""
     _unpack(data, folder, lambda files: files)

@@ -23,12 +23,13 @@ _MESH = re.compile(r"""(<mesh\s[^>]*?\bfilename=)("[^"]*"|'[^']*')""")
 """A mesh and its file's name; plugins and textures have files too, which nothing here needs."""
 
 
-def robot_description(path: Path, folder: Path) -> Source:
+def robot_description(path: Path, folder: Path, *, may_expand: bool = True) -> Source:
     """Return the URDF in a file, which may be an archive or xacro.
 
     Args:
         path: the file.
         folder: an empty folder for what is unpacked or expanded.
+        may_expand: whether xacro is expanded, which does what the file says.
 
     Raises:
         RobotError: it is no description of a robot, or one that has to be expanded or converted first.
@@ -42,6 +43,8 @@ def robot_description(path: Path, folder: Path) -> Source:
     tops = [one for one in above if one.is_relative_to(folder / "unpacked")] or above
     text = path.read_text(encoding="utf-8", errors="replace")
     is_xacro = path.suffix == _XACRO or _MACROS.search(text) is not None
+    if is_xacro and not may_expand:
+        raise RobotError("file", f"{path.name} has to be expanded by xacro first; `pleat robot draft` does so")
     text = _expanded(path, tops) if is_xacro else text
     if re.search(r"<mujoco[\s>]", text):
         return Source(urdf_of_mjcf(path, folder), folder)
@@ -61,8 +64,8 @@ def _only_description(folder: Path) -> Path:
             return found[0]
         if found:
             names = ", ".join(str(one.relative_to(folder)) for one in found[:5])
-            raise RobotError("FILE", f"has {len(found)} descriptions of robots, not one: {names}")
-    raise RobotError("FILE", "has no .urdf and no .xacro in it")
+            raise RobotError("file", f"has {len(found)} descriptions of robots, not one: {names}")
+    raise RobotError("file", "has no .urdf and no .xacro in it")
 
 
 def _root(beside: Path, tops: Iterable[Path], names: list[str]) -> Path:
@@ -89,7 +92,7 @@ def _below(root: Path, beside: Path, quoted: str) -> str:
 def _expanded(path: Path, tops: Iterable[Path]) -> str:
     """Return what xacro makes of a file; packages are looked for above it."""
     if (lacking := missing("xacro")) is not None:
-        raise RobotError("FILE", f"{path.name} must be expanded by xacro. {lacking.text}")
+        raise RobotError("file", f"{path.name} must be expanded by xacro. {lacking.text}")
     import xacro
     from xacro import substitution_args
 
@@ -100,7 +103,7 @@ def _expanded(path: Path, tops: Iterable[Path]) -> str:
             for one in (top, top / package):
                 if one.name == package and one.is_dir():
                     return str(one)
-        raise RobotError("FILE", f"{path.name}: the package {package!r} is in none of the folders above it")
+        raise RobotError("file", f"{path.name}: the package {package!r} is in none of the folders above it")
 
     asked: Any = substitution_args
     asked._eval_find = find  # its own asks an installation of ROS
@@ -111,4 +114,4 @@ def _expanded(path: Path, tops: Iterable[Path]) -> str:
         raise
     except Exception as error:  # xacro evaluates what the file says, which may raise anything
         causes = [str(one) for one in (error, getattr(error, "exc", None)) if one is not None and str(one)]
-        raise RobotError("FILE", f"{path.name} cannot be expanded: {causes[0] if causes else error!r}") from None
+        raise RobotError("file", f"{path.name} cannot be expanded: {causes[0] if causes else error!r}") from None

@@ -15,7 +15,7 @@ import numpy as np
 from rosbags.typesys import Stores, get_typestore
 from rosbags.typesys.store import Typestore
 
-from app.files.step_motion import StepMotion, controller_name, controllers
+from app.files.joint_motion import JointMotion, controller_name, controllers
 from app.step_kinds import step_words
 from planner.errors import UnsolvedPlanError
 from planner.geometry.pose import FloatArray
@@ -94,12 +94,12 @@ class _Writer:
 
     def messages(self, step: PlanStep) -> Iterator[RosMessage]:
         """Yield the messages of a step."""
-        motion = StepMotion.of(self._motion, step, self._card, self._plan.scene)
+        motion = JointMotion.of(self._motion, step, self._card, self._plan.scene)
         stamp_ns = _ns(step.start_s)
         yield from self._messages.trajectories(motion, self._card, stamp_ns)
         if self._card.lift_joint is not None:
             still, none = np.full((2, 1), self._motion.torso_m), np.zeros((2, 1))
-            resting = StepMotion((self._card.lift_joint,), motion.times_s[[0, -1]], still, none, none)
+            resting = JointMotion((self._card.lift_joint,), motion.times_s[[0, -1]], still, none, none)
             yield self._messages.trajectory("lift", resting, stamp_ns)
         if not self._card.is_fixed:
             yield self._path(step, motion.times_s, motion.of_joints(BASE_NAMES).positions)
@@ -128,13 +128,13 @@ class JointMessages:
         """Take the definitions of the messages."""
         self._types = types
 
-    def trajectories(self, motion: StepMotion, card: RobotCard, stamp_ns: int) -> Iterator[RosMessage]:
+    def trajectories(self, motion: JointMotion, card: RobotCard, stamp_ns: int) -> Iterator[RosMessage]:
         """Yield a message for the controller of each arm and of each gripper of which the motion has the joints."""
         for name, joints in controllers(card):
             if all(joint in motion.names for joint in joints):
                 yield self.trajectory(name, motion.of_joints(joints), stamp_ns)
 
-    def trajectory(self, name: str, motion: StepMotion, stamp_ns: int) -> RosMessage:
+    def trajectory(self, name: str, motion: JointMotion, stamp_ns: int) -> RosMessage:
         """Return a message for the controller of all joints of a motion: positions, velocities and accelerations."""
         point = self._types.types["trajectory_msgs/msg/JointTrajectoryPoint"]
         duration = self._types.types["builtin_interfaces/msg/Duration"]

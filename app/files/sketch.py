@@ -73,6 +73,7 @@ class Sketch:
         says_fold: whether a text says that a piece is cut on the fold, wherever that is.
         sizes: the drawing in each graded size, by name, in order; empty if it has one size.
         sample: the size that the drawing names as its sample; None if it names none.
+        piece: the pattern piece that is wanted, by name or number; None for the largest.
     """
 
     curves: tuple[Curve, ...]
@@ -87,6 +88,7 @@ class Sketch:
     says_fold: bool = False
     sizes: Mapping[str, "Sketch"] = field(default_factory=dict)
     sample: str | None = None
+    piece: str | None = None
 
     def with_lines(self, drawn: Iterable[DrawnLine]) -> "Sketch":
         """Return the sketch with lines; with all those of each size in `sizes` where they have several sizes."""

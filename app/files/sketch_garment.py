@@ -13,6 +13,7 @@ from app.files.graded_sizes import Graded, graded_sketch
 from app.files.halves import mirrored_line, whole_line
 from app.files.import_errors import ImportedFileError, UnitsNeededError
 from app.files.outline import TOLERANCE_M, FoundOutline, find_outline
+from app.files.pieces import Pieces
 from app.files.seam_allowance import Allowance, Line
 from app.files.sketch import Sketch
 from app.files.sketch_size import (
@@ -59,6 +60,7 @@ class SketchedGarment:
         sizes: the size that it would have in other units.
         allowance: its seam allowance, and whether it was taken along; None if the drawing tells of none.
         graded: the graded sizes of the drawing, and which was taken; None if it has one size.
+        pieces: the pieces of the drawing, and which was taken; None if it has one.
     """
 
     garment: Garment
@@ -67,6 +69,7 @@ class SketchedGarment:
     sizes: Sizes
     allowance: Allowance | None = None
     graded: Graded | None = None
+    pieces: Pieces | None = None
 
 
 def garment_of(
@@ -77,6 +80,7 @@ def garment_of(
     creases: Creases | None = None,
     line: Line | None = None,
     size: str | None = None,
+    piece: str | None = None,
 ) -> SketchedGarment:
     """Return the garment that a drawing shows.
 
@@ -88,13 +92,15 @@ def garment_of(
         creases: the cloth on which its fold lines are drawn; None for the reading that makes more of them legal.
         line: which line is the outline where the drawing has a cut line and a seam line; None for the seam line.
         size: the graded size to take; None for the drawing's sample size, or the middle one.
+        piece: the piece to take, by name or number; None for the largest.
 
     Raises:
         UnitsNeededError: neither the file nor the caller gives the unit, or the one in the file is impossible.
-        ImportedFileError: there is no outline, it is too large, or there is no such size.
+        ImportedFileError: there is no outline, it is too large, or there is no such size or piece.
         GarmentError: the outline is not valid for a garment.
     """
     sketch, graded = graded_sketch(sketch, size)
+    sketch = replace(sketch, piece=piece)
     unit_m = UNITS_M[units] if units is not None else sketch.unit_m
     if unit_m is None:
         raise UnitsNeededError(Message.plain(sketch.why_no_unit), sizes_by_unit(sketch, scale))
@@ -122,7 +128,8 @@ def garment_of(
     garment, read = _read(_garment(drawn, sketch.kept or {}, notes), creases, notes)
     wide, tall = (found.points.max(axis=0) - found.points.min(axis=0)).tolist()
     sizes = {name: (wide * each / unit_m * scale, tall * each / unit_m * scale) for name, each in UNITS_M.items()}
-    return SketchedGarment(garment, tuple(notes), read, sizes, found.allowance, graded)
+    pieces = Pieces(found.piece, found.pieces) if len(found.pieces) > 1 else None
+    return SketchedGarment(garment, tuple(notes), read, sizes, found.allowance, graded, pieces)
 
 
 def _read(garment: Garment, creases: Creases | None, notes: list[Message]) -> tuple[Garment, Creases | None]:
@@ -235,8 +242,11 @@ def _piece_notes(sketch: Sketch, found: FoundOutline, graded: Graded | None) -> 
 
 
 def _outline_notes(found: FoundOutline, units: str | None, unit_m: float) -> Iterator[Message]:
-    if len(found.others):
-        lines = "another closed line" if len(found.others) == 1 else f"{len(found.others)} other closed lines"
+    if len(found.pieces) > 1:
+        text = f"The drawing has the pieces {', '.join(found.pieces)}; {found.piece} was taken."
+        yield Message("pieces", text, {"piece": found.piece, "pieces": list(found.pieces)})
+    if inner := len(found.others) - (len(found.pieces) - 1):
+        lines = "another closed line" if inner == 1 else f"{inner} other closed lines"
         yield Message.plain(f"The largest closed line was taken as the outline; {lines} in the file left out.")
     if found.allowance is not None:
         taken, width_m = found.allowance.line, found.allowance.width_m

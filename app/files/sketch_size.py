@@ -13,7 +13,14 @@ from planner.geometry.pose import FloatArray
 from planner.message import Message
 from planner.strict_model import LARGEST_M
 
-UNITS_M: Mapping[str, float] = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254}
+UNITS_M: Mapping[str, float] = {
+    "mm": 1e-3,
+    "cm": 1e-2,
+    "m": 1.0,
+    "in": 0.0254,
+    "pt": 0.0254 / 72.0,
+    "px": 0.0254 / 96.0,
+}
 """Units that a drawing may have, by name (m)."""
 
 UNITS_MIN_MAX_M = (1e-9, 1e3)

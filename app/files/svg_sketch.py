@@ -15,7 +15,7 @@ from app.files.fold_colour import kind_of
 from app.files.import_errors import broken
 from app.files.markup import Element, read_markup
 from app.files.outline import area
-from app.files.piece_labels import says_on_fold, size_in
+from app.files.piece_labels import piece_in, says_on_fold, size_in
 from app.files.sketch import DrawnLine, FoldLine, MirrorLine, Role, Sketch
 from app.files.svg_lengths import Sheet, Sides, sheet_of
 from app.files.svg_paint import WHITE_MIN, colour_of, is_filled, is_stroked, is_white
@@ -90,6 +90,7 @@ class _Reading:
         self._texts = [e for e in root.walk() if e.tag in ("text", "textPath") and says_on_fold(e.whole_text())]
         self._on_fold = {e.attributes.get("href", "")[1:] for text in self._texts for e in text.walk()} - {""}
         self._sizes: dict[Element, str | None] = {}
+        self._pieces: dict[Element, str | None] = {}
         self._says_on_fold: dict[Element, bool] = {}
         self._areas: list[_Area] = []
         self._lines: list[DrawnLine] = []
@@ -190,12 +191,20 @@ class _Reading:
             self._sizes[element] = said or (None if outer is None else self._size_of(outer))
         return self._sizes[element]
 
+    def _piece_of(self, element: Element) -> str | None:
+        """Return the name of the piece that an element, or else a group around it, is labelled with."""
+        if element not in self._pieces:
+            named = next((name for label in labels_of(element) if (name := piece_in(label)) is not None), None)
+            outer = element.parent if element.parent is not self._root else None
+            self._pieces[element] = named or (None if outer is None else self._piece_of(outer))
+        return self._pieces[element]
+
     def _curves(self, shape: Shape) -> Iterator[tuple[SvgCurve, bool]]:
         for curve, is_closed in _curves(shape, _upwards(self._sheet)):
             self._segments += len(curve.segments)
             if self._segments > SEGMENTS_MAX:
                 raise broken(f"line {shape.element.line}: there are more than {SEGMENTS_MAX} segments in it")
-            yield curve, is_closed
+            yield replace(curve, piece=self._piece_of(shape.element)), is_closed
 
     def _coarse(self, curve: Curve) -> FloatArray:
         """Return points on a curve that are precise to a thousandth of the sheet, in its own units."""
@@ -212,7 +221,7 @@ class _Reading:
         if parts is None:
             return [curve]
         closed = [np.concatenate([part, part[:1]]) for part in parts]
-        return [DrawnCurve(points, partial(_same, points), curve.is_bent) for points in closed]
+        return [DrawnCurve(points, partial(_same, points), curve.is_bent, curve.piece) for points in closed]
 
     def _is_page(self, curve: Curve) -> bool:
         points, box = self._coarse(curve), self._sheet.view_box

@@ -1,5 +1,6 @@
 """Proposals as a job: ways to fold a garment to a size, each planned."""
 
+import uuid
 from collections.abc import Generator
 from dataclasses import dataclass
 from typing import Annotated, Any
@@ -10,6 +11,7 @@ from pydantic_core import PydanticCustomError
 from app.api.messages import GarmentField, TimeLimit
 from app.api.request_parsing import requested_garment
 from app.jobs.job_kind import JobKind, Progress, Stores, as_it_is
+from app.store.packed_plan import PackedPlan
 from planner.cloth.garment import FOLDS_MAX, Garment
 from planner.geometry.given import GivenPose
 from planner.json_form import JsonForm
@@ -139,16 +141,30 @@ def _begun(asked: ProposalsTask) -> Generator[Proposal, None, Tried]:
     )
 
 
+@dataclass(frozen=True, slots=True)
+class Found:
+    """A proposal as JSON with the id of its plan, and the plan, packed in the job's process."""
+
+    body: dict[str, Any]
+    plan: PackedPlan
+
+
 def propose(asked: ProposalsTask, progress: Progress) -> dict[str, Any]:
     """Return the proposals as JSON, telling each as it is found; the work of the job."""
-    told = 0
+    told: dict[int, dict[str, Any]] = {}
 
     def hear(proposal: Proposal) -> None:
-        nonlocal told
-        told += 1
-        progress(told / asked.count, f"{told} found", proposal.to_dict())
+        body = told[id(proposal)] = {**proposal.to_dict(), "plan_id": uuid.uuid4().hex}
+        progress(len(told) / asked.count, f"{len(told)} found", Found(body, PackedPlan.of(proposal.plan)))
 
-    return all_proposals(_begun(asked), hear).to_dict()
+    found = all_proposals(_begun(asked), hear)
+    return {**found.to_dict(), "proposals": [told[id(one)] for one in found.proposals]}
+
+
+def _tell(stores: Stores, found: Found) -> dict[str, Any]:
+    """Store the plan of a proposal and return the proposal as JSON."""
+    stores.plans.add_packed(found.plan, found.body["plan_id"])
+    return found.body
 
 
 PROPOSALS = JobKind(
@@ -159,6 +175,7 @@ PROPOSALS = JobKind(
     prepare=_prepare,
     work=propose,
     finish=as_it_is,
+    tell=_tell,
     about=lambda asked: asked.garment.title,
     path="/api/proposals",
     may_begin_anew=True,

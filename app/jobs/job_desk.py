@@ -203,7 +203,7 @@ class JobDesk:
         try:
             begun = self._open[job_id].stored.begun + 1
             self._change(job_id, is_saved=True, status="running", started_s=time.time(), begun=begun)
-            answer = self._workers.run_alone(do_job, stop, partial(self._hear, job_id), kind.work, asked)
+            answer = self._workers.run_alone(do_job, stop, partial(self._hear, job_id, kind), kind.work, asked)
             self._end(job_id, "done", "", kind.finish(self._stores, answer))
         except StoppedError:
             if self._open[job_id].is_cancelled:
@@ -217,9 +217,9 @@ class JobDesk:
             _log.exception("job %s (%s) failed", job_id, kind.name)
             self._end(job_id, "failed", _BUG)
 
-    def _hear(self, job_id: str, news: Progressed) -> None:
+    def _hear(self, job_id: str, kind: AnyKind, news: Progressed) -> None:
         if news.found is not None:
-            self._open[job_id].found.append(news.found)
+            self._open[job_id].found.append(kind.tell(self._stores, news.found))
         is_saved = time.monotonic() - self._open[job_id].saved_s >= _SAVE_EVERY_S
         try:
             self._change(job_id, is_saved=is_saved, progress=news.share, message=news.message)

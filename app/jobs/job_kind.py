@@ -26,8 +26,8 @@ Answer = TypeVar("Answer")
 class Progress(Protocol):
     """Tells how far a job is."""
 
-    def __call__(self, share: float, message: str, found: dict[str, Any] | None = None) -> None:
-        """Tell the share of the job that is done (0..1), what is being done, and what was just found, as JSON."""
+    def __call__(self, share: float, message: str, found: object = None) -> None:
+        """Tell the share of the job that is done (0..1), what is being done, and what was just found."""
 
 
 LARGEST_BODY = 1 << 20
@@ -53,6 +53,11 @@ class Stores:
     robots: RobotRepository
 
 
+def as_it_is(_: Stores, answer: Answer) -> Answer:
+    """Return what the work has brought, which is JSON already: a `finish` or `tell`."""
+    return answer
+
+
 def _unnamed(_: object) -> str:
     """Return no name: an `about`."""
     return ""
@@ -74,6 +79,7 @@ class JobKind(Generic[Body, Asked, Answer]):
         prepare: returns the argument of `work`; it must be picklable. Raises a `FoldingError` for a bad request.
         work: a module-level function, in a module that is cheap to import. Its result must be picklable.
         finish: returns the result as JSON.
+        tell: returns what the work has just found as JSON; runs in the server, as `finish` does.
         about: tells jobs of a kind apart for people: the title of the garment or study, from what `prepare` returned.
         release: called once the job has ended in whatever way, with what `prepare` returned.
         path: the path of the route that starts such jobs; by default `/api/jobs/{name}`.
@@ -90,6 +96,7 @@ class JobKind(Generic[Body, Asked, Answer]):
     prepare: Callable[[Stores, Body], Asked]
     work: Callable[[Asked, Progress], Answer]
     finish: Callable[[Stores, Answer], Any]
+    tell: Callable[[Stores, Any], dict[str, Any]] = as_it_is
     about: Callable[[Asked], str] = _unnamed
     release: Callable[[Stores, Asked], None] = _nothing
     path: str | None = None
@@ -109,8 +116,3 @@ class JobKind(Generic[Body, Asked, Answer]):
 
 
 AnyKind: TypeAlias = JobKind[Any, Any, Any]
-
-
-def as_it_is(_: Stores, answer: Answer) -> Answer:
-    """Return what the work has returned, which is JSON already: a `finish`."""
-    return answer

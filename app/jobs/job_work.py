@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from app.jobs.job_kind import Progress
 from app.worker.process import Caller
@@ -17,13 +17,13 @@ class Progressed:
 
     share: float
     message: str
-    found: dict[str, Any] | None = None
+    found: object = None
 
 
 def do_job(caller: Caller, work: Callable[[Asked, Progress], Answer], asked: Asked) -> Answer:
     """Do the work of a job, and send its progress on."""
 
-    def progress(share: float, message: str, found: dict[str, Any] | None = None) -> None:
+    def progress(share: float, message: str, found: object = None) -> None:
         caller.tell(Progressed(min(max(share, 0.0), 1.0), message, found))
 
     return work(asked, progress)

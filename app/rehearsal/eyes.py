@@ -11,8 +11,11 @@ from app.rehearsal.camera.look import coded
 from app.rehearsal.camera.posture import Posture
 from app.rehearsal.camera.robot_shape import RobotShape, hidden, robot_shape
 from app.rehearsal.hand_eye import HandEye
+from app.rehearsal.laid_edge import LaidEdge
+from app.rehearsal.vision.first_edge import first_edges
 from app.rehearsal.vision.fit_stack import fit_stack
 from app.rehearsal.vision.look_at_stack import Looker, Sight
+from app.rehearsal.vision.picture import Image
 from app.rehearsal.vision.stack_fit import Expected
 from app.rehearsal.world import Observation, StepMotion
 from planner.folds.fold_sequence import FoldSequence
@@ -86,6 +89,7 @@ class Eyes:
         self._table = task.scene.table
         self.has_camera = False
         self._hand_eye = HandEye()
+        self._looked: tuple[Image, Looker] | None = None
         self._last: Expected | None = None
         self.expected: Expected | None = None
         self._card: RobotCard = load_robot(task.robot).card
@@ -113,9 +117,17 @@ class Eyes:
         camera, parts = self._hand_eye.corrected(image, seen.camera, hands), list(chain.from_iterable(hands.values()))
         looker = Looker(camera, self._table, hidden(parts, camera, _BESIDE_ARM_PX))
         found = looker.look(image, sequence, folds, near, self.expected)
+        self._looked = image, looker
         tells = found.is_estimate or self.expected is not None
         self._last = found.stack.expected if tells and found.stack is not None else self.expected
         return found
+
+    def short_m(self, edge: LaidEdge) -> float | None:
+        """Return how far short of its place an edge is in the picture looked at last (m); None if it is not seen."""
+        if self._looked is None:
+            return None
+        image, looker = self._looked
+        return edge.short_m(first_edges(image, looker.camera, looker.hidden, edge.starts, edge.ends, edge.height_m))
 
     def hands(self, seen: Observation, posture: Posture) -> dict[str, Point2]:
         """Return how far beside its place each hand is that is seen, by its arm's name, table frame (m)."""

@@ -2,10 +2,10 @@
 
 Before hands close the stack's outline is fitted to what is seen, and the step is corrected for it (`BY_WHAT_IS_SEEN`).
 Where cloth lies further away than the comfort radius, or hands find none, the rest is planned again from what is there.
-A hand that finds no cloth tries again round its grip, and holds the cloth beside it for as long as it holds on. Where
-it is not known where the stack lies, the arms withdraw for another look; where that does not help, one step is made as
-planned, and a run that stays blind ends. So does one in which a fold has left another outline than planned, on a second
-look too; after the last step it is looked for as well.
+A hand that finds no cloth tries again round its grip, and holds the cloth beside it for as long as it holds on. What a
+fold is seen to have left short of its place is laid down again; a fold that has left another outline than planned is
+opened and made again, once, and if that fails too the run ends. Where it is not known where the stack lies, the arms
+withdraw for another look; where that does not help, one step is made as planned, and a run that stays blind ends.
 """
 
 from collections.abc import Callable, Mapping
@@ -41,6 +41,9 @@ from planner.task.world_state import WorldState
 
 FAILURES_MAX = 3
 """Times that the rest is planned again before a run is given up."""
+
+REPAIRS_MAX = 2
+"""Times that what a fold has left short of its place is laid down again."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,6 +81,7 @@ class Performer:
     _decisions: list[Decision] = field(default_factory=list)
     _cloths: list[ClothAfter] = field(default_factory=list)
     _made: int = 0
+    _opened: int = -1
     _held: dict[str, Point2] = field(default_factory=dict)
     _hands: dict[str, Point2] = field(default_factory=dict)
 
@@ -154,11 +158,34 @@ class Performer:
     def _go_on(self, seen: StepSeen, answer: Performed) -> None:
         """Judge a step that was made, and go on to the next one."""
         self._watch.after(seen.motion)
+        if self._is_opened(seen):
+            return
         self._carried = self._after_drag(seen) if seen.motion.is_drag else seen.carried
+        self._lay_again(seen)
         self._judge(seen, answer)
         self._number += 1
         self._made += 1
         self.progress(self._number / len(self._motions))
+
+    def _is_opened(self, seen: StepSeen) -> bool:
+        """Return whether a fold has failed, as seen, and was opened again, once, so that it can be made again."""
+        if self.replan is None or not seen.motion.is_fold or not seen.takes_cloth or self._opened == self._made:
+            return False
+        motion = self._watch.opened(seen, self._made + 1) if all(grip.opens for grip in seen.motion.grips) else None
+        if motion is None:
+            return False
+        self._opened = self._made
+        self.world.perform(motion)
+        return True
+
+    def _lay_again(self, seen: StepSeen) -> None:
+        """Look at what a fold has laid down, and lay down again what is short of its place."""
+        if self.replan is None or not seen.motion.is_fold or not all(grip.opens for grip in seen.motion.grips):
+            return
+        for _ in range(REPAIRS_MAX):
+            motion = self._watch.laid_again(seen, self._made + 1)
+            if motion is None or self.world.perform(motion).missing:
+                return
 
     def _after_drag(self, seen: StepSeen) -> Isometry:
         """Return the stack's offset from its planned pose after a drag; move the hands that keep holding with it.

@@ -20,7 +20,8 @@ class Decision:
 
     Attributes:
         step: how many steps had been made.
-        code: "seen", "not_known", "kept_blindly", "corrected", "aimed", "regrasped", "replanned" or "fold_failed".
+        code: "seen", "not_known", "kept_blindly", "corrected", "aimed", "regrasped", "laid_again", "opened",
+            "replanned" or "fold_failed".
         numbers: what it rests on, by name, in SI units.
     """
 
@@ -73,6 +74,7 @@ class Run:
             "steps": [step.to_dict() for step in self.steps],
             "final_iou": self.steps[-1].iou if self.steps else None,
             "regrasps": self.count("regrasped"),
+            "repairs": self.count("laid_again") + self.count("opened"),
             "replans": self.count("replanned"),
             "seed": self.seed,
             "reason": self.reason,

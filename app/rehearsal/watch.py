@@ -1,18 +1,22 @@
 """Look at a run: before hands close, from arms out of the way if need be, at hands, after drags and at the end.
 
 Cloth that a fold has left elsewhere than it should be has another outline than the folded stack. So a look after a fold
-to which that outline does not fit is made again with the arms out of the way, and if it does not fit then the run ends:
-cloth that has been folded otherwise than planned is no state from which there is a plan.
+to which that outline does not fit is made again with the arms out of the way. If it does not fit then the fold is
+opened; if that was done before or leaves another outline too, the run ends, since from cloth that is folded otherwise
+than planned there is no plan.
 """
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from app.rehearsal.camera.posture import Posture
 from app.rehearsal.eyes import Eyes, Picture, kept
 from app.rehearsal.grasp_points import are_edges_hidden
+from app.rehearsal.judge import carry
+from app.rehearsal.laid_again import laid_again, opened
+from app.rehearsal.laid_edge import LaidEdge, laid_edges
 from app.rehearsal.step_motions import posture_at
 from app.rehearsal.step_seen import StepSeen
 from app.rehearsal.vision.look_at_stack import Sight
@@ -32,6 +36,15 @@ FOLDED_OVERLAP = 0.9
 
 WITHDRAW_S = 3.0
 """The time that arms take to get out of the way (s)."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Latest:
+    """The latest look, for as long as nothing has moved since: at what, what was seen, and whether arms were away."""
+
+    ought: WorldState
+    sight: Sight
+    is_clear: bool
 
 
 @dataclass
@@ -57,6 +70,7 @@ class Watch:
     blind: int = 0
     pictures: list[Picture] = field(default_factory=list)
     has_folded: bool = False
+    _latest: "_Latest | None" = None
 
     @cached_property
     def eyes(self) -> Eyes:
@@ -102,13 +116,24 @@ class Watch:
         return self._failed(sight, "after the last step") if sight is not None and self._is_failed(sight) else ""
 
     def _clear_look(self, plan: Plan, step: PlanStep, ought: WorldState, made: int) -> Sight | None:
-        """Look, and again with the arms out of the way where that does not tell how the cloth lies."""
-        sight = self.look(plan, ought, made)
+        """Look, unless nothing has moved since, and again with the arms out of the way where that does not tell."""
+        latest, is_clear = self._latest, False
+        sight: Sight | None
+        if latest is not None and latest.ought == ought:
+            sight, is_clear = latest.sight, latest.is_clear
+        else:
+            sight = self.look(plan, ought, made)
         if sight is None or self.posture is None:
             return sight
         is_hidden = ought is step.before and are_edges_hidden(step, sight.stack)
-        if sight.unknown is None and not is_hidden and not self._is_failed(sight):
-            return sight
+        if sight.unknown is not None or is_hidden or self._is_failed(sight):
+            sight, is_clear = sight if is_clear else self._withdrawn_look(plan, ought, made, sight), True
+        self._latest = _Latest(ought, sight, is_clear)
+        return sight
+
+    def _withdrawn_look(self, plan: Plan, ought: WorldState, made: int, sight: Sight) -> Sight:
+        """Look with the arms out of the way, and return what that shows, or what was seen before if that tells more."""
+        assert self.posture is not None
         self.posture = self.eyes.withdrawn(self.posture)
         self.world.perform(StepMotion(made, WITHDRAW, WITHDRAW_S, ends=self.posture))
         clear = self.look(plan, ought, made, is_clear=True)
@@ -116,6 +141,58 @@ class Watch:
             return sight
         # One of the two looks is mistaken then: a stack as planned is not seen by chance.
         return sight if sight.is_estimate and self._is_failed(clear) and not self._is_failed(sight) else clear
+
+    def laid_again(self, seen: StepSeen, made: int) -> StepMotion | None:
+        """Return the motion that pulls edges to their places that a fold has left short of them, as seen; see there.
+
+        Args:
+            seen: the step, and where the stack lay before it.
+            made: how many steps have been made.
+        """
+        step, plan = seen.step, seen.plan
+        sight = self._clear_look(plan, step, step.after, made)
+        if sight is None or sight.fit is None or not sight.is_estimate or self._is_failed(sight):
+            return None
+        edges, short_m = self._short(seen, sight)
+        if short_m.keys() != edges.keys() and self._latest is not None and not self._latest.is_clear:
+            sight = self._withdrawn_look(plan, step.after, made, sight)
+            self._latest = _Latest(step.after, sight, is_clear=True)
+            edges, short_m = self._short(seen, sight)
+        motion = laid_again(seen, edges, short_m)
+        if motion is not None:
+            self.posture, self._latest = motion.ends, None
+            self.decide("laid_again", ("short_m", max(short_m.values())))
+        return motion
+
+    def opened(self, seen: StepSeen, made: int) -> StepMotion | None:
+        """Return the motion that lays back what a fold has left with another outline than planned; None if it has not.
+
+        Args:
+            seen: the step, and where the stack lay before it.
+            made: how many steps have been made.
+        """
+        sight = self._clear_look(seen.plan, seen.step, seen.step.after, made)
+        if sight is None or sight.fit is None or not self._is_failed(sight):
+            return None
+        edges = {edge.arm: edge for edge in laid_edges(seen)}
+        found = {arm: self.eyes.short_m(edge) for arm, edge in edges.items()}
+        motion = opened(seen, edges, {arm: short_m for arm, short_m in found.items() if short_m is not None})
+        self.posture, self._latest = motion.ends, None
+        self.decide("opened", ("overlap", sight.fit.overlap))
+        return motion
+
+    def _short(self, seen: StepSeen, sight: Sight) -> tuple[dict[str, LaidEdge], dict[str, float]]:
+        """Return the edges that a fold has laid down, by arm, and how far short of their places those are that it sees.
+
+        Nearer than it is known where the stack lies they count as in their places.
+        """
+        if sight.fit is None:
+            return {}, {}
+        there = replace(seen, carried=carry(seen.step.after.placement, sight.fit.placement))
+        edges = {edge.arm: edge for edge in laid_edges(there)}
+        found = {arm: self.eyes.short_m(edge) for arm, edge in edges.items()}
+        told = {arm: short_m for arm, short_m in found.items() if short_m is not None}
+        return edges, told if max(told.values(), default=0.0) > sight.fit.error_m else dict.fromkeys(told, 0.0)
 
     def _is_failed(self, sight: Sight) -> bool:
         """Return whether a fold of this run has left the cloth with another outline than it should have."""
@@ -164,6 +241,6 @@ class Watch:
 
     def after(self, motion: StepMotion) -> None:
         """Note a step that was made."""
-        self.posture = motion.ends
+        self.posture, self._latest = motion.ends, None
         self.has_folded |= motion.is_fold
         self.eyes.after(motion)

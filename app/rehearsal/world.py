@@ -27,6 +27,7 @@ class GripMotion:
         turned_rad: how far the hand has rolled over with the cloth at each point (rad); empty: it does not roll.
         heading_rad: the direction in which its fingers point, horizontal, table frame, while one is under the cloth and
             one over it (rad); None where they are side by side, or nobody has said.
+        layers: how many layers from the top down they take where they close, at a free edge of these; None: all.
     """
 
     arm: str
@@ -36,6 +37,7 @@ class GripMotion:
     opens: bool = True
     turned_rad: tuple[float, ...] = ()
     heading_rad: float | None = None
+    layers: int | None = None
 
     def at(self, t_s: float) -> FloatArray:
         """Return the tool's position at a time since the step's start (s), shape (3,), m."""
@@ -66,6 +68,9 @@ WITHDRAW, REACH = "withdraw", "reach"
 """The kinds of motions in which no hand holds cloth, for a look: arms get out of the camera's way, or hands are held
 where they are to close."""
 
+LAY = "lay"
+"""The kind of a motion in which hands lay down again what a step has laid down elsewhere than it should."""
+
 
 @dataclass(frozen=True, slots=True)
 class StepMotion:
@@ -73,7 +78,7 @@ class StepMotion:
 
     Attributes:
         step: the index of the plan's step.
-        kind: the step's kind (`STEP_KINDS`); `WITHDRAW` and `REACH` for a look.
+        kind: the step's kind (`STEP_KINDS`); `WITHDRAW` and `REACH` for a look, `LAY` for a repair.
         duration_s: the step's duration (s).
         grips: the hands that hold cloth in it.
         needs_all: whether it ends at once, hands open and nothing moved, where one of them finds no cloth; if not, the

@@ -87,9 +87,9 @@ class PlanStore:
             self._write(*oldest)
         return plan_id
 
-    def add_packed(self, packed: PackedPlan) -> str:
-        """Store a plan that was packed elsewhere and return its id; unpack it only when it is asked for."""
-        plan_id = uuid.uuid4().hex
+    def add_packed(self, packed: PackedPlan, named: str | None = None) -> str:
+        """Store a plan that was packed, and perhaps named, elsewhere; return its id; unpack it only when asked for."""
+        plan_id = named or uuid.uuid4().hex
         self._write_content(plan_id, packed.content)
         self._hold(plan_id, packed)
         return plan_id

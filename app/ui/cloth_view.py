@@ -67,6 +67,6 @@ class ClothView:
                 mesh.faces = np.arange(len(vertices), dtype=np.uint32).reshape(-1, 3)
         hem, triangles = thick.hem
         self._hem.vertices = hem.astype(np.float32)
-        if len(triangles) != len(self._hem.faces):
+        if not np.array_equal(triangles, self._hem.faces):
             self._hem.faces = triangles.astype(np.uint32)
         self._edges.points = thick.edges.astype(np.float32)

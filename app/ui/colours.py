@@ -46,7 +46,6 @@ class Palette:
     floor: Rgb = rgb("B4B9BF")
     floor_cell: Rgb = rgb("C6C9CD")
     floor_section: Rgb = rgb("CFD2D5")
-    station: Rgb = rgb("8A8F98")
     route: Rgb = rgb("4A525D")
     grip: Rgb = rgb("202226")
     robot_light: Rgb = rgb("E6E8EA")
@@ -69,7 +68,6 @@ DARK = Palette(
     floor=rgb("202329"),
     floor_cell=rgb("30343B"),
     floor_section=rgb("3A3F47"),
-    station=rgb("5C626C"),
     route=rgb("B6BCC6"),
     grip=rgb("E8E8E4"),
     robot_light=rgb("A4A9B0"),

@@ -101,12 +101,14 @@ def _model(urdf_path: Path, package_dir: Path, _: int) -> tuple[Link, ...]:
 
     urdf = yourdfpy.URDF.load(str(urdf_path), filename_handler=mesh_path, load_meshes=False)
     joint_of_link = {joint.child: joint for joint in urdf.robot.joints}
+    has_looks = any(link.visuals for link in urdf.link_map.values())
     nodes: dict[str, str] = {}
     links = []
     for name in _parents_first(urdf):
         joint = joint_of_link.get(name)
         nodes[name] = f"{nodes[joint.parent]}/{name}" if joint else f"/{name}"
-        shown = [_visual(visual, mesh_path) for visual in urdf.link_map[name].visuals]
+        link = urdf.link_map[name]
+        shown = [_visual(one, mesh_path) for one in (link.visuals if has_looks else link.collisions)]
         links.append(_link(name, nodes[name], joint, tuple(v for v in shown if v is not None)))
     return tuple(links)
 
@@ -151,7 +153,7 @@ def _pose(matrix: FloatArray | None) -> Pose3:
     return Pose3((x, y, z), from_matrix(matrix))
 
 
-def _visual(visual: yourdfpy.Visual, mesh_path: Callable[[str], str]) -> Visual | None:
+def _visual(visual: yourdfpy.Visual | yourdfpy.Collision, mesh_path: Callable[[str], str]) -> Visual | None:
     """Return a visual with its mesh; None for the tiny ones that only mark a frame."""
     mesh = _mesh(visual.geometry, mesh_path)
     if mesh is None or max(mesh.extents) < _SMALLEST_SHOWN_M:

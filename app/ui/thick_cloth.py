@@ -1,7 +1,8 @@
 """Cloth as it looks: two faces, some distance apart, and a hem around each layer that bulges from one to the other.
 
 A surface of cloth has no thickness. Each triangle is moved by half of it to both sides, so those that meet at a bend
-part by less than the thickness, which nobody sees.
+part by less than the thickness, which nobody sees. Where cloth is folded flat its two layers end at one line of the
+pattern: they are joined by a half round as high as what lies between them.
 """
 
 from dataclasses import dataclass
@@ -11,15 +12,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.geometry.pose import FloatArray
-from planner.geometry.tolerance import LENGTH_M
+from planner.geometry.tolerance import LENGTH_M, SORTING_M
 from planner.motion.sample import ClothSurface
 
 _SIDES = np.array([[0, 1], [1, 2], [2, 0]])
 _FULL = 0.8
 """The distance of the faces, as a share of the height of a layer: faces of two layers are never at one height."""
 
-_HEM = np.array([[0, 1, 3], [1, 4, 3], [1, 2, 4], [2, 5, 4]])
-"""Triangles between the lines at the front, half way and at the back, from one end of a stretch of hem to the other."""
+_HEM_LINES, _ROUND_LINES = 3, 7
+"""How many lines along a stretch of edge are joined by triangles: at a hem, and round a crease."""
+
+_FOLDED = 0.9
+"""The cosine of the angle between the layers of a crease from which on it is folded flat."""
 
 
 @dataclass(frozen=True, slots=False)
@@ -47,17 +51,19 @@ class ThickCloth:
 
     @property
     def edges(self) -> FloatArray:
-        """The stretches of edge that no two triangles of a layer share, on the bulge, shape (n, 2, 3), m."""
-        ends, outwards, _ = self._hems
+        """The stretches of edge at which cloth ends, on the bulge, shape (n, 2, 3), m."""
+        ends, outwards, _ = (part[self._is_hem] for part in self._free)
         return np.asarray(ends + outwards[:, None])
 
     @property
     def hem(self) -> tuple[FloatArray, NDArray[np.int64]]:
-        """The hem's vertices, shape (6 n, 3), m, and its triangles, shape (4 n, 3), seen from outside."""
-        ends, outwards, up = self._hems
-        lines = np.stack([ends + up[:, None], ends + outwards[:, None], ends - up[:, None]], axis=2)
-        triangles = 6 * np.arange(len(ends))[:, None, None] + _HEM
-        return lines.reshape(-1, 3), triangles.reshape(-1, 3)
+        """The vertices of hems and creases, shape (n, 3), m, and their triangles, shape (m, 3), seen from outside."""
+        ends, outwards, up = (part[self._is_hem] for part in self._free)
+        hems = np.stack([ends + up[:, None], ends + outwards[:, None], ends - up[:, None]], axis=2)
+        rounds = self._rounds
+        bent = len(hems) * 2 * _HEM_LINES + _strips(len(rounds), _ROUND_LINES)
+        vertices = np.concatenate([hems.reshape(-1, 3), rounds.reshape(-1, 3)])
+        return vertices, np.concatenate([_strips(len(hems), _HEM_LINES), bent])
 
     @cached_property
     def _corners(self) -> FloatArray:
@@ -70,12 +76,59 @@ class ThickCloth:
         return _units(np.cross(b - a, c - a))
 
     @cached_property
-    def _hems(self) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """The stretches of edge, shape (n, 2, 3), and half the thickness away from the cloth and to its front."""
-        owners, sides = free_sides(self.cloth)
+    def _free(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Each layer's stretches of edge, shape (n, 2, 3), and half the thickness away from it and to its front."""
+        owners, sides = self._sides
         ends = self._corners[owners[:, None], _SIDES[sides]]
         normals, half_m = self._normals[owners], self._half_m
         return ends, half_m * _units(np.cross(ends[:, 1] - ends[:, 0], normals)), half_m * normals
+
+    @cached_property
+    def _sides(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        return free_sides(self.cloth)
+
+    @cached_property
+    def _creases(self) -> NDArray[np.int64]:
+        """The pairs of stretches at which cloth is folded flat, shape (n, 2)."""
+        owners, sides = self._sides
+        traced = self.cloth.pattern[self.cloth.triangles][owners[:, None], _SIDES[sides]]
+        ends = np.round(traced / SORTING_M).astype(np.int64)
+        is_turned = (ends[:, 0, 0] > ends[:, 1, 0]) | (
+            (ends[:, 0, 0] == ends[:, 1, 0]) & (ends[:, 0, 1] > ends[:, 1, 1])
+        )
+        names = np.where(is_turned[:, None, None], ends[:, ::-1], ends).reshape(-1, 4)
+        _, found, counts = np.unique(names, axis=0, return_inverse=True, return_counts=True)
+        in_order = np.argsort(found.ravel(), kind="stable")
+        firsts = (np.cumsum(counts) - counts)[counts == 2]
+        pairs = np.stack([in_order[firsts], in_order[firsts + 1]], axis=1)
+        _, outwards, _ = self._free
+        is_flat = (outwards[pairs[:, 0]] * outwards[pairs[:, 1]]).sum(axis=1) > _FOLDED * self._half_m**2
+        return np.asarray(pairs[is_flat])
+
+    @property
+    def _is_hem(self) -> NDArray[np.bool_]:
+        """Which stretches of edge belong to no crease, shape (n,)."""
+        is_hem = np.ones(len(self._sides[0]), dtype=np.bool_)
+        is_hem[self._creases] = False
+        return is_hem
+
+    @property
+    def _rounds(self) -> FloatArray:
+        """The lines round the creases, from either end of their stretches of edge, shape (n, 2, lines, 3), m."""
+        ends, outwards, up = self._free
+        one, other = self._creases.T
+        there = ends[other]
+        is_turned = np.linalg.norm(there - ends[one], axis=2).sum(axis=1) > np.linalg.norm(
+            there[:, ::-1] - ends[one], axis=2
+        ).sum(axis=1)
+        there = np.where(is_turned[:, None, None], there[:, ::-1], there)
+        apart, middle = (ends[one] - there) / 2.0, (ends[one] + there) / 2.0
+        is_inside_out = (apart.sum(axis=1) * up[one]).sum(axis=1) < 0.0
+        apart, middle = (np.where(is_inside_out[:, None, None], part[:, ::-1], part) for part in (apart, middle))
+        radius = np.linalg.norm(apart, axis=2, keepdims=True) + self._half_m
+        across, out = radius * _units(apart), radius * _units(outwards[one])[:, None]
+        turn = np.linspace(0.0, np.pi, _ROUND_LINES)[:, None]
+        return np.asarray(middle[:, :, None] + np.cos(turn) * across[:, :, None] + np.sin(turn) * out[:, :, None])
 
 
 def free_sides(cloth: ClothSurface) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
@@ -93,7 +146,14 @@ def free_sides(cloth: ClothSurface) -> tuple[NDArray[np.int64], NDArray[np.int64
     return free // 3, free % 3
 
 
+def _strips(count: int, lines: int) -> NDArray[np.int64]:
+    """Return the triangles between lines from one end to the other of each of some stretches, shape (n, 3)."""
+    at = np.arange(lines - 1)[:, None]
+    strip = np.concatenate([at + np.array([0, 1, lines]), at + np.array([1, lines + 1, lines])])
+    return np.asarray((2 * lines * np.arange(count)[:, None, None] + strip).reshape(-1, 3))
+
+
 def _units(vectors: FloatArray) -> FloatArray:
-    """Return vectors, shape (n, 3), with a length of 1; those without a length stay as they are."""
-    lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
+    """Return vectors, shape (..., 3), with a length of 1; those without a length stay as they are."""
+    lengths = np.linalg.norm(vectors, axis=-1, keepdims=True)
     return np.asarray(vectors / np.where(lengths > 0.0, lengths, 1.0))

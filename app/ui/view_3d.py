@@ -12,7 +12,6 @@ import numpy as np
 import viser
 from viser.infra import StateSerializer
 
-from app.language import ENGLISH, Language
 from app.rehearsal.trace import RunTrace
 from app.ui.cloth_view import ClothView
 from app.ui.colours import DARK, LIGHT
@@ -56,12 +55,11 @@ class View3D:
         self.scene = scene
         self.opening: Viewpoint = opening(scene, _SQUARE, card=card)
         self.card = card
-        self._language: Language = ENGLISH
         self._server, self.secret = start_private_viser()
         self.port = self._server.get_port()
         with self._server.atomic():
             self._look()
-            self._table = self._bring_table()
+            self._table = TableView(self._server, self.scene)
             self._cloth = ClothView(self._server.scene)
             self._folds = FoldView(self._server)
             self._simulated = SimulatedView(self._server.scene)
@@ -110,13 +108,6 @@ class View3D:
                 view.recolour(palette)
         self._server.flush()
 
-    def set_language(self, language: Language) -> None:
-        """Name the stations in a language."""
-        self._language = language
-        with self._server.atomic():
-            self._table.speak(language)
-        self._server.flush()
-
     def show_robot(self, card: RobotCard) -> None:
         """Replace the robot, which takes its place with what is shown next; it stays if it is the same."""
         if card is self.card:
@@ -128,16 +119,17 @@ class View3D:
             self._bring_robot()
             self._robot.recolour(self._palette)
             self._grips.recolour(self._palette)
-            self._exchange_table()
         self._marked = None
 
     def show_scene(self, scene: Scene) -> None:
-        """Replace table and stations; robot and cloth follow with what is shown next."""
+        """Replace the table; robot and cloth follow with what is shown next."""
         if scene == self.scene:
             return
         self.scene = scene
         with self._server.atomic():
-            self._exchange_table()
+            self._table.remove()
+            self._table = TableView(self._server, self.scene)
+            self._table.recolour(self._palette)
             for view in (self._robot, self._grips):
                 view.stand_on(-scene.table.height_m)
 
@@ -150,13 +142,15 @@ class View3D:
             self._folds.clear()
         self._server.flush()
 
-    def show_garment(self, garment: Garment, cloth: ClothSurface, base: Pose2) -> None:
-        """Show a garment that has no plan, and the robot waiting at a station."""
+    def show_garment(
+        self, garment: Garment, cloth: ClothSurface, base: Pose2, done: frozenset[int] = frozenset()
+    ) -> None:
+        """Show a garment that has no plan, with some of its folds done, and the robot waiting at a station."""
         with self._server.atomic():
             self._begin(garment, ())
             self._robot.pose(base, self._waiting_joints())
             self._cloth.show(cloth, garment.layer_m)
-            self._folds.place(garment.placement, cloth, TableTop.of(self.scene.table), frozenset(), None)
+            self._folds.place(garment.placement, cloth, TableTop.of(self.scene.table), done, None)
         self._server.flush()
 
     def show_plan(self, plan: Plan) -> None:
@@ -198,14 +192,6 @@ class View3D:
         camera.position, camera.look_at = self.opening.position, self.opening.look_at
         camera.fov = self.opening.fov_rad
 
-    def _bring_table(self) -> TableView:
-        return TableView(self._server, self.scene, has_stations=not self.card.is_fixed, language=self._language)
-
-    def _exchange_table(self) -> None:
-        self._table.remove()
-        self._table = self._bring_table()
-        self._table.recolour(self._palette)
-
     def _bring_robot(self) -> None:
         floor_z_m = -self.scene.table.height_m
         self._robot = RobotView(self._server, self.card, floor_z_m)
@@ -224,7 +210,6 @@ class View3D:
     def _take_up(self, steps: tuple[PlanStep, ...]) -> None:
         self._steps = steps
         self._marked = None
-        self._table.mark_stations(is_marked=not steps)
         self._grips.show(None)
         self._simulated.show(None, steps, 0.0)
 

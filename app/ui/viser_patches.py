@@ -10,9 +10,8 @@ our check in front of that hook.
 **A page that fits into ours.** viser's page is one built file without options for its looks. Its notices, and on a
 phone panels of controls have no place in our frame: the style that we add hides everything but the canvas, and puts the
 board's background behind it. A frame is narrower than a window, so the width below
-which viser assumes a phone is reduced. Its labels are black on white on every background: their shaders get the page's
-own colours, light on dark, which are legible on both. The frame tells our page when there is a picture and, for those
-who may choose a viewpoint, when the server knows them; our page covers it until then.
+which viser assumes a phone is reduced. The frame tells our page when there is a picture and, for those who may choose a
+viewpoint, when the server knows them; our page covers it until then.
 """
 
 import contextlib
@@ -56,25 +55,6 @@ _GROUND = (
 )
 _NARROW = f"""<script>{{ const asked = window.matchMedia.bind(window);
  window.matchMedia = (query) => asked(query.replace("{PHONE_WIDTH}", "(max-width: 25em)")); }}</script>""".encode()
-_LABELS = b"""<script>{
-  const colours = {
-    "vec4(1.0, 1.0, 1.0, 0.85 * vAlpha)": "vec4(0.114, 0.125, 0.145, 0.85 * vAlpha)",
-    "vec4(0.0, 0.0, 0.0, a)": "vec4(0.925, 0.922, 0.902, a)",
-  };
-  const recoloured = new Set();
-  for (const kind of [WebGLRenderingContext, WebGL2RenderingContext]) {
-    const give = kind.prototype.shaderSource;
-    kind.prototype.shaderSource = function (shader, text) {
-      for (const [theirs, ours] of Object.entries(colours)) {
-        if (!text.includes(theirs)) continue;
-        text = text.replace(theirs, ours);
-        recoloured.add(theirs);
-      }
-      document.documentElement.dataset.recoloured = recoloured.size;
-      return give.call(this, shader, text);
-    };
-  }
-}</script>"""
 _TELL_READY = """<script>{
   const isReady = () => document.querySelector("#root canvas") && (%s);
   const watch = setInterval(() => {
@@ -134,4 +114,4 @@ def view_page(*, has_session: bool = True) -> bytes:
     """
     ready = _TELL_READY % (_HAS_SESSION if has_session else "true", READY)
     styled = VISER_PAGE.read_bytes().replace(b"</head>", _HIDE + _GROUND + b"</head>", 1)
-    return styled.replace(b"<head>", b"<head>" + _NARROW + _LABELS + ready.encode(), 1)
+    return styled.replace(b"<head>", b"<head>" + _NARROW + ready.encode(), 1)

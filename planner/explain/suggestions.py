@@ -1,6 +1,6 @@
 """Suggest the smallest changes that give a plan where there is none, each proven by its plan.
 
-Every kind of change is a search of its own (see `suggestion_trial`). The searches take turns, one trial at a time: the
+Every kind of change is a search of its own (see `SuggestionTrial`). The searches take turns, one trial at a time: the
 one that has done the least work comes next, so that none starves the others. Changes that a person can make come first,
 and assumptions about the world after them. For a request that has a plan, only a better place on the table is
 suggested.

@@ -82,6 +82,15 @@ def are_alike(one: FloatArray, other: FloatArray, within_m: float) -> bool:
     return bool(shapely.hausdorff_distance(*strings) <= within_m)
 
 
+def is_within(ring: FloatArray, around: FloatArray) -> bool:
+    """Return whether a closed line, shape (n, 2), lies in another: a point within it does."""
+    low, high = around.min(axis=0), around.max(axis=0)
+    if np.any(ring.max(axis=0) < low) or np.any(ring.min(axis=0) > high):
+        return False
+    inner, outer = (shapely.make_valid(shapely.Polygon(line)) for line in (ring, around))
+    return bool(shapely.covers(outer, shapely.point_on_surface(inner)))
+
+
 def clipped(ring: FloatArray, clips: Sequence[Sequence[FloatArray]]) -> list[FloatArray] | None:
     """Return the rings that are left of one within all of some areas; None if all of it is within.
 

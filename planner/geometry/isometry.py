@@ -45,6 +45,11 @@ class Isometry:
         """Whether the plane ends face down."""
         return self.a * self.d - self.b * self.c < 0.0
 
+    @property
+    def matrix(self) -> FloatArray:
+        """The matrix and the translation beside it, shape (2, 3), m."""
+        return np.array([[self.a, self.b, self.x], [self.c, self.d, self.y]])
+
     def apply(self, points: FloatArray) -> FloatArray:
         """Return the images of points, shape (..., 2), m."""
         matrix = np.array([[self.a, self.b], [self.c, self.d]])

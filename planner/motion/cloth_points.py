@@ -44,4 +44,6 @@ class ClothPoints:
             )
             unrolled[moves] = path.swept(unrolled[moves, :2], sweep)
             heights[staying:] = heights[staying:][:: -1 if sweep > 1.0 else 1]
-        return draped(top, unrolled, (heights[numbers] + 1) * self._sequence.garment.layer_m, droop)
+        return draped(
+            top, unrolled, np.asarray((heights[numbers] + 1) * self._sequence.garment.layer_m, dtype=np.float64), droop
+        )

@@ -62,11 +62,13 @@ class _Pieces:
         triangles: article frame, counter-clockwise, shape (n, 3, 2), m.
         numbers: the layer of each, shape (n,).
         is_back: whether it shows its back, shape (n,).
+        to_pattern: the map of each to the pattern, shape (n, 2, 3): a matrix and what is added (m).
     """
 
     triangles: FloatArray
     numbers: NDArray[np.int64]
     is_back: BoolArray
+    to_pattern: FloatArray
 
     @staticmethod
     def of(layers: Sequence[Layer], numbers: Sequence[int]) -> "_Pieces":
@@ -75,11 +77,13 @@ class _Pieces:
         counts = [len(mesh) for mesh in meshes]
         is_back = np.repeat(np.array([layer.face == "back" for layer in layers], dtype=np.bool_), counts)
         triangles = np.concatenate([np.empty((0, 3, 2)), *meshes])
-        return _Pieces(triangles, np.repeat(np.array(numbers, dtype=np.int64), counts), is_back)
+        maps = np.array([layer.isometry.inverse.matrix for layer in layers]).reshape(-1, 2, 3)
+        numbered = np.repeat(np.array(numbers, dtype=np.int64), counts)
+        return _Pieces(triangles, numbered, is_back, np.repeat(maps, counts, axis=0))
 
     def parts(self, triangles: FloatArray, sources: NDArray[np.int64]) -> "_Pieces":
         """Return triangles cut from these; `sources` are the indices of the originals."""
-        return _Pieces(triangles, self.numbers[sources], self.is_back[sources])
+        return _Pieces(triangles, self.numbers[sources], self.is_back[sources], self.to_pattern[sources])
 
     def parted(self, line: Segment) -> tuple["_Pieces", "_Pieces"]:
         """Return the parts to the left and to the right of the infinite line through a segment."""
@@ -88,7 +92,16 @@ class _Pieces:
 
     def turned(self, line: Segment) -> "_Pieces":
         """Return the pieces turned over a line; each keeps its number."""
-        return _Pieces(Isometry.reflection(line).apply(self.triangles)[:, ::-1], self.numbers, ~self.is_back)
+        over = Isometry.reflection(line)
+        to_pattern = self.to_pattern[..., :2] @ over.matrix
+        to_pattern[..., 2] += self.to_pattern[..., 2]
+        return _Pieces(over.apply(self.triangles)[:, ::-1], self.numbers, ~self.is_back, to_pattern)
+
+    @property
+    def pattern(self) -> FloatArray:
+        """The corners in the pattern, shape (n, 3, 2), m."""
+        turned = self.triangles @ self.to_pattern[..., :2].transpose(0, 2, 1)
+        return np.asarray(turned + self.to_pattern[:, None, :, 2])
 
 
 @dataclass(slots=True)
@@ -108,6 +121,7 @@ class _Mesh:
     layer_m: float
     corners: list[FloatArray] = field(default_factory=list)
     unrolled: list[FloatArray] = field(default_factory=list)
+    pattern: list[FloatArray] = field(default_factory=list)
     layers: list[NDArray[np.int64]] = field(default_factory=list)
 
     def lay(self, pieces: _Pieces) -> None:
@@ -135,15 +149,15 @@ class _Mesh:
 
     def _add(self, pieces: _Pieces, corners: FloatArray, unrolled: FloatArray) -> None:
         """Add triangles, shape (n, 3, 3), and their unrolled positions; turn over those that show their backs."""
-        for kept, points in ((self.corners, corners), (self.unrolled, unrolled)):
+        for kept, points in ((self.corners, corners), (self.unrolled, unrolled), (self.pattern, pieces.pattern)):
             kept.append(np.where(pieces.is_back[:, None, None], points[:, ::-1], points))
         self.layers.append(pieces.numbers)
 
     def surface(self) -> ClothSurface:
         vertices = np.concatenate(self.corners).reshape(-1, 3)
         triangles = np.arange(len(vertices), dtype=np.int64).reshape(-1, 3)
-        unrolled = np.concatenate(self.unrolled).reshape(-1, 3)
-        return ClothSurface(vertices, triangles, np.concatenate(self.layers), unrolled)
+        unrolled, pattern = np.concatenate(self.unrolled).reshape(-1, 3), np.concatenate(self.pattern).reshape(-1, 2)
+        return ClothSurface(vertices, triangles, np.concatenate(self.layers), unrolled, pattern)
 
 
 class ClothSurfaces:

@@ -98,21 +98,15 @@ class FreePostures:
         return self._free_postures.answer((arm, pose), self._search_postures)
 
     def _search_postures(self, wanted: "tuple[int, _Pose]") -> FloatArray:
-        """Return the postures that certainly are free; where none is, those that are by the exact test."""
         arm, (collisions, base, position, rotation) = wanted
         stand, place, axes = (np.frombuffer(part) for part in (base, position, rotation))
-
-        def able(*, is_certain: bool) -> FloatArray:
-            return self._machine.free_postures(
-                arm,
-                place,
-                axes.reshape(3, 3),
-                self._torso_m,
-                lambda joints: collisions.arm_free(arm, stand[None], joints, is_certain=is_certain),
-            )
-
-        certain = able(is_certain=True)
-        return certain if len(certain) else able(is_certain=False)
+        return self._machine.free_postures(
+            arm,
+            place,
+            axes.reshape(3, 3),
+            self._torso_m,
+            lambda joints: collisions.arm_free(arm, stand[None], joints),
+        )
 
     def has_room(
         self,
@@ -128,7 +122,5 @@ class FreePostures:
         Its fingers are open as far as they are before and after it holds cloth.
         """
         able = self._able(arm, _pose(self._collisions.of(hold, is_open=True), base, position, rotation))
-        is_clear = (
-            cloth is None or cloth.arm_clear(arm, base[None], able, opening_m=opening_of(hold), is_certain=True).any()
-        )
+        is_clear = cloth is None or cloth.arm_clear(arm, base[None], able, opening_m=opening_of(hold)).any()
         return len(able) > 0 and bool(is_clear)

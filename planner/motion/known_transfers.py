@@ -35,6 +35,7 @@ class KnownTransfers:
         can_be_there: whether the arms have free postures where the steps begin and end.
         candidates: the candidates that steps make.
         made: the transfer of each candidate, None where it has none, and the waypoints at which it was blocked, if any.
+        made_at_edges: the same with hands holding edges; whether joint paths were searched, and the transfer.
         transits: how hands come from one transfer to the next, by both and by what the base does meanwhile.
         sampling: how often their ways were sampled in vain.
     """
@@ -42,5 +43,6 @@ class KnownTransfers:
     can_be_there: dict[tuple[object, ...], bool] = field(default_factory=dict)
     candidates: dict[tuple[object, ...], Candidate] = field(default_factory=dict)
     made: dict[tuple[object, ...], tuple[Transfer | None, NoPath | None]] = field(default_factory=dict)
+    made_at_edges: dict[tuple[object, ...], tuple[bool, Transfer | None]] = field(default_factory=dict)
     transits: dict[tuple[object, ...], Transit] = field(default_factory=dict)
     sampling: Sampling = field(default_factory=Sampling)

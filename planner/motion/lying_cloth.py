@@ -52,7 +52,6 @@ class LyingCloth:
         joints: FloatArray,
         *,
         opening_m: float = OPENING_M,
-        is_certain: bool = False,
     ) -> BoolArray:
         """Return at which joints of an empty arm all of it is high enough above the cloth, shape (n,).
 
@@ -61,10 +60,9 @@ class LyingCloth:
             bases: the base's pose.
             joints: the arm's joints (rad), a row each.
             opening_m: how far its fingers are open at most (m).
-            is_certain: whether only those count that certainly are, which is quicker to tell.
         """
         clearance = _clearance(_Above(self.key, self.over_m, self._collisions.up_to(opening_m), self._pieces))
-        return clearance.arm_clear(arm, bases, joints, is_certain=is_certain)
+        return clearance.arm_clear(arm, bases, joints)
 
 
 @dataclass(frozen=True, slots=True)

@@ -60,9 +60,9 @@ class _Turn(NamedTuple):
     def rotations(self, shares: FloatArray) -> FloatArray:
         """Return the tool's axes in the base frame at shares of the turn, shape (n, 1) -> (n, 3, 3)."""
         start, goal = np.array(self.start), np.array(self.goal)
-        from scipy.spatial.transform import Rotation  # slow to import, and needed only where hands turn
-
-        return np.asarray(Rotation.from_euler("ZYX", start + shares * (goal - start)).as_matrix())
+        angles = start + shares * (goal - start)
+        axes = [Approach(heading_rad, pitch_rad).rotation for heading_rad, pitch_rad in angles[:, :2].tolist()]
+        return np.asarray(np.array(axes) @ about_x(angles[:, 2]))
 
 
 class StretchSampler:
@@ -131,3 +131,13 @@ def _turn_rad(start_rad: float, goal_rad: float) -> float:
 def rolls_of(hand: Hand) -> tuple[float, ...]:
     """Return the roll at each of a hand's points (rad)."""
     return hand.rolls_rad or (0.0,) * len(hand.points)
+
+
+def about_x(angles_rad: FloatArray) -> FloatArray:
+    """Return the rotations about the x axis, shape (n,) -> (n, 3, 3)."""
+    turns = np.zeros((len(angles_rad), 3, 3))
+    turns[:, 0, 0] = 1.0
+    turns[:, 1, 1] = turns[:, 2, 2] = np.cos(angles_rad)
+    turns[:, 2, 1] = np.sin(angles_rad)
+    turns[:, 1, 2] = -turns[:, 2, 1]
+    return turns

@@ -16,9 +16,7 @@ from planner.robots.tool_path import IsFree, NoPath, ToolPath
 class Clearance(Protocol):
     """The test whether a robot's arms are high enough above cloth on the table."""
 
-    def arm_clear(
-        self, arm: int, bases: Pose2 | FloatArray, joints: FloatArray, *, is_certain: bool = False
-    ) -> BoolArray:
+    def arm_clear(self, arm: int, bases: Pose2 | FloatArray, joints: FloatArray) -> BoolArray:
         """Return at which joints of one arm it is high enough, shape (n,); see `Collisions.arm_free`."""
         ...
 
@@ -30,32 +28,24 @@ class Collisions(Together, Hashable, Protocol):
     Bases are poses of the table frame: one for all, or x (m), y (m), yaw (rad) of each, shape (n, 3).
     """
 
-    def free(self, bases: Pose2 | FloatArray, joints: FloatArray) -> BoolArray:
-        """Return at which configurations nothing touches, shape (n,)."""
+    def free_until(self, bases: Pose2 | FloatArray, joints: FloatArray) -> int:
+        """Return the number of configurations before the first one at which something touches."""
         ...
 
     def are_all_free(self, bases: Pose2 | FloatArray, joints: FloatArray) -> bool:
         """Return whether none of some configurations touches anything."""
         ...
 
-    def arm_free(
-        self, arm: int, bases: Pose2 | FloatArray, joints: FloatArray, *, is_certain: bool = False
-    ) -> BoolArray:
-        """Return at which joints of one arm it touches neither body nor table; shape (n,).
-
-        With `is_certain` only those count that certainly touch nothing, which is quicker to tell.
-        """
+    def arm_free(self, arm: int, bases: Pose2 | FloatArray, joints: FloatArray) -> BoolArray:
+        """Return at which joints of one arm it touches neither body nor table; shape (n,)."""
         ...
 
-    def arms_apart(self, arms: tuple[int, ...], joints: FloatArray, *, is_certain: bool = False) -> BoolArray:
-        """Return in which postures of some arms, in rising order, none of them touches another; shape (n,).
-
-        For `is_certain` see `arm_free`.
-        """
+    def arms_apart(self, arms: tuple[int, ...], joints: FloatArray) -> BoolArray:
+        """Return in which postures of some arms, in rising order, none of them touches another; shape (n,)."""
         ...
 
     def are_some_apart(self, arms: tuple[int, int], first: FloatArray, second: FloatArray) -> bool:
-        """Return whether any postures of two arms certainly do not touch; see `postures_apart`."""
+        """Return whether any postures of two arms do not touch; see `postures_apart`."""
         ...
 
     def over_cloth(self, pieces: Sequence[FloatArray], over_m: float) -> Clearance:

@@ -21,12 +21,14 @@ class ClothSurface:
         layers: shape (m,), each triangle's layer, 0 at the bottom.
         unrolled: for cloth on the table or hanging over its edges, each vertex's position in the unrolled plane and its
             layer's height above it, shape (n, 3), m; nan for all other cloth.
+        pattern: each vertex's position in the pattern, shape (n, 2), m: the same on both sides of a crease.
     """
 
     vertices: FloatArray
     triangles: NDArray[np.int64]
     layers: NDArray[np.int64]
     unrolled: FloatArray
+    pattern: FloatArray
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,7 +12,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from planner.geometry.pose import BoolArray, FloatArray
+from planner.geometry.pose import FloatArray
 
 TESTED_MAX = 4_000
 """The most configurations tested for one path, those for its shortcuts apart."""
@@ -23,8 +23,8 @@ _SHORTCUT_TESTED_MAX = 5_000
 _STRIDE_RAD = 1.0
 """The farthest that a tree grows at once: the largest turn of a joint (rad)."""
 
-_BATCH = 8
-"""Configurations tested together: most lines into an obstacle end within a few."""
+_PART = 8
+"""Lines count in parts of so many configurations: most of those into an obstacle end within a few."""
 
 _SHORTCUTS = 60
 """Shortcuts tried."""
@@ -34,8 +34,8 @@ _SEED = 1
 _DIGITS = 6
 """Decimal places to which turns of joints are compared (rad)."""
 
-AreFree = Callable[[FloatArray], BoolArray]
-"""The test at which configurations, shape (n, joints), nothing is in the way."""
+FreeUntil = Callable[[FloatArray], int]
+"""The number of configurations, shape (n, joints), before the first one at which something is in the way."""
 
 Mirror = Callable[[FloatArray], FloatArray]
 """The mirror image of configurations, shape (n, joints): arms exchanged, joints turned the other way where need be."""
@@ -49,12 +49,12 @@ class SampledPaths:
     """
 
     def __init__(
-        self, are_free: AreFree, low: FloatArray, high: FloatArray, step_rad: float, mirror: Mirror | None = None
+        self, free_until: FreeUntil, low: FloatArray, high: FloatArray, step_rad: float, mirror: Mirror | None = None
     ) -> None:
         """Keep the test and the box of the configurations that may be tried.
 
         Args:
-            are_free: the test.
+            free_until: the test.
             low: the lowest value of each joint (rad), shape (joints,).
             high: the highest; one equal to the lowest stays as it is.
             step_rad: the largest turn of a joint from one tested configuration to the next (rad).
@@ -62,7 +62,7 @@ class SampledPaths:
         """
         self.tested = 0
         self._mirror = mirror
-        self._are_free, self._step_rad = are_free, step_rad
+        self._free_until, self._step_rad = free_until, step_rad
         self._middle, self._half = 0.5 * (low + high), 0.5 * (high - low)
         self._rng = np.random.default_rng(_SEED)
 
@@ -72,7 +72,7 @@ class SampledPaths:
         None if no path was found. Asked again, it samples on, and may return another path.
         """
         self.tested = 0
-        if not self._test(np.array([start, goal])).all():
+        if self._free(np.array([start, goal])) < 2:
             return None
         trees = _Tree(start), _Tree(goal)
         # Of a question and its image one takes the samples, the other their images. Joints that turn without end may
@@ -115,13 +115,10 @@ class SampledPaths:
     def _led(self, start: FloatArray, end: FloatArray) -> FloatArray | None:
         """Return the last free configuration on a line, its end if all of it is free; None if there is none."""
         line = sampled(start, end, self._step_rad)[1:]
-        for first in range(0, len(line), _BATCH):
-            batch = line[first : first + _BATCH]
-            are_free = self._test(batch)
-            if not are_free.all():
-                count = first + int(are_free.argmin())
-                return None if count == 0 else line[count - 1]
-        return end
+        count = self._free(line)
+        if count == len(line):
+            return end
+        return None if count == 0 else line[count - 1]
 
     def _shortened(self, way: FloatArray) -> FloatArray:
         """Return a path with the corners left out that a free line between two random points of it spares."""
@@ -140,9 +137,10 @@ class SampledPaths:
                 way = np.concatenate([way[:first], ends, way[last:]])
         return way
 
-    def _test(self, joints: FloatArray) -> BoolArray:
-        self.tested += len(joints)
-        return self._are_free(joints)
+    def _free(self, joints: FloatArray) -> int:
+        count = self._free_until(joints)
+        self.tested += min((count // _PART + 1) * _PART, len(joints))
+        return count
 
 
 class _Tree:

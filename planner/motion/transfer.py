@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import TIME_S
 from planner.motion.hand_holds import Holds
 from planner.motion.line import Line
@@ -26,6 +27,9 @@ class Transfer:
         timing: the timing while cloth is held.
         approach: the quickest way straight to the grips.
         retreat: the quickest way straight from them.
+        coming: the way from home to the approach beside a base that stands, shape (n, joints), rad; None where the
+            hands hold the cloth already.
+        going: the way home from the retreat, alike; None after the last fold.
     """
 
     steps: tuple[Step, ...]
@@ -33,6 +37,8 @@ class Transfer:
     timing: TransferTiming
     approach: Line
     retreat: Line
+    coming: FloatArray | None
+    going: FloatArray | None
 
     @property
     def holds(self) -> Holds:

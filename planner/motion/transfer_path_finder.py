@@ -172,7 +172,7 @@ class TransferPathFinder:
             is_nearer = layout.is_continuous[last] and half < as_is - ANGLE_RAD
             if is_nearer and keeps_tool(self._machine, approach.arm, joints[0, span], self._torso_m):
                 turned[:, last] += np.pi
-                if are_free[approach.arm](np.arange(len(turned)), turned[:, span], True).all():
+                if are_free[approach.arm](np.arange(len(turned)), turned[:, span]).all():
                     half_turns[last] = np.pi
                 else:
                     turned[:, last] = joints[:, last]
@@ -198,40 +198,32 @@ class TransferPathFinder:
         """
         layout, collisions = self._layout, self._collisions
 
-        def arm_free(
-            approach: TransferToolPath, steps: NDArray[np.int64], joints: FloatArray, is_certain: bool
-        ) -> BoolArray:
+        def arm_free(approach: TransferToolPath, steps: NDArray[np.int64], joints: FloatArray) -> BoolArray:
             """Return at which steps an arm touches neither body nor table, its fingers open as they are then."""
             arm, bases = approach.arm, tool_paths.bases[steps]
             opened, held = (collisions.of(holds[arm], is_open=is_open) for is_open in (True, False))
             if opened is held:
-                return opened.arm_free(arm, bases, joints, is_certain=is_certain)
+                return opened.arm_free(arm, bases, joints)
             answers, is_open = np.empty(len(steps), dtype=np.bool_), approach.is_open(steps)
             for rows, fingers in ((is_open, opened), (~is_open, held)):
-                answers[rows] = fingers.arm_free(arm, bases[rows], joints[rows], is_certain=is_certain)
+                answers[rows] = fingers.arm_free(arm, bases[rows], joints[rows])
             return answers
 
         idle = set(layout.arms) - {approach.arm for approach in tool_paths.each}
 
-        def is_free(
-            approach: TransferToolPath, steps: NDArray[np.int64], joints: FloatArray, is_certain: bool
-        ) -> BoolArray:
+        def is_free(approach: TransferToolPath, steps: NDArray[np.int64], joints: FloatArray) -> BoolArray:
             arm = approach.arm
-            answers = arm_free(approach, steps, joints, is_certain)
+            answers = arm_free(approach, steps, joints)
             for cloth, must_clear in zip(cloths, approach.must_clear(steps), strict=True):
                 asked = np.flatnonzero(answers & must_clear)
                 if cloth is not None and len(asked):
                     bases = tool_paths.bases[steps[asked]]
                     opening_m = opening_of(holds[arm])
-                    answers[asked] = cloth.arm_clear(
-                        arm, bases, joints[asked], opening_m=opening_m, is_certain=is_certain
-                    )
+                    answers[asked] = cloth.arm_clear(arm, bases, joints[asked], opening_m=opening_m)
             if idle:
                 every, near = layout.at_home(len(joints)), tuple(sorted({arm, *idle}))
                 every[:, layout.spans[arm]] = joints
-                answers &= self._collisions.wide.arms_apart(
-                    near, every[:, layout.joints_of(near)], is_certain=is_certain
-                )
+                answers &= self._collisions.wide.arms_apart(near, every[:, layout.joints_of(near)])
             return answers
 
         return {approach.arm: partial(is_free, approach) for approach in tool_paths.each}

@@ -167,18 +167,28 @@ class TransferPlanner:
         transfer_path = self._paths.adapted(candidate.waypoints, candidate.cloths, like.transfer_path)
         if isinstance(transfer_path, NoPath):
             self._blocked.note(candidate, transfer_path)
-        return self._transfer(candidate, transfer_path)
+        return self._transfer(candidate, transfer_path, like)
 
     def made_at_edges(self, candidate: "Candidate") -> Transfer | None:
-        """Return a candidate's transfer with hands holding edges where they can; None if there is none."""
+        """Return a candidate's transfer with hands holding edges where they can; None if there is none. Cached."""
+        known = self.known.made_at_edges
+        if candidate.motion not in known:
+            known[candidate.motion] = self._searched_at_edges(candidate)
+        is_searched, transfer = known[candidate.motion]
+        self.path_requests += is_searched
+        return None if transfer is None else replace(transfer, steps=candidate.steps)
+
+    def _searched_at_edges(self, candidate: "Candidate") -> tuple[bool, Transfer | None]:
         waypoints = candidate.waypoints
         holds = edge_holds(self._machine, waypoints)
         if holds is None or not self._paths.postures.can_hold(waypoints, ways=(holds,)):
-            return None
-        self.path_requests += 1
-        return self._transfer(candidate, self._paths.transfer_path(waypoints, candidate.cloths, (holds,)))
+            return False, None
+        found = self._paths.transfer_path(waypoints, candidate.cloths, (holds,))
+        return True, self._transfer(candidate, found)
 
-    def _transfer(self, candidate: "Candidate", transfer_path: TransferPath | NoPath) -> Transfer | None:
+    def _transfer(
+        self, candidate: "Candidate", transfer_path: TransferPath | NoPath, like: Transfer | None = None
+    ) -> Transfer | None:
         if isinstance(transfer_path, NoPath):
             return None
         transfer_path = transfer_path.smoothed(self._collisions)
@@ -186,17 +196,16 @@ class TransferPlanner:
         timing = TransferTiming.of(candidate.carrying, candidate.waypoints, joints[first : last + 1], self._limits)
         if not is_clear_between(transfer_path, timing, self.transits.layout, self._collisions):
             return None
-        coming, leaving = transfer_path.approach, transfer_path.retreat
+        lead, tail = transfer_path.approach, transfer_path.retreat
         if transfer_path.settles:
-            ways = np.array([coming[-1], joints[first]]), np.array([joints[last], leaving[0]])
-            if max(float(self.transits.needed_s(way)[0]) for way in ways) > settling_s(self.dwell_s):
+            lines = np.array([lead[-1], joints[first]]), np.array([joints[last], tail[0]])
+            if max(float(self.transits.needed_s(line)[0]) for line in lines) > settling_s(self.dwell_s):
                 return None
         at_grips = joints[first] if transfer_path.settles else None
         openings_m = np.array([opening_of(hold) for hold in transfer_path.lines.holds])
-        approach, retreat = self.transits.line(coming, openings_m, at_grips), self.transits.line(leaving, openings_m)
-        if not self._can_come_and_go(candidate.steps, transfer_path, approach, retreat):
-            return None
-        return Transfer(candidate.steps, transfer_path, timing, approach, retreat)
+        approach, retreat = self.transits.line(lead, openings_m, at_grips), self.transits.line(tail, openings_m)
+        ways = self._ways_home(candidate.steps, transfer_path, approach, retreat, like)
+        return None if ways is None else Transfer(candidate.steps, transfer_path, timing, approach, retreat, *ways)
 
     def _waypoints(self, phases: Sequence[Phase]) -> Waypoints:
         return waypoints_of(phases, self._context.scene.table.height_m)
@@ -206,29 +215,46 @@ class TransferPlanner:
         phases = [phase for step in steps for phase in step.phases() if phase.duration_s > 0.0 and is_carrying(phase)]
         return self._contacts.of(self._waypoints(phases))
 
-    def _can_come_and_go(
-        self, steps: Sequence[Step], transfer_path: TransferPath, approach: Line, retreat: Line
-    ) -> bool:
-        """Return whether hands can come from home and go there, beside a base that stands.
+    def _ways_home(
+        self, steps: Sequence[Step], transfer_path: TransferPath, approach: Line, retreat: Line, like: Transfer | None
+    ) -> tuple[FloatArray | None, FloatArray | None] | None:
+        """Return how hands come from home and how they go there, beside a base that stands; None if they cannot.
 
-        They need not come where they hold the cloth already, nor go after the last fold.
+        They need not come where they hold the cloth already, nor go after the last fold. The ways of a similar transfer
+        are tried first.
         """
         home = self.transits.home
         is_last = steps[-1].after.done == (1 << len(self._context.sequence.folds)) - 1
         (before, after), (first, last) = transfer_path.cloths, (Pose2.of(base) for base in transfer_path.bases[[0, -1]])
-        can_come = before is None or self._has_way(
-            first, home, approach.joints[0], before, self.transits.spared(None, approach.joints)
-        )
-        return can_come and (
-            is_last or self._has_way(last, retreat.joints[-1], home, after, self.transits.spared(retreat.joints, None))
-        )
+        coming = going = None
+        if before is not None:
+            spared, near = self.transits.spared(None, approach.joints), None if like is None else like.coming
+            coming = self._way(first, home, approach.joints[0], before, spared, near)
+            if coming is None:
+                return None
+        if not is_last:
+            spared, near = self.transits.spared(retreat.joints, None), None if like is None else like.going
+            going = self._way(last, retreat.joints[-1], home, after, spared, near)
+            if going is None:
+                return None
+        return coming, going
 
-    def _has_way(self, base: Pose2, start: FloatArray, goal: FloatArray, cloth: LyingCloth, spared: Spared) -> bool:
-        """Return whether empty hands have a way beside a base that stands; sampled while that is worth a try."""
-        samples = self.known.sampling.is_worth_a_try
-        way = self.transits.way(base, start, goal, cloth, spared, samples=samples)
-        self.known.sampling.vain += way is None and samples
-        return way is not None
+    def _way(
+        self,
+        base: Pose2,
+        start: FloatArray,
+        goal: FloatArray,
+        cloth: LyingCloth,
+        spared: Spared,
+        near: FloatArray | None,
+    ) -> FloatArray | None:
+        """Return a way of empty hands beside a base that stands; sampled while that is worth a try."""
+        found = None if near is None else self.transits.way_near(base, start, goal, cloth, spared, near)
+        if found is None:
+            samples = self.known.sampling.is_worth_a_try
+            found = self.transits.way(base, start, goal, cloth, spared, samples=samples)
+            self.known.sampling.vain += found is None and samples
+        return found
 
     def transit(self, before: Transfer | None, moves: Sequence[Step], transfer: Transfer) -> Transit | None:
         """Return how hands come from a transfer, or from home, to the next one. Cached.

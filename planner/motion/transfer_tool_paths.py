@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.motion.hand_holds import HandHold, Holds, settles
 from planner.motion.lying_cloth import NEAR_GRIP_M, LyingCloth
+from planner.motion.phase_stretches import about_x
 from planner.motion.polylines import lengths_along, resampled, stepped
-from planner.motion.waypoints import Waypoints, about_x
+from planner.motion.waypoints import Waypoints
 from planner.robots.tool_path import ToolPath
 
 APPROACH_M, RETREAT_M = 0.10, 0.12

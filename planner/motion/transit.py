@@ -69,6 +69,8 @@ def transit_between(
             timed_phases.append(TimedPhase.driven(0, phase, time))
             lost_s += timed_phases[-1].duration_s - phase.duration_s
     retreat = None if before is None else before.retreat
-    free, keyframes = planner.keyframes(TransitTime(timed_phases, 0.0, cloth), retreat, transfer.approach)
+    going = None if before is None else before.going
+    times = TransitTime(timed_phases, 0.0, cloth)
+    free, keyframes = planner.keyframes(times, retreat, transfer.approach, going, transfer.coming)
     late_s = free.end_s - planned_s
     return Transit(tuple(free.timed_phases), keyframes, late_s if late_s > TIME_S else 0.0)

@@ -11,7 +11,7 @@ from itertools import chain, pairwise, product
 
 import numpy as np
 
-from planner.geometry.pose import BoolArray, FloatArray, Pose2
+from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.ramps import ramps
 from planner.geometry.tolerance import EDGE_RAD
 from planner.motion.answer_memory import AnswerMemory, RecentAnswers
@@ -160,6 +160,14 @@ class TransitPaths:
         found = self._searched.answer(_WayKey(key, base, cloth, samples, first, last, spared), self._search)
         return None if found is None else np.array([start, *(found[1:-1] + turns), self.unwound(goal, start)])
 
+    def way_near(
+        self, base: Pose2, start: FloatArray, goal: FloatArray, cloth: LyingCloth, spared: Spared, near: FloatArray
+    ) -> FloatArray | None:
+        """Return a path as `way` does, by the same corners as another one; None if it is not free."""
+        corners = [self.unwound(joints, start) for joints in (*near[1:-1], goal)]
+        way = np.array([start, *corners])
+        return way if self._is_free(_Lines(base, self._collisions), way, cloth, spared) else None
+
     def _search(self, wanted: _WayKey) -> FloatArray | None:
         start, goal, cloth, spared = wanted.start, wanted.goal, wanted.cloth, wanted.spared
         straight, known = np.array([start, goal]), _Lines(wanted.base, self._collisions)
@@ -180,26 +188,29 @@ class TransitPaths:
         layout = self.layout
         tools = [[self._tools(arm, joints[None])[0] for arm in layout.arms] for joints in (start, goal)]
 
-        def are_free(joints: FloatArray) -> BoolArray:
-            answers = self._collisions.free(base, joints)
+        def free_until(joints: FloatArray) -> int:
+            count = self._collisions.free_until(base, joints)
             for arm, span in enumerate(layout.spans):
-                if not len(asked := np.flatnonzero(answers)):
+                if not count:
                     break
+                asked = np.arange(count)
                 ends = [(length[arm], of[arm]) for length, of in zip(spared, tools, strict=True) if length[arm] > 0.0]
                 if ends:
                     # A hand has come at least as far as it is away. How far it came is asked of the whole path.
                     there = self._tools(arm, joints[asked])
                     is_near = [np.linalg.norm(there - end, axis=1) < length for length, end in ends]
                     asked = asked[~np.logical_or.reduce(is_near)]
-                answers[asked] = cloth.arm_clear(arm, base, joints[asked, span])
-            return answers
+                is_clear = cloth.arm_clear(arm, base, joints[asked, span])
+                if not is_clear.all():
+                    count = int(asked[is_clear.argmin()])
+            return count
 
         middle, ends = 0.5 * (start + goal), np.sort([start, goal], axis=0)
         bounds = np.where(np.isinf(layout.ranges.T), middle + np.array([[-np.pi], [np.pi]]), layout.ranges.T)
         has_to_move = np.array([bool((start != goal)[span].any()) for span in layout.spans])
         for moves in (has_to_move,) if has_to_move.all() else (has_to_move, np.ones_like(has_to_move)):
             low, high = np.where(moves[layout.owners], bounds, ends)
-            paths = SampledPaths(are_free, low, high, STEP_RAD, self._machine.mirror)
+            paths = SampledPaths(free_until, low, high, STEP_RAD, self._machine.mirror)
             for _ in range(_SAMPLED_MAX):
                 found = paths.path(start, goal)
                 if found is None:

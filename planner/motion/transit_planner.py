@@ -74,11 +74,25 @@ class TransitPlanner:
         self.dwell_s = dwell_s
         self._transits = transits
 
-    def keyframes(self, free: TransitTime, retreat: Line | None, approach: Line) -> tuple[TransitTime, Keyframes]:
+    def keyframes(
+        self,
+        free: TransitTime,
+        retreat: Line | None,
+        approach: Line,
+        going: FloatArray | None,
+        coming: FloatArray | None,
+    ) -> tuple[TransitTime, Keyframes]:
         """Return the hands' keyframes from a tail, or from home, to a lead, and the transit's time.
 
         That has changed where the base must wait, or where the hands need longer: then by as little as was found. They
         may end whole turns of endless joints away from the lead.
+
+        Args:
+            free: the time of the transit.
+            retreat: the tail; None: the hands are at home.
+            approach: the lead.
+            going: the way home from the tail, shape (n, joints), rad; None where there is no tail.
+            coming: the way from home to the lead, alike.
         """
         if retreat is None:
             retreat = self._transits.line(self._transits.home[None])
@@ -91,7 +105,7 @@ class TransitPlanner:
                 late += self._quicker(free, retreat, way, approach)
             elif (keyframes := self._overlapping(retreat, way, approach, free)) is not None:
                 return free, keyframes
-        waiting = self._homeward(free, retreat, approach)
+        waiting = self._homeward(free, retreat, approach, going, coming)
         if waiting.late_s > TIME_S:
             turned = approach.moved(waiting.back[-1] - approach.joints[0])
             late += self._quicker(free, retreat, np.concatenate([waiting.away, waiting.back[1:]]), turned)
@@ -197,23 +211,14 @@ class TransitPlanner:
             openings_m[is_settling & (approach.openings_m <= EDGE_OPEN_M)] = HELD_M
         return self._transits.is_clear(free.cloth, bases, there, openings_m)
 
-    def _homeward(self, free: TransitTime, retreat: Line, approach: Line) -> "_Homeward":
+    def _homeward(
+        self, free: TransitTime, retreat: Line, approach: Line, going: FloatArray | None, coming: FloatArray | None
+    ) -> "_Homeward":
         """Return the ways home and from there, beside a base that stands."""
         home = self._transits.unwound(self._transits.home, retreat.joints[-1])
-        first, last = free.first, free.last
-        away = self._transits.way(
-            first, retreat.joints[-1], home, free.cloth, self._transits.spared(retreat.joints, None)
-        )
-        if away is None and np.array_equal(
-            retreat.joints[-1], home
-        ):  # Already at home, at a table as high as the hands.
-            away = np.array([home, home])
-        back = self._transits.way(
-            last, home, approach.joints[0], free.cloth, self._transits.spared(None, approach.joints)
-        )
-        assert away is not None and back is not None, (
-            "a transfer that was validated can be left and reached by way of home"
-        )
+        away = np.array([home, home]) if going is None else going
+        assert coming is not None, "a transfer that was validated can be reached by way of home"
+        back = coming + (home - coming[0])
         leave_s, back_s = self._transits.needed_s(away), self._transits.needed_s(back)
         wait_s, come_s = retreat.shortest_s + float(leave_s.sum()), float(back_s.sum()) + approach.shortest_s
         late_s = max(wait_s + come_s + self.dwell_s - free.reach_s, 0.0)

@@ -9,6 +9,9 @@ from planner.geometry.tolerance import TIME_S
 from planner.motion.line import Keyframes
 from planner.motion.transit_paths import TransitPaths
 
+_HALVINGS = 40
+"""How often the part of a line in which hands rest is halved."""
+
 
 def led_along(
     transits: TransitPaths, way: FloatArray, needed: FloatArray, span: tuple[float, float], borders_s: tuple[float, ...]
@@ -38,14 +41,14 @@ def led_along(
 
 def _middle(transits: TransitPaths, start: FloatArray, end: FloatArray, before_s: float, after_s: float) -> FloatArray:
     """Return where on a line to rest so that the ways before and after take equal shares of their times."""
-
-    def hurry(share: float) -> float:
-        middle = start + share * (end - start)
-        return _least_s(transits, start, middle) * after_s - _least_s(transits, middle, end) * before_s
-
-    from scipy.optimize import brentq  # slow to import, and seldom needed
-
-    return np.asarray(start + brentq(hurry, 0.0, 1.0) * (end - start))
+    low, high = start, end
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        if _least_s(transits, start, middle) * after_s < _least_s(transits, middle, end) * before_s:
+            low = middle
+        else:
+            high = middle
+    return np.asarray(0.5 * (low + high))
 
 
 def _least_s(transits: TransitPaths, start: FloatArray, end: FloatArray) -> float:

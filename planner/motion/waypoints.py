@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from planner.geometry.pose import BoolArray, FloatArray, Point3
 from planner.geometry.tolerance import LENGTH_M
-from planner.motion.phase_stretches import Stretch, StretchSampler, rolls_of
+from planner.motion.phase_stretches import Stretch, StretchSampler, about_x, rolls_of
 from planner.task.phase import Phase
 
 
@@ -182,13 +182,3 @@ def _in_base(bases: FloatArray, points: FloatArray, height_m: float) -> FloatArr
     cos, sin = np.cos(bases[:, 2]), np.sin(bases[:, 2])
     dx, dy = points[:, 0] - bases[:, 0], points[:, 1] - bases[:, 1]
     return np.column_stack([cos * dx + sin * dy, cos * dy - sin * dx, points[:, 2] + height_m])
-
-
-def about_x(angles_rad: FloatArray) -> FloatArray:
-    """Return the rotations about the x axis, shape (n,) -> (n, 3, 3)."""
-    turns = np.zeros((len(angles_rad), 3, 3))
-    turns[:, 0, 0] = 1.0
-    turns[:, 1, 1] = turns[:, 2, 2] = np.cos(angles_rad)
-    turns[:, 2, 1] = np.sin(angles_rad)
-    turns[:, 1, 2] = -turns[:, 2, 1]
-    return turns

@@ -243,10 +243,10 @@ def _restrict(search: _PlanSearch, pause: Pause) -> Iterator[Event] | None:
 
     A plan for a restricted task is also a plan for this one.
     """
-    if pause is Pause.END:
-        return search.restricted()
     is_due = pause is Pause.ROUND and bool(search.exact.found) and search.budget.spent_s > LESS_ROOM_AFTER_S
-    return chain(search.shown(search.exact.found or ()), search.restricted()) if is_due else None
+    if not is_due and pause is not Pause.END:
+        return None
+    return chain(search.shown(search.exact.found or ()), search.restricted())
 
 
 def _try_thoroughly(search: _PlanSearch, pause: Pause) -> Iterator[Event] | None:

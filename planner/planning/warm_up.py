@@ -172,7 +172,7 @@ def _staying(place: Point3) -> ToolPath:
     return ToolPath(np.array([place, place]), np.array([np.eye(3), np.eye(3)]), np.array([np.inf]), (0, 2))
 
 
-def _anywhere(_poses: NDArray[np.int64], joints: FloatArray, _is_certain: bool) -> BoolArray:
+def _anywhere(_poses: NDArray[np.int64], joints: FloatArray) -> BoolArray:
     return np.ones(len(joints), dtype=bool)
 
 

@@ -40,6 +40,9 @@ _EASY_SWING_M, _SWING_EFFORT_PER_M = 0.4, 2.0
 _EDGE_MIN_M, _EDGES_MAX = 0.08, 6
 """The shortest edge that is folded onto another (m), and the most edges that are, the longest ones."""
 
+_ROLL_MIN_M = 0.05
+"""The narrowest turns of a roll (m)."""
+
 SLANTED = 2
 """The axis of moves whose lines are not along the axes."""
 
@@ -98,6 +101,9 @@ def inward_moves(bounds: Bounds, sides_m: Iterable[float]) -> Iterator[Move]:
         move, third = partial(_across, bounds, axis), extent / 3
         for is_low in (True, False):
             yield move("half", 1.0, "half", (middle, is_low))
+            if extent > 2 * _EASY_SWING_M:  # a quarter first, and on with it: no arm swings so wide as for the half
+                quarter = low + extent / 4 if is_low else high - extent / 4
+                yield move("quarters", 1.0, "side", (quarter, is_low), (middle, is_low))
         yield move("thirds", 1.0, "third", (low + third, True), (high - third, False))
         yield move("roll", 1.1, "third", (low + third, True), (high - third, True))
         yield move("roll", 1.1, "third", (high - third, False), (low + third, False))
@@ -111,6 +117,17 @@ def inward_moves(bounds: Bounds, sides_m: Iterable[float]) -> Iterator[Move]:
             if cut < extent / 2 - SNAP_M:
                 yield move("side", 1.5, "side", (low + cut, True))
                 yield move("side", 1.5, "side", (high - cut, False))
+
+
+def roll_moves(bounds: Bounds) -> Iterator[tuple[float, Move]]:
+    """Yield how wide a roll is (m) and the move that rolls up a silhouette, from its bounds: turns of one width."""
+    for axis in (0, 1):
+        low, extent = bounds[axis], bounds[axis + 2] - bounds[axis]
+        for parts in range(3, int(extent / _ROLL_MIN_M) + 1):
+            width = extent / parts
+            turns = [low + width * number for number in range(1, parts)]
+            for places in ([(turn, True) for turn in turns], [(turn, False) for turn in reversed(turns)]):
+                yield width, _across(bounds, axis, f"roll of {parts}", 1.0, "roll", *places)
 
 
 def flap_moves(silhouette: Region) -> Iterator[Move]:

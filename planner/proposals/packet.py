@@ -68,11 +68,15 @@ class Packet:
         """The area of that rectangle (m^2)."""
         return self.size_m[0] * self.size_m[1]
 
+    @property
+    def hollow(self) -> float:
+        """The share of that rectangle that no cloth covers."""
+        return 1.0 - self.cloth.silhouette.area / self.box_m2
+
     @cached_property
     def taste(self) -> float:
         """How far it is from what people like: few, natural moves, few layers, a full rectangle; less is better."""
-        hollow = 1.0 - self.cloth.silhouette.area / self.box_m2
-        return self.effort + FOLD_EFFORT * len(self.folds) + _LAYER_EFFORT * len(self.cloth.layers) + hollow
+        return self.effort + FOLD_EFFORT * len(self.folds) + _LAYER_EFFORT * len(self.cloth.layers) + self.hollow
 
     @cached_property
     def shape(self) -> tuple[int, ...]:

@@ -6,7 +6,8 @@ which of them are to blame. Until there is a proposal, what takes much work is p
 Of variants of one way (the same moves in another order, or mirrored) only the first is proposed that can be done: the
 order and the side decide much for a robot and nothing for the packet.
 
-Instead of a size another garment may be given: then its folds, fitted to this one, are the only way.
+Instead of a size another garment may be given: then its folds, fitted to this one, are the only way. Or the garment is
+rolled up, to whatever size.
 """
 
 import math
@@ -28,6 +29,7 @@ from planner.proposals.likeness import LikenessSearch
 from planner.proposals.packet import Packet, Way
 from planner.proposals.packet_search import PacketSearch
 from planner.proposals.robot_check import RobotCheck
+from planner.proposals.rolling import RollSearch
 from planner.proposals.target import Sides, Target
 from planner.task.plan import Plan
 from planner.task.scene import Scene
@@ -206,6 +208,8 @@ def propose_folds(
     stops = should_stop or _never
     if isinstance(target, Garment):
         return _planned(task, LikenessSearch(garment, target), None, count, stops)
+    if target.is_roll:
+        return _planned(task, RollSearch(garment, max_folds), None, count, stops)
     search = PacketSearch(garment, target, max_folds, face, RobotCheck(task))
     alone = PacketSearch(garment, target, max_folds, face)
     return _planned(task, search, None if target.is_smallest else alone, count, stops)
@@ -213,7 +217,7 @@ def propose_folds(
 
 def _planned(
     task: Task,
-    search: PacketSearch | LikenessSearch,
+    search: PacketSearch | LikenessSearch | RollSearch,
     alone: PacketSearch | None,
     count: int,
     should_stop: Callable[[], bool],

@@ -24,11 +24,13 @@ class Target:
         width: one side (m), or its share of the garment's width.
         length: the other side (m), or its share of the garment's length.
         is_share: whether the sides are shares of the garment as it lies at the beginning.
+        is_roll: whether it asks for a roll instead, of whatever size.
     """
 
     width: float
     length: float
     is_share: bool = False
+    is_roll: bool = False
 
     @staticmethod
     def of(to: "str | Sequence[float] | Target") -> "Target":
@@ -51,7 +53,7 @@ class Target:
     @property
     def is_smallest(self) -> bool:
         """Whether it asks for packets as small as possible."""
-        return self.width == 0.0
+        return self.width == 0.0 and not self.is_roll
 
     def sides_of(self, size_m: Sides) -> Sides:
         """Return the target's sides for a garment of a size at the beginning (m)."""
@@ -64,6 +66,7 @@ PRESETS: Mapping[str, Target] = {
     "suitcase": Target(0.30, 0.40),
     "halves": Target(1 / 2, 1 / 2, is_share=True),
     "thirds": Target(1 / 3, 1 / 3, is_share=True),
+    "roll": Target(0.0, 0.0, is_roll=True),
     "smallest": Target(0.0, 0.0),
 }
 """The targets that have names."""

@@ -105,7 +105,7 @@ class ArmSearch:
 
     def are_free(self, guides: FloatArray) -> BoolArray:
         """Return at which links the arm does not collide, shape (l,)."""
-        return self._is_free(self.links, guides, False)
+        return self._is_free(self.links, guides)
 
     def followed(self, guides: FloatArray) -> tuple[FloatArray, NDArray[np.int64]]:
         """Return the joints along the whole path, shape (n, joints), and the poses at which they are not valid."""
@@ -122,7 +122,7 @@ class ArmSearch:
         return joints if len(bad) else smooth
 
     def able(self, link: int) -> tuple[NDArray[np.int64], FloatArray]:
-        """Return the samples at a link that certainly do not collide: indices, shape (k,), and joints, (k, joints)."""
+        """Return the samples at a link that do not collide: indices, shape (k,), and joints, (k, joints)."""
         self._ask(np.array([link])[~self._is_asked[[link]]])
         which = np.flatnonzero(np.isfinite(self.costs[link]))
         return which, self.samples[link, which]
@@ -155,7 +155,7 @@ class ArmSearch:
         rows, columns = np.nonzero(np.isfinite(self.costs[links]))
         asked = links[rows]
         self._is_asked[links] = True
-        is_bad = ~self._is_free(self.links[asked], self.samples[asked, columns], True)
+        is_bad = ~self._is_free(self.links[asked], self.samples[asked, columns])
         self.costs[asked[is_bad], columns[is_bad]] = np.inf
 
 

@@ -38,7 +38,7 @@ class Together(Protocol):
         ...
 
     def postures_apart(self, arms: tuple[int, int], first: FloatArray, second: FloatArray) -> BoolArray:
-        """Return which of k postures of the first arm are certainly clear of which of l of the second, shape (k, l).
+        """Return which of k postures of the first arm are clear of which of l of the second, shape (k, l).
 
         In all postures of an arm its tool is in the same pose.
         """

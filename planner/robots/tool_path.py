@@ -12,11 +12,8 @@ from numpy.typing import NDArray
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.robots.path_arm import PathArm
 
-IsFree = Callable[[NDArray[np.int64], FloatArray, bool], BoolArray]
-"""A collision check: from the poses' indices (m,), their joints (m, joints) and a flag, tell which are free (m,).
-
-With the flag set only joints that are certainly free count, which is faster.
-"""
+IsFree = Callable[[NDArray[np.int64], FloatArray], BoolArray]
+"""A collision check: from the poses' indices (m,) and their joints (m, joints), tell which are free (m,)."""
 
 LEAP_RAD = 0.4
 """Movement of a joint between neighbouring poses from which it counts as a jump (rad; m where it slides)."""
@@ -106,5 +103,5 @@ def joints_along(
     leaps = np.abs(np.diff(joints, axis=0)).max(axis=1, initial=0.0) > LEAP_RAD
     is_bad = ~is_found | np.append(leaps, False)
     if not is_bad.any():
-        is_bad = ~is_free(np.arange(len(joints)), joints, False)
+        is_bad = ~is_free(np.arange(len(joints)), joints)
     return joints, np.flatnonzero(is_bad)

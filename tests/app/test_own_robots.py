@@ -15,6 +15,7 @@ from tests.app.robot_archives import BOX, archive, box_card, box_urdf
 from tests.app.test_cli import pleat
 from tests.app.test_job_routes import ended
 from tests.app.test_robots import NAPKIN
+from tests.robots.drafted import single_urdf
 
 pytestmark = pytest.mark.anyio
 
@@ -274,3 +275,28 @@ async def test_what_is_probably_not_meant_is_told_with_codes_before_any_map_is_b
     assert told["arms_together"]["arms"] == ["left", "right"] and told["arms_together"]["apart_m"] == 0.0
     assert told["station_faces_away"]["station"] == station
     assert (await client.get("/api/robots/nobody/warnings")).status_code == 404
+
+
+async def test_a_robot_without_a_card_is_drafted_of_its_urdf_and_what_is_no_description_is_refused(
+    client: httpx.AsyncClient, tmp_path: Path
+) -> None:
+    async def sent(name: str, body: bytes) -> httpx.Response:
+        return await client.post(IMPORTS, params={"filename": name}, content=body)
+
+    answer = await sent("My arm.urdf", single_urdf().encode())
+    told = answer.json()
+    assert (answer.status_code, told["name"], told["title"], told["arms"]) == (201, "my-arm", "My arm", ["arm"])
+    assert any("stands on" in guess for guess in told["draft"]["guesses"]) and told["draft"]["unknown"]
+    card = (await client.get("/api/robots/my-arm")).json()
+    assert len(card["arms"][0]["joints"]) == 6
+    assert (await client.get("/api/robots/my-arm/warnings")).status_code == 200
+    assert "draft" not in (await sent("bench.zip", archive(robot_files()))).json()
+    macros = single_urdf().replace("<link", '<xacro:include filename="/etc/hosts"/><link', 1).encode()
+    for name, body, field, said in (
+        ("arm.txt", b"", "filename", "expected one that ends in"),
+        ("arm.urdf", macros, "file", "has to be expanded"),
+        ("arm.urdf", b"<robot name='none'><link name='a'/></robot>", "urdf", "has no arm"),
+    ):
+        [error] = (await sent(name, body)).json()["errors"]
+        assert (error["field"], said in error["message"]) == (field, True), error
+    assert sorted(path.name for path in (tmp_path / "robots").iterdir()) == ["bench", "my-arm"]

@@ -29,16 +29,13 @@ class CountingView3D:
         self.is_drawn_by_software = False
         self.lying, self.bare, self.plans = 0, 0, 0
         self.times: list[float] = []
+        self.done: object = None
         self.themes: list[bool] = []
-        self.languages: list[str] = []
         self.scenes: list[Scene] = []
         self.robots: list[str] = []
 
     def set_theme(self, *, is_dark: bool) -> None:
         self.themes.append(is_dark)
-
-    def set_language(self, language: str) -> None:
-        self.languages.append(language)
 
     def show_scene(self, scene: Scene) -> None:
         self.scenes.append(scene)
@@ -46,8 +43,9 @@ class CountingView3D:
     def show_robot(self, card: RobotCard) -> None:
         self.robots.append(card.name)
 
-    def show_garment(self, *_: object) -> None:
+    def show_garment(self, *shown: object) -> None:
         self.lying += 1
+        self.done = shown[3] if len(shown) > 3 else None
 
     def show_bare(self, _: Pose2) -> None:
         self.bare += 1
@@ -153,20 +151,6 @@ def test_the_3d_view_follows_the_theme_and_another_garment_keeps_it() -> None:
         until(lambda: view.lying == 2)
         assert document.state.is_dark
         assert view.themes == [False, True]
-    finally:
-        player.close()
-
-
-def test_the_3d_view_follows_the_language() -> None:
-    document, view = towel_document(), CountingView3D(True)
-    player = player_of(document, view)
-    try:
-        until(lambda: view.lying == 1)
-        document.set_language("de")
-        until(lambda: view.languages == ["en", "de"])
-        document.set_theme(is_dark=True)
-        until(lambda: view.themes == [False, True])
-        assert view.languages == ["en", "de"]
     finally:
         player.close()
 
@@ -344,7 +328,7 @@ def test_where_a_graphics_card_draws_it_the_3d_view_follows_a_hand_at_once(
         player.close()
 
 
-def test_a_plan_that_is_pointed_at_is_shown_to_its_end_and_then_the_own_one_again(
+def test_a_plan_that_is_pointed_at_is_shown_to_its_end_then_the_own_one_and_without_a_plan_the_cloth_alone(
     plan: Plan, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(player_module, "PREVIEW_S", 0.2)
@@ -357,4 +341,6 @@ def test_a_plan_that_is_pointed_at_is_shown_to_its_end_and_then_the_own_one_agai
     assert view.plans == 2 and document.t_s == 0.0
     document.preview(None)
     until(lambda: view.times[-1] == 0.0)
+    document.preview(replace(plan, status="infeasible", steps=(), trajectory=None))
+    until(lambda: view.done == set(range(len(plan.garment.folds))))
     player.close()

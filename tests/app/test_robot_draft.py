@@ -14,6 +14,7 @@ import pinocchio as pin
 import pytest
 
 from app.files.mjcf import urdf_of_mjcf
+from app.ui.robot_model import load_robot_model
 from planner.errors import RobotError
 from planner.robots.card_robot import CardRobot
 from planner.robots.collision import described_parts
@@ -48,6 +49,12 @@ def test_arms_are_the_chains_that_end_in_grippers_from_left_to_right(pair: tuple
     assert [arm.name for arm in card.arms] == ["left", "right"]
     for arm, before in zip(card.arms, "lr", strict=True):
         assert arm.joints == tuple(f"{before}_{name}" for name in ("pan", "lift", "bow", "bend", "tilt", "roll"))
+
+
+def test_a_robot_without_looks_is_shown_by_its_shapes_for_collisions(pair: tuple[Path, str]) -> None:
+    shown = CardRobot(read_described(pair[0] / "robot.json")).card
+    seen = {link.name for link in load_robot_model(shown.urdf_path, shown.package_dir) if link.visuals}
+    assert {"column", "torso", "l_pan_part", "r_b_part"} <= seen
 
 
 def test_the_tool_point_is_at_the_fingertips_between_the_fingers(pair: tuple[Path, str]) -> None:

@@ -17,13 +17,13 @@ from websockets.typing import Subprotocol
 
 from app.ui.colours import DARK, LIGHT
 from app.ui.lighting import ink, paint
-from app.ui.lying_cloth import lying_cloth
 from app.ui.robot_model import load_robot_model
 from app.ui.view_3d import View3D
 from app.ui.viser_patches import LOOPBACK, SECRET_HEADER
 from planner import Plan, Scene, load_garment
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
+from planner.motion.cloth_alone import spread_cloth
 from planner.motion.timeline import Timeline
 from planner.robots.load_robot import load_robot
 from tests.app.pose_matrix import matrix
@@ -67,7 +67,7 @@ def test_without_cloth_the_robot_waits_as_it_does_with_cloth(view: View3D, plan:
     assert [required(handle(f"/cloth/{part}")).visible for part in ("front", "back", "shade", "edges")] == [False] * 4
     assert handle("/folds/0") is None
     waiting = shown_pose(view, "/robot/l_gripper_tool_frame")
-    view.show_garment(garment, lying_cloth(garment, scene.table), base)
+    view.show_garment(garment, spread_cloth(garment, scene.table), base)
     assert [required(handle(f"/cloth/{part}")).visible for part in ("front", "back", "shade", "edges")] == [True] * 4
     assert handle("/folds/0") is not None
     np.testing.assert_allclose(shown_pose(view, "/robot/l_gripper_tool_frame"), waiting, atol=1e-9)
@@ -90,20 +90,8 @@ def test_every_link_stands_where_forward_kinematics_says(view: View3D, plan: Pla
 def test_all_parts_of_the_scene_have_their_nodes(view: View3D, plan: Plan) -> None:
     view.show_plan(plan)
     view.show(Timeline.of(plan).at(0.0))
-    for node in ("/floor", "/table/top", "/stations/front", "/cloth/front", "/cloth/back", "/folds/4", "/robot"):
+    for node in ("/floor", "/table/top", "/cloth/front", "/cloth/back", "/folds/4", "/robot"):
         assert view._server.scene.get_handle_by_name(node) is not None, node
-
-
-def test_stations_are_marked_until_there_is_a_plan(view: View3D, plan: Plan) -> None:
-    def is_marked() -> bool:
-        return bool(required(view._server.scene.get_handle_by_name("/stations/front")).visible)
-
-    view.show_bare(Scene().stations[0][1])
-    assert is_marked()
-    view.show_plan(plan)
-    assert not is_marked()
-    view.show_garment(plan.garment, lying_cloth(plan.garment, Scene().table), Scene().stations[0][1])
-    assert is_marked()
 
 
 def test_cloth_that_lies_casts_its_shadow_from_inside_the_table_and_raised_cloth_from_the_air(
@@ -179,7 +167,7 @@ def test_nothing_is_left_to_see_but_robot_and_cloth_at_the_end(view: View3D, nam
 
 def test_a_fold_that_is_moved_keeps_its_line_so_that_it_does_not_flicker(view: View3D, plan: Plan) -> None:
     garment, base = plan.garment, Scene().stations[0][1]
-    cloth = lying_cloth(garment, Scene().table)
+    cloth = spread_cloth(garment, Scene().table)
     view.show_garment(garment, cloth, base)
     line, before = view._server.scene.get_handle_by_name("/folds/0"), line_points(view, 0)
     first, *others = garment.folds
@@ -207,27 +195,6 @@ def test_a_theme_colours_the_whole_3d_view(view: View3D, plan: Plan) -> None:
         assert tuple(line.colors) == tuple(ink(palette.folds["blue"]))
 
 
-def test_stations_are_named_in_the_readers_language_whatever_robot_comes(view: View3D) -> None:
-    def label(station: str) -> str:
-        found = view._server.scene.get_handle_by_name(f"/stations/{station}/name")
-        assert isinstance(found, viser.LabelHandle)
-        return str(found.text)
-
-    own = replace(Scene(), stations=(*Scene().stations, ("by_the_door", Pose2(-0.8, 0.3, 0.0))))
-    try:
-        assert label("front_left") == "front left"
-        view.set_language("de")
-        assert label("front_left") == "vorn links"
-        view.show_scene(own)
-        assert label("front_left") == "vorn links"
-        assert label("by_the_door") == "by the door"
-        view.set_language("es")
-        assert label("front_left") == "frente izquierda"
-    finally:
-        view.show_scene(Scene())
-        view.set_language("en")
-
-
 def test_drags_and_folds_lead_to_the_plans_own_end(plan: Plan) -> None:
     timeline, end = Timeline.of(plan), plan.final_placement
     assert end is not None
@@ -236,20 +203,17 @@ def test_drags_and_folds_lead_to_the_plans_own_end(plan: Plan) -> None:
     np.testing.assert_allclose([last.x_m, last.y_m], [end.x_m, end.y_m], atol=1e-9)
 
 
-def test_another_scene_has_another_table_other_stations_and_another_floor(view: View3D, plan: Plan) -> None:
+def test_another_scene_has_another_table_and_another_floor(view: View3D, plan: Plan) -> None:
     scene = view._server.scene
     other = replace(Scene(), table=Table(1.0, 0.8, 0.9), stations=(("corner", Pose2(-0.8, 0.3, 0.0)),))
     try:
         view.show_scene(other)
-        view.show_garment(plan.garment, lying_cloth(plan.garment, other.table), other.stations[0][1])
+        view.show_garment(plan.garment, spread_cloth(plan.garment, other.table), other.stations[0][1])
         top = scene.get_handle_by_name("/table/top")
         assert isinstance(top, viser.BoxHandle) and tuple(top.dimensions[:2]) == (1.0, 0.8)
-        assert scene.get_handle_by_name("/stations/corner") is not None
-        assert scene.get_handle_by_name("/stations/front") is None
         assert shown_pose(view, "/robot")[2, 3] == pytest.approx(-0.9)
     finally:
         view.show_scene(Scene())
-    assert scene.get_handle_by_name("/stations/front") is not None
 
 
 def test_the_3d_views_own_port_answers_nobody_without_the_secret(view: View3D) -> None:
@@ -278,15 +242,3 @@ def test_two_3d_views_stand_side_by_side(view: View3D) -> None:
         assert other.secret != view.secret
     finally:
         other.close()
-
-
-def test_stations_are_marked_for_a_robot_that_drives_alone(view: View3D) -> None:
-    handle = view._server.scene.get_handle_by_name
-    assert handle("/stations/front") is not None
-    try:
-        view.show_robot(load_robot("so101-pair").card)
-        assert handle("/stations/front") is None
-        assert handle("/table/top") is not None
-    finally:
-        view.show_robot(load_robot("pr2").card)
-    assert handle("/stations/front") is not None

@@ -6,11 +6,11 @@ import pytest
 from app.ui.colours import DARK, LIGHT, Palette
 from app.ui.fold_view import dashed, solid, split_at
 from app.ui.lighting import ink, paint, seen, seen_line
-from app.ui.lying_cloth import lying_cloth
 from app.ui.relief import Relief
 from app.ui.rotation import from_matrix, product, turn
 from app.ui.thick_cloth import ThickCloth
 from planner import Scene, load_garment
+from planner.motion.cloth_alone import spread_cloth
 from planner.motion.sample import ClothSurface
 from tests.app.pose_matrix import matrix
 
@@ -37,7 +37,8 @@ def sheet(*layers: tuple[float, float, float]) -> ClothSurface:
         a, b, c, d = (low, 0.0, z), (high, 0.0, z), (high, 1.0, z), (low, 1.0, z)
         corners.extend([a, b, c, a, c, d])
     triangles = np.arange(len(corners)).reshape(-1, 3)
-    return ClothSurface(np.array(corners), triangles, np.repeat(np.arange(len(layers)), 2), np.array(corners))
+    vertices = np.array(corners)
+    return ClothSurface(vertices, triangles, np.repeat(np.arange(len(layers)), 2), vertices, vertices[:, :2])
 
 
 def test_cloth_is_as_high_as_its_topmost_layer_there() -> None:
@@ -52,13 +53,14 @@ def test_cloth_in_the_air_does_not_lie() -> None:
         np.array([[0, 1, 2]]),
         np.zeros(1, dtype=np.int64),
         np.full((3, 3), np.nan),
+        np.zeros((3, 2)),
     )
     assert Relief.of(standing).heights_at(np.array([[0.0, 0.5]]))[0] == -np.inf
 
 
 def test_hanging_cloth_is_rolled_back_into_the_plane() -> None:
     garment = load_garment("big-towel")
-    relief = Relief.of(lying_cloth(garment, Scene().table))
+    relief = Relief.of(spread_cloth(garment, Scene().table))
     a, b, c = (relief.triangles[:, i] for i in range(3))
     sides = b - a, c - a
     area = float((sides[0][:, 0] * sides[1][:, 1] - sides[0][:, 1] * sides[1][:, 0]).sum() / 2)
@@ -87,7 +89,7 @@ def test_a_quaternion_from_a_matrix_is_the_same_rotation() -> None:
 
 def test_a_square_of_cloth_is_as_thick_as_it_says_and_its_hem_bulges() -> None:
     corners = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 0, 0], [1, 1, 0], [0, 1, 0]], dtype=float)
-    square = ClothSurface(corners, np.arange(6).reshape(-1, 3), np.zeros(2, dtype=np.int64), corners)
+    square = ClothSurface(corners, np.arange(6).reshape(-1, 3), np.zeros(2, dtype=np.int64), corners, corners[:, :2])
     thick = ThickCloth(square, 0.25)
     front, back = thick.faces
     np.testing.assert_allclose(front, corners + np.array([0.0, 0.0, 0.1]))
@@ -101,9 +103,27 @@ def test_a_square_of_cloth_is_as_thick_as_it_says_and_its_hem_bulges() -> None:
     assert vertices[:, :2].min() == pytest.approx(-0.1) and vertices[:, :2].max() == pytest.approx(1.1)
 
 
+def test_two_layers_folded_flat_are_joined_by_a_half_round_as_high_as_they_are_apart() -> None:
+    lower = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 0, 0], [1, 1, 0], [0, 1, 0]], dtype=float)
+    upper = lower[[0, 2, 1, 3, 5, 4]] + np.array([0.0, 0.0, 0.5])  # its back looks up
+    pattern = np.concatenate([lower[:, :2], upper[:, :2] * np.array([-1.0, 1.0])])
+    vertices = np.concatenate([lower, upper])
+    folded = ClothSurface(vertices, np.arange(12).reshape(-1, 3), np.repeat([0, 1], 2), vertices, pattern)
+    thick = ThickCloth(folded, 0.25)
+    assert len(thick.edges) == 6  # the crease has none
+    points, triangles = thick.hem
+    bent = points[points[:, 0] < -0.001]
+    np.testing.assert_allclose(np.hypot(bent[:, 0], bent[:, 2] - 0.25), 0.25 + 0.1)
+    a, b, c = points[triangles].transpose(1, 0, 2)
+    middles, outwards = (a + b + c) / 3, np.cross(b - a, c - a)
+    is_round = middles[:, 0] < -0.01
+    seen = outwards * (middles - np.array([0.0, 0.5, 0.25])) * np.array([1.0, 0.0, 1.0])
+    assert is_round.any() and np.all(seen[is_round].sum(axis=1) > 0.0)
+
+
 def test_a_garment_beyond_the_edge_hangs() -> None:
     garment = load_garment("big-towel")
-    hanging = lying_cloth(garment, Scene().table)
+    hanging = spread_cloth(garment, Scene().table)
     flat = garment.pattern.area
     a, b, c = (hanging.vertices[hanging.triangles[:, i]] for i in range(3))
     area = float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2)

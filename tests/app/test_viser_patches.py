@@ -1,6 +1,6 @@
 """Assumptions about viser behind the patches of it: these fail where a new version breaks them.
 
-What its page does only once it runs (colours of labels, what it takes for a phone) is looked at in a browser.
+What its page does only once it runs (what it takes for a phone) is looked at in a browser.
 """
 
 import inspect

@@ -112,11 +112,6 @@ def test_viewpoints_in_the_3d_view_move_its_camera(page: Page) -> None:
     page.wait_for_function(f"Math.abs({height} - {before}) < 0.01")
 
 
-def test_labels_in_the_3d_view_are_light_on_dark(page: Page) -> None:
-    """Their shaders are viser's with other colours, those of the ground and of the letters."""
-    expect(page.frame_locator("#view3d").locator(":root")).to_have_attribute("data-recoloured", "2")
-
-
 def test_the_server_knows_that_the_processor_draws_the_3d_view(page: Page) -> None:
     # As it does in these tests, see the browser's flags.
     assert required(page.locator("#view3d").get_attribute("src")).endswith("/by-software/")

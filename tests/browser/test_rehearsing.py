@@ -25,7 +25,7 @@ PHONE = {"width": 390, "height": 844}
 
 def run(trace: str | None = None, **verdict: object) -> dict[str, Any]:
     step = {"step": 0, "of_plan": 0, "iou": 0.97, "mean_mm": 4.2, "p95_mm": 9.0, "slid_mm": 1.0, "held": True} | verdict
-    counts = {"regrasps": 1, "replans": 0, "reason": "", "decisions": []}
+    counts = {"regrasps": 1, "repairs": 0, "replans": 0, "reason": "", "decisions": []}
     return {"held": step["held"], "steps": [step], "final_iou": 0.97, "trace": trace, **counts}
 
 

@@ -6,10 +6,12 @@ from collections.abc import Callable
 
 from playwright.sync_api import Page, Route, expect
 
+from tests.app.conftest import REST
 from tests.app.robot_archives import archive, box_card, box_urdf
 from tests.browser.conftest import Garment, Sheet
 from tests.browser.napkin import napkin
 from tests.browser.searches import SEARCH_MS
+from tests.robots.drafted import single_urdf
 
 ROBOTS = ("pr2", "so101-pair")
 
@@ -55,3 +57,32 @@ def test_a_robot_of_ones_own_is_brought_along_and_one_that_lacks_something_is_re
     expect(dialog).to_be_hidden()
     expect(page.get_by_role("combobox", name="Robot")).to_have_value("bench")
     expect(page.get_by_role("combobox", name="Robot")).to_contain_text("My bench")
+
+
+def test_a_robot_without_a_card_is_drafted_and_what_was_guessed_is_corrected_and_saved(
+    page: Page, new_sheet: Callable[[Garment], Sheet]
+) -> None:
+    sheet = new_sheet(None)
+    page.goto(sheet.page_url)
+    page.get_by_role("button", name="Import").click()
+    given = page.get_by_role("dialog", name="Import").get_by_label("File")
+    given.set_input_files({"name": "My arm.urdf", "mimeType": "application/xml", "buffer": single_urdf().encode()})
+    robot = page.get_by_role("dialog", name="My robot")
+    expect(robot).to_be_visible()
+    table = robot.get_by_label("Height of the table")
+    expect(table).to_have_value("75.0")
+    table.fill("high")
+    table.press("Tab")
+    expect(robot.get_by_role("alert")).to_contain_text("is no number")
+    table.fill("70")
+    table.press("Tab")
+    expect(page.get_by_role("combobox", name="Robot")).to_have_value("my-arm@scene.table.height_m=0.7")
+    sheet.edit(lambda drawing: drawing.update(comfort_radius_m=0.02))  # the drawing goes on with it
+    robot.get_by_label("Name").fill("Bench arm")
+    robot.get_by_role("button", name="Save the robot").click()
+    expect(robot).to_be_hidden()
+    expect(page.get_by_role("combobox", name="Robot")).to_have_value("my-arm")
+    card = REST.get(f"{sheet.path.partition('/api/')[0]}/api/robots/my-arm").json()
+    drawing = sheet.drawing
+    assert (card["title"], card["scene"]["table"]["height_m"]) == ("Bench arm", 0.7)
+    assert (drawing["robot"], drawing["scene"]["table"]["height_m"]) == ("my-arm", 0.7)

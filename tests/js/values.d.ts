@@ -18,6 +18,7 @@ export type FoldKind = Fold["kind"];
 export type Garment = Schemas["GarmentAnswer"];
 export type GarmentEntry = Schemas["GarmentEntry"];
 export type RobotEntry = Schemas["RobotEntry"];
+export type RobotTaken = Schemas["RobotTaken"];
 export type GarmentFold = Schemas["GarmentFold"];
 export type Scene = Schemas["Scene"];
 export type Table = Schemas["Table"];

@@ -46,9 +46,9 @@ class UnderCeiling(Pr2):
         real = super().collisions(table, torso_m, *args, **options)
         anywhere, most_m = real.arm_free, table.height_m + self._height_m
 
-        def arm_free(arm: int, bases: Any, joints: FloatArray, **how: bool) -> BoolArray:
+        def arm_free(arm: int, bases: Any, joints: FloatArray) -> BoolArray:
             is_low = [self.tool_pose(arm, one, torso_m)[0][2] < most_m for one in joints]
-            return np.asarray(anywhere(arm, bases, joints, **how) & np.array(is_low, dtype=bool))
+            return np.asarray(anywhere(arm, bases, joints) & np.array(is_low, dtype=bool))
 
         real.arm_free = arm_free  # type: ignore[method-assign]
         return real

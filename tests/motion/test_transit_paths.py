@@ -1,5 +1,6 @@
 """The cache of transit paths: it is kept from plan to plan, and a path is searched for once."""
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -81,6 +82,21 @@ def test_a_path_is_found_again_whole_turns_away_though_turns_are_not_exact(searc
         assert np.allclose(turned, way + count * turns, atol=1e-9)
         assert np.array_equal(turned[0], start + count * turns)
     assert searched == []
+
+
+def test_hands_come_by_the_corners_of_a_similar_transfer_where_these_are_free() -> None:
+    problem = Problem.of(Task.of(load_garment("hand-towel")))
+    fold = next(step for step in GFold(problem.context).successors(problem.start))
+    maker = problem.maker
+    made = required(maker.validated((fold,)))
+    own = required(made.coming)
+    middle, crossed = 0.5 * (own[0] + own[-1]), own[0].copy()
+    crossed[[0, 7]] = -0.6, 0.6
+    for corner, is_free in ((middle, True), (crossed, False)):
+        like = replace(made, coming=np.array([own[0], corner, own[-1]]))
+        coming = required(required(maker.made_like(maker.candidate((fold,)), like)).coming)
+        expected = required(like.coming) if is_free else own
+        assert coming.shape == expected.shape and np.allclose(coming, expected, atol=1e-12)
 
 
 def _far(problem: Problem) -> State:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from planner import load_garment
 from planner.cloth.cloth_state import ClothState
 from planner.geometry.isometry import Isometry
-from planner.proposals.moves import flap_moves, inward_moves, slanted_moves, turned_over
+from planner.proposals.moves import flap_moves, inward_moves, roll_moves, slanted_moves, turned_over
 from tests.builders import rectangle
 from tests.page.catalogues import CATALOGUES, ENGLISH
 from tests.page.scripts import STATIC
@@ -14,7 +14,7 @@ from tests.page.scripts import STATIC
 SHARES = (0.2, 0.25, 0.4, 0.6)
 """Sides of targets as shares of a garment's: with tucks, in thirds, and with one side in."""
 
-NOUNS = {"half", "third", "side", "flap"}
+NOUNS = {"half", "third", "side", "flap", "roll"}
 
 SIDEWAYS = ClothState.spread_out(load_garment("t-shirt").pattern.moved(Isometry.rotation(math.pi / 2)))
 """Its sleeves are its top and bottom flaps."""
@@ -33,6 +33,7 @@ def proposed_names(cloth: ClothState) -> Iterator[str]:
     sides = [share * extent for share in SHARES for extent in (x1 - x0, y1 - y0)]
     for moves in (inward_moves(silhouette.bounds, sides), flap_moves(silhouette), slanted_moves(silhouette)):
         yield from (crease.name for move in moves for crease in move.creases)
+    yield from (crease.name for _, move in roll_moves(silhouette.bounds) for crease in move.creases)
     yield from (fold.name for _, fold in turned_over(cloth, 0.127))
 
 

@@ -148,15 +148,13 @@ class BarredCollisions:
     def are_all_free(self, bases: Pose2 | FloatArray, joints: FloatArray) -> bool:
         return self._real.are_all_free(bases, joints)
 
-    def arm_free(
-        self, arm: int, bases: Pose2 | FloatArray, joints: FloatArray, *, is_certain: bool = False
-    ) -> BoolArray:
+    def arm_free(self, arm: int, bases: Pose2 | FloatArray, joints: FloatArray) -> BoolArray:
         stands = [bases] * len(joints) if isinstance(bases, Pose2) else [Pose2(*base) for base in bases]
         is_open = np.array([not self._is_barred(arm, stand) for stand in stands], dtype=bool)
-        return is_open & self._real.arm_free(arm, bases, joints, is_certain=is_certain)
+        return is_open & self._real.arm_free(arm, bases, joints)
 
-    def arms_apart(self, arms: tuple[int, ...], joints: FloatArray, *, is_certain: bool = False) -> BoolArray:
-        return self._real.arms_apart(arms, joints, is_certain=is_certain)
+    def arms_apart(self, arms: tuple[int, ...], joints: FloatArray) -> BoolArray:
+        return self._real.arms_apart(arms, joints)
 
     def postures_apart(self, arms: tuple[int, int], first: FloatArray, second: FloatArray) -> BoolArray:
         return self._real.postures_apart(arms, first, second)

@@ -32,6 +32,22 @@ def test_what_a_move_leaves_is_known_before_it_is_made() -> None:
         assert size_after(BLANKET, move) == pytest.approx(move.size_m, abs=1e-5)
 
 
+def test_long_cloth_may_be_halved_by_a_quarter_and_on_with_it() -> None:
+    scarf = ClothState.spread_out(rectangle(0.25, 1.5))
+    near, far = (move for move in inward_moves(scarf.silhouette.bounds, (0.75,)) if move.kind == "quarters")
+    for move, low, high in ((near, 0.75, 1.5), (far, 0.0, 0.75)):
+        done = carried_out(scarf, move, 0.127)
+        assert done is not None
+        assert done[0].silhouette.bounds == pytest.approx((0.0, low, 0.25, high), abs=1e-5)
+        assert (len(done[0].layers), len(done[1])) == (3, 2)
+    (half,) = (
+        one
+        for one in inward_moves(scarf.silhouette.bounds, (0.75,))
+        if one.kind == "half" and one.creases[0].name == "bottom half"
+    )
+    assert near.effort < half.effort  # no arm swings so wide
+
+
 def test_sides_that_stick_out_are_tucked_back() -> None:
     move = next(move for move in inward_moves((0.0, 0.0, 0.7, 0.4), (0.2,)) if move.kind == "sides")
     assert [(crease.kind, crease.name) for crease in move.creases] == [

@@ -197,7 +197,7 @@ class RemadeRobot:
 
     @staticmethod
     def _own(arm: Mounted, is_free: IsFree) -> IsFree:
-        return lambda steps, joints, is_certain: is_free(steps, arm.own(joints), is_certain)
+        return lambda steps, joints: is_free(steps, arm.own(joints))
 
 
 class IdleArm:
@@ -241,9 +241,9 @@ class RemadeClearance:
         self._arms = arms
         self._real = real
 
-    def arm_clear(self, arm: int, bases: Pose2 | FloatArray, joints: FloatArray, **how: bool) -> BoolArray:
+    def arm_clear(self, arm: int, bases: Pose2 | FloatArray, joints: FloatArray) -> BoolArray:
         one = self._arms[arm]
-        return self._real.arm_clear(one.of, one.stand(bases), one.bent(joints), **how)
+        return self._real.arm_clear(one.of, one.stand(bases), one.bent(joints))
 
 
 class RemadeCollisions:
@@ -256,39 +256,40 @@ class RemadeCollisions:
         self._real = real
         self._torso_m = torso_m
 
-    def arm_free(self, arm: int, bases: Pose2 | FloatArray, joints: FloatArray, **how: bool) -> BoolArray:
+    def arm_free(self, arm: int, bases: Pose2 | FloatArray, joints: FloatArray) -> BoolArray:
         one = self._arms[arm]
-        return self._real.arm_free(one.of, one.stand(bases), one.bent(joints), **how)
+        return self._real.arm_free(one.of, one.stand(bases), one.bent(joints))
 
-    def arms_apart(self, arms: tuple[int, ...], joints: FloatArray, **how: bool) -> BoolArray:
+    def arms_apart(self, arms: tuple[int, ...], joints: FloatArray) -> BoolArray:
         counts = [len(self._robot.card.arms[arm].joint_names) for arm in arms]
         assert joints.shape[1] == sum(counts)
         of_arm = dict(zip(arms, np.split(joints, np.cumsum(counts)[:-1], axis=1), strict=True))
         apart = np.ones(len(joints), dtype=bool)
         for one, other in combinations(arms, 2):
-            apart &= self._pair_apart((one, other), of_arm[one], of_arm[other], **how)
+            apart &= self._pair_apart((one, other), of_arm[one], of_arm[other])
         return apart
 
-    def _pair_apart(self, pair: tuple[int, int], first: FloatArray, second: FloatArray, **how: bool) -> BoolArray:
+    def _pair_apart(self, pair: tuple[int, int], first: FloatArray, second: FloatArray) -> BoolArray:
         one, other = (self._arms[arm] for arm in pair)
         if (one.of, other.of) == (0, 1) and one.aside_m == other.aside_m:
-            return self._real.arms_apart((0, 1), np.hstack([one.bent(first), other.bent(second)]), **how)
+            return self._real.arms_apart((0, 1), np.hstack([one.bent(first), other.bent(second)]))
         tools = [self._robot.tool_places(arm, q, self._torso_m) for arm, q in zip(pair, (first, second), strict=True)]
         return np.asarray(tools[0][:, 1] - tools[1][:, 1] > HANDS_APART_M)
 
     def postures_apart(self, arms: tuple[int, int], first: FloatArray, second: FloatArray) -> BoolArray:
-        pairs = [self._pair_apart(arms, row[None].repeat(len(second), 0), second, is_certain=True) for row in first]
+        pairs = [self._pair_apart(arms, row[None].repeat(len(second), 0), second) for row in first]
         return np.array(pairs, dtype=bool).reshape(len(first), len(second))
 
     def are_some_apart(self, arms: tuple[int, int], first: FloatArray, second: FloatArray) -> bool:
         return bool(self.postures_apart(arms, first, second).any())
 
-    def free(self, bases: Pose2 | FloatArray, joints: FloatArray) -> BoolArray:
+    def free_until(self, bases: Pose2 | FloatArray, joints: FloatArray) -> int:
         alone = [self.arm_free(arm, bases, joints[:, self._layout.spans[arm]]) for arm in self._layout.arms]
-        return np.asarray(np.all([*alone, self.arms_apart(tuple(self._layout.arms), joints)], axis=0))
+        are_free = np.all([*alone, self.arms_apart(tuple(self._layout.arms), joints)], axis=0)
+        return int(np.append(are_free, False).argmin())
 
     def are_all_free(self, bases: Pose2 | FloatArray, joints: FloatArray) -> bool:
-        return bool(self.free(bases, joints).all())
+        return self.free_until(bases, joints) == len(joints)
 
     def over_cloth(self, pieces: Sequence[FloatArray], over_m: float) -> RemadeClearance:
         return RemadeClearance(self._arms, self._real.over_cloth(pieces, over_m))

@@ -49,11 +49,11 @@ def mirrored(path: ToolPath) -> ToolPath:
     return replace(path, positions=path.positions * SIDEWAYS, rotations=rotations)
 
 
-def everywhere(_: NDArray[np.int64], joints: FloatArray, is_certain: bool) -> BoolArray:
+def everywhere(_: NDArray[np.int64], joints: FloatArray) -> BoolArray:
     return np.ones(len(joints), dtype=bool)
 
 
-def nowhere(_: NDArray[np.int64], joints: FloatArray, is_certain: bool) -> BoolArray:
+def nowhere(_: NDArray[np.int64], joints: FloatArray) -> BoolArray:
     return np.zeros(len(joints), dtype=bool)
 
 
@@ -131,7 +131,7 @@ def test_an_arm_goes_round_what_the_calmest_path_would_run_into() -> None:
     path = across(45)
     wall_rad = 0.6
 
-    def beside(_: NDArray[np.int64], joints: FloatArray, is_certain: bool) -> BoolArray:
+    def beside(_: NDArray[np.int64], joints: FloatArray) -> BoolArray:
         return joints[:, 0] < wall_rad
 
     calm, other = joints_of(found(path)), joints_of(found(path, beside))
@@ -144,23 +144,13 @@ def test_an_arm_goes_round_what_stands_in_its_way_for_a_while_only() -> None:
     path = across(45)
     middle = len(path.positions) // 2
 
-    def gate(poses: NDArray[np.int64], joints: FloatArray, is_certain: bool) -> BoolArray:
+    def gate(poses: NDArray[np.int64], joints: FloatArray) -> BoolArray:
         return (np.abs(poses - middle) > 2) | (joints[:, 0] < 0.5)
 
     calm, other = joints_of(found(path)), joints_of(found(path, gate))
     assert calm[middle, 0] > 0.5, "else the gate is wide enough"
     require_followed(path, other)
     assert other[middle - 2 : middle + 3, 0].max() < 0.5
-
-
-def test_of_what_is_only_not_certain_to_collide_a_path_may_be_made() -> None:
-    # With `certain` nothing is free: samples may be rejected for that only where the path found collides.
-    path = across(45)
-
-    def doubtful(_: NDArray[np.int64], joints: FloatArray, is_certain: bool) -> BoolArray:
-        return np.full(len(joints), not is_certain)
-
-    np.testing.assert_array_equal(joints_of(found(path, doubtful)), joints_of(found(path)))
 
 
 @pytest.mark.parametrize("pitch_deg", PITCHES_DEG)
@@ -172,8 +162,8 @@ def test_the_mirror_image_of_a_path_has_the_mirror_image_of_its_joints(pitch_deg
 
 def test_so_has_what_goes_round_a_wall() -> None:
     path = across(45)
-    left = joints_of(found(path, lambda _, joints, is_certain: joints[:, 0] < 0.6))
-    right = joints_of(found(mirrored(path), lambda _, joints, is_certain: joints[:, 0] > -0.6, arm=1))
+    left = joints_of(found(path, lambda _, joints: joints[:, 0] < 0.6))
+    right = joints_of(found(mirrored(path), lambda _, joints: joints[:, 0] > -0.6, arm=1))
     np.testing.assert_allclose(right, left * MIRROR, atol=1e-9)
 
 
@@ -198,7 +188,7 @@ def test_where_known_joints_no_longer_do_there_are_none_near_to_them(arm: int) -
     known = joints_of(found(path, arm=arm))
     barred = known[-1, 0]
 
-    def is_free(poses: NDArray[np.int64], joints: FloatArray, is_certain: bool) -> BoolArray:
+    def is_free(poses: NDArray[np.int64], joints: FloatArray) -> BoolArray:
         """Forbid the pan's first value at the last five poses."""
         return np.asarray((np.asarray(poses) < len(known) - 5) | (np.abs(joints[:, 0] - barred) > 0.1))
 

@@ -36,7 +36,7 @@ def line(start: tuple[float, float, float], end: tuple[float, float, float], yaw
 
 def is_free(arm: int) -> IsFree:
     """Return the collision check of an arm while the robot stands nowhere near the table."""
-    return lambda _, joints, is_certain: COLLISIONS.arm_free(arm, FAR, joints, is_certain=is_certain)
+    return lambda _, joints: COLLISIONS.arm_free(arm, FAR, joints)
 
 
 def along(paths: tuple[ToolPath, ToolPath], both_arms: Together = COLLISIONS) -> FloatArray | NoPath:
@@ -143,7 +143,7 @@ def test_arms_of_eight_and_seven_joints_cross_as_those_of_seven_do() -> None:
     real = UNLIKE.collisions(Table(), TORSO_M)
 
     def is_free_of(arm: int) -> IsFree:
-        return lambda _, joints, is_certain: real.arm_free(arm, FAR, joints, is_certain=is_certain)
+        return lambda _, joints: real.arm_free(arm, FAR, joints)
 
     found = UNLIKE.arm_paths(dict(enumerate(paths)), TORSO_M, TABLE_M, {arm: is_free_of(arm) for arm in (0, 1)}, real)
     assert not isinstance(found, NoPath) and found.shape == (41, 15)
@@ -161,7 +161,7 @@ def test_three_arms_go_as_they_would_alone_or_one_pair_after_the_other_gives_way
     real = THREE_ARMS.collisions(Table(), TORSO_M)
 
     def is_free_of(arm: int) -> IsFree:
-        return lambda _, joints, is_certain: real.arm_free(arm, FAR, joints, is_certain=is_certain)
+        return lambda _, joints: real.arm_free(arm, FAR, joints)
 
     found = THREE_ARMS.arm_paths(paths, TORSO_M, TABLE_M, {arm: is_free_of(arm) for arm in paths}, real)
     assert not isinstance(found, NoPath) and found.shape == (41, 23)

@@ -116,7 +116,7 @@ def test_postures_are_apart_as_they_are_pair_by_pair() -> None:
         )
         found = COLLISIONS.postures_apart((0, 1), left, right)
         pairs = np.stack([left.repeat(len(right), 0), np.tile(right, (len(left), 1))], axis=1)
-        np.testing.assert_array_equal(found.ravel(), COLLISIONS.arms_apart((0, 1), pairs, is_certain=True))
+        np.testing.assert_array_equal(found.ravel(), COLLISIONS.arms_apart((0, 1), pairs))
         assert COLLISIONS.are_some_apart((0, 1), left, right) == found.any()
         apart, met = apart + int(found.sum()), met + int((~found).sum())
     assert min(apart, met) > 100
@@ -148,6 +148,7 @@ def test_a_posture_is_answered_alike_alone_and_among_others() -> None:
     alone = [bool(COLLISIONS.free(FRONT, posture[None])[0]) for posture in postures]
     assert COLLISIONS.free(FRONT, postures).tolist() == alone
     assert len(set(alone)) == 2
+    assert COLLISIONS.free_until(FRONT, postures) == alone.index(False)
     assert COLLISIONS.free(FRONT, postures[:0]).shape == (0,)
 
 
@@ -160,16 +161,11 @@ def test_a_posture_is_answered_alike_alone_and_on_the_way_of_moving_arms_and_a_m
     ways, bases = (
         np.concatenate([a + np.multiply.outer(shares, b - a) for a, b in pairwise(ends)]) for ends in (corners, stands)
     )
-    for is_certain in (False, True):
-        for arm in (0, 1):
-            found = COLLISIONS.arm_free(arm, bases, ways[:, arm], is_certain=is_certain)
-            alone = [
-                COLLISIONS.arm_free(arm, base[None], posture[None, arm], is_certain=is_certain)[0]
-                for base, posture in zip(bases, ways, strict=True)
-            ]
-            assert not np.any(alone & ~found)  # by where they were before, more is certain
-            assert np.count_nonzero(found != alone) <= (1 if is_certain else 0)
-            assert 50 < found.sum() < 450
+    for arm in (0, 1):
+        found = COLLISIONS.arm_free(arm, bases, ways[:, arm])
+        each = zip(bases, ways, strict=True)
+        assert found.tolist() == [bool(COLLISIONS.arm_free(arm, b[None], q[None, arm])[0]) for b, q in each]
+        assert 50 < found.sum() < 450
     alone = [bool(COLLISIONS.free(Pose2(*base), posture[None])[0]) for base, posture in zip(bases, ways, strict=True)]
     assert COLLISIONS.free(bases, ways).tolist() == alone
     stretches = [COLLISIONS.are_all_free(bases[k : k + 3], ways[k : k + 3]) for k in range(len(ways) - 2)]
@@ -184,17 +180,8 @@ def test_each_posture_may_have_a_base_of_its_own() -> None:
         bool(COLLISIONS.free(Pose2(*base), posture[None])[0]) for base, posture in zip(bases, postures, strict=True)
     ]
     assert COLLISIONS.free(bases, postures).tolist() == alone
+    assert COLLISIONS.free_until(bases[alone], postures[alone]) == sum(alone)
     assert len(set(alone)) == 2
-
-
-@pytest.mark.parametrize("arm", [0, 1])
-def test_the_quick_answer_is_never_wrong_and_knows_nearly_all_that_is_free_by_a_centimetre(arm: int) -> None:
-    postures = random_postures(5000, 21)[:, arm]
-    is_free, is_certain = (COLLISIONS.arm_free(arm, FRONT, postures, is_certain=only) for only in (False, True))
-    assert not np.any(is_certain & ~is_free)
-    clear = ROBOT.collisions(Table(), TORSO_M, margin_m=0.01).arm_free(arm, FRONT, postures)
-    assert clear.sum() > 2000
-    assert np.count_nonzero(is_certain[clear]) > 0.998 * clear.sum()
 
 
 def test_the_deepest_contact_is_none_exactly_where_nothing_collides() -> None:

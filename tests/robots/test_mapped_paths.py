@@ -73,7 +73,7 @@ class Bench:
                 np.testing.assert_allclose(axes, rotation @ HALF_TURN if is_over else rotation, atol=1e-4)
 
 
-def everywhere(_: NDArray[np.int64], joints: FloatArray, is_certain: bool) -> BoolArray:
+def everywhere(_: NDArray[np.int64], joints: FloatArray) -> BoolArray:
     return np.ones(len(joints), dtype=bool)
 
 
@@ -186,7 +186,7 @@ def test_near_to_known_joints_there_are_joints_for_a_path_nearby(ur5e: Bench) ->
 def test_an_arm_goes_round_what_the_calmest_path_would_run_into(ur5e: Bench) -> None:
     path = line(before(ur5e, 0.5, -0.15, 0.03), before(ur5e, 0.6, 0.15, 0.1), 60)
     side = np.sign(joints_of(ur5e.found(path))[:, 2])
-    other = joints_of(ur5e.found(path, lambda poses, joints, is_certain: np.sign(joints[:, 2]) != side[poses]))
+    other = joints_of(ur5e.found(path, lambda poses, joints: np.sign(joints[:, 2]) != side[poses]))
     ur5e.require_followed(path, other)
     assert (np.sign(other[:, 2]) != side).all()
 

@@ -110,7 +110,7 @@ def pinched_by(
 ) -> dict[int, FloatArray]:
     """Return the vertices that a hand holds once it has closed at the start of its motion; see `pinched`."""
     tool, way = grip.at(grip.times_s[0]), ahead(grip)
-    found = pinched(positions, triangles, tool, top, clear_m)
+    found = pinched(positions, triangles, tool, top, clear_m, grip.layers)
     return found if way is None else clamped(found, positions, triangles, fingertip(tool), way)
 
 

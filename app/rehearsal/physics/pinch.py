@@ -28,7 +28,12 @@ _BESIDE = 0.7
 
 
 def pinched(
-    positions: FloatArray, triangles: NDArray[np.int64], tool: FloatArray, top: TableTop, clear_m: float
+    positions: FloatArray,
+    triangles: NDArray[np.int64],
+    tool: FloatArray,
+    top: TableTop,
+    clear_m: float,
+    layers: int | None = None,
 ) -> dict[int, FloatArray]:
     """Return the vertices that fingers hold once they have closed, each with the point between the fingers.
 
@@ -42,6 +47,7 @@ def pinched(
         tool: the tool's position, shape (3,), m; its fingers close `REST_HEIGHT_M` below.
         top: the table's top.
         clear_m: how far outside an edge's plane a tool holds hanging cloth (m).
+        layers: how many sheets from the top down the fingers take; None for all.
 
     Returns:
         For each vertex the point of the cloth that is between the fingers, table frame, shape (3,), m; empty if they
@@ -59,37 +65,67 @@ def pinched(
     points = (weights[..., None] * corners).sum(axis=1)
     gaps = np.linalg.norm(points[:, :flat] - tip[:flat], axis=1)
     gaps[np.abs(corners[..., 2] - tip[2]).min(axis=1) > OPENING_M + limit * is_beside] = np.inf
+    if layers is not None:
+        gaps[_below(triangles[near], corners, points, gaps <= limit, layers)] = np.inf
     reach = PAD_M if gaps.min() <= PAD_M else gaps.min() + _ALIKE_M
     if gaps.min() > limit:
         return {}
     taken = np.flatnonzero(gaps <= reach)
     apart = np.linalg.norm(corners[taken][..., :flat] - tip[:flat], axis=-1)
     vertices = triangles[near[taken], np.argmin(apart, axis=1)].tolist()
-    first, second = (corners[taken, one] - corners[taken, 0] for one in (1, 2))
-    faces_up = first[:, 0] * second[:, 1] > first[:, 1] * second[:, 0]
-    nearest = _nearest_of_each_sheet(triangles[near[taken]], faces_up, gaps[taken])
+    nearest = _nearest_of_each_sheet(_sheets(triangles[near[taken]], corners[taken]), gaps[taken])
     return {vertex: points[taken[one]] for vertex, one in zip(vertices, nearest.tolist(), strict=True)}
 
 
-def _nearest_of_each_sheet(triangles: NDArray[np.int64], faces_up: BoolArray, gaps: FloatArray) -> NDArray[np.int64]:
-    """Return for each triangle the number of the nearest of all that are joined with it, shape (n,).
+def _sheets(triangles: NDArray[np.int64], corners: FloatArray) -> NDArray[np.int64]:
+    """Return the number of the sheet that each triangle is of, shape (n,): all that are joined, and face one way.
 
-    Fingers hold a sheet at one line, about which all of it turns. At a crease two sheets meet, one of them turned over,
-    each at its own height between the fingers.
+    At a crease two sheets meet, one of them turned over, each at its own height between the fingers.
 
     Args:
         triangles: shape (n, 3).
-        faces_up: whether each has its pattern's face above, shape (n,).
+        corners: their corners, shape (n, 3, 3), m.
+    """
+    first, second = (corners[:, one] - corners[:, 0] for one in (1, 2))
+    faces_up = first[:, 0] * second[:, 1] > first[:, 1] * second[:, 0]
+    sides = 2 * triangles + faces_up[:, None]  # a vertex at a crease counts as two, one of each sheet
+    joined = coo_array((np.ones(sides.size), (np.repeat(np.arange(len(triangles)), 3), sides.ravel()))).tocsr()
+    return np.asarray(connected_components(joined @ joined.T)[1])
+
+
+def _nearest_of_each_sheet(sheets: NDArray[np.int64], gaps: FloatArray) -> NDArray[np.int64]:
+    """Return for each triangle the number of the nearest one of its sheet, shape (n,).
+
+    Fingers hold a sheet at one line, about which all of it turns.
+
+    Args:
+        sheets: the sheet of each, shape (n,).
         gaps: how far each is from the fingers, shape (n,), m.
     """
-    count = len(triangles)
-    sides = 2 * triangles + faces_up[:, None]  # a vertex at a crease counts as two, one of each sheet
-    corners = coo_array((np.ones(sides.size), (np.repeat(np.arange(count), 3), sides.ravel()))).tocsr()
-    _, sheets = connected_components(corners @ corners.T)
     order = np.argsort(gaps, kind="stable")
-    found = np.empty(count, dtype=np.int64)
+    found = np.empty(len(sheets), dtype=np.int64)
     for sheet in np.unique(sheets).tolist():
         found[sheets == sheet] = order[sheets[order] == sheet][0]
+    return found
+
+
+def _below(
+    triangles: NDArray[np.int64], corners: FloatArray, points: FloatArray, is_near: BoolArray, layers: int
+) -> BoolArray:
+    """Return which triangles are of no sheet of the top ones that fingers reach, shape (n,).
+
+    Args:
+        triangles: shape (n, 3).
+        corners: their corners, shape (n, 3, 3), m.
+        points: their points nearest to the fingers, shape (n, 3), m.
+        is_near: which of them fingers reach, shape (n,).
+        layers: how many sheets.
+    """
+    reached = np.flatnonzero(is_near)
+    sheets = _sheets(triangles[reached], corners[reached])
+    heights = np.bincount(sheets, points[reached, 2]) / np.bincount(sheets)
+    found = np.ones(len(triangles), dtype=bool)
+    found[reached[np.isin(sheets, np.argsort(-heights)[:layers])]] = False
     return found
 
 

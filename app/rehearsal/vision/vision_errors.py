@@ -3,7 +3,7 @@
 from planner.errors import FieldError, FoldingError
 from planner.message import Message
 
-LARGEST_PICTURE = 16 << 20
+LARGEST_PICTURE = 20 << 20
 """Largest size of a picture's file (bytes)."""
 
 

@@ -54,7 +54,7 @@ class Session:
         state, choice = self._document.state, self._choice
         card = shown_robot(state.drawing.robot)
         if card.is_fixed:
-            choice.open_on(opening_of(state.drawing.scene, choice.lens.aspect, self._starting_base(state), card=card))
+            choice.open_on(opening_of(state.drawing.scene, choice.lens.aspect, state.waiting_base, card=card))
         else:
             choice.open_on(self._view_of_work(state))
 
@@ -105,13 +105,7 @@ class Session:
         """Return where the robot stands now."""
         if state.shown is not None:
             return state.shown.timeline.base_at(self._document.t_s)
-        return self._starting_base(state)
-
-    @staticmethod
-    def _starting_base(state: DocumentState) -> Pose2:
-        """Return where the robot waits before a plan begins."""
-        stations = dict(state.drawing.scene.stations)
-        return stations.get(state.drawing.start_station) or next(iter(stations.values()))
+        return state.waiting_base
 
     async def _camera_changed(self, _: viser.CameraHandle) -> None:
         if self._choice.is_opening:

@@ -1,10 +1,9 @@
 """Convex bodies, moving with the arms or standing still, and tests for contacts between them.
 
-A compiled pass over all postures (`separation`) rules out nearly all pairs. Coal tests the remaining pairs exactly, one
-by one, until a pair touches.
+A compiled pass over all postures (`separation`) tells what touches, and coal how deep.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -54,9 +53,7 @@ class Bodies:
     poses: FloatArray
     places: FloatArray
 
-    def are_free(
-        self, pairs: Pairs, bases: Pose2 | FloatArray, joints: FloatArray, arms: Index, is_certain: bool = False
-    ) -> BoolArray:
+    def are_free(self, pairs: Pairs, bases: Pose2 | FloatArray, joints: FloatArray, arms: Index) -> BoolArray:
         """Return in which postures no pair touches, shape (n,).
 
         Args:
@@ -64,38 +61,27 @@ class Bodies:
             bases: the base poses, see `rows`.
             joints: for each posture the joints of the arms considered, one arm after the other (rad, m), shape (n, q).
             arms: those arms, shape (k,).
-            is_certain: accept only postures that the compiled pass proves free; faster, but misses some free ones.
         """
-        if is_certain:
-            close, _ = self.first_close(pairs, rows(bases), joints, arms, np.zeros(len(joints), dtype=np.int64))
-            return close < 0
-        is_free = np.ones(len(joints), dtype=np.bool_)
-        is_free[[*self.touching(pairs, bases, joints, arms)]] = False
-        return is_free
+        close, _ = self.first_close(pairs, rows(bases), joints, arms, np.zeros(len(joints), dtype=np.int64))
+        return close < 0
 
-    def touching(self, pairs: Pairs, bases: Pose2 | FloatArray, joints: FloatArray, arms: Index) -> Iterator[int]:
-        """Yield the postures in which some pair touches.
-
-        Each round runs the compiled pass from the pair after the one that coal has found apart.
-        """
-        stands, asked, start = rows(bases), np.arange(len(joints)), np.zeros(len(joints), dtype=np.int64)
-        while len(asked):
-            close, places = self.first_close(pairs, stands, joints, arms, start)
-            apart: list[int] = []
-            for k in (close >= 0).nonzero()[0].tolist():
-                if self._touch(pairs, int(close[k]), places[k]):
-                    yield int(asked[k])
-                else:
-                    apart.append(k)
-            if not apart:
-                return
-            stands = stands if len(stands) == 1 else stands[apart]
-            asked, joints, start = asked[apart], joints[apart], close[apart] + 1
+    def free_until(self, pairs: Pairs, bases: Pose2 | FloatArray, joints: FloatArray, arms: Index) -> int:
+        """Return the number of postures before the first one in which some pair touches; see `are_free`."""
+        start = np.zeros(len(joints), dtype=np.int64)
+        close, _ = self.first_close(pairs, rows(bases), joints, arms, start, is_one_enough=True)
+        return int(np.append(close >= 0, True).argmax())
 
     def first_close(
-        self, pairs: Pairs, bases: FloatArray, joints: FloatArray, arms: Index, start: Index
+        self,
+        pairs: Pairs,
+        bases: FloatArray,
+        joints: FloatArray,
+        arms: Index,
+        start: Index,
+        *,
+        is_one_enough: bool = False,
     ) -> tuple[Index, FloatArray]:
-        """Return for every posture the first pair from a start that is not certainly apart; see `first_close`."""
+        """Return for every posture the first pair from a start that is not apart; see `first_close`."""
         return first_close(
             self.kinematics,
             self.torso_m,
@@ -108,18 +94,13 @@ class Bodies:
             self.places,
             start,
             pairs.margins,
+            is_one_enough,
         )
 
     def depth_m(self, pairs: Pairs, pair: int, poses: FloatArray) -> float:
         """Return how far one body of a pair must move until their margin is kept (m); negative if it is kept."""
         distance_m = coal.distance(*self._posed(pairs, pair, poses), coal.DistanceRequest(), coal.DistanceResult())
         return self._gap(pairs, pair) - float(distance_m)
-
-    def _touch(self, pairs: Pairs, pair: int, poses: FloatArray) -> bool:
-        """Return whether a pair violates its margin, at poses of shape (2, 5, 3)."""
-        request = coal.CollisionRequest()
-        request.security_margin = self._gap(pairs, pair)
-        return bool(coal.collide(*self._posed(pairs, pair, poses), request, coal.CollisionResult()))
 
     def _gap(self, pairs: Pairs, pair: int) -> float:
         """Return the distance that the hulls of a pair must keep (m): the margin and both roundings."""

@@ -46,18 +46,15 @@ class Clearance:
         low = [range(first, robot.of_arm(arm).stop) for arm, first in enumerate(robot.low_parts)]
         self._of_arm = tuple(_pairs(parts_of_arm, slab_numbers) for parts_of_arm in low)
 
-    def arm_clear(
-        self, arm: int, bases: Pose2 | FloatArray, joints: FloatArray, *, is_certain: bool = False
-    ) -> BoolArray:
+    def arm_clear(self, arm: int, bases: Pose2 | FloatArray, joints: FloatArray) -> BoolArray:
         """Return at which joints of one arm, shape (n, joints), it is clear of all cloth, shape (n,).
 
         Args:
             arm: the arm's index.
             bases: the base pose in the table frame: one for all postures, or x (m), y (m), yaw (rad) of each.
             joints: the arm's joints (rad, m).
-            is_certain: accept only postures that are proved clear; faster, but misses some clear ones.
         """
-        return self._bodies.are_free(self._of_arm[arm], bases, joints, np.array([arm]), is_certain)
+        return self._bodies.are_free(self._of_arm[arm], bases, joints, np.array([arm]))
 
 
 def _pairs(parts: range, slabs: range) -> Pairs:

@@ -108,7 +108,8 @@ class _Sample:
 
     def touching(self, arms: tuple[int, ...], pair: Sequence[int]) -> list[int]:
         """Return the postures in which the hulls of a pair touch."""
-        return sorted(self._bodies.touching(Pairs(_pairs([pair]), np.zeros(1)), _ORIGIN, *self._of(arms)))
+        are_free = self._bodies.are_free(Pairs(_pairs([pair]), np.zeros(1)), _ORIGIN, *self._of(arms))
+        return np.flatnonzero(~are_free).tolist()
 
     def asks(self, arms: tuple[int, ...], pair: Sequence[int], between: int) -> bool:
         """Return whether a pair with so many joints between its parts is to be compared."""

@@ -1,27 +1,26 @@
 """Search for a separating plane between two convex parts, compiled.
 
-The search follows Chung and Wang (1996). Let p and q be the points at which the parts come nearest along a direction d.
-If p is beyond q, a separating plane is found; else the direction is reflected at p - q, which keeps every possible
-plane on its far side. Above the middle of a table this oscillates, so the axes of one of the parts are tried as well.
-
-The differences p - q are corners of the Minkowski difference of the parts. Once four of them enclose the origin, the
+Let p and q be the points at which the parts come nearest along a direction d. If p is beyond q, a separating plane is
+found. The differences p - q are points of the Minkowski difference of the parts, and the parts are apart if it does not
+contain the origin. So the next direction is from the origin to the nearest point of the simplex of such differences, of
+which only the nearest face is kept (Gilbert, Johnson and Keerthi, 1988). Once four of them enclose the origin, the
 parts have a point in common and there is no plane.
 """
 
 import math
-from typing import TypeAlias
+
+import numpy as np
 
 from planner.geometry.pose import FloatArray
 from planner.kernels import kernel
 from planner.robots.collision.part_poses import MIDDLE, PLACE, Index
+from planner.robots.collision.simplex import Vector, are_round_origin, nearest_face
 
-_REFLECTIONS = 12
+_DIRECTIONS = 32
 """Directions tried for a pair."""
 
-_FLAT_M3 = 1e-12
-"""Six times the volume of a tetrahedron below which rounding decides what is inside (m3)."""
-
-Vector: TypeAlias = tuple[float, float, float]
+_NEARER = 1e-9
+"""The least share by which the square of the distance to the origin must fall from one direction to the next."""
 
 
 @kernel
@@ -68,23 +67,10 @@ def _nearest_along(
 
 
 @kernel
-def _volume(a: Vector, b: Vector, c: Vector) -> float:
-    """Return six times the signed volume of the tetrahedron of the origin and three points (m3)."""
-    return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0])
-
-
-@kernel
-def _are_round_origin(a: Vector, b: Vector, c: Vector, d: Vector) -> bool:
-    """Return whether the origin is inside the tetrahedron of four points."""
-    abc, acd, adb, bdc = _volume(a, b, c), _volume(a, c, d), _volume(a, d, b), _volume(b, d, c)
-    return min(abc, acd, adb, bdc) > _FLAT_M3 or max(abc, acd, adb, bdc) < -_FLAT_M3
-
-
-@kernel
 def room_at_plane(corners: FloatArray, spans: Index, r: FloatArray, a: int, b: int, gap: float, way: Vector) -> float:
-    """Return by how much more than a gap parts b and a are apart at a separating plane (m); -1 if none is found.
+    """Return by how much more than a gap parts b and a are apart at a separating plane (m); -1 if there is none.
 
-    The search starts along `way` and ends with the axes of part b.
+    The search starts along `way`.
 
     Args:
         corners: the corners of all hulls, each in its part's frame (m), shape (c, 3).
@@ -95,12 +81,15 @@ def room_at_plane(corners: FloatArray, spans: Index, r: FloatArray, a: int, b: i
         gap: the distance that their hulls should keep (m).
         way: the rough direction from b to a (m); zero if nothing is known.
     """
-    tx, ty, tz = r[a, MIDDLE, 0] - r[b, MIDDLE, 0], r[a, MIDDLE, 1] - r[b, MIDDLE, 1], r[a, MIDDLE, 2] - r[b, MIDDLE, 2]
     dx, dy, dz = way
     if dx == 0.0 and dy == 0.0 and dz == 0.0:
-        dx, dy, dz = tx, ty, tz
-    first = second = third = (0.0, 0.0, 0.0)
-    for _ in range(_REFLECTIONS):
+        dx, dy, dz = (
+            r[a, MIDDLE, 0] - r[b, MIDDLE, 0],
+            r[a, MIDDLE, 1] - r[b, MIDDLE, 1],
+            r[a, MIDDLE, 2] - r[b, MIDDLE, 2],
+        )
+    points, count, least = np.empty((4, 3)), 0, math.inf
+    for _ in range(_DIRECTIONS):
         length = math.sqrt(dx * dx + dy * dy + dz * dz)
         if length == 0.0:
             break
@@ -109,20 +98,13 @@ def room_at_plane(corners: FloatArray, spans: Index, r: FloatArray, a: int, b: i
         along: float = wx * dx + wy * dy + wz * dz
         if along > 0.0:
             return along
-        if _are_round_origin(first, second, third, (wx, wy, wz)):
-            return -1.0
-        first, second, third = second, third, (wx, wy, wz)
-        squared = wx * wx + wy * wy + wz * wz
-        if squared == 0.0:
+        points[count, 0], points[count, 1], points[count, 2] = wx, wy, wz
+        count += 1
+        if count == 4 and are_round_origin(points):
             break
-        back = 2.0 * along / squared
-        dx, dy, dz = dx - back * wx, dy - back * wy, dz - back * wz
-    for axis in range(3):
-        dx, dy, dz = r[b, 0, axis], r[b, 1, axis], r[b, 2, axis]
-        if dx * tx + dy * ty + dz * tz < 0.0:
-            dx, dy, dz = -dx, -dy, -dz
-        wx, wy, wz = _nearest_along(corners, spans, r, a, b, gap, dx, dy, dz)
-        along = wx * dx + wy * dy + wz * dz
-        if along > 0.0:
-            return along
+        count, (dx, dy, dz) = nearest_face(points, count)
+        squared = dx * dx + dy * dy + dz * dz
+        if squared >= (1.0 - _NEARER) * least:
+            break
+        least = squared
     return -1.0

@@ -1,4 +1,4 @@
-"""Find which postures of one arm are certainly apart from which of another: compiled, for all pairs at once.
+"""Find which postures of one arm are apart from which of another: compiled, for all pairs at once.
 
 The tool of each arm has the same pose in all postures, so the hands are compared only once. They come nearest to each
 other, and proving near parts separate takes longest.
@@ -27,7 +27,7 @@ def postures_apart(
     margin: float,
     is_one_enough: bool,
 ) -> BoolArray:
-    """Return which postures of one arm are certainly apart from which of another, shape (k, l).
+    """Return which postures of one arm are apart from which of another, shape (k, l).
 
     Args:
         kinematics: the arms.
@@ -101,7 +101,7 @@ def _by_hands(pairs: Index, left_hand: int, right_hand: int) -> tuple[Index, Ind
 def _close_pair(
     corners: FloatArray, spans: Index, bounds: FloatArray, poses: FloatArray, pairs: Index, likely: int, margin: float
 ) -> int:
-    """Return a pair that is not certainly apart by a margin (m), preferably the likely one; -1 if all are apart.
+    """Return a pair that is not apart by a margin (m), preferably the likely one; -1 if all are apart.
 
     Neighbouring postures mostly collide in the same pair, and one pair is enough to tell.
     """

@@ -75,8 +75,8 @@ def compiled_parts(robot: RobotParts, level: int, clouds: Sequence[FloatArray] =
     parts = _compiled_robot(robot, level)
     if not clouds:
         return parts
-    others = _compiled(clouds, np.zeros(len(clouds)), np.full(len(clouds), -1))
-    others[1][:, :2] += len(parts.corners)
+    others = _compiled(clouds, np.zeros(len(clouds)))
+    others[1][:] += len(parts.corners)
     corners, spans, bounds = (np.vstack(both) for both in zip(parts[:3], others, strict=True))
     return Parts(corners, spans, bounds, parts.arms)
 
@@ -84,19 +84,14 @@ def compiled_parts(robot: RobotParts, level: int, clouds: Sequence[FloatArray] =
 @lru_cache(maxsize=32)
 def _compiled_robot(robot: RobotParts, level: int) -> Parts:
     hulls = robot.hulls[level]
-    owners = np.full(len(hulls), -1)
-    for arm in range(len(robot.arms)):
-        owners[robot.of_arm(arm)] = arm
     rounding = np.array([hull.radius_m for hull in hulls])
-    return Parts(*_compiled([hull.corners for hull in hulls], rounding, owners), robot.arms)
+    return Parts(*_compiled([hull.corners for hull in hulls], rounding), robot.arms)
 
 
-def _compiled(
-    clouds: Sequence[FloatArray], rounding: FloatArray, owners: Index
-) -> tuple[FloatArray, Index, FloatArray]:
+def _compiled(clouds: Sequence[FloatArray], rounding: FloatArray) -> tuple[FloatArray, Index, FloatArray]:
     low, high = (np.array([limit(cloud, axis=0) for cloud in clouds]) for limit in (np.min, np.max))
     middle, half = (low + high) / 2, (high - low) / 2 + rounding[:, None]
     radius = [np.linalg.norm(cloud - at, axis=1).max() for cloud, at in zip(clouds, middle, strict=True)] + rounding
     last = np.cumsum([len(cloud) for cloud in clouds])
-    spans = np.column_stack([last - [len(cloud) for cloud in clouds], last, owners])
+    spans = np.column_stack([last - [len(cloud) for cloud in clouds], last])
     return np.vstack(clouds), spans, np.column_stack([middle, half, radius, rounding])

@@ -1,8 +1,6 @@
-"""Tests for which pairs of convex parts are certainly apart: compiled, for many postures at once.
+"""Tests for which pairs of convex parts are apart: compiled, for many postures at once.
 
-Nearly all pairs are far apart in nearly all postures, and passing them to coal one by one costs far more than testing
-them here. So this finds, for every posture, the first pair that is *not* certainly apart; only those go to the exact
-algorithm. A pair is certainly apart if
+For every posture the first pair that is not apart is found. A pair is apart if
 
 - the sphere round one does not reach the box round the other, or
 - a plane separates the two (`planner.robots.collision.plane`).
@@ -31,17 +29,13 @@ FIRST, HAND, END, JOINTS = range(4)
 """Columns of arms: the arm's first part, its first one of those that move with the tool, the one after its last; and
 how many joints it has."""
 
-OWNER = 2
-"""The column of spans that tells whose a part is."""
-
 
 class Parts(NamedTuple):
     """All parts: those of the arms first, arm after arm, then those that stand still while arms move.
 
     Attributes:
         corners: the corners of all hulls, each in its part's frame (m), shape (c, 3).
-        spans: the number of each part's first corner, of the one after its last, and of the arm to which it belongs, -1
-            for none, shape (p, 3).
+        spans: the number of each part's first corner, and of the one after its last, shape (p, 2).
         bounds: for each part its bounding box's centre, in its frame, half the box's extents, the radius of the sphere
             about that centre that contains the part, and the part's rounding beyond its hull (m), shape (p, 8).
         arms: which parts and how many joints each arm has (`FIRST`, `HAND`, `END`, `JOINTS`), shape (a, 4).
@@ -74,28 +68,24 @@ def _towards(bounds: FloatArray, poses: FloatArray, a: int, b: int) -> tuple[flo
 def _room_between(
     corners: FloatArray, spans: Index, bounds: FloatArray, poses: FloatArray, a: int, b: int, margin: float
 ) -> float:
-    """Return by how much more than a margin two parts are certainly apart (m); negative where that is not certain."""
+    """Return by how much more than a margin two parts are apart (m), at least; negative where they are not."""
     wx, wy, wz = _towards(bounds, poses, a, b)
     room: float = math.sqrt(wx * wx + wy * wy + wz * wz) - bounds[a, RADIUS] - margin
     if room > 0.0:
         return room
-    bx, by, bz = _towards(bounds, poses, b, a)
-    room = math.sqrt(bx * bx + by * by + bz * bz) - bounds[b, RADIUS] - margin
+    x, y, z = _towards(bounds, poses, b, a)
+    room = math.sqrt(x * x + y * y + z * z) - bounds[b, RADIUS] - margin
     if room > 0.0:
         return room
     gap = margin + bounds[a, ROUNDING] + bounds[b, ROUNDING]
-    room = room_at_plane(corners, spans, poses, a, b, gap, (wx, wy, wz))
-    if room < 0.0 and spans[a, OWNER] >= 0 and spans[b, OWNER] >= 0 and spans[a, OWNER] != spans[b, OWNER]:
-        # Which of two arms finds a plane may be chance; a mirror image must give the same answer.
-        room = room_at_plane(corners, spans, poses, b, a, gap, (bx, by, bz))
-    return room
+    return room_at_plane(corners, spans, poses, a, b, gap, (wx, wy, wz))
 
 
 @kernel
 def first_close_pair(
     corners: FloatArray, spans: Index, bounds: FloatArray, poses: FloatArray, pairs: Index, start: int, margin: float
 ) -> int:
-    """Return the first pair, from a start, that is not certainly apart by a margin (m); -1 if all are."""
+    """Return the first pair, from a start, that is not apart by a margin (m); -1 if all are."""
     for pair in range(start, len(pairs)):
         if _room_between(corners, spans, bounds, poses, pairs[pair, 0], pairs[pair, 1], margin) < 0.0:
             return pair
@@ -150,8 +140,9 @@ def first_close(
     tables: FloatArray,
     start: Index,
     margins: FloatArray,
+    is_one_enough: bool,
 ) -> tuple[Index, FloatArray]:
-    """Return for every posture the first pair, from a start, that is not certainly apart.
+    """Return for every posture the first pair, from a start, that is not apart.
 
     Args:
         kinematics: the arms.
@@ -166,12 +157,13 @@ def first_close(
             shape (t, 3).
         start: the pair with which to start, shape (n,).
         margins: the distance that each pair should keep (m), shape (q,).
+        is_one_enough: stop at the first posture with such a pair; those after it get -1.
 
     Returns:
         The pair, -1 if all are apart, shape (n,); and the poses of its two parts, shape (n, 2, 5, 3).
     """
     corners, spans, bounds, _ = parts
-    found, places = np.empty(len(joints), dtype=np.int64), np.empty((len(joints), 2, 5, 3))
+    found, places = np.full(len(joints), -1, dtype=np.int64), np.empty((len(joints), 2, 5, 3))
     first = len(poses) - len(tables)
     poses = poses.copy()
     before, gone, apart_until = poses.copy(), np.zeros(len(poses)), np.zeros(len(pairs))
@@ -183,7 +175,6 @@ def first_close(
         _pose_arms(kinematics, lift_m, parts, arms, joints[i], poses)
         for arm in arms:
             _add_ways(bounds, before, poses, gone, parts.arms[arm, FIRST], parts.arms[arm, END])
-        found[i] = -1
         for pair in range(start[i], len(pairs)):
             a, b = pairs[pair, 0], pairs[pair, 1]
             if gone[a] + gone[b] < apart_until[pair]:
@@ -196,4 +187,6 @@ def first_close(
         if found[i] >= 0:
             for side in range(2):
                 places[i, side] = poses[pairs[found[i], side]]
+            if is_one_enough:
+                break
     return found, places

@@ -28,9 +28,8 @@ good pans is narrower than the climb can find.
 Lengths are in m, angles in rad, and everything is in the shoulder's frame: parallel to the base, its origin on the pan
 axis at the height of the lift axis. The arm is a left arm (see `planner.robots.pr2.arm`).
 
-The compiled code is cached on disk, file by file, and the cache ignores changes of functions or numbers in *other*
-files: so the arm's numbers are arguments, and after changing a compiled function, delete the caches (``__pycache__``)
-of all files that import it too.
+Numbers in other files are part of the compiled code, so the arm's are arguments (for the cache of compiled code see
+`planner.kernel_cache`).
 """
 
 import math

@@ -129,7 +129,7 @@ def has_room(shape: ArmShape, room: Room, aim: ToolPose, arcs: FloatArray) -> bo
 
 @kernel
 def _is_clear(shape: ArmShape, room: Room, joints: FloatArray) -> bool:
-    """Return whether the left arm's parts are certainly apart from what they are compared with."""
+    """Return whether the left arm's parts are apart from what they are compared with."""
     corners, spans, bounds, _ = room.parts
     pose_arm(shape, room.lift, joints, 1.0, room.poses[:EACH])
     set_middles(bounds[:EACH], room.poses[:EACH])
@@ -172,5 +172,5 @@ def room_beside(shape: ArmShape, robot: RobotParts, torso_m: float, home: FloatA
 def no_walls() -> Room:
     """Return a room without obstacles."""
     corners, bounds = np.empty((0, 3)), np.empty((0, 8))
-    nothing = Parts(corners, np.empty((0, 3), dtype=np.int64), bounds, np.empty((0, 4), dtype=np.int64))
+    nothing = Parts(corners, np.empty((0, 2), dtype=np.int64), bounds, np.empty((0, 4), dtype=np.int64))
     return Room(0.0, nothing, np.empty((0, 5, 3)), np.empty((0, 2), dtype=np.int64), 0.0, empty_memory(1))

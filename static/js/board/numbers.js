@@ -1,6 +1,6 @@
 /** Numbers at the selection: a corner's place, an edge's length, a fold's ends on their edges, the placement. */
 
-import { button, element } from "../dom.js";
+import { button, byId, element } from "../dom.js";
 import { say } from "../language/say.js";
 import { NumberFields } from "./number_fields.js";
 import { unit } from "./units.js";
@@ -54,12 +54,21 @@ export class Numbers {
 
   /** Beside its place; on which side is chosen when it appears. @param {Point} at px @param {boolean} isNew */
   put(at, isNew) {
-    const { width, height, top } = this.board.place;
+    const { top } = this.board.place;
     const size = /** @type {Point} */ ([this.root.offsetWidth, this.root.offsetHeight]);
-    if (isNew) this.side = sideOf(at, size, [width, height], this.board.pointer.last);
-    const [x, y] = placeOf(at, size, [width, height], this.side);
+    const room = this.room;
+    if (isNew) this.side = sideOf(at, size, room, this.board.pointer.last);
+    const [x, y] = within(beside(at, size, this.side), size, room);
     this.root.style.left = `${x}px`;
     this.root.style.top = `${top + y}px`;
+  }
+
+  /** What of the board nothing else lies over. @returns {Room} */
+  get room() {
+    const { place, covered, root } = this.board;
+    const [own, inset] = [root.getBoundingClientRect(), byId("swap").getBoundingClientRect()];
+    const corner = /** @type {Point} */ ([inset.left - own.left, inset.top - own.top - place.top]);
+    return { low: [0, covered], high: [place.width, place.height], corner: inset.width ? corner : null };
   }
 
   /** @param {string} [key] of the field; by default the first one gets the focus */
@@ -122,6 +131,8 @@ const AWAY_PX = 16;
 const MARGIN_PX = 8;
 /** So far round the pointer nothing shall come between it and the board. */
 const FREE_PX = 12;
+/** @typedef {{low: Point, high: Point, corner: Point|null}} Room from where to where (px), and where on a phone the inset begins */
+
 /** To the right and below, if it can be. @type {Point[]} */
 const SIDES = [
   [1, 1],
@@ -135,7 +146,7 @@ const SIDES = [
  * what the first one was.
  * @param {Point} at px
  * @param {Point} size the panel's (px)
- * @param {Point} room the board's (px)
+ * @param {Room} room
  * @param {Point|null} pointer px
  * @returns {Point}
  */
@@ -150,21 +161,18 @@ function sideOf(at, size, room, pointer) {
   return SIDES.reduce((best, side) => (cost(side) < cost(best) ? side : best));
 }
 
-/**
- * The panel's left and top on that side, kept on the board.
- * @param {Point} at
- * @param {Point} size
- * @param {Point} room
- * @param {Point} side
- */
-const placeOf = (at, size, room, side) => within(beside(at, size, side), size, room);
-
 /** @param {Point} at @param {Point} size @param {Point} side @returns {Point} */
 const beside = (at, size, side) => along((axis) => at[axis] + side[axis] * AWAY_PX - (side[axis] < 0 ? size[axis] : 0));
 
-/** @param {Point} place @param {Point} size @param {Point} room @returns {Point} */
-const within = (place, size, room) =>
-  along((axis) => Math.max(Math.min(place[axis], room[axis] - size[axis] - MARGIN_PX), MARGIN_PX));
+/** The panel's left and top, kept where it covers nothing. @param {Point} wanted @param {Point} size @param {Room} room @returns {Point} */
+function within(wanted, size, { low, high, corner }) {
+  /** @param {Point} to */
+  const before = (to) =>
+    along((axis) => Math.max(Math.min(wanted[axis], to[axis] - size[axis] - MARGIN_PX), low[axis] + MARGIN_PX));
+  const place = before(high);
+  const isOverInset = corner?.every((begin, axis) => place[axis] + size[axis] + MARGIN_PX > begin);
+  return corner && isOverInset ? before([high[0], corner[1]]) : place;
+}
 
 /** The same along both axes. @param {(axis: 0|1) => number} part @returns {Point} */
 const along = (part) => [part(0), part(1)];

@@ -8,18 +8,8 @@ import { openDialog, OFFLINE, sentenceOf } from "./dialog.js";
 /** @import { FileEntry } from "pleat" */
 /** @import { Store } from "../store.js" */
 
-/** Files that take a while to be made. */
-const SLOW = new Set(["recording.html", "mp4", "gif", "picture.png", "mcap", "rosbag2", "glb", "mjcf", "usd", "lerobot"]);
-
-/** What files are for; what is in no group is to be opened again. @type {Record<string, Set<string>>} */
-const GROUPS = {
-  look: new Set(["sheet.pdf", "sheet.svg", "recording.html", "mp4", "gif", "picture.png", "glb"]),
-  robot: new Set(["mcap", "rosbag2", "mjcf", "usd", "lerobot", "poses.json", "poses.yaml", "plan.csv"]),
-};
+/** What files are for. @type {Record<FileEntry["group"], string>} */
 const TITLES = { look: say("export.group.look"), robot: say("export.group.robot"), open: say("export.group.open") };
-
-/** @param {FileEntry} file @returns {string} */
-const groupOf = ({ what }) => Object.keys(GROUPS).find((group) => GROUPS[group].has(what)) ?? "open";
 
 /** @param {import("../store.js").Store} store */
 export async function showExport(store) {
@@ -49,7 +39,7 @@ export async function showExport(store) {
     }
     said.textContent = problem;
     for (const { group, list, section } of lists) {
-      const own = files.filter((file) => groupOf(file) === group);
+      const own = files.filter((file) => file.group === group);
       section.hidden = !own.length;
       fill(list, own.flatMap((file) => rows.get(JSON.stringify(file)) ?? []));
     }
@@ -93,7 +83,7 @@ function whyNot(store, { reason, says }) {
 
 /** @param {string} url @param {FileEntry} file @param {HTMLElement} said @param {AbortSignal} signal */
 function verb(url, file, said, signal) {
-  if (!file.available || SLOW.has(file.what)) {
+  if (!file.available || file.is_slow) {
     const slow = button("plain-button", () => record(slow, url, file, said, signal), say("export.save"));
     slow.disabled = !file.available;
     slow.setAttribute("aria-label", say("export.save_as", { title: translated(file.title) }));

@@ -18,7 +18,7 @@ import { takeRobot } from "./take_robot.js";
 
 /** Files that draw arcs, which stay curves on the board. */
 const DRAWINGS = new Set(["svg", "dxf"]);
-const KINDS = ".json,.svg,.dxf,.png,.jpg,.jpeg,.zip";
+const KINDS = ".json,.fold,.svg,.dxf,.png,.jpg,.jpeg,.zip,.urdf,.xml";
 /** @typedef {NonNullable<Imported["creases"]>} Creases */
 /** @typedef {NonNullable<Imported["sizes"]>} Sizes by unit, how wide and how high (m) */
 
@@ -70,13 +70,13 @@ function ask(store, body, problem = "") {
 
 /**
  * What is to be said beside the file to read it; without it the file says so itself.
- * @typedef {{units?: string, scale?: number, creases?: Creases, measured?: string, like?: string, line?: "seam"|"cut", size?: string}} How
+ * @typedef {{units?: string, scale?: number, creases?: Creases, measured?: string, like?: string, line?: "seam"|"cut", size?: string, piece?: string}} How
  */
 
 /** @param {Store} store @param {HTMLElement} body @param {File} file @param {How} how */
 async function read(store, body, file, how) {
   body.replaceChildren(element("p", "dialog-text", say("import.reading", { name: file.name })));
-  if (/\.zip$/i.test(file.name)) {
+  if (/\.(zip|urdf|xacro|xml)$/i.test(file.name)) {
     const problem = await takeRobot(store, file);
     if (problem) ask(store, body, problem);
     else body.closest("dialog")?.close();
@@ -117,7 +117,7 @@ const asked = (store, body, file, how, why) => ({
  * @param {How} how
  * @param {Imported} imported
  */
-function found(store, body, file, how, { format, garment, notes, says, creases, sizes, seen, allowance, graded }) {
+function found(store, body, file, how, { format, garment, notes, says, creases, sizes, seen, allowance, graded, pieces }) {
   const said = element("p", "dialog-problem");
   const arcs = DRAWINGS.has(format);
   const proposes = Boolean(seen) && !garment.folds.length; // of a photo the folds are what is missing
@@ -143,6 +143,7 @@ function found(store, body, file, how, { format, garment, notes, says, creases, 
     ...(seen ? [likeness(how.like, (like) => read(store, body, file, { ...how, like }))] : []),
     ...(creases ? [onWhichCloth(creases, (chosen) => read(store, body, file, { ...how, creases: chosen }))] : []),
     ...(allowance ? [whichLine(allowance, (line) => read(store, body, file, { ...how, line }))] : []),
+    ...(pieces ? [whichPiece(pieces, (piece) => read(store, body, file, { ...how, piece }))] : []),
     ...(graded ? [whichSize(graded, (size) => read(store, body, file, { ...how, size }))] : []),
     ...replaces(store),
     said,
@@ -200,7 +201,7 @@ function likeness(like, onChoice) {
   return element("label", "likeness", say("likeness.label"), select);
 }
 
-const UNITS = ["mm", "cm", "m", "in"];
+const UNITS = ["mm", "cm", "m", "in", "pt", "px"];
 /** No garment is shorter or longer (m). */
 const [LEAST_M, MOST_M] = [0.01, 10];
 
@@ -324,6 +325,14 @@ const whichLine = ({ line, width_m: width }, onChoice) =>
  */
 const whichSize = ({ size, sizes }, onChoice) =>
   choices("size", say("import.size_is"), Object.fromEntries(sizes.map((one) => [one, one])), size, onChoice);
+
+/**
+ * Which of the pieces of a pattern.
+ * @param {NonNullable<Imported["pieces"]>} pieces
+ * @param {(piece: string) => void} onChoice
+ */
+const whichPiece = ({ piece, pieces }, onChoice) =>
+  choices("piece", say("import.piece_is"), Object.fromEntries(pieces.map((one) => [one, one])), piece, onChoice);
 
 /**
  * One of several, as radio buttons.

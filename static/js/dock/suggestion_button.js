@@ -8,6 +8,7 @@ import { button, element } from "../dom.js";
 import { say } from "../language/say.js";
 import { addedFold } from "../messages/changes.js";
 import { inWords } from "../messages/in_words.js";
+import { PointedPlan } from "../pointed_plan.js";
 import { capital, seconds } from "./words.js";
 
 /** @import { Preview } from "../store.js" */
@@ -17,8 +18,6 @@ import { capital, seconds } from "./words.js";
 /** @typedef {import("./suggestion_search.js").Suggestion} Suggestion */
 
 const LONGEST = 200;
-/** So long is pointed at a suggestion before the 3D view shows it (ms). */
-const POINTED_MS = 250;
 
 /**
  * @param {Store} store
@@ -47,21 +46,16 @@ export const suggestionWords = (store, suggestion) => capital(inWords(suggestion
  * @param {HTMLElement} made
  */
 export function offer(store, suggestion, made) {
-  const { change, plan_id: plan } = suggestion;
+  const { change } = suggestion;
   const what = suggestionWords(store, suggestion);
-  let timer = 0;
-  let isOnView3D = false;
+  const plan = new PointedPlan(store, suggestion.plan_id);
   const point = () => {
     store.setPreview(change);
-    clearTimeout(timer);
-    if (plan && !isOnView3D) timer = setTimeout(() => store.command({ do: "preview", plan }), POINTED_MS);
-    isOnView3D = Boolean(plan);
+    plan.point();
   };
   const leave = () => {
     store.setPreview(null);
-    clearTimeout(timer);
-    if (isOnView3D) store.command({ do: "preview", plan: null });
-    isOnView3D = false;
+    plan.leave();
   };
   made.addEventListener("click", () => {
     leave();

@@ -9,7 +9,7 @@ import { eventStream, rest } from "../event_stream.js";
 /**
  * A change that is offered.
  * @typedef {object} Suggestion
- * @property {string} kind
+ * @property {SuggestionEvent["kind"]|"quick_fix"} kind
  * @property {boolean} is_assumption
  * @property {string} message
  * @property {Says} says

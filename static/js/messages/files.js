@@ -20,14 +20,14 @@ export const files = (inWords) => ({
   seam_allowance: ({ line, width_m: width }) =>
     say(line === "cut" ? "message.seam_allowance.cut" : "message.seam_allowance.seam", { width: length(width) }),
   graded_sizes: ({ size: taken, sizes }) => say("message.graded_sizes", { size: taken, sizes: sizes.join(", ") }),
+  pieces: ({ piece, pieces }) => say("message.pieces", { piece, pieces: pieces.join(", ") }),
+  no_such_piece: ({ piece, pieces }) => say("message.no_such_piece", { piece, pieces: pieces.join(", ") }),
   library_missing: ({ library, install }) => say("message.library_missing", { library, install }),
   piece_unfolded: () => say("message.piece_unfolded"),
   halves_joined: () => say("message.halves_joined"),
   fold_unknown: () => say("message.fold_unknown"),
   no_sizes: () => say("message.no_sizes"),
   no_such_size: ({ size: wanted, sizes }) => say("message.no_such_size", { size: wanted, sizes: sizes.join(", ") }),
-  pattern_specification: ({ panels }) => say("message.pattern_specification", { panels }),
-  fold_file: () => say("message.fold_file"),
   robot_card_file: () => say("message.robot_card_file"),
   corners_left_out: ({ corners, off_m: off }) => say("message.corners_left_out", { corners, off: length(off) }),
   unit_taken: ({ unit_m: one, is_said: isSaid, size: sides }) =>

@@ -5,6 +5,7 @@ import { fetched } from "../dialogs/documents.js";
 import { seconds } from "../dock/words.js";
 import { arrowsLead, button, element } from "../dom.js";
 import { say } from "../language/say.js";
+import { PointedPlan } from "../pointed_plan.js";
 import { layersPicture } from "../repair/folded_picture.js";
 
 /** @import { Layer } from "pleat" */
@@ -62,6 +63,7 @@ class ProposalCard {
     this.stacks = [];
     /** @type {object|null} the playing that goes on */
     this.playing = null;
+    this.plan = new PointedPlan(store, proposal.plan_id);
     const { folds, layers, cost_s: cost, size_m: size } = proposal;
     const shown = element("span", "card-picture");
     this.stack(folds.length).then((stack) => shown.replaceChildren(layersPicture(stack, 0)), () => {});
@@ -89,8 +91,12 @@ class ProposalCard {
     return this.stacks[count];
   }
 
-  /** Show on the board how the cloth is folded, one fold after the other, with the lines of those to come. */
+  /**
+   * Show how the cloth is folded, on the board one fold after the other, with the lines of those to come, and in the 3D
+   * view by the robot, or by nobody where it cannot.
+   */
   async play() {
+    this.plan.point();
     const own = (this.playing = {});
     const { garment } = this.proposal;
     const isStill = matchMedia("(prefers-reduced-motion: reduce)").matches;
@@ -104,6 +110,7 @@ class ProposalCard {
   }
 
   leave() {
+    this.plan.leave();
     if (!this.playing) return;
     this.playing = null;
     this.store.setPreview(null);

@@ -16,6 +16,7 @@ import { eventStream, rest } from "../event_stream.js";
  * @property {number} layers
  * @property {string} status of its plan
  * @property {number|null} cost_s
+ * @property {string} plan_id
  */
 /** @typedef {object} Asked the body of the request, as JSON */
 

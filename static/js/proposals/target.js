@@ -17,20 +17,21 @@ export const SIDES_M = [0.01, 10.0];
 /** How much longer than a target's side a packet's may be (m). */
 export const TOLERANCE_M = 0.01;
 
-/** The smallest that there is. */
+/** The smallest that there is, and rolled up: names without a size. */
 export const SMALLEST = "smallest";
+const ROLL = "roll";
 
-/** @typedef {keyof typeof SIZES_M | keyof typeof SHARES | typeof SMALLEST} PresetName */
+/** @typedef {keyof typeof SIZES_M | keyof typeof SHARES | typeof ROLL | typeof SMALLEST} PresetName */
 /** @typedef {{like: import("pleat").Garment|string}} Like a garment that is folded as this one is to be */
 /** @typedef {PresetName|Point|Like} Target two sides are along the board's axes (m) */
 
 /** @param {Target} to @returns {to is Like} */
 export const isLike = (to) => typeof to === "object" && "like" in to;
 
-export const PRESETS = /** @type {PresetName[]} */ ([...Object.keys(SIZES_M), ...Object.keys(SHARES), SMALLEST]);
+export const PRESETS = /** @type {PresetName[]} */ ([...Object.keys(SIZES_M), ...Object.keys(SHARES), ROLL, SMALLEST]);
 
 /**
- * The sides that are meant (m); null for the smallest, and for those of another garment.
+ * The sides that are meant (m); null for names without a size, and for those of another garment.
  * @param {Target} to
  * @param {Drawing} drawing
  * @returns {Point|null}

@@ -20,7 +20,7 @@ import { say } from "../language/say.js";
  * @property {number} slid_mm
  * @property {boolean} held
  */
-/** @typedef {{held: boolean, steps: Verdict[], regrasps: number, replans: number, reason: string, trace: string|null, decisions: {step: number, code: string, overlap?: number}[]}} Run */
+/** @typedef {{held: boolean, steps: Verdict[], regrasps: number, repairs: number, replans: number, reason: string, trace: string|null, decisions: {step: number, code: string, overlap?: number}[]}} Run */
 /** @typedef {{runs: Run[], held: number, of: number, success_low: number, success_high: number}} Result */
 /** @typedef {{runs: number, noise: "none"|"real"}} Asked */
 

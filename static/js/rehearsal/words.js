@@ -38,13 +38,14 @@ export function summary({ runs, held, of, success_low: low, success_high: high }
 
 /** @param {Run} run */
 function oneRun(run) {
-  const { held, steps, regrasps, replans } = run;
+  const { held, steps, regrasps, repairs, replans } = run;
   const lost = steps.find((verdict) => !verdict.held);
   if (lost) return say("rehearsal.lost_at", { step: lostAt(run) ?? 0, length: lost.mean_mm.toFixed(0) });
   const again = regrasps && say("rehearsal.regrasps", { count: regrasps });
+  const laid = repairs && say("rehearsal.repairs", { count: repairs });
   const anew = replans && say("rehearsal.replans", { count: replans });
   const off = say("rehearsal.off", { length: worstOf(run).toFixed(0) });
-  const told = [off, again, anew].filter(Boolean).join(", ");
+  const told = [off, again, laid, anew].filter(Boolean).join(", ");
   return held ? say("rehearsal.all_held", { told }) : brokenOff(run);
 }
 

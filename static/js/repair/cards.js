@@ -129,10 +129,16 @@ const isAlike = (one, other) =>
 /** The kinds of help, in the order of their places. */
 const GROUPS = /** @type {const} */ (["place", "fold", "assume"]);
 
-/** @type {Record<string, typeof GROUPS[number]>} */
+/** @type {Record<Suggestion["kind"], typeof GROUPS[number]>} */
 const GROUP_OF = {
   placement: "place",
   size: "place",
+  fold_line: "fold",
+  split: "fold",
+  halve: "fold",
+  flip: "fold",
+  order: "fold",
+  quick_fix: "fold",
   station: "assume",
   robot: "assume",
   friction: "assume",
@@ -145,7 +151,7 @@ const GROUP_OF = {
 const ABOUT_ROBOT = new Set(["station", "robot"]);
 
 /** @param {Suggestion} one */
-const groupOf = ({ kind }) => GROUP_OF[kind] ?? "fold";
+const groupOf = ({ kind }) => GROUP_OF[kind];
 
 /**
  * A change that gives a plan, with a picture of the folded cloth, and what the plan then takes.

@@ -6,7 +6,7 @@
 /** @import { DocumentState, PlanMessage, Reason, Says } from "pleat" */
 /** @import { Suggestion } from "../dock/suggestion_search.js" */
 
-/** @typedef {{kind: string, says: Says, size: number}} Part what is changed, in words as data, and by how much */
+/** @typedef {{kind: Suggestion["kind"], says: Says, size: number}} Part what is changed, in words as data, and by how much */
 
 /** Kinds of parts that nobody can carry out. */
 const ASSUMED = new Set(["friction", "grip_radius", "comfort_radius", "together"]);

@@ -231,20 +231,25 @@ async def test_the_size_of_a_graded_pattern_can_be_chosen(client: httpx.AsyncCli
     assert problem["errors"][0]["says"]["sizes"] == ["S", "M", "L"]
 
 
-@pytest.mark.parametrize(
-    ("content", "code", "told"),
-    [
-        ({"pattern": {"panels": {"front": {}, "back": {}}}, "parameters": {}}, "pattern_specification", "GarmentCode"),
-        ({"file_spec": 1.2, "vertices_coords": [], "edges_vertices": []}, "fold_file", "FOLD"),
-        ({"pleat_robot": 1, "name": "bench"}, "robot_card_file", "robot"),
-    ],
-)
-async def test_a_json_file_of_another_kind_is_said_to_be_that(
-    client: httpx.AsyncClient, content: dict[str, Any], code: str, told: str
-) -> None:
-    problem = assert_problem(await imported(client, json.dumps(content).encode(), filename="a.json"), 422)
+async def test_a_piece_of_a_pattern_can_be_chosen(client: httpx.AsyncClient) -> None:
+    rects = '<rect id="back" width="40" height="30"/><rect id="pocket" x="45" width="12" height="10"/>'
+    data = (
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="60cm" height="40cm" viewBox="0 0 60 40">{rects}</svg>'.encode()
+    )
+    answer = (await imported(client, data, filename="back.svg")).json()
+    assert answer["pieces"] == {"piece": "back", "pieces": ["back", "pocket"]}
+    assert {"code": "pieces", "piece": "back", "pieces": ["back", "pocket"]} in answer["says"]
+    pocket = (await imported(client, data, filename="back.svg", piece="pocket")).json()
+    assert pocket["sizes"]["cm"] == pytest.approx([0.12, 0.1])
+    problem = assert_problem(await imported(client, data, filename="back.svg", piece="front"), 422)
+    assert problem["errors"][0]["field"] == "piece" and "back, pocket" in problem["errors"][0]["message"]
+
+
+async def test_the_card_of_a_robot_is_said_to_be_that(client: httpx.AsyncClient) -> None:
+    content = json.dumps({"pleat_robot": 1, "name": "bench"}).encode()
+    problem = assert_problem(await imported(client, content, filename="a.json"), 422)
     (error,) = problem["errors"]
-    assert error["field"] == "file" and told in error["message"] and error["says"]["code"] == code
+    assert error["field"] == "file" and "robot" in error["message"] and error["says"]["code"] == "robot_card_file"
 
 
 async def test_without_a_plan_there_is_its_reason_but_no_table_and_no_recording(client: httpx.AsyncClient) -> None:

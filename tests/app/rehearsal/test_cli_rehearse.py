@@ -41,7 +41,7 @@ def test_a_towel_is_rehearsed_from_its_plan_file(tmp_path: Path) -> None:
     assert done.exit_code == (0 if result["held"] == 1 else 3)
     assert result["of"] == 1
     (run,) = result["runs"]
-    assert {"held", "steps", "final_iou", "regrasps", "replans"} <= run.keys()
+    assert {"held", "steps", "final_iou", "regrasps", "repairs", "replans"} <= run.keys()
     (step,) = run["steps"]
     assert {"step", "iou", "mean_mm", "p95_mm", "held"} <= step.keys()
     assert run["final_iou"] == step["iou"] > 0.9

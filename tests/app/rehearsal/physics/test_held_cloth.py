@@ -134,6 +134,21 @@ def test_fingers_hold_a_sheet_at_one_line_and_each_sheet_at_its_own() -> None:
         assert point == pytest.approx([0.001, -0.002, 0.001] if vertex < 4 else [0.006, -0.002, 0.003])
 
 
+def test_fingers_take_as_many_sheets_from_the_top_down_as_they_should() -> None:
+    # Three strips on one another, the edge of each 6 mm further in than that of the one below.
+    strip = np.array([[0.0, -0.01, 0.001], [0.0, 0.01, 0.001], [0.02, -0.01, 0.001], [0.02, 0.01, 0.001]])
+    positions = np.concatenate([strip + number * np.array([0.006, 0.0, 0.002]) for number in range(3)])
+    triangles = np.concatenate([np.array([[0, 2, 1], [1, 2, 3]]) + 4 * number for number in range(3)])
+    tool = np.array([0.005, 0.0, REST_HEIGHT_M])
+
+    def taken(layers: int | None) -> set[int]:
+        return {vertex // 4 for vertex in pinched(positions, triangles, tool, TOP, 0.03, layers)}
+
+    assert [taken(layers) for layers in (1, 2, 3, 4, None)] == [{2}, {1, 2}, {0, 1, 2}, {0, 1, 2}, {0, 1, 2}]
+    beyond = np.array([-0.015, 0.0, REST_HEIGHT_M])  # from here fingers reach no more than the two lower ones
+    assert {vertex // 4 for vertex in pinched(positions, triangles, beyond, TOP, 0.03, 1)} == {1}
+
+
 def test_the_two_sheets_that_meet_at_a_crease_are_each_held_at_their_own_height() -> None:
     # Held at one line they would change places as they turn about it, and the other layers of the stack would not: a
     # layer beside such a crease was pushed out of the stack by 5 cm in a T-shirt's last fold.

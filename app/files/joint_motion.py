@@ -25,7 +25,7 @@ _ROUNDED = 1e-9
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class StepMotion:
+class JointMotion:
     """Joints, grippers and base over time.
 
     Attributes:
@@ -41,16 +41,16 @@ class StepMotion:
     accelerations: FloatArray
 
     @staticmethod
-    def of(path: Trajectory, step: PlanStep, card: RobotCard, scene: Scene) -> "StepMotion":
+    def of(path: Trajectory, step: PlanStep, card: RobotCard, scene: Scene) -> "JointMotion":
         """Return the motion of a step of a plan."""
         times = np.linspace(0.0, step.duration_s, max(math.ceil(step.duration_s * RATE_HZ - TIME_S), 1) + 1)
         at = step.start_s + times
         names = MotionLimits.of(card, scene).names
         still = _still(velocities_at(path, at))
-        return StepMotion(names, times, positions_at(path, at), still, accelerations_at(path, at, step.end_s))
+        return JointMotion(names, times, positions_at(path, at), still, accelerations_at(path, at, step.end_s))
 
     @staticmethod
-    def along(names: tuple[str, ...], frames: Keyframes, speed: float) -> "StepMotion":
+    def along(names: tuple[str, ...], frames: Keyframes, speed: float) -> "JointMotion":
         """Return the motion of some joints over keyframes at a share of their speed."""
         lasts_s = float(frames.times_s[-1])
         at = np.linspace(0.0, lasts_s, max(math.ceil(lasts_s / speed * RATE_HZ - TIME_S), 1) + 1)
@@ -58,18 +58,18 @@ class StepMotion:
             np.array([of(frames.times_s.tolist(), frames.joints, frames.velocities, t_s) for t_s in at.tolist()])
             for of in (value_at, rate_at, acceleration_at)
         )
-        return StepMotion(names, at / speed, positions, _still(velocities * speed), accelerations * speed**2)
+        return JointMotion(names, at / speed, positions, _still(velocities * speed), accelerations * speed**2)
 
     @property
     def duration_s(self) -> float:
         """The duration (s)."""
         return float(self.times_s[-1])
 
-    def of_joints(self, names: tuple[str, ...]) -> "StepMotion":
+    def of_joints(self, names: tuple[str, ...]) -> "JointMotion":
         """Return the motion of some of the names."""
         which = [self.names.index(name) for name in names]
         orders = (self.positions, self.velocities, self.accelerations)
-        return StepMotion(names, self.times_s, *(values[:, which] for values in orders))
+        return JointMotion(names, self.times_s, *(values[:, which] for values in orders))
 
     def at(self, t_s: float) -> dict[str, float]:
         """Return the positions at a time (s), straight between the points."""
