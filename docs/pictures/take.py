@@ -35,7 +35,7 @@ if (location.pathname.includes("/viser/")) {
 """Hides the words to newcomers, and has the 3D view drawn every 3 s: drawn by software, it would take all
 there is."""
 
-_FRAMES, _FRAME_MS, _LAST_FRAME_MS = 48, 110, 1500
+_FRAMES, _FRAME_MS, _LAST_FRAME_MS = 36, 150, 1500
 _QUALITY, _MOVING_QUALITY = 82, 60
 
 Edges = list[list[float]]

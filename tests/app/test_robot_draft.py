@@ -17,7 +17,9 @@ from app.files.mjcf import urdf_of_mjcf
 from app.ui.robot_model import load_robot_model
 from planner.errors import RobotError
 from planner.robots.card_robot import CardRobot
-from planner.robots.described_robot import read_described
+from planner.robots.collision import described_parts
+from planner.robots.collision.part_source import Part, make_parts
+from planner.robots.described_robot import DescribedRobot, read_described
 from planner.robots.tool_point import tool_points
 from planner.robots.urdf_reader import read_urdf
 from planner.robots.urdf_shapes import Source
@@ -87,7 +89,17 @@ def test_what_was_guessed_and_what_is_not_known_is_said(pair: tuple[Path, str]) 
         assert told in pair[1]
 
 
-def test_an_archive_in_ros_layout_is_drafted_with_its_meshes(tmp_path: Path) -> None:
+def test_an_archive_in_ros_layout_is_drafted_with_its_meshes_whose_parts_are_made_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    made: list[str] = []
+
+    def counted(robot: DescribedRobot) -> list[Part]:
+        made.append(robot.card.name)
+        return make_parts(robot)
+
+    monkeypatch.setattr(described_parts, "make_parts", counted)
+    monkeypatch.setattr(described_parts, "cache_folder", lambda: tmp_path / "cache")
     urdf = single_urdf(speed=0.0).replace(
         '<link name="plate">',
         '<link name="plate"><visual><geometry><mesh filename="package://one_description/meshes/Plate.stl"/></geometry>'
@@ -104,6 +116,7 @@ def test_an_archive_in_ros_layout_is_drafted_with_its_meshes(tmp_path: Path) -> 
     assert result.exit_code == 0, result.output
     assert (tmp_path / "one" / "meshes" / "Plate.stl").read_bytes() == CUBE
     robot = read_described(tmp_path / "one" / "robot.json")
+    assert len(made) == 1, "of the draft, and of the card that is checked"
     (arm,) = robot.card.arms
     assert arm.speeds == (1.0,) * 6 and "the URDF has none for some of them" in result.stdout
     assert arm.gripper.drive.joint == "slide_a", "joints that slide opposite each other need no name"

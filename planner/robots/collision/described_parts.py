@@ -2,6 +2,7 @@
 
 import contextlib
 from collections.abc import Sequence
+from dataclasses import dataclass, field
 from functools import cache, lru_cache
 from hashlib import blake2b
 from json import dumps
@@ -30,7 +31,24 @@ _FORMAT = 2
 """Version of the cache; raise it whenever parts or pairs are made or stored differently."""
 
 _CALLED = ("name", "title")
-"""Fields of a card on which no part depends."""
+"""Fields of a card on which neither parts nor the choice of pairs depend."""
+
+_UNSHAPED = (*_CALLED, "base", "camera", "scene")
+"""Fields of a card on which no part depends; nor does any on where an arm is at home and which joints lift it."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Shaped:
+    """A robot, equal to those of the same parts."""
+
+    digest: str
+    robot: DescribedRobot = field(compare=False)
+
+    @staticmethod
+    def of(robot: DescribedRobot) -> "_Shaped":
+        card = {name: value for name, value in robot.card.to_dict().items() if name not in _UNSHAPED}
+        card["arms"] = [{**arm, "home": None, "lifting": None} for arm in card["arms"]]
+        return _Shaped(_digest(robot, card), robot)
 
 
 class _Made(NamedTuple):
@@ -51,7 +69,7 @@ def described_parts(robot: DescribedRobot, directory: Path | None = None) -> Rob
     Raises:
         RobotError: a mesh cannot be read or is too large, or no link has a shape.
     """
-    path = (directory or cache_folder()) / "shapes" / f"{_digest(robot)}.npz"
+    path = (directory or cache_folder()) / "shapes" / f"{_digest(robot, _card(robot))}.npz"
     try:
         with path.open("rb") as file, np.load(file, allow_pickle=False) as arrays:
             made = _read(robot, arrays)
@@ -65,12 +83,18 @@ def described_parts(robot: DescribedRobot, directory: Path | None = None) -> Rob
 
 
 def _make(robot: DescribedRobot) -> _Made:
-    parts = make_parts(robot)
+    parts = _parts(_Shaped.of(robot))
     if not parts:
         raise RobotError("urdf", "no link has a shape")
     plain = _robot_parts(robot, parts, Choice((), np.empty((0, 2), dtype=np.int64)))
     joints = np.array([part.carrier.joint for part in parts])
     return _Made(parts, choose(plain, robot.arms, joints, [part.solids for part in parts]))
+
+
+@lru_cache(maxsize=1)
+def _parts(shaped: _Shaped) -> Sequence[Part]:
+    """Return the parts of a robot; the last ones are kept, for a draft asks for them as it finds table and home."""
+    return make_parts(shaped.robot)
 
 
 def _robot_parts(robot: DescribedRobot, parts: Sequence[Part], choice: Choice) -> RobotParts:
@@ -122,14 +146,17 @@ def _kinematics(robot: DescribedRobot, carriers: Sequence[Carrier], arms: Index)
     )
 
 
-def _digest(robot: DescribedRobot) -> str:
+def _card(robot: DescribedRobot) -> dict[str, Any]:
+    return {name: value for name, value in robot.card.to_dict().items() if name not in _CALLED}
+
+
+def _digest(robot: DescribedRobot, card: dict[str, Any]) -> str:
     """Return a digest of everything that the parts depend on: the card, the URDF, its meshes, how parts are made.
 
     What the robot is called and where its files lie is left out, so a copy finds the parts of the first.
     """
     limits = {name: value for name, value in vars(part_source).items() if name.isupper()}
     digest = blake2b(f"{_FORMAT} {dumps(limits, default=str)}".encode(), digest_size=12)
-    card = {name: value for name, value in robot.card.to_dict().items() if name not in _CALLED}
     digest.update(dumps(card, sort_keys=True).encode())
     urdf, read = parsed(robot.urdf.encode()), cache(_digest_of)
     urdf.attrib.pop("name", None)

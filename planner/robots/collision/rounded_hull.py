@@ -29,6 +29,9 @@ _DIRECTIONS = np.array([d for d in product((-1.0, 0.0, 1.0), repeat=3) if any(d)
 
 _POINT, _UPRIGHT = coal.Sphere(0.0), np.eye(3)
 
+_BATCH = 64
+"""How many of the furthest points are sorted at once."""
+
 _FLAT_M, _THICKNESS_M = 5e-5, 1e-3
 """Points that are thinner than the first are made as thick as the second (m)."""
 
@@ -107,13 +110,22 @@ def _furthest(points: FloatArray, hull: RoundedHull, away: FloatArray) -> int:
     """
     convex = hull.convex()
     best, best_m = -1, -1.0
-    for number in np.argsort(-away, kind="stable").tolist():
+    for number in _falling(away):
         if away[number] < best_m - GRID_M:
             break
         away[number] = _distance(points[number], convex)
         if away[number] > best_m or (away[number] == best_m and number < best):
             best, best_m = number, float(away[number])
     return best
+
+
+def _falling(values: FloatArray) -> Iterator[int]:
+    """Yield the indices of values from the largest to the smallest; to sort all of them takes as long as the hull."""
+    left = values.copy()
+    for first in range(0, len(left), _BATCH):
+        batch = np.argpartition(-left, min(_BATCH, len(left) - 1))[: min(_BATCH, len(left) - first)]
+        yield from batch[np.argsort(-left[batch], kind="stable")].tolist()
+        left[batch] = -np.inf
 
 
 def hull_corners(points: FloatArray) -> FloatArray:
