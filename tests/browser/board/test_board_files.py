@@ -154,11 +154,15 @@ def dxf(units: int, *corners: tuple[float, float]) -> str:
     return written.getvalue()
 
 
-def test_where_no_unit_fits_the_width_is_written(page: Page, cloth: Desk) -> None:
+def test_where_the_unit_in_a_file_does_not_fit_another_is_chosen_or_the_width_is_written(
+    page: Page, cloth: Desk
+) -> None:
     # A header that says metres of a drawing in pixels: as millimetres it would be 3.2 m wide, as metres 3,200.
     choose_file(page, "pixels.dxf", dxf(6, (0, 0), (3200, 0), (3200, 1600), (0, 1600)))
     dialog = page.get_by_role("dialog", name="Import")
-    expect(dialog.locator(".unit-choices button")).to_have_text(["mm: 320.0 cm x 160.0 cm"])
+    expect(dialog.locator(".unit-choices button")).to_have_text(
+        ["mm: 320.0 cm x 160.0 cm", "pt: 112.9 cm x 56.4 cm", "px: 84.7 cm x 42.3 cm"]
+    )
     width = dialog.get_by_label("Its width")
     width.fill("half")
     page.keyboard.press("Enter")

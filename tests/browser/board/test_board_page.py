@@ -126,18 +126,21 @@ def test_nothing_is_wider_than_a_phone(phone: Page, new_sheet: Callable[[Garment
     phone.goto(new_sheet("t-shirt").page_url)
     expect(phone.locator(".corner")).to_have_count(10)
     assert phone.evaluate("document.documentElement.scrollWidth") == 390
-    for name in ("Rename", "New", "Import", "Export", "Undo", "Help"):
+    for name in ("Gallery", "Import", "Export", "Undo", "Help"):
         box = phone.get_by_role("button", name=name, exact=True).bounding_box()
         assert box is not None
         assert box["x"] >= 0
         assert box["x"] + box["width"] <= 390
 
 
-def test_a_garment_is_renamed_on_a_phone(phone: Page, new_sheet: Callable[[Garment], Sheet]) -> None:
+def test_a_garment_is_renamed_on_a_phone_in_the_gallery(phone: Page, new_sheet: Callable[[Garment], Sheet]) -> None:
     sheet = new_sheet("hand-towel")
     phone.goto(sheet.page_url)
     expect(phone.locator(".corner")).to_have_count(4)
-    phone.get_by_role("button", name="Rename", exact=True).tap()
+    phone.get_by_role("button", name="Gallery", exact=True).tap()
+    tile = phone.locator(".tile-own").filter(has_text="open now")
+    tile.get_by_role("button", name="More for").tap()
+    phone.get_by_role("menuitem", name="Rename").tap()
     phone.get_by_label("Name", exact=True).fill("Guest towel")
     phone.keyboard.press("Enter")
     expect(phone).to_have_title("Guest towel - Pleat")
