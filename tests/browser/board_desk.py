@@ -34,6 +34,7 @@ class Desk(Sheet):
         page = self.page
         if page.url != self.page_url:
             page.goto(self.page_url)
+            page.wait_for_selector("[data-tool=outline]")
         for _ in range(3):
             page.keyboard.press("Escape")
         page.evaluate(SPREAD_OUT)
