@@ -7,9 +7,14 @@ from playwright.sync_api import Page, expect
 from tests.browser.searches import SEARCH_MS
 
 
-def expect_planned(page: Page) -> None:
-    """Expect the final plan: on a slow machine another plan is shown before it."""
+def expect_planned(page: Page, version: int | None = None) -> None:
+    """Expect the final plan, of a version of the drawing if one is given: after an edit, the former plan stays a while.
+
+    On a slow machine another plan is shown before the final one.
+    """
     status = page.get_by_role("status")
+    if version is not None:
+        expect(page.locator("#status")).to_have_attribute("data-version", str(version), timeout=SEARCH_MS)
     expect(status).to_contain_text("Planned: ")
     expect(status).to_have_attribute("data-is-final", "true", timeout=SEARCH_MS)
 

@@ -44,7 +44,7 @@ def test_cloth_that_is_brought_back_from_the_edge_is_marked_no_more_until_that_i
     page.goto(sheet.page_url)
     expect(page.locator(".overhang")).to_have_count(1)
     sheet.edit(lambda drawing: drawing["placement"].update(y_m=-0.15))
-    expect_planned(page)
+    expect_planned(page, sheet.state["version"])
     expect(page.locator(".overhang, .problem-cross")).to_have_count(0)
     page.get_by_role("button", name="Undo").click()
     expect(page.locator(".overhang")).to_have_count(1)

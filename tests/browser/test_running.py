@@ -65,7 +65,7 @@ def test_why_a_run_ended_early_is_said_and_an_edit_ends_it(page: Page, new_sheet
     assert [(one["from_step"], one["until_step"]) for one in asked] == [(0, None)]
     sheet.edit(lambda drawing: drawing["placement"].update(y_m=-0.29))
     expect(said).to_be_hidden()
-    expect_planned(page)
+    expect_planned(page, sheet.state["version"])
     row = page.get_by_role("list", name="Plan").get_by_role("button").first
     row.click(button="right")
     page.get_by_role("menuitem", name="Run from here").click()
