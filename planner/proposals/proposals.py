@@ -77,24 +77,24 @@ class Proposal:
         size_m: the sides of the packet along the article frame's x and y axes (m).
         layers: the most layers that lie on one another.
         face: the face of the cloth that is seen most from above: "front" or "back".
-        plan: the plan, or that there is none.
+        plan: the plan, or that there is none; None before the robot is asked.
     """
 
     garment: Garment
     size_m: Sides
     layers: int
     face: str
-    plan: Plan
+    plan: Plan | None
 
     @property
     def status(self) -> str:
-        """The status of its plan."""
-        return self.plan.status
+        """The status of its plan; "untried" before the robot is asked."""
+        return "untried" if self.plan is None else self.plan.status
 
     @property
     def cost_s(self) -> float | None:
         """The time that the plan takes (s); None without one."""
-        return self.plan.cost_s
+        return None if self.plan is None else self.plan.cost_s
 
     def to_dict(self) -> dict[str, Any]:
         """Return the proposal as JSON, without the plan."""
@@ -138,7 +138,7 @@ class Proposals:
     @property
     def is_any_solved(self) -> bool:
         """Whether the robot can do one of them."""
-        return any(one.plan.is_solved for one in self.proposals)
+        return any(one.status == "solved" for one in self.proposals)
 
     def to_dict(self) -> dict[str, Any]:
         """Return the proposals as JSON; where nothing fits, with the size that comes nearest."""
@@ -149,13 +149,14 @@ class Proposals:
 
 
 def all_proposals(found: Generator[Proposal, None, Tried], hear: Callable[[Proposal], None] | None = None) -> Proposals:
-    """Return all proposals of `propose_folds`, in order; call `hear` with each when it is found."""
+    """Return all proposals of `propose_folds` but untried ones, in order; call `hear` with each when it is found."""
     proposals: list[Proposal] = []
     while True:
         try:
             proposals.append(next(found))
         except StopIteration as end:
-            in_order = sorted(proposals, key=lambda one: math.inf if one.cost_s is None else one.cost_s)
+            tried = [one for one in proposals if one.plan is not None]
+            in_order = sorted(tried, key=lambda one: math.inf if one.cost_s is None else one.cost_s)
             return Proposals(tuple(in_order), end.value)
         if hear is not None:
             hear(proposals[-1])
@@ -167,6 +168,7 @@ def propose_folds(
     *,
     robot: str = DEFAULT_ROBOT,
     count: int = 6,
+    untried: int = 0,
     max_folds: int = 8,
     face: str = "any",
     scene: Scene | None = None,
@@ -181,6 +183,7 @@ def propose_folds(
         to: the size, see `Target.of`; or a garment that is folded like this one is to be.
         robot: the robot's name.
         count: the most proposals.
+        untried: the most ways to fold to a size that come first, before the robot is asked: soon, without a plan.
         max_folds: the most folds of a proposal, those that the garment has included.
         face: the face of the cloth that looks up at the end: "any", "front" or "back".
         scene: the scene; None for the one that suits the robot.
@@ -189,8 +192,8 @@ def propose_folds(
         options: those of each plan, as for `Task.of`.
 
     Yields:
-        Those that can be done as they are found, about in the order of what people like; then others, up to the count,
-        each the best of a way of which none can be done.
+        Untried ways; then those that can be done as they are found, about in the order of what people like; then
+        others, up to the count, each the best of a way of which none can be done.
 
     Returns:
         What was tried.
@@ -207,24 +210,40 @@ def propose_folds(
     task = task_for(garment, scene, robot=robot, work_limit_s=work_limit_s, **options)
     stops = should_stop or _never
     if isinstance(target, Garment):
-        return _planned(task, LikenessSearch(garment, target), None, count, stops)
+        return _planned(task, LikenessSearch(garment, target), count, stops)
     if target.is_roll:
-        return _planned(task, RollSearch(garment, max_folds), None, count, stops)
+        return _planned(task, RollSearch(garment, max_folds), count, stops)
     search = PacketSearch(garment, target, max_folds, face, RobotCheck(task))
-    alone = PacketSearch(garment, target, max_folds, face)
-    return _planned(task, search, None if target.is_smallest else alone, count, stops)
+    if target.is_smallest:
+        return _planned(task, search, count, stops)
+    return _sketched(task, PacketSearch(garment, target, max_folds, face), search, untried, count, stops)
+
+
+def _sketched(
+    task: Task, alone: PacketSearch, search: PacketSearch, untried: int, count: int, should_stop: Callable[[], bool]
+) -> Generator[Proposal, None, Tried]:
+    """Propose what a search without a robot finds first, and what the robot can do, unless the former finds nothing."""
+    packets = alone.packets()
+    packet = next(packets, None)
+    if packet is None:
+        return Tried(alone.enumerated, alone.nearest_m)
+    ways = set[Way]()
+    while packet is not None and len(ways) < untried:
+        if packet.way not in ways:
+            ways.add(packet.way)
+            garment = replace(task.garment, folds=packet.folds)
+            yield Proposal(garment, packet.size_m, packet.layers, packet.face, None)
+        packet = next(packets, None)
+    return (yield from _planned(task, search, count, should_stop))
 
 
 def _planned(
     task: Task,
     search: PacketSearch | LikenessSearch | RollSearch,
-    alone: PacketSearch | None,
     count: int,
     should_stop: Callable[[], bool],
 ) -> Generator[Proposal, None, Tried]:
-    """Propose what a search finds that the robot can do, unless the same search without a robot finds nothing."""
-    if alone is not None and next(alone.packets(), None) is None:
-        return Tried(alone.enumerated, alone.nearest_m)
+    """Propose what a search finds that the robot can do."""
     solved: set[Way] = set()
     failed: dict[Way, Proposal] = {}
     shown, fine = set[object](), set[tuple[DrawnFold, ...]]()
@@ -253,7 +272,7 @@ def _planned(
         if is_brief and proposal.status == "budget_exceeded":
             aside.append(packet)
             continue
-        if not proposal.plan.is_solved:
+        if proposal.status != "solved":
             failures += 1
             failed.setdefault(packet.way, proposal)
             if isinstance(search, PacketSearch) and (blamed := _blamed(task, packet, fine, should_stop)):

@@ -67,7 +67,8 @@ class ProposalCard {
     const { folds, layers, cost_s: cost, size_m: size } = proposal;
     const shown = element("span", "card-picture");
     this.stack(folds.length).then((stack) => shown.replaceChildren(layersPicture(stack, 0)), () => {});
-    const robot = cost === null ? say("proposal.unplanned") : say("proposal.planned", { time: seconds(cost) });
+    const without = proposal.plan_id ? say("proposal.unplanned") : say("proposal.untried");
+    const robot = cost === null ? without : say("proposal.planned", { time: seconds(cost) });
     const counted = `${say("import.folds", { count: folds.length })}, ${say("proposal.layers", { count: layers })}`;
     const words = element(
       "span",
