@@ -15,6 +15,9 @@ import { layersPicture } from "../repair/folded_picture.js";
 /** So long each moment of the folds is on show while a proposal is played (ms). */
 const MOMENT_MS = 550;
 
+/** What has a mouse or the focus; a finger hovers nowhere, though browsers say so of where it was last. */
+const HELD = ":hover, :focus-within";
+
 export class ProposalCards {
   /**
    * @param {Store} store
@@ -43,7 +46,8 @@ export class ProposalCards {
       if (!known) this.root.append(made.root);
     }
     for (const [proposal, card] of before) if (!this.cards.has(proposal)) card.remove();
-    if (!this.root.matches(":hover, :focus-within")) this.place(); // else they stay where a hand is about to press
+    const isHeld = this.root.matches(HELD) && matchMedia("(hover: hover)").matches;
+    if (!isHeld) this.place(); // else they stay where a hand is about to press
   }
 
   /** The quickest first, those without a plan last. */
