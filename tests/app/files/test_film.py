@@ -74,6 +74,6 @@ def test_cloth_is_painted_in_its_colour_as_large_as_it_is(plan: Plan) -> None:
 
 def test_cloth_of_many_pieces_faces_up_on_a_table_below_the_origin_too() -> None:
     corners = np.array([[0.0, 0.0, -1.0], [0.1, 0.0, -1.0], [0.0, 0.1, -1.0]])
-    many = np.concatenate([corners + [0.1 * count, 0.0, 0.0] for count in range(200)])
+    many = np.concatenate([corners + np.array([0.1 * count, 0.0, 0.0]) for count in range(200)])
     cloth = Part.of(many, np.arange(600).reshape(-1, 3), LIGHT.cloth_front)
     assert cloth.normals == pytest.approx(np.tile([0.0, 0.0, 1.0], (600, 1)))
