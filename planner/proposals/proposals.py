@@ -57,6 +57,10 @@ _VARIANTS = 3
 """Variants of one way that are planned, at most."""
 
 
+_SKETCHES = 2
+"""Ways that are looked at for each of those that come first without a plan."""
+
+
 class ProposalOptions(TypedDict, total=False):
     """Further options of each plan; see `Task.of`."""
 
@@ -77,7 +81,7 @@ class Proposal:
         size_m: the sides of the packet along the article frame's x and y axes (m).
         layers: the most layers that lie on one another.
         face: the face of the cloth that is seen most from above: "front" or "back".
-        plan: the plan, or that there is none; None before the robot is asked.
+        plan: the plan, or that there is none; None before one is looked for.
     """
 
     garment: Garment
@@ -88,7 +92,7 @@ class Proposal:
 
     @property
     def status(self) -> str:
-        """The status of its plan; "untried" before the robot is asked."""
+        """The status of its plan; "untried" before it is looked for."""
         return "untried" if self.plan is None else self.plan.status
 
     @property
@@ -183,7 +187,7 @@ def propose_folds(
         to: the size, see `Target.of`; or a garment that is folded like this one is to be.
         robot: the robot's name.
         count: the most proposals.
-        untried: the most ways to fold to a size that come first, before the robot is asked: soon, without a plan.
+        untried: the most ways to fold to a size that come first, soon and without a plan: each fold can be done alone.
         max_folds: the most folds of a proposal, those that the garment has included.
         face: the face of the cloth that looks up at the end: "any", "front" or "back".
         scene: the scene; None for the one that suits the robot.
@@ -213,28 +217,45 @@ def propose_folds(
         return _planned(task, LikenessSearch(garment, target), count, stops)
     if target.is_roll:
         return _planned(task, RollSearch(garment, max_folds), count, stops)
-    search = PacketSearch(garment, target, max_folds, face, RobotCheck(task))
+    robot_check = RobotCheck(task)
+    search = PacketSearch(garment, target, max_folds, face, robot_check)
     if target.is_smallest:
         return _planned(task, search, count, stops)
-    return _sketched(task, PacketSearch(garment, target, max_folds, face), search, untried, count, stops)
+    sketches = _sketches(task, PacketSearch(garment, target, max_folds, face), robot_check, untried)
+    return _sketched_and_planned(task, sketches, search, count, stops)
 
 
-def _sketched(
-    task: Task, alone: PacketSearch, search: PacketSearch, untried: int, count: int, should_stop: Callable[[], bool]
+def _sketched_and_planned(
+    task: Task,
+    sketches: Generator[Proposal, None, Tried | None],
+    search: PacketSearch,
+    count: int,
+    should_stop: Callable[[], bool],
 ) -> Generator[Proposal, None, Tried]:
-    """Propose what a search without a robot finds first, and what the robot can do, unless the former finds nothing."""
-    packets = alone.packets()
+    tried = yield from sketches
+    return tried or (yield from _planned(task, search, count, should_stop))
+
+
+def _sketches(
+    task: Task, search: PacketSearch, robot: RobotCheck, untried: int
+) -> Generator[Proposal, None, Tried | None]:
+    """Propose what a search without a robot finds first and of which the robot can do each fold, without plans.
+
+    Return what was tried if nothing fits, else None.
+    """
+    packets = search.packets()
     packet = next(packets, None)
     if packet is None:
-        return Tried(alone.enumerated, alone.nearest_m)
-    ways = set[Way]()
-    while packet is not None and len(ways) < untried:
-        if packet.way not in ways:
-            ways.add(packet.way)
+        return Tried(search.enumerated, search.nearest_m)
+    ways, shown = set[Way](), 0
+    while packet is not None and shown < untried and len(ways) < _SKETCHES * untried:
+        if packet.way not in ways and not packet.checked(robot).doubts:
             garment = replace(task.garment, folds=packet.folds)
             yield Proposal(garment, packet.size_m, packet.layers, packet.face, None)
+            shown += 1
+        ways.add(packet.way)
         packet = next(packets, None)
-    return (yield from _planned(task, search, count, should_stop))
+    return None
 
 
 def _planned(

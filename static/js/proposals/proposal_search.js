@@ -16,7 +16,7 @@ import { eventStream, rest } from "../event_stream.js";
  * @property {number} layers
  * @property {string} status of its plan
  * @property {number|null} cost_s
- * @property {string} [plan_id] none before the robot is asked
+ * @property {string} [plan_id] none before it is planned
  */
 /** @typedef {object} Asked the body of the request, as JSON */
 
@@ -27,7 +27,7 @@ export class ProposalSearch extends EventTarget {
     super();
     /** @type {Proposal[]} in the order of arrival */
     this.found = [];
-    /** @type {Proposal[]} on which the robot has not been asked */
+    /** @type {Proposal[]} that are not planned yet */
     this.untried = [];
     this.isRunning = false;
     /** Whether it has come to its end. */
@@ -81,7 +81,7 @@ export class ProposalSearch extends EventTarget {
     this.tell();
   }
 
-  /** What was found and, until the robot has been asked, what looks different. */
+  /** What was found and, until all is planned, what looks different. */
   get shown() {
     const looks = new Set(this.found.map(looksOf));
     return [...this.found, ...(this.isDone ? [] : this.untried.filter((one) => !looks.has(looksOf(one))))];

@@ -23,7 +23,7 @@ import { isLike, isWithin, PRESETS, SMALLEST } from "./target.js";
 /** How long the drawing and the size rest before ways are looked for (ms). */
 const REST_MS = 300;
 const COUNT = 6;
-/** So many ways are on show before the robot is asked. */
+/** So many ways are on show before they are planned. */
 const UNTRIED_COUNT = 3;
 const STEP_M = 0.01;
 
