@@ -156,7 +156,8 @@ class _PlanSearch:
             return 0.0
         self._others.append(problem)
         budget = self.budget.part(0.0)
-        search = PathSearch(problem, budget, problem.task.limits.max_expanded)
+        hands = EdgeHands(problem.context, problem.robot, problem.maker)
+        search = PathSearch(problem, budget, problem.task.limits.max_expanded, hands=hands)
         search.known_s, search.found = self.exact.known_s, self.exact.found
         begun_s = budget.spent_s
         budget.work_limit_s = begun_s + work_s

@@ -31,7 +31,7 @@ from planner.proposals.target import TOLERANCE_M, Sides
 _DECIMALS = 6
 """Decimals of a fold's ends (m): the grid on which cloth lies."""
 
-_PARTS = (("left", "right"), ("bottom", "top"))
+PARTS = (("left", "right"), ("bottom", "top"))
 """The parts of lower and of higher coordinates along x and y, by name."""
 
 _EASY_SWING_M, _SWING_EFFORT_PER_M = 0.4, 2.0
@@ -223,12 +223,12 @@ def _across(
     low, high = bounds[axis], bounds[axis + 2]
     creases: list[Crease] = []
     for number, (place, is_low) in enumerate(places):
-        part = _PARTS[axis][not is_low]
+        part = PARTS[axis][not is_low]
         effort += _swing_effort(place - low if is_low else high - place)
-        creases.append(Crease(f"{part} {noun}", _line(axis, place, is_low)))
+        creases.append(Crease(f"{part} {noun}", line_across(axis, place, is_low)))
         before, (low, high) = (low, high), _folded(low, high, place, is_low)
         if tucks:
-            creases.append(Crease(f"{part} {noun} back", _line(axis, tucks[number], not is_low), "red"))
+            creases.append(Crease(f"{part} {noun} back", line_across(axis, tucks[number], not is_low), "red"))
             low, high = (low, max(tucks[number], before[1])) if is_low else (min(tucks[number], before[0]), high)
     across = bounds[3 - axis] - bounds[1 - axis]
     return Move(kind, axis, effort, (high - low, across) if axis == 0 else (across, high - low), tuple(creases))
@@ -340,7 +340,7 @@ def _folded(low: float, high: float, place: float, is_low: bool) -> tuple[float,
     return (place, max(high, 2 * place - low)) if is_low else (min(low, 2 * place - high), place)
 
 
-def _line(axis: int, place: float, is_low: bool) -> Segment:
+def line_across(axis: int, place: float, is_low: bool = True) -> Segment:
     """Return the directed line of one coordinate that has the lower part, or the higher one, to its left."""
     if axis == 0:
         return Segment((place, 0.0), (place, 1.0 if is_low else -1.0))

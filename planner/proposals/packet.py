@@ -8,9 +8,10 @@ from typing import TypeAlias
 from planner.cloth.cloth_state import ClothState
 from planner.cloth.garment import DrawnFold, Garment
 from planner.folds.fold_sequence import FoldSequence
+from planner.geometry.isometry import Isometry
 from planner.geometry.region import Region
 from planner.geometry.tolerance import AREA_M2
-from planner.proposals.moves import Move, carried_out, turned_over
+from planner.proposals.moves import PARTS, Move, carried_out, line_across, rounded, turned_over
 from planner.proposals.robot_check import RobotCheck, Stand
 from planner.proposals.target import TOLERANCE_M, Sides
 
@@ -135,11 +136,30 @@ class Packet:
         effort, doubts = self.effort + found.effort, self.doubts + found.doubts
         return replace(self, effort=effort, stand=found.stand, asked=len(self.folds), doubts=doubts)
 
+    def images(self, outline: Region) -> Iterator[tuple[DrawnFold, ...]]:
+        """Yield its folds mirrored, for each axis on which an outline lies symmetric; it was folded from that outline.
+
+        They make the same packet, mirrored.
+        """
+        x0, y0, x1, y1 = outline.bounds
+        for axis, middle in ((0, (x0 + x1) / 2), (1, (y0 + y1) / 2)):
+            over = Isometry.reflection(line_across(axis, middle))
+            if outline.difference(outline.moved(over)).area <= AREA_M2:
+                yield tuple(_image(fold, axis, over) for fold in self.folds)
+
     def turned(self, grip_radius_m: float) -> "Iterator[Packet]":
         """Yield the packet turned over each of its sides that serves."""
         for cloth, fold in turned_over(self.cloth, grip_radius_m):
             effort = self.effort + _TURN_EFFORT
             yield replace(self, cloth=cloth, folds=(*self.folds, fold), effort=effort, is_turned=True)
+
+
+def _image(fold: DrawnFold, axis: int, over: Isometry) -> DrawnFold:
+    """Return a fold mirrored across an axis, with the image of what moves to the left of its line again."""
+    other = dict(zip(PARTS[axis], reversed(PARTS[axis]), strict=True))
+    name = " ".join(other.get(word, word) for word in fold.name.split())
+    start, end = rounded(over.apply_point(fold.end)), rounded(over.apply_point(fold.start))
+    return replace(fold, name=name, start=start, end=end)
 
 
 def grid_of(size_m: Sides) -> tuple[int, ...]:

@@ -3,8 +3,8 @@
 Packets come from a search that asks the robot about single folds, those that people like first. Each is planned in
 turn, with little work, until enough of them have plans. Where one has none, its first folds are planned alone, to learn
 which of them are to blame. Until there is a proposal, what takes much work is put aside: something easier may follow.
-Of variants of one way (the same moves in another order, or mirrored) only the first is proposed that can be done: the
-order and the side decide much for a robot and nothing for the packet.
+Of variants of one way (the same moves in another order, or from another side) only the first is proposed that can be
+done, or its mirror image if that takes less time: order and side decide much for a robot and nothing for the packet.
 
 Instead of a size another garment may be given: then its folds, fitted to this one, are the only way. Or the garment is
 rolled up, to whatever size.
@@ -21,8 +21,11 @@ from typing import Any, TypedDict, Unpack
 from planner.cloth.garment import FOLDS_MAX, DrawnFold, Garment
 from planner.errors import RequestError
 from planner.geometry.pose import Pose2
-from planner.geometry.tolerance import DECIMALS
+from planner.geometry.region import Region
+from planner.geometry.tolerance import DECIMALS, TIME_S
 from planner.planning.events import Blocked
+from planner.planning.heuristic import arm_time
+from planner.planning.problem import Problem
 from planner.planning.robot_task import task_for
 from planner.plans import plan as plan_events
 from planner.proposals.likeness import LikenessSearch
@@ -287,7 +290,7 @@ def _planned(
         if is_brief and any(one.way == packet.way for one in aside):
             aside.append(packet)
             continue
-        proposal = _proposal(_brief(task) if is_brief else task, packet, should_stop)
+        proposal = _proposal(_brief(task) if is_brief else task, packet, packet.folds, should_stop)
         if should_stop():
             break
         if is_brief and proposal.status == "budget_exceeded":
@@ -300,6 +303,7 @@ def _planned(
                 search.blame(blamed)
             continue
         solved.add(packet.way)
+        proposal = _or_mirrored(task, packet, proposal, should_stop)
         if (looks := (packet.shape, proposal.cost_s)) not in shown:
             shown.add(looks)
             yield proposal
@@ -308,9 +312,25 @@ def _planned(
     return Tried(search.enumerated, search.nearest_m)
 
 
-def _proposal(task: Task, packet: Packet, should_stop: Callable[[], bool]) -> Proposal:
-    plan = _plan(task, packet.folds, should_stop)
+def _proposal(task: Task, packet: Packet, folds: tuple[DrawnFold, ...], should_stop: Callable[[], bool]) -> Proposal:
+    plan = _plan(task, folds, should_stop)
     return Proposal(plan.garment, packet.size_m, packet.layers, packet.face, plan)
+
+
+def _or_mirrored(task: Task, packet: Packet, found: Proposal, should_stop: Callable[[], bool]) -> Proposal:
+    """Return a proposal, or its mirror image if the robot is soon known to do that in less time.
+
+    A symmetric garment has images. They are planned only where the arms alone take less time than what was found.
+    """
+    garment = task.garment
+    for folds in () if garment.folds else packet.images(Region.polygon(garment.outline)):
+        mirrored = Problem.of(replace(task, garment=replace(garment, folds=folds)))
+        if should_stop() or arm_time(mirrored.context)(mirrored.start) >= (found.cost_s or 0.0) - TIME_S:
+            break
+        other = _proposal(_brief(task), packet, folds, should_stop)
+        if other.cost_s is not None and other.cost_s < (found.cost_s or 0.0) - TIME_S:
+            found = other
+    return found
 
 
 def _blamed(

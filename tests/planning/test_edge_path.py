@@ -1,5 +1,6 @@
 """Hands at edges are looked for when the search validates a path, before others."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -9,12 +10,18 @@ from planner import Garment, Plan, Scene, Task, load_garment
 from planner.motion.edge_hands import EdgeHands
 from planner.motion.plan_segment import PlanSegment, duration_s
 from planner.motion.transfer_planner import TransferPlanner
+from planner.planning.budget import Budget
 from planner.planning.edge_path import EdgePath
 from planner.planning.motion_validator import MotionValidator
+from planner.planning.path_search import PathSearch
+from planner.planning.plan_search import Hints, _PlanSearch
+from planner.planning.problem import Problem
+from planner.planning.restricted_tasks import with_narrower_cones
 from planner.planning.warm_up import compile_kernels
 from planner.plans import plan
 from planner.primitives.primitive import Step
 from tests.planning.found import found_plan
+from tests.required import required
 
 AHEAD_M = {"hand-towel": 0.2, "t-shirt": 0.0, "vest": 0.0}
 """How far ahead of its usual place a garment lies (m).
@@ -91,3 +98,12 @@ def test_hands_that_come_late_to_edges_are_shown_before_others_are_looked_for(mo
         for event in plan(Task.of(moved("hand-towel", 0.2), Scene(arm_motion_s=1.5))):
             shown.append(event.found.plan)
     assert shown and shown[0].is_solved and not shown[0].is_proven
+
+
+def test_in_restricted_tasks_hands_hold_edges_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(PathSearch, "has_doubts", True)  # else they are not searched
+    problem = Problem.of(Task.of(moved("hand-towel", 0.2)))
+    search = _PlanSearch(problem, Budget.endless(), Hints(), is_patient=True)
+    search.restrict(next(with_narrower_cones(problem)), math.inf)
+    found = required(search.exact.found)
+    assert any(one.transfer is not None and one.transfer.edges for one in found)

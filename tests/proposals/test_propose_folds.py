@@ -4,12 +4,14 @@ from typing import Any
 
 import pytest
 
-from planner import Plan, Scene, load_garment, propose_folds
+from planner import Plan, Scene, Task, load_garment, make_plan, propose_folds
 from planner.cloth.garment import DrawnFold
 from planner.errors import FoldError, RequestError
 from planner.geometry.pose import Pose2
+from planner.geometry.region import Region
 from planner.planning.plan_check import require_replay
-from planner.proposals.proposals import Proposal, Proposals, all_proposals
+from planner.proposals.packet import Packet
+from planner.proposals.proposals import Proposal, Proposals, _or_mirrored, all_proposals
 from planner.task.reason import Code
 from tests.required import required
 
@@ -39,6 +41,19 @@ def test_a_proposal_has_the_plan_of_its_folds(found: Proposals) -> None:
 
 def test_proposals_are_different_ways(found: Proposals) -> None:
     assert len({one.size_m for one in found.proposals}) == 3
+
+
+def test_a_way_that_the_robot_does_sooner_mirrored_is_proposed_mirrored() -> None:
+    jeans = load_garment("jeans")
+    (other_leg_over,) = Packet.of(jeans).images(Region.polygon(jeans.outline))
+    task = Task.of(replace(jeans, folds=()), work_limit_s=1.0)
+    slow = Packet.of(replace(jeans, folds=other_leg_over))
+    plan = make_plan(replace(task, garment=replace(jeans, folds=slow.folds)))
+    first = Proposal(plan.garment, slow.size_m, slow.layers, slow.face, plan)
+    found = _or_mirrored(task, slow, first, lambda: False)
+    assert required(found.cost_s) < required(first.cost_s) - 1.0
+    assert found.cost_s == pytest.approx(required(make_plan(jeans).cost_s), abs=1e-5)
+    assert (found.size_m, found.garment.folds) == (first.size_m, found.plan.garment.folds)
 
 
 def test_its_json_has_the_folds_as_a_garment_file_has_them(found: Proposals) -> None:
