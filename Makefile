@@ -31,8 +31,8 @@ help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1 ~\2/p' Makefile | while IFS='~' read -r target text; do \
 	    printf '%-18s %s\n' "$$target" "$$text"; done
 
-run: $(READY) $(VENV)/.kernels-pr2 ## serve the designer on http://127.0.0.1:8000
-	@exec $(BIN)/pleat serve
+run: $(READY) $(VENV)/.kernels-pr2 ## serve the designer on http://127.0.0.1:8000; make run PORT=8001 on another port
+	@exec $(BIN)/pleat serve $(if $(PORT),--port $(PORT))
 
 check: lint types page-types imports ## format, lint, types of Python and of the page's JavaScript, imports
 
@@ -141,7 +141,7 @@ $(BIN)/python:
 	echo "Pleat needs Python 3.11 or newer; if it has another name: make PYTHON=/path/to/python" >&2; exit 1
 
 $(READY): requirements.txt pyproject.toml | $(BIN)/python
-	@echo "Installing what Pleat needs into $(VENV) (once, about a minute)"
+	@echo "Installing what Pleat needs into $(VENV): 2 GB, a minute or more (once)"
 	@$(BIN)/python -m pip --disable-pip-version-check install --no-compile $(PINNED) requirements.txt
 	@$(INSTALL) --no-deps --no-build-isolation -e .
 	@touch $@
@@ -150,7 +150,7 @@ $(READY): requirements.txt pyproject.toml | $(BIN)/python
 # where it has been done. The arms of one robot are in closed form, those of the other are mapped: few kernels are both's.
 # Two processes share the work, each from its own end. The server compiles what is missing behind its first page.
 $(KERNELS): $(VENV)/.kernels-%: $(READY) $(shell find planner -name '*.py')
-	@echo "Compiling what plans for $* (once, a minute)"
+	@echo "Compiling what plans for $*: a minute or two on two cores (once)"
 	@$(BIN)/python -m planner.planning.warm_up $* backwards & $(BIN)/python -m planner.planning.warm_up $* && wait $$!
 	@touch $@
 

@@ -77,7 +77,7 @@ class LiveSearch:
         if remembered is not None:
             on_lasting()
             if not stop():
-                show(remembered, is_final=True)
+                show(remembered.plan(), is_final=True)
             return
 
         def hear(news: Found | Lasting) -> None:

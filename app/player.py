@@ -8,6 +8,7 @@ from app.document import Document
 from app.document_state import DocumentState, ShownPlan, shown_robot
 from app.ui.view_3d import View3D
 from app.ui.viewpoints.sessions import Sessions
+from app.ui.withdrawal import LASTS_S, withdrawn
 from app.visitors_view import VisitorsView
 from planner.cloth.garment import Garment
 from planner.geometry.pose import Pose2
@@ -66,6 +67,8 @@ class Player:
         self._spread: Garment | None = None
         self._bare: tuple[str, Pose2] | None = None
         self._preview: tuple[ShownPlan | ClothAlone, float] | None = None
+        self._over_s: float | None = None
+        self._is_withdrawing = False
         self._changed.set()
         self._unsubscribe = document.subscribe(self._changed.set)
         if sessions is not None:
@@ -103,7 +106,8 @@ class Player:
         """Return the time to wait if nothing changes (s); None for no limit."""
         now_s = time.monotonic()
         state = self._document.state
-        if not (self._is_previewing(now_s) if state.preview is not None else state.playback.is_playing):
+        is_moving = state.playback.is_playing or self._is_withdrawing
+        if not (self._is_previewing(now_s) if state.preview is not None else is_moving):
             return None if self._waits_until_s is None else max(0.0, self._waits_until_s - now_s)
         period_s = 1.0 / UPDATES_PER_S if self._view.has_watchers else _UNWATCHED_PERIOD_S
         self._due_s = max(self._due_s + period_s, now_s)
@@ -119,6 +123,8 @@ class Player:
 
     def _show(self, state: DocumentState) -> None:
         shown, self._shown = self._shown, state
+        over_s, self._over_s = self._over_s, None
+        self._is_withdrawing = False
         if shown is None or shown.is_dark != state.is_dark:
             self._view.set_theme(is_dark=state.is_dark)
         if state.preview is not None:
@@ -135,7 +141,13 @@ class Player:
             self._set(state.shown.plan.task.robot, state.shown.plan.scene)
             self._view.show_plan(state.shown.plan)
         self._spread = self._bare = self._waits_until_s = None
-        self._view.show(state.shown.timeline.at(self._document.t_s), state.trace)
+        frame = state.shown.timeline.at(self._document.t_s)
+        if 0.0 < state.shown.timeline.duration_s <= frame.t_s:
+            now_s = time.monotonic()
+            self._over_s = now_s if over_s is None else over_s
+            self._is_withdrawing = now_s < self._over_s + LASTS_S
+            frame = withdrawn(shown_robot(state.shown.plan.task.robot), frame, now_s - self._over_s)
+        self._view.show(frame, state.trace)
         self._document.stop_at_end()
 
     def _is_previewing(self, now_s: float) -> bool:

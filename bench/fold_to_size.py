@@ -220,7 +220,7 @@ def _planned(bare: Garment, to: str, robot: str) -> tuple[float | None, float | 
     begun, times_s = process_time(), list[float]()
     with closing(propose_folds(bare, to, robot=robot, count=3, max_folds=MAX_FOLDS)) as found:
         for proposal in found:
-            if proposal.plan.is_solved:
+            if proposal.status == "solved":
                 times_s.append(process_time() - begun)
     return _first_and_third(times_s)
 

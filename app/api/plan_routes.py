@@ -160,8 +160,11 @@ def _plan(workspace: Workspace, wanted: PlanRequest, limit: TimeLimit, stop: Sto
 
 
 def planned(workspace: Workspace, task: Task, stop: Stop) -> bytes:
-    """Plan a task in a worker, keep the plan, and return it in its REST form, as JSON."""
-    packed = workspace.lanes.workers.run(searches.plan, stop, ignore, task)
+    """Plan a task in a worker unless its answer is known, keep the plan, and return it in its REST form, as JSON."""
+    packed = workspace.plans.answers.get(task)
+    if packed is None:
+        packed = workspace.lanes.workers.run(searches.plan, stop, ignore, task)
+        workspace.plans.answers.add(task, packed)
     return b'{"id":"%b",%b' % (workspace.plans.add_packed(packed).encode(), packed.answer.removeprefix(b"{"))
 
 

@@ -166,7 +166,15 @@ def _print_suggestions(answer: Plan) -> None:
     work_s = limits.work_limit_s or limits.time_limit_s
     time_s = min(_SLOWDOWN_MAX * work_s, TIME_LIMIT_S[1])
     task = replace(answer.task, limits=replace(limits, work_limit_s=work_s, time_limit_s=time_s))
-    found = list(suggestions(task, plan=answer, other_robots=robot_names()))
+    with errors.status("Looking for changes that give a plan...") as line:
+        found = list(
+            suggestions(
+                task,
+                plan=answer,
+                on_trial=lambda trial: line.update(f"Trying: {sentence(trial.says, answer.garment.folds)}"),
+                other_robots=robot_names(),
+            )
+        )
     if found:
         output.print(suggestion_table(answer.garment, found))
     else:

@@ -103,12 +103,12 @@ def refusing(target: object) -> Iterator[None]:
 
 
 def tell_of_compiling(*robots: str, on: Console = errors) -> None:
-    """Say that the planner is compiled first, where it is: nothing else is seen for a minute."""
+    """Say that the planner is compiled first, where it is: nothing else is seen for minutes."""
     from planner.planning.warm_up import must_compile
     from planner.task.task import DEFAULT_ROBOT
 
-    if any(must_compile(robot) for robot in robots or (DEFAULT_ROBOT,)):
-        on.print("Compiling the planner (first use): about a minute...")
+    if names := [robot for robot in robots or (DEFAULT_ROBOT,) if must_compile(robot)]:
+        on.print(f"Compiling what plans for {', '.join(names)} (first use): a minute or more...")
 
 
 @contextmanager

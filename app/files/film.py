@@ -20,6 +20,7 @@ from app.ui.colours import DARK, LIGHT
 from app.ui.scene_picture import ScenePainter
 from app.ui.viewpoints.following import Following, work_of
 from app.ui.viewpoints.presets import Lens
+from app.ui.withdrawal import withdrawn
 from planner.errors import UnsolvedPlanError
 from planner.motion.sample import Sample
 from planner.motion.timeline import Timeline
@@ -64,7 +65,7 @@ class _Film:
     def __init__(self, plan: Plan, size_px: tuple[int, int], language: Language, *, is_dark: bool) -> None:
         if not plan.is_solved:
             raise UnsolvedPlanError(plan.status)
-        card = load_robot(plan.task.robot).card
+        card = self._card = load_robot(plan.task.robot).card
         self._plan, self._size_px, self._language = plan, size_px, language
         self._timeline = Timeline.of(plan)
         self._painter = ScenePainter(card, plan.scene, DARK if is_dark else LIGHT)
@@ -75,7 +76,7 @@ class _Film:
         """Yield the pictures, so many a second, until it should stop."""
         camera, lens, end_s = Following(), Lens(self._size_px[0] / self._size_px[1]), self._plan.cost_s or 0.0
         frames = list(self._timeline.samples(rate_hz))
-        frames += frames[-1:] * round(HOLD_S * rate_hz)
+        frames += [withdrawn(self._card, frames[-1], n / rate_hz) for n in range(1, round(HOLD_S * rate_hz) + 1)]
         for number, frame in enumerate(frames):
             if number and should_stop():
                 return

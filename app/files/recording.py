@@ -10,11 +10,12 @@ import re
 from app.jobs.job_pool import ShouldStop
 from app.step_kinds import step_words
 from app.ui.view_3d import View3D
+from app.ui.withdrawal import withdrawn
 from planner.motion.timeline import Timeline
 from planner.robots.load_robot import load_robot
 from planner.task.plan import Plan
 
-HOLD_S = 1.0
+HOLD_S = 2.0
 """Time that the last frame stays before the player starts again (s)."""
 
 _TITLE = re.compile(r"<title>.*?</title>", re.DOTALL)
@@ -33,7 +34,8 @@ def recording(plan: Plan, rate_hz: float, should_stop: ShouldStop, *, is_dark: b
         UnsolvedPlanError: the plan is not solved, so there is nothing to play.
     """
     timeline, captions = Timeline.of(plan), _captions(plan)
-    view = View3D(load_robot(plan.task.robot).card, plan.scene)
+    card = load_robot(plan.task.robot).card
+    view = View3D(card, plan.scene)
     try:
         view.set_theme(is_dark=is_dark)
         view.show_plan(plan)
@@ -47,7 +49,9 @@ def recording(plan: Plan, rate_hz: float, should_stop: ShouldStop, *, is_dark: b
             view.show(frame)
             view.caption(captions[frame.primitive])
             before_s = frame.t_s
-        recorder.insert_sleep(HOLD_S)
+        for count in range(1, round(HOLD_S * rate_hz) + 1):
+            recorder.insert_sleep(1.0 / rate_hz)
+            view.show(withdrawn(card, frame, count / rate_hz))
         page = recorder.as_html(dark_mode=is_dark)
     finally:
         view.close()

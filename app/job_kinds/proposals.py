@@ -71,6 +71,7 @@ class ProposalsRequest(StrictModel):
     to: Annotated[To, PlainValidator(_to, json_schema_input_type=To)]
     robot: str = DEFAULT_ROBOT
     count: Annotated[int, Field(ge=1, le=COUNT_MAX)] = 6
+    untried: Annotated[int, Field(ge=0, le=COUNT_MAX)] = 0
     max_folds: Annotated[int, Field(ge=1, le=FOLDS_MAX)] = 8
     face: Annotated[str, Field(json_schema_extra={"enum": list(FACES)})] = "any"
     scene: Scene | None = None
@@ -93,6 +94,7 @@ class ProposalsTask:
     to: Target | Garment
     robot: str
     count: int
+    untried: int
     max_folds: int
     face: str
     scene: Scene | None
@@ -110,6 +112,7 @@ def _prepare(stores: Stores, wanted: ProposalsRequest) -> ProposalsTask:
         _target(stores, wanted.to),
         wanted.robot,
         wanted.count,
+        wanted.untried,
         wanted.max_folds,
         wanted.face,
         wanted.scene,
@@ -133,6 +136,7 @@ def _begun(asked: ProposalsTask) -> Generator[Proposal, None, Tried]:
         asked.to,
         robot=asked.robot,
         count=asked.count,
+        untried=asked.untried,
         max_folds=asked.max_folds,
         face=asked.face,
         scene=asked.scene,
@@ -143,10 +147,10 @@ def _begun(asked: ProposalsTask) -> Generator[Proposal, None, Tried]:
 
 @dataclass(frozen=True, slots=True)
 class Found:
-    """A proposal as JSON with the id of its plan, and the plan, packed in the job's process."""
+    """A proposal as JSON with the id of its plan, if it has one, and the plan, packed in the job's process."""
 
     body: dict[str, Any]
-    plan: PackedPlan
+    plan: PackedPlan | None
 
 
 def propose(asked: ProposalsTask, progress: Progress) -> dict[str, Any]:
@@ -154,6 +158,9 @@ def propose(asked: ProposalsTask, progress: Progress) -> dict[str, Any]:
     told: dict[int, dict[str, Any]] = {}
 
     def hear(proposal: Proposal) -> None:
+        if proposal.plan is None:
+            progress(0.0, "", Found(proposal.to_dict(), None))
+            return
         body = told[id(proposal)] = {**proposal.to_dict(), "plan_id": uuid.uuid4().hex}
         progress(len(told) / asked.count, f"{len(told)} found", Found(body, PackedPlan.of(proposal.plan)))
 
@@ -162,8 +169,9 @@ def propose(asked: ProposalsTask, progress: Progress) -> dict[str, Any]:
 
 
 def _tell(stores: Stores, found: Found) -> dict[str, Any]:
-    """Store the plan of a proposal and return the proposal as JSON."""
-    stores.plans.add_packed(found.plan, found.body["plan_id"])
+    """Store the plan of a proposal, if it has one, and return the proposal as JSON."""
+    if found.plan is not None:
+        stores.plans.add_packed(found.plan, found.body["plan_id"])
     return found.body
 
 

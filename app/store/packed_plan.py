@@ -1,15 +1,16 @@
 """A plan packed for keeping: its JSON, compressed, which takes a sixth of the memory of the object (measured)."""
 
+import math
 import threading
 import zlib
 from collections import OrderedDict
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from pydantic_core import from_json, to_json
 
 from planner.robots.load_robot import Stamp, robot_stamp
 from planner.task.plan import Plan
-from planner.task.task import Task
+from planner.task.task import TIME_LIMIT_S, Task
 
 _ANSWERS_MAX = 64
 """Number of tasks whose answers are remembered, packed: 0.1 MB each, as objects 0.3 to 0.7 MB (measured)."""
@@ -25,15 +26,20 @@ class PackedPlan:
     Attributes:
         content: the plan as compressed JSON; a later Pleat knows the version in it.
         answer: the plan as REST tells it, as JSON.
+        needs_s: the time that the whole search for it takes (s); infinite for one that was cut short.
     """
 
     content: bytes
     answer: bytes
+    needs_s: float
 
     @staticmethod
     def of(plan: Plan) -> "PackedPlan":
         """Pack a plan."""
-        return PackedPlan(zlib.compress(to_json(plan.to_dict()), _ZIP_LEVEL), to_json(plan.answer()))
+        content = zlib.compress(to_json(plan.to_dict()), _ZIP_LEVEL)
+        took = plan.statistics
+        needs_s = math.inf if took.is_cut_short else took.search_time_s + took.joint_time_s
+        return PackedPlan(content, to_json(plan.answer()), needs_s)
 
     def plan(self) -> Plan:
         """Return the plan, unpacked."""
@@ -54,19 +60,29 @@ class Answers:
         self._lock = threading.Lock()
 
     def add(self, task: Task, answer: PackedPlan) -> None:
-        """Remember the answer to a task; forget the one that was asked for least recently if there are too many."""
-        key = task, robot_stamp(task.robot)
+        """Remember the answer to a task, unless more search may improve it.
+
+        Forget the one that was asked for least recently if there are too many.
+        """
+        if math.isinf(answer.needs_s):
+            return
         with self._lock:
-            self._answers[key] = answer
+            self._answers[_key(task)] = answer
             if len(self._answers) > _ANSWERS_MAX:
                 self._answers.popitem(last=False)
 
-    def get(self, task: Task) -> Plan | None:
-        """Return the answer to a task, if it is remembered and the robot is still the same."""
-        key = task, robot_stamp(task.robot)
+    def get(self, task: Task) -> PackedPlan | None:
+        """Return the answer to a task if it is remembered, takes no longer than allowed, and the robot is the same."""
+        key = _key(task)
         with self._lock:
-            if key not in self._answers:
+            answer = self._answers.get(key)
+            if answer is None or answer.needs_s > task.limits.time_limit_s:
                 return None
             self._answers.move_to_end(key)
-            packed = self._answers[key]
-        return packed.plan()
+            return answer
+
+
+def _key(task: Task) -> tuple[Task, Stamp]:
+    """Return what the answer to a task depends on if its time limit is not reached."""
+    limits = replace(task.limits, time_limit_s=TIME_LIMIT_S[1])
+    return replace(task, limits=limits), robot_stamp(task.robot)

@@ -56,13 +56,13 @@ class Part:
     colour: Rgb
 
     @staticmethod
-    def of(vertices: FloatArray, triangles: Triangles, colour: Rgb) -> "Part":
-        """Return a mesh with the normals of its triangles, blended where they share a vertex."""
+    def of(vertices: FloatArray, triangles: Triangles, colour: Rgb, *, is_closed: bool = False) -> "Part":
+        """Return a mesh with the normals of its triangles, blended at shared vertices; a closed one faces outwards."""
         a, b, c = vertices[triangles].transpose(1, 0, 2)
         facing, corners = np.repeat(np.cross(b - a, c - a), 3, axis=0), triangles.ravel()
         summed = [np.bincount(corners, facing[:, axis], len(vertices)) for axis in range(3)]
         normals = np.stack(summed, axis=1).astype(float)
-        inside_out = float((np.cross(a, b) * c).sum()) < 0.0 and len(triangles) > _CLOSED
+        inside_out = is_closed and float((np.cross(a, b) * c).sum()) < 0.0
         normals *= (-1.0 if inside_out else 1.0) / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
         return Part(vertices, normals, triangles, colour)
 
@@ -73,7 +73,7 @@ class Part:
 
 
 _CLOSED = 100
-"""Meshes of more triangles are taken to be closed, so that they can be inside out."""
+"""A robot's meshes of more triangles are taken to be closed, so that they can be inside out."""
 
 
 class ScenePainter:
@@ -85,7 +85,15 @@ class ScenePainter:
             (
                 link,
                 [
-                    (_matrix(one.pose), Part.of(one.vertices, one.triangles, link_colour(link.name, palette)))
+                    (
+                        _matrix(one.pose),
+                        Part.of(
+                            one.vertices,
+                            one.triangles,
+                            link_colour(link.name, palette),
+                            is_closed=len(one.triangles) > _CLOSED,
+                        ),
+                    )
                     for one in link.visuals
                 ],
             )

@@ -26,7 +26,7 @@ _SETTLED_MS = 7_000
 """The time in which the 3D view follows a change (ms): two drawings of it."""
 
 _READY = """
-localStorage.setItem("pleat-coached", "outline fold play");
+localStorage.setItem("pleat-coached", "outline play");
 if (location.pathname.includes("/viser/")) {
   window.requestAnimationFrame = (draw) => setTimeout(() => draw(performance.now()), 3000);
   window.cancelAnimationFrame = clearTimeout;
@@ -81,7 +81,7 @@ def folded_for_me(page: Page, url: str) -> None:
     panel = page.get_by_role("region", name="Fold it for me")
     panel.get_by_role("button", name="Halves").click()
     card = panel.get_by_role("group", name="Ways to fold it").get_by_role("button").first
-    expect(card).to_be_visible()
+    expect(card).to_have_attribute("data-status", "solved")
     expect(card.locator(".picture-layer")).not_to_have_count(0)
     expect(panel.get_by_role("progressbar")).to_be_hidden()
     card.hover()

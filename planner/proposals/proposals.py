@@ -60,6 +60,10 @@ _VARIANTS = 3
 """Variants of one way that are planned, at most."""
 
 
+_SKETCHES = 2
+"""Ways that are looked at for each of those that come first without a plan."""
+
+
 class ProposalOptions(TypedDict, total=False):
     """Further options of each plan; see `Task.of`."""
 
@@ -80,24 +84,24 @@ class Proposal:
         size_m: the sides of the packet along the article frame's x and y axes (m).
         layers: the most layers that lie on one another.
         face: the face of the cloth that is seen most from above: "front" or "back".
-        plan: the plan, or that there is none.
+        plan: the plan, or that there is none; None before one is looked for.
     """
 
     garment: Garment
     size_m: Sides
     layers: int
     face: str
-    plan: Plan
+    plan: Plan | None
 
     @property
     def status(self) -> str:
-        """The status of its plan."""
-        return self.plan.status
+        """The status of its plan; "untried" before it is looked for."""
+        return "untried" if self.plan is None else self.plan.status
 
     @property
     def cost_s(self) -> float | None:
         """The time that the plan takes (s); None without one."""
-        return self.plan.cost_s
+        return None if self.plan is None else self.plan.cost_s
 
     def to_dict(self) -> dict[str, Any]:
         """Return the proposal as JSON, without the plan."""
@@ -141,7 +145,7 @@ class Proposals:
     @property
     def is_any_solved(self) -> bool:
         """Whether the robot can do one of them."""
-        return any(one.plan.is_solved for one in self.proposals)
+        return any(one.status == "solved" for one in self.proposals)
 
     def to_dict(self) -> dict[str, Any]:
         """Return the proposals as JSON; where nothing fits, with the size that comes nearest."""
@@ -152,13 +156,14 @@ class Proposals:
 
 
 def all_proposals(found: Generator[Proposal, None, Tried], hear: Callable[[Proposal], None] | None = None) -> Proposals:
-    """Return all proposals of `propose_folds`, in order; call `hear` with each when it is found."""
+    """Return all proposals of `propose_folds` but untried ones, in order; call `hear` with each when it is found."""
     proposals: list[Proposal] = []
     while True:
         try:
             proposals.append(next(found))
         except StopIteration as end:
-            in_order = sorted(proposals, key=lambda one: math.inf if one.cost_s is None else one.cost_s)
+            tried = [one for one in proposals if one.plan is not None]
+            in_order = sorted(tried, key=lambda one: math.inf if one.cost_s is None else one.cost_s)
             return Proposals(tuple(in_order), end.value)
         if hear is not None:
             hear(proposals[-1])
@@ -170,6 +175,7 @@ def propose_folds(
     *,
     robot: str = DEFAULT_ROBOT,
     count: int = 6,
+    untried: int = 0,
     max_folds: int = 8,
     face: str = "any",
     scene: Scene | None = None,
@@ -184,6 +190,7 @@ def propose_folds(
         to: the size, see `Target.of`; or a garment that is folded like this one is to be.
         robot: the robot's name.
         count: the most proposals.
+        untried: the most ways to fold to a size that come first, soon and without a plan: each fold can be done alone.
         max_folds: the most folds of a proposal, those that the garment has included.
         face: the face of the cloth that looks up at the end: "any", "front" or "back".
         scene: the scene; None for the one that suits the robot.
@@ -192,8 +199,8 @@ def propose_folds(
         options: those of each plan, as for `Task.of`.
 
     Yields:
-        Those that can be done as they are found, about in the order of what people like; then others, up to the count,
-        each the best of a way of which none can be done.
+        Untried ways; then those that can be done as they are found, about in the order of what people like; then
+        others, up to the count, each the best of a way of which none can be done.
 
     Returns:
         What was tried.
@@ -210,24 +217,57 @@ def propose_folds(
     task = task_for(garment, scene, robot=robot, work_limit_s=work_limit_s, **options)
     stops = should_stop or _never
     if isinstance(target, Garment):
-        return _planned(task, LikenessSearch(garment, target), None, count, stops)
+        return _planned(task, LikenessSearch(garment, target), count, stops)
     if target.is_roll:
-        return _planned(task, RollSearch(garment, max_folds), None, count, stops)
-    search = PacketSearch(garment, target, max_folds, face, RobotCheck(task))
-    alone = PacketSearch(garment, target, max_folds, face)
-    return _planned(task, search, None if target.is_smallest else alone, count, stops)
+        return _planned(task, RollSearch(garment, max_folds), count, stops)
+    robot_check = RobotCheck(task)
+    search = PacketSearch(garment, target, max_folds, face, robot_check)
+    if target.is_smallest:
+        return _planned(task, search, count, stops)
+    sketches = _sketches(task, PacketSearch(garment, target, max_folds, face), robot_check, untried)
+    return _sketched_and_planned(task, sketches, search, count, stops)
+
+
+def _sketched_and_planned(
+    task: Task,
+    sketches: Generator[Proposal, None, Tried | None],
+    search: PacketSearch,
+    count: int,
+    should_stop: Callable[[], bool],
+) -> Generator[Proposal, None, Tried]:
+    tried = yield from sketches
+    return tried or (yield from _planned(task, search, count, should_stop))
+
+
+def _sketches(
+    task: Task, search: PacketSearch, robot: RobotCheck, untried: int
+) -> Generator[Proposal, None, Tried | None]:
+    """Propose what a search without a robot finds first and of which the robot can do each fold, without plans.
+
+    Return what was tried if nothing fits, else None.
+    """
+    packets = search.packets()
+    packet = next(packets, None)
+    if packet is None:
+        return Tried(search.enumerated, search.nearest_m)
+    ways, shown = set[Way](), 0
+    while packet is not None and shown < untried and len(ways) < _SKETCHES * untried:
+        if packet.way not in ways and not packet.checked(robot).doubts:
+            garment = replace(task.garment, folds=packet.folds)
+            yield Proposal(garment, packet.size_m, packet.layers, packet.face, None)
+            shown += 1
+        ways.add(packet.way)
+        packet = next(packets, None)
+    return None
 
 
 def _planned(
     task: Task,
     search: PacketSearch | LikenessSearch | RollSearch,
-    alone: PacketSearch | None,
     count: int,
     should_stop: Callable[[], bool],
 ) -> Generator[Proposal, None, Tried]:
-    """Propose what a search finds that the robot can do, unless the same search without a robot finds nothing."""
-    if alone is not None and next(alone.packets(), None) is None:
-        return Tried(alone.enumerated, alone.nearest_m)
+    """Propose what a search finds that the robot can do."""
     solved: set[Way] = set()
     failed: dict[Way, Proposal] = {}
     shown, fine = set[object](), set[tuple[DrawnFold, ...]]()
@@ -256,7 +296,7 @@ def _planned(
         if is_brief and proposal.status == "budget_exceeded":
             aside.append(packet)
             continue
-        if not proposal.plan.is_solved:
+        if proposal.status != "solved":
             failures += 1
             failed.setdefault(packet.way, proposal)
             if isinstance(search, PacketSearch) and (blamed := _blamed(task, packet, fine, should_stop)):

@@ -1,5 +1,5 @@
 /**
- * Three words to someone new, each where it is needed: how to draw an outline, how to fold, how to play. A word goes away
+ * Two words to someone new, each where it is needed: how to draw an outline, how to play. A word goes away
  * when it is followed or has been read, and does not come again in this browser.
  */
 
@@ -15,8 +15,8 @@ const GAP_PX = 10;
  * @typedef {object} Mark
  * @property {string} name
  * @property {string} text
- * @property {string} at the part of the page that it stands beside
- * @property {"beside"|"above"|"over"} side of that part
+ * @property {string} at the part of the page that it stands at
+ * @property {"above"|"over"} side of that part
  * @property {(board: import("./board/board.js").Board) => boolean} isDue
  */
 
@@ -28,13 +28,6 @@ const MARKS = [
     at: "#drafting-board",
     side: "over",
     isDue: ({ drawing, tools }) => !drawing.outline.length && !tools.outline.isBusy,
-  },
-  {
-    name: "fold",
-    text: say("coach.fold"),
-    at: '[data-tool="fold"]',
-    side: "beside",
-    isDue: ({ drawing, tool, tools }) => drawing.outline.length > 0 && !drawing.folds.length && tool !== tools.propose,
   },
   {
     name: "play",
@@ -82,7 +75,7 @@ export function mountCoach(board) {
   addEventListener("resize", look);
 }
 
-/** The box of the part that a mark stands beside, where it is seen. @param {Mark} mark */
+/** The box of the part that a mark stands at, where it is seen. @param {Mark} mark */
 function seen({ at }) {
   const part = /** @type {HTMLElement|null} */ (document.querySelector(at));
   const box = part?.getBoundingClientRect();
@@ -94,16 +87,9 @@ function place(root, mark) {
   const box = seen(mark);
   if (!box) return;
   const { offsetWidth: width, offsetHeight: height } = root;
-  const middle = box.left + box.width / 2 - width / 2;
-  const left = mark.side === "beside" && box.right + GAP_PX + width < innerWidth ? box.right + GAP_PX : middle;
-  const tops = {
-    beside: box.top + box.height / 2 - height / 2,
-    above: box.top - GAP_PX - height,
-    over: box.top + 3 * GAP_PX,
-  };
-  const isBelow = mark.side === "beside" && left === middle;
-  const top = isBelow ? box.top - GAP_PX - height : tops[mark.side];
-  root.dataset.side = isBelow ? "above" : mark.side;
+  const left = box.left + box.width / 2 - width / 2;
+  const top = mark.side === "above" ? box.top - GAP_PX - height : box.top + 3 * GAP_PX;
+  root.dataset.side = mark.side;
   root.style.left = `${Math.max(GAP_PX, Math.min(left, innerWidth - width - GAP_PX))}px`;
   root.style.top = `${Math.max(GAP_PX, top)}px`;
 }

@@ -43,7 +43,7 @@ mountDock(store, pictures, rehearsal);
 mountGarments(store);
 mountRobots(store);
 mountSplitter();
-mountPhone();
+mountPhone(store);
 const dialogs = mountDialogs(store);
 const board = mountBoard(store, { togglePlay, startNew: dialogs.startNew, startImport: dialogs.startImport });
 const repair = new Repair(store, byId("board"));

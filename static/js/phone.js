@@ -1,6 +1,6 @@
 /**
- * On a phone one of board and 3D view is large and the other a small inset; the dock is a sheet that pulls up. Who came
- * by a link for looking sees the 3D view first.
+ * On a phone one of board and 3D view is large and the other a small inset; the dock is a sheet that pulls up. The 3D
+ * view comes first where a garment has folds, and for those who came by a link for looking.
  */
 
 import { byId } from "./dom.js";
@@ -10,7 +10,8 @@ import { isViewOnly } from "./view_only.js";
 export const PHONE = "(max-width: 720px)";
 const PULL_PX = 24;
 
-export function mountPhone() {
+/** @param {import("./store.js").Store} store */
+export function mountPhone(store) {
   const phone = matchMedia(PHONE);
   const work = byId("work");
   const swap = byId("swap");
@@ -29,11 +30,12 @@ export function mountPhone() {
   };
   const isOpen = () => document.body.classList.contains("is-sheet-open");
 
-  work.classList.toggle("is-view3d-large", isViewOnly);
-  swap.addEventListener("click", () => {
-    work.classList.toggle("is-view3d-large");
+  const turn = (isView3DLarge = !work.classList.contains("is-view3d-large")) => {
+    work.classList.toggle("is-view3d-large", isView3DLarge);
     show();
-  });
+  };
+  store.addEventListener("document", () => turn(isViewOnly || Boolean(store.state?.drawing.folds.length)), { once: true });
+  swap.addEventListener("click", () => turn());
   /** @type {number|null} where the pull began (px) */
   let from = null;
   let hasPulled = false;
@@ -54,5 +56,5 @@ export function mountPhone() {
   });
   phone.addEventListener("change", show);
   open(false);
-  show();
+  turn(isViewOnly);
 }

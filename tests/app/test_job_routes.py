@@ -56,7 +56,7 @@ async def test_suggestions_as_a_job_have_their_plans(client: httpx.AsyncClient) 
 
 async def test_proposals_are_told_as_they_are_found(client: httpx.AsyncClient) -> None:
     towel = {"name": "napkin", "outline": [[0, 0], [0.4, 0], [0.4, 0.3], [0, 0.3]]}
-    asked = {"garment": towel, "to": {"width_m": 0.2, "length_m": 0.15}, "count": 2}
+    asked = {"garment": towel, "to": {"width_m": 0.2, "length_m": 0.15}, "count": 2, "untried": 1}
     path = (await client.post("/api/proposals", json=asked)).headers["location"]
     followed = events_in((await client.get(f"{path}/events")).text)
     name, job = followed[-1]
@@ -65,7 +65,8 @@ async def test_proposals_are_told_as_they_are_found(client: httpx.AsyncClient) -
     assert [one["status"] for one in found] == ["solved", "solved"]
     assert found[0]["cost_s"] <= found[1]["cost_s"]
     assert job["result"]["enumerated"] >= 2
-    told = [data for name, data in followed if name == "found"]
+    untried, *told = [data for name, data in followed if name == "found"]
+    assert (untried["status"], untried["cost_s"], "plan_id" in untried) == ("untried", None, False)
     assert sorted(told, key=lambda one: one["cost_s"]) == found
     plan = (await client.get(f"/api/plans/{found[0]['plan_id']}")).json()
     assert (plan["status"], plan["cost_s"]) == ("solved", found[0]["cost_s"])

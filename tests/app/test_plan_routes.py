@@ -27,6 +27,17 @@ async def test_a_plan_has_every_field_and_can_be_read_again(client: httpx.AsyncC
     assert (await client.get(f"/api/plans/{plan['id']}")).json() == plan
 
 
+async def test_what_was_asked_before_is_not_searched_again_unless_less_time_is_given(client: httpx.AsyncClient) -> None:
+    first, again, in_less = [
+        (await client.post("/api/plans", json={"garment": towel(), "time_limit_s": limit_s})).json()
+        for limit_s in (20.0, 30.0, 0.01)
+    ]
+    assert again["id"] != first["id"]
+    assert again["statistics"]["search_time_s"] == first["statistics"]["search_time_s"]
+    assert again == first | {"id": again["id"]}
+    assert in_less["statistics"]["search_time_s"] != first["statistics"]["search_time_s"]
+
+
 async def test_the_timeline_ends_exactly_at_the_cost(client: httpx.AsyncClient) -> None:
     plan = (await client.post("/api/plans", json={"garment": towel()})).json()
     timeline = (await client.get(f"/api/plans/{plan['id']}/timeline", params={"rate_hz": 7})).json()

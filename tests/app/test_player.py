@@ -1,3 +1,4 @@
+import math
 import time
 from collections.abc import Callable
 from dataclasses import replace
@@ -7,6 +8,7 @@ import pytest
 
 import app.player as player_module
 from app.document import Document
+from app.document_state import shown_robot
 from app.drawing.draft import draft_of
 from app.drawing.edit import Edit, Phase
 from app.drawing.garment_drawing import drawing_of
@@ -16,9 +18,11 @@ from planner import Plan, Scene, load_garment
 from planner.geometry.pose import Point2, Pose2
 from planner.geometry.table import Table
 from planner.motion.sample import Sample
+from planner.motion.timeline import Timeline
 from planner.robots.card import RobotCard
 from tests.app.drawing.drawings import outlined, pulled
 from tests.replay.planned import shipped_plan
+from tests.required import required
 
 
 class CountingView3D:
@@ -29,6 +33,7 @@ class CountingView3D:
         self.is_drawn_by_software = False
         self.lying, self.bare, self.plans = 0, 0, 0
         self.times: list[float] = []
+        self.joints: dict[str, float] = {}
         self.done: object = None
         self.themes: list[bool] = []
         self.scenes: list[Scene] = []
@@ -55,6 +60,7 @@ class CountingView3D:
 
     def show(self, frame: Sample, _trace: RunTrace | None = None) -> None:
         self.times.append(frame.t_s)
+        self.joints = frame.joints
 
 
 @pytest.fixture(scope="module")
@@ -116,6 +122,24 @@ def playing_for_a_second(plan: Plan, has_watchers: bool) -> list[float]:
 
 def test_a_watched_3d_view_gets_thirty_updates_a_second(plan: Plan) -> None:
     assert 0.6 * UPDATES_PER_S <= len(playing_for_a_second(plan, has_watchers=True)) <= 1.2 * UPDATES_PER_S
+
+
+def test_arms_go_home_once_the_plan_is_over_and_are_back_where_it_is_shown_again(plan: Plan) -> None:
+    document, view, end = towel_document(), CountingView3D(has_watchers=True), required(plan.cost_s)
+    home = {name: at for arm in shown_robot("pr2").arms for name, at in zip(arm.joint_names, arm.home, strict=True)}
+    player = player_of(document, view)
+    try:
+        answer(document, plan)
+        document.seek(end)
+        until(lambda: view.joints and all(math.cos(view.joints[name] - at) > 1.0 - 1e-9 for name, at in home.items()))
+        shown = len(view.times)
+        assert set(view.times[1:]) == {end} and shown > 10
+        document.seek(end - 0.2)
+        until(lambda: view.times[-1] == document.t_s)
+        assert view.joints == Timeline.of(plan).at(end - 0.2).joints
+        assert len(view.times) <= shown + 2, "once the arms are home nothing moves"
+    finally:
+        player.close()
 
 
 def test_an_unwatched_3d_view_gets_few(plan: Plan) -> None:

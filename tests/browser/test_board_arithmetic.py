@@ -94,20 +94,21 @@ def test_the_right_half_of_an_outline_becomes_the_mirror_of_the_left(modules: Pa
 
 
 def test_folds_are_named_by_where_cloth_comes_from_and_numbered_where_that_is_taken(modules: Page) -> None:
-    folds = '[{name: "left over"}, {name: "left over 2"}]'
-    assert asked(modules, "stroke", f"m.nameOf([0, 0], [0, 1], {folds})") == "left over 3"
-    assert asked(modules, "stroke", f"m.nameOf([0, 1], [0, 0], {folds})") == "right over"
+    folds = '[{name: "left side over"}, {name: "left side over 2"}]'
+    assert asked(modules, "stroke", f"m.nameOf([0, 0], [0, 1], {folds})") == "left side over 3"
+    assert asked(modules, "stroke", f"m.nameOf([0, 1], [0, 0], {folds})") == "right side over"
     assert asked(modules, "stroke", f"m.nameOf([0, 0], [1, 0], {folds})") == "top down"
 
 
 @pytest.mark.parametrize(
-    ("name", "flipped"), [("left over", "right over"), ("left over 2", "right over"), ("left sleeve", "left sleeve")]
+    ("name", "flipped"),
+    [("left side over", "right side over"), ("left side over 2", "right side over"), ("left sleeve", "left sleeve")],
 )
 def test_a_flipped_fold_is_named_anew_unless_somebody_has_named_it(modules: Page, name: str, flipped: str) -> None:
     fold = f'{{name: "{name}", start: {{point: [0, 0]}}, end: {{point: [0, 1]}}}}'
     assert asked(modules, "stroke", f"m.nameFlipped({fold}, [])") == flipped
-    assert asked(modules, "stroke", f'm.nameFlipped({fold}, [{{name: "right over"}}])') == flipped + (
-        " 2" if flipped == "right over" else ""
+    assert asked(modules, "stroke", f'm.nameFlipped({fold}, [{{name: "right side over"}}])') == flipped + (
+        " 2" if flipped == "right side over" else ""
     )
 
 

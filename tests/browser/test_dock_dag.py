@@ -38,9 +38,9 @@ def page(planned: Page) -> Page:
 
 @pytest.fixture
 def graph(page: Page) -> Iterator[Locator]:
-    page.get_by_role("button", name="Fold-DAG", pressed=False).click()
+    page.get_by_role("button", exact=True, name="Order", pressed=False).click()
     yield page.get_by_role("group", name="Fold-DAG")
-    page.get_by_role("button", name="Fold-DAG", pressed=True).click()
+    page.get_by_role("button", exact=True, name="Order", pressed=True).click()
 
 
 def node(graph: Locator, name: str) -> Locator:
@@ -69,13 +69,13 @@ def test_pointing_at_a_fold_lights_up_its_neighbours(page: Page, graph: Locator)
 def test_a_fold_is_selected_in_graph_and_list_at_once(page: Page, graph: Locator) -> None:
     node(graph, "right").press("Enter")
     expect(node(graph, "right")).to_have_attribute("aria-pressed", "true")
-    page.get_by_role("button", name="Fold-DAG").click()
+    page.get_by_role("button", exact=True, name="Order").click()
     expect(page.get_by_role("list", name="Folds").locator(".is-selected .fold-name")).to_have_text(["right"])
-    page.get_by_role("button", name="Fold-DAG").click()
+    page.get_by_role("button", exact=True, name="Order").click()
 
 
 def test_a_graph_that_was_shown_before_knows_of_folds_that_have_gone(page: Page) -> None:
-    toggle = page.get_by_role("button", name="Fold-DAG")
+    toggle = page.get_by_role("button", exact=True, name="Order")
     toggle.click()
     toggle.click()
     folds = page.get_by_role("list", name="Folds").locator(".fold-name")

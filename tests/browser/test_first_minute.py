@@ -1,4 +1,4 @@
-"""Someone new draws at once, and is told three things where they are needed; what is played is on the board too."""
+"""Someone new draws at once, and is told two things where they are needed; what is played is on the board too."""
 
 from collections.abc import Callable
 
@@ -20,7 +20,7 @@ def test_a_blank_board_draws_at_once_and_each_word_goes_when_it_is_followed(
     for corner in [*corners, corners[0]]:
         hand.click(corner)
     expect(page.locator(".corner")).to_have_count(4)
-    expect(coach).to_contain_text("Now fold it")
+    expect(coach).to_be_hidden()
     hand.tool("Draw fold")
     hand.drag((0.4, 0.15), (0.0, 0.15))
     expect_planned(page)

@@ -113,6 +113,7 @@ def test_an_import_says_what_it_replaces_before_and_after(page: Page, new_sheet:
     page.get_by_label("File", exact=True).set_input_files([file])
     dialog = page.get_by_role("dialog", name="Import")
     expect(dialog).to_contain_text("it replaces \u201cMy own towel\u201d; Undo brings that back")
+    expect(dialog.get_by_role("button", name="As a new document")).to_be_focused()
     dialog.get_by_role("button", name="Open here").click()
     expect(page.get_by_role("log", name="Notices")).to_contain_text("\u201cMy own towel\u201d was replaced")
     page.get_by_role("button", name="Undo").click()

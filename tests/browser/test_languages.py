@@ -26,7 +26,7 @@ READ = """() => {
 }"""
 """Everything that is read or heard of the page as it is."""
 
-KEPT = re.compile(r"Pleat|PR2|Fold-DAG|English|Deutsch|Espa\u00f1ol|cm|mm|1\u00d7|[\d.,/\s\u00d7]+ ?(s|cm)?")
+KEPT = re.compile(r"Pleat|PR2|English|Deutsch|Espa\u00f1ol|cm|mm|1\u00d7|[\d.,/\s\u00d7]+ ?(s|cm)?")
 """Names and numbers that are the same in every language."""
 
 

@@ -1,4 +1,4 @@
-"""What the board shows while the plan is stopped within a step."""
+"""What the board shows while the plan is stopped, within a step or at its end."""
 
 from collections.abc import Callable
 
@@ -9,7 +9,7 @@ from tests.browser.napkin import napkin
 from tests.browser.status_pill import expect_planned
 
 
-def test_stopped_within_a_step_the_board_shows_the_cloth_of_then_and_says_which_step(
+def test_a_stopped_plan_has_the_board_show_the_cloth_of_then_and_say_which_step(
     page: Page, new_sheet: Callable[[Garment], Sheet]
 ) -> None:
     sheet = new_sheet(napkin())
@@ -20,7 +20,8 @@ def test_stopped_within_a_step_the_board_shows_the_cloth_of_then_and_says_which_
     slider = page.get_by_role("slider", name="Time")
     slider.focus()
     slider.press("End")
-    expect(moment).to_have_text("Spread out")
+    expect(moment).to_have_text("After 3: half")
+    expect(page.locator(".cloth-before")).to_have_count(1)
     for _ in range(6):
         slider.press("ArrowLeft")
     expect(moment).to_contain_text("In step ")

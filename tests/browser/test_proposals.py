@@ -43,6 +43,7 @@ def test_a_way_is_looked_at_and_taken_by_keyboard_and_is_one_step(page: Page, ne
     panel.get_by_role("button", name="Halves").press("Enter")
     expect(panel.get_by_role("textbox", name="Width of the packet")).to_have_value("30.0")
     card = panel.get_by_role("group", name="Ways to fold it").get_by_role("button").first
+    expect(card).to_have_attribute("data-status", "solved", timeout=SEARCH_MS)
     expect(card).to_contain_text(size(30, 20), timeout=SEARCH_MS)
     expect(card.locator(".picture-layer")).to_have_count(4)
     with opened.value.expect_event("framesent", lambda frame: '"preview"' in frame and "null" not in frame):
@@ -59,7 +60,15 @@ def test_a_way_is_looked_at_and_taken_by_keyboard_and_is_one_step(page: Page, ne
 
 def proposal(outline: list[list[float]], size_m: tuple[float, float]) -> dict[str, Any]:
     garment = {**TOWEL, "outline": outline, "folds": [], "grip_radius_m": 0.127}
-    return {"folds": [], "garment": garment, "size_m": size_m, "layers": 2, "status": "solved", "cost_s": 9.0}
+    return {
+        "folds": [],
+        "garment": garment,
+        "size_m": size_m,
+        "layers": 2,
+        "status": "solved",
+        "cost_s": 9.0,
+        "plan_id": "1",
+    }
 
 
 def test_the_size_is_pulled_and_what_changes_begins_anew(page: Page, new_sheet: NewSheet) -> None:
@@ -72,6 +81,11 @@ def test_the_size_is_pulled_and_what_changes_begins_anew(page: Page, new_sheet: 
 
     def tell(route: Route) -> None:
         wanted = asked[-1]
+        if wanted["to"] == "suitcase":  # it is still looked for
+            untried = {**proposal(TOWEL["outline"], (0.4, 0.3)), "status": "untried", "cost_s": None}
+            del untried["plan_id"]
+            route.fulfill(content_type="text/event-stream", body=f"event: found\ndata: {json.dumps(untried)}\n\n")
+            return
         like = wanted["to"].get("like") if isinstance(wanted["to"], dict) else None
         long_m = 0.2 if wanted["to"] == "drawer" else 0.3 if like == "tie" else 0.4 if like else 0.1
         size_m = (max(x for x, _ in wanted["garment"]["outline"]), long_m)
@@ -89,6 +103,9 @@ def test_the_size_is_pulled_and_what_changes_begins_anew(page: Page, new_sheet: 
     page.get_by_role("button", name="Fold it for me").click()
     panel = page.get_by_role("region", name="Fold it for me")
     cards = panel.get_by_role("group", name="Ways to fold it").get_by_role("button")
+    panel.get_by_role("button", name="Suitcase").click()
+    expect(cards).to_contain_text("Not planned yet")
+    assert asked[-1]["untried"] > 0
     panel.get_by_role("button", name="Drawer").click()
     expect(cards).to_contain_text(size(60, 20))
     assert (asked[-1]["to"], asked[-1]["garment"]["folds"]) == ("drawer", [])

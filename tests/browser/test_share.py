@@ -64,3 +64,4 @@ def test_on_a_phone_a_link_shows_the_3d_view_first_with_play(chromium: Browser, 
         page.goto(f"{sheet.page_url.partition('/d/')[0]}{link}")
         expect(page.get_by_role("button", name="Play in the 3D view")).to_be_visible()
         expect(page.get_by_role("button", name="Show the board large")).to_be_visible()
+        assert page.evaluate("document.getElementById('sheet').getBoundingClientRect().bottom") == 844

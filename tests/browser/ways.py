@@ -135,6 +135,7 @@ class ByFinger:
 
     def draw_outline(self, corners: list[Point]) -> None:
         before = scale(self.page)
+        expect(self.page.locator("#swap")).to_be_hidden()  # a blank board is all that there is to see
         self.tap("Draw outline")
         self.zoom_in(middle(corners))
         expect_twice_as_large(self.page, before)

@@ -42,5 +42,5 @@ def test_folds_that_stand_are_the_beginning_and_count_among_the_most() -> None:
 
 def test_a_robot_rolls_a_napkin_up() -> None:
     proposal = next(propose_folds(NAPKIN, "roll", count=1))
-    assert proposal.plan.is_solved
+    assert proposal.status == "solved"
     assert min(proposal.size_m) == pytest.approx(0.1)

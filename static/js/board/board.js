@@ -246,7 +246,12 @@ export class Board extends Shown {
       this.frame = undefined;
       this.framing.fitFirst();
       this.redraft();
-      drawAll(this);
+      this.draw();
     });
+  }
+
+  /** Draw at once. */
+  draw() {
+    drawAll(this);
   }
 }

@@ -13,7 +13,7 @@ export function drawCloth(board) {
   const { played, previewed } = board;
   if (previewed) return [drawn(board), ...layers(board.view, previewed)];
   if (board.isPlaying && played) return layers(board.view, played.layers);
-  if (board.isStoppedMidway && played) return [drawn(board), ...layers(board.view, played.layers)];
+  if (board.isStopped && played) return [drawn(board), ...layers(board.view, played.layers)];
   return board.isSpread ? spread(board) : stacked(board);
 }
 

@@ -9,11 +9,14 @@ import { boxOf } from "./geometry.js";
 /** @import { Point } from "pleat" */
 /** @import { View } from "./view.js" */
 
-/** What is seen of a board with nothing on it: room for a garment, wherever it begins (m). */
+/** The middle of a board with nothing on it, which is 80 cm wide with its margins (m). */
 const BLANK = {
-  low: /** @type {Point} */ ([-0.6, -0.45]),
-  high: /** @type {Point} */ ([0.9, 0.85]),
+  low: /** @type {Point} */ ([-0.05, 0.15]),
+  high: /** @type {Point} */ ([0.55, 0.45]),
 };
+/** What is near the board's edge (a share of its size), and how much more is seen once an outline goes there. */
+const EDGE = 0.1;
+const WIDER = 1.4;
 const BESIDE_TABLE_M = 0.3;
 const BEFORE_TABLE_M = 0.6;
 const BEYOND_TABLE_M = 0.1;
@@ -94,6 +97,30 @@ export class Framing {
   seen() {
     const { scale, origin } = this.board.view;
     return JSON.stringify([scale, origin, this.clothBox()]);
+  }
+
+  /** Show more of the plane around what is seen, at once. */
+  widen() {
+    const { board } = this;
+    board.view.zoomAt([board.view.width / 2, (board.covered + board.view.height) / 2], 1 / WIDER);
+    board.draw();
+  }
+
+  /** Show an outline whole whose last corner was put beside the board, as by a typed length. @param {Point[]} points */
+  reveal(points) {
+    const { board } = this;
+    const { view, covered: top } = board;
+    const [x, y] = view.toPx(points[points.length - 1]);
+    if (x >= 0 && x <= view.width && y >= top && y <= view.height) return;
+    view.fit(/** @type {{low: Point, high: Point}} */ (boxOf(points)), { top, bottom: HINT_PX });
+    board.draw();
+  }
+
+  /** Whether a place on the board is near its edge. @param {Point} px */
+  isAtEdge([x, y]) {
+    const { covered, view } = this.board;
+    const [across, down] = [x / view.width, (y - covered) / (view.height - covered)];
+    return Math.min(across, 1 - across, down, 1 - down) < EDGE;
   }
 
   /** Fit once for each garment, when there is something to be fitted to a board that has a size. */

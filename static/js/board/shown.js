@@ -80,11 +80,11 @@ export class Shown {
     return this.played !== null && Boolean(this.store.playback?.playing) && !this.isPlacing;
   }
 
-  /** Whether time is stopped within a step: the board shows the cloth of then, below what can be edited. */
-  get isStoppedMidway() {
-    const { playback, plan } = this.store;
-    const isMidway = (playback?.t_s ?? 0) > 0 && (playback?.t_s ?? 0) < (plan?.plan?.cost_s ?? 0);
-    return this.played !== null && isMidway && !playback?.playing && this.isSpread && !this.isPlacing && !this.draft;
+  /** Whether time is stopped after the start: the board shows the cloth of then, below what can be edited. */
+  get isStopped() {
+    const { playback } = this.store;
+    const hasBegun = (playback?.t_s ?? 0) > 0 && !playback?.playing;
+    return this.played !== null && hasBegun && this.isSpread && !this.isPlacing && !this.draft;
   }
 
   /** The tool in hand; none while the board is being built. @returns {Tool|null} */

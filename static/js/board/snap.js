@@ -18,6 +18,9 @@ const KINDS = /** @type {Kind[]} */ (Object.keys(REACH_PX));
 const RELEASE = 1.5;
 const TOUCH = 2;
 const KEYS = 0.25;
+/** What is there by chance rather than by design never moves a point further than that (m). @type {Set<Kind>} */
+const WEAK = new Set(["guides", "guide", "grid", "line"]);
+const WEAK_MOST_M = 0.01;
 const TURN_RAD = Math.PI / 12;
 
 /**
@@ -79,7 +82,8 @@ export class Snapper {
       let best = null;
       for (const candidate of CANDIDATES[kind](pointer.at, targets, view)) {
         const away = distance(candidate.where ?? candidate.at, pointer.at) * view.scale;
-        const reach = REACH_PX[kind] * wide * (candidate.key === this.heldKey ? RELEASE : 1);
+        const most = WEAK.has(kind) ? WEAK_MOST_M * view.scale : Infinity;
+        const reach = Math.min(REACH_PX[kind] * wide * (candidate.key === this.heldKey ? RELEASE : 1), most);
         if (away <= reach && (!best || away < best.away)) best = { ...candidate, kind, away };
       }
       if (best) return best;

@@ -54,18 +54,21 @@ export class Strip {
     const last = store.moments - 1;
     this.back.disabled = board.step === 0;
     this.next.disabled = board.isPlacing || store.step >= last;
-    const done = board.drawing.folds[board.step - 1];
-    const told = { step: board.step, name: translated(done?.name ?? "") };
-    const after = say(told.name ? "strip.after_fold" : "strip.after", told);
     const steps = store.plan?.plan?.primitives.length ?? 0;
-    const inStep = Math.min((board.pictures?.current ?? 0) + 1, steps);
+    const current = board.pictures?.current ?? 0;
+    const isOver = board.isStopped && current >= steps;
+    const step = isOver ? board.drawing.folds.length : board.step;
+    const done = board.drawing.folds[step - 1];
+    const told = { step, name: translated(done?.name ?? "") };
+    const after = say(told.name ? "strip.after_fold" : "strip.after", told);
+    const isInStep = (board.isPlaying || board.isStopped) && !isOver;
     this.moment.textContent = board.isPlacing
       ? say("strip.on_table")
-      : board.isPlaying || board.isStoppedMidway
-      ? say("strip.in_step", { step: inStep, last: steps })
-      : board.isSpread
-        ? say("strip.spread_out")
-        : after;
+      : isInStep
+        ? say("strip.in_step", { step: Math.min(current + 1, steps), last: steps })
+        : board.isSpread && !isOver
+          ? say("strip.spread_out")
+          : after;
     this.moment.title = board.isPlacing ? "" : say("strip.moment_of", { step: store.step, last });
     for (const { kind, made } of this.paints) made.setAttribute("aria-pressed", String(kind === board.paint.shown));
     this.flip.setAttribute("aria-pressed", String(board.paint.isFlipped));

@@ -126,6 +126,7 @@ export function showHelp() {
   const link = element("a", "", say("help.rest"));
   link.setAttribute("href", "../docs");
   const [before, after] = say("help.programs", { link: "\0" }).split("\0");
+  const about = element("p", "dialog-text", say("help.about"));
   const more = element("p", "dialog-note", before, link, after);
-  openDialog(say("help.title"), "is-wide", element("div", "help", ...sections), more);
+  openDialog(say("help.title"), "is-wide", about, element("div", "help", ...sections), more);
 }

@@ -121,8 +121,10 @@ function found(store, body, file, how, { format, garment, notes, says, creases, 
   const said = element("p", "dialog-problem");
   const arcs = DRAWINGS.has(format);
   const proposes = Boolean(seen) && !garment.folds.length; // of a photo the folds are what is missing
-  const here = button("main-button", () => open(store, body, file, garment, arcs, proposes), say("import.open_here"));
+  const here = button("plain-button", () => open(store, body, file, garment, arcs, proposes), say("import.open_here"));
   const anew = button("plain-button", () => create(garment, arcs, said, proposes), say("import.open_new"));
+  const [second, first] = store.state?.drawing.outline.length ? [here, anew] : [anew, here];
+  first.className = "main-button";
   /** @param {Sizes} known */
   const other = (known) =>
     askSize(asked(store, body, file, how, say("import.garment_is", { size: sizeOf(garment) })), known);
@@ -147,9 +149,9 @@ function found(store, body, file, how, { format, garment, notes, says, creases, 
     ...(graded ? [whichSize(graded, (size) => read(store, body, file, { ...how, size }))] : []),
     ...replaces(store),
     said,
-    element("div", "dialog-buttons", ...verbs, anew, here),
+    element("div", "dialog-buttons", ...verbs, second, first),
   );
-  here.focus();
+  first.focus();
 }
 
 /** What would be gone from this document, where anything is drawn in it. @param {Store} store */

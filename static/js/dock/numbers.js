@@ -42,10 +42,10 @@ export function numbers(plan, before) {
 /**
  * @param {number} cost_s
  * @param {{status: string, cost_s: number|null}|null} before
- * @returns {string} empty when there was none before
+ * @returns {string} empty when there was none before, or no folds
  */
 export function difference(cost_s, before) {
-  if (!before) return "";
+  if (!before || before.cost_s === 0) return "";
   if (before.cost_s === null) return say("cost.no_plan_before");
   const more = cost_s - before.cost_s;
   if (Math.abs(more) < NOTICEABLE_S) return say("cost.same");

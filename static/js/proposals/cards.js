@@ -15,6 +15,9 @@ import { layersPicture } from "../repair/folded_picture.js";
 /** So long each moment of the folds is on show while a proposal is played (ms). */
 const MOMENT_MS = 550;
 
+/** What has a mouse or the focus; a finger hovers nowhere, though browsers say so of where it was last. */
+const HELD = ":hover, :focus-within";
+
 export class ProposalCards {
   /**
    * @param {Store} store
@@ -43,7 +46,8 @@ export class ProposalCards {
       if (!known) this.root.append(made.root);
     }
     for (const [proposal, card] of before) if (!this.cards.has(proposal)) card.remove();
-    if (!this.root.matches(":hover, :focus-within")) this.place(); // else they stay where a hand is about to press
+    const isHeld = this.root.matches(HELD) && matchMedia("(hover: hover)").matches;
+    if (!isHeld) this.place(); // else they stay where a hand is about to press
   }
 
   /** The quickest first, those without a plan last. */
@@ -67,7 +71,8 @@ class ProposalCard {
     const { folds, layers, cost_s: cost, size_m: size } = proposal;
     const shown = element("span", "card-picture");
     this.stack(folds.length).then((stack) => shown.replaceChildren(layersPicture(stack, 0)), () => {});
-    const robot = cost === null ? say("proposal.unplanned") : say("proposal.planned", { time: seconds(cost) });
+    const without = proposal.plan_id ? say("proposal.unplanned") : say("proposal.untried");
+    const robot = cost === null ? without : say("proposal.planned", { time: seconds(cost) });
     const counted = `${say("import.folds", { count: folds.length })}, ${say("proposal.layers", { count: layers })}`;
     const words = element(
       "span",

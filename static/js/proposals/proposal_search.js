@@ -16,15 +16,19 @@ import { eventStream, rest } from "../event_stream.js";
  * @property {number} layers
  * @property {string} status of its plan
  * @property {number|null} cost_s
- * @property {string} plan_id
+ * @property {string} [plan_id] none before it is planned
  */
 /** @typedef {object} Asked the body of the request, as JSON */
+
+const UNTRIED = "untried";
 
 export class ProposalSearch extends EventTarget {
   constructor() {
     super();
     /** @type {Proposal[]} in the order of arrival */
     this.found = [];
+    /** @type {Proposal[]} that are not planned yet */
+    this.untried = [];
     this.isRunning = false;
     /** Whether it has come to its end. */
     this.isDone = false;
@@ -61,7 +65,7 @@ export class ProposalSearch extends EventTarget {
   /** @param {string} path of the job @param {AbortSignal} signal */
   async follow(path, signal) {
     for await (const { event, data } of eventStream(`${path}/events`, null, signal)) {
-      if (event === "found") this.found.push(data);
+      if (event === "found") (data.status === UNTRIED ? this.untried : this.found).push(data);
       else this.progress = data.progress;
       this.isDone = event === "end" && data.status === "done";
       if (event === "end" && !this.isDone) this.fault = capital(data.message || data.status);
@@ -77,9 +81,16 @@ export class ProposalSearch extends EventTarget {
     this.tell();
   }
 
+  /** What was found and, until all is planned, what looks different. */
+  get shown() {
+    const looks = new Set(this.found.map(looksOf));
+    return [...this.found, ...(this.isDone ? [] : this.untried.filter((one) => !looks.has(looksOf(one))))];
+  }
+
   forget() {
     this.abort?.abort();
     this.found = [];
+    this.untried = [];
     this.progress = 0;
     this.isRunning = this.isDone = false;
     this.fault = "";
@@ -89,6 +100,9 @@ export class ProposalSearch extends EventTarget {
     this.dispatchEvent(new Event("change"));
   }
 }
+
+/** @param {Proposal} proposal */
+const looksOf = ({ folds, layers, size_m: sides }) => [folds.length, layers, ...sides.map((side) => side.toFixed(2))].join();
 
 /**
  * Begin the job; it is cancelled once nobody waits for it.

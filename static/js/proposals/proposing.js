@@ -23,6 +23,8 @@ import { isLike, isWithin, PRESETS, SMALLEST } from "./target.js";
 /** How long the drawing and the size rest before ways are looked for (ms). */
 const REST_MS = 300;
 const COUNT = 6;
+/** So many ways are on show before they are planned. */
+const UNTRIED_COUNT = 3;
 const STEP_M = 0.01;
 
 export class Proposing {
@@ -158,7 +160,7 @@ export class Proposing {
     if (!state || !this.isOpen || !this.isGarment || state.gesture || this.tool.isBusy) return null;
     const wanted = request(state);
     const garment = this.keepsFolds ? wanted.garment : { ...wanted.garment, folds: [] };
-    return { ...wanted, garment, to: this.tool.asked, count: COUNT };
+    return { ...wanted, garment, to: this.tool.asked, count: COUNT, untried: UNTRIED_COUNT };
   }
 
   /** Look for what is wanted now, unless that is done already. */
@@ -180,14 +182,14 @@ export class Proposing {
 
   /** Where nothing fits, the smallest packets are shown instead. */
   showFound() {
-    const { found, isRunning, isDone } = this.search;
+    const { found, shown, isRunning, isDone } = this.search;
     const wanted = this.wanted();
     if (wanted && isDone && !isRunning && !found.length && !this.isInstead && this.tool.sides) {
       this.isInstead = true;
       this.search.start({ ...wanted, to: SMALLEST }, 0);
       return;
     }
-    this.cards.show(found);
+    this.cards.show(shown);
     const said = this.said();
     if (this.note.textContent !== said) this.note.textContent = said;
     this.bar.hidden = this.stop.hidden = !isRunning;

@@ -10,7 +10,7 @@ from PIL import Image, ImageSequence
 from app.files.film import FILM_PX, GIF_PX, HOLD_S, STILL_PX, gif_film, mp4_film, still
 from app.language import ENGLISH
 from app.ui.colours import LIGHT
-from app.ui.scene_picture import ScenePainter
+from app.ui.scene_picture import Part, ScenePainter
 from app.ui.viewpoint import Viewpoint
 from planner.geometry.pose import FloatArray
 from planner.motion.timeline import Timeline
@@ -70,3 +70,10 @@ def test_cloth_is_painted_in_its_colour_as_large_as_it_is(plan: Plan) -> None:
     m_per_px = 2.0 * 6.0 * np.tan(Viewpoint((0.0, 0.0, 1.0), (0.0, 0.0, 0.0)).fov_rad / 2.0) / 600
     is_cloth = np.abs(picture - LIGHT.cloth_front).max(axis=2) < 20.0
     assert is_cloth.sum() * m_per_px**2 == pytest.approx(plan.garment.pattern.area, rel=0.1)
+
+
+def test_cloth_of_many_pieces_faces_up_on_a_table_below_the_origin_too() -> None:
+    corners = np.array([[0.0, 0.0, -1.0], [0.1, 0.0, -1.0], [0.0, 0.1, -1.0]])
+    many = np.concatenate([corners + np.array([0.1 * count, 0.0, 0.0]) for count in range(200)])
+    cloth = Part.of(many, np.arange(600).reshape(-1, 3), LIGHT.cloth_front)
+    assert cloth.normals == pytest.approx(np.tile([0.0, 0.0, 1.0], (600, 1)))

@@ -313,6 +313,7 @@ def test_control_s_saves_the_garment_as_it_is_drawn(page: Page, cloth: Desk, tmp
 def test_help_tells_the_keys_and_goes_away(page: Page, cloth: Desk) -> None:
     page.keyboard.press("?")
     dialog = page.get_by_role("dialog", name="Help")
+    expect(dialog).to_contain_text("whether your robot can fold it")
     expect(dialog).to_contain_text("Ctrl + Shift + Z")
     page.keyboard.press("Escape")
     expect(dialog).to_have_count(0)

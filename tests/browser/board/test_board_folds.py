@@ -182,7 +182,7 @@ def test_a_fold_just_drawn_gets_its_twin_by_mirror(page: Page, desk: Desk) -> No
     # The axis is at x = 0.3: the quarter from the left has its twin a quarter from the right.
     assert fold(desk, 1)["start"] == pytest.approx([0.45, 0.6], abs=PX_M)
     assert [found["status"] for found in desk.state["solved"]] == ["legal", "legal"]
-    expect(page.locator(".strip-moment")).to_have_text("After 2: right over")
+    expect(page.locator(".strip-moment")).to_have_text("After 2: right side over")
 
 
 def test_a_fold_that_goes_while_it_is_pressed_is_dragged_nowhere(page: Page, shirt: Desk) -> None:

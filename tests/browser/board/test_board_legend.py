@@ -12,7 +12,7 @@ from tests.browser.board_window import DRAWN
 from tests.browser.channel import Message, listened_to
 from tests.browser.status_pill import expect_planned
 
-SWITCHES = ["Reach", "Grips", "Hand paths", "Base path", "Slip limit", "Cost map"]
+SWITCHES = ["Reach", "Grips", "Hand paths", "Base path", "Overhang", "Cost map"]
 
 
 @pytest.fixture
@@ -36,17 +36,17 @@ def test_there_is_no_legend_before_anything_is_switched_on_and_drawn(page: Page,
         legend = window.get_by_role("list", name="Legend")
         expect(legend).to_have_count(0)
         channel.take = lambda sent, _answer: sent["do"] != "overlays" or len(channel.asked("overlays")) > 1
-        chip(window, "Slip limit").click()
-        expect(chip(window, "Slip limit")).to_have_attribute("aria-busy", "true")
+        chip(window, "Overhang").click()
+        expect(chip(window, "Overhang")).to_have_attribute("aria-busy", "true")
         expect(legend).to_have_count(0)
         channel.pass_on(channel.asked("overlays")[0])
         expect(legend.get_by_role("listitem")).to_have_text(["Slip limit: maximum overhang over that edge"])
-        chip(window, "Slip limit").click()
+        chip(window, "Overhang").click()
         expect(legend).to_have_count(0)
 
 
 def test_what_is_switched_off_and_on_again_is_drawn_again(page: Page, legend: Locator) -> None:
-    slip = chip(page, "Slip limit")
+    slip = chip(page, "Overhang")
     for _ in range(2):
         slip.click()
         expect(legend.get_by_role("listitem")).to_have_count(1)
@@ -106,7 +106,7 @@ def test_the_cost_map_is_explained_with_what_the_server_told(page: Page, towel: 
 
 
 def test_the_legend_is_clear_of_the_cloth_and_the_pointer_goes_through(page: Page, legend: Locator) -> None:
-    chip(page, "Slip limit").click()
+    chip(page, "Overhang").click()
     expect(legend).to_be_visible()
     box, cloth = legend.bounding_box(), page.locator(".layer-cloth").bounding_box()
     assert box is not None and cloth is not None
@@ -122,7 +122,7 @@ def test_the_legend_is_clear_of_the_cloth_and_the_pointer_goes_through(page: Pag
 def test_all_of_the_legend_is_on_the_board_also_in_large_letters(
     page: Page, legend: Locator, text: str, size: tuple[int, int]
 ) -> None:
-    for name in ("Reach", "Slip limit"):
+    for name in ("Reach", "Overhang"):
         chip(page, name).click()
     width, height = size
     try:

@@ -102,6 +102,9 @@ def test_on_a_phone_the_views_are_swapped_and_the_sheet_is_pulled_up(
 ) -> None:
     phone.goto(new_sheet("hand-towel").page_url)
     expect(phone.locator(".corner")).to_have_count(4)
+    assert width(phone) < 120
+    expect(phone.get_by_role("combobox", name="Robot")).to_be_visible()
+    phone.get_by_role("button", name="Show the board large").tap()
     assert width(phone) == 390
     hand = Hand(phone)
     before = hand.px((0.0, 0.0))
@@ -109,17 +112,17 @@ def test_on_a_phone_the_views_are_swapped_and_the_sheet_is_pulled_up(
     expect(phone.get_by_role("combobox", name="Robot")).to_be_hidden()
     phone.get_by_role("button", name="Show the 3D view large").tap()
     assert width(phone) < 120
-    expect(phone.get_by_role("combobox", name="Robot")).to_be_visible()
     phone.get_by_role("button", name="Show the board large").tap()
     assert width(phone) == 390
     expect(hand.board).to_have_attribute("data-px-per-m", str(scale))
     assert hand.px((0.0, 0.0)) == pytest.approx(before, abs=1)
-    expect(phone.get_by_role("button", name="Play")).to_have_count(0)
+    sheets = phone.get_by_role("button", name="Play", exact=True)
+    expect(sheets).to_have_count(0)
     phone.get_by_role("button", name="Show folds and timeline").tap()
-    expect(phone.get_by_role("button", name="Play")).to_be_visible()
+    expect(sheets).to_be_visible()
     expect(phone.get_by_role("list", name="Folds")).to_be_attached()
     phone.get_by_role("button", name="Hide folds and timeline").tap()
-    expect(phone.get_by_role("button", name="Play")).to_have_count(0)
+    expect(sheets).to_have_count(0)
 
 
 def test_nothing_is_wider_than_a_phone(phone: Page, new_sheet: Callable[[Garment], Sheet]) -> None:

@@ -28,6 +28,7 @@ export class OutlineTool extends Tool {
     this.points = [];
     /** Where the next point would be. @type {Point|null} */
     this.next = null;
+    this.isAtEdge = false;
     /** Whether the pointer has left the board: a typed length still goes towards where it was last. */
     this.isAway = false;
     /** A length that was typed (m). @type {number|null} */
@@ -49,15 +50,25 @@ export class OutlineTool extends Tool {
     this.board.store.showStep(0);
   }
 
+  /** The board widens as a line is led to its edge: below a mouse the cloth moves on. @param {Pointer} pointer */
+  roomFor(pointer) {
+    const { view, framing } = this.board;
+    const wasAtEdge = this.isAtEdge;
+    this.isAtEdge = framing.isAtEdge(pointer.px);
+    if (!this.isAtEdge || wasAtEdge || !this.isBusy || pointer.isTouch) return pointer;
+    framing.widen();
+    return pointer.isKeyboard ? pointer : { ...pointer, at: view.toM(pointer.px) };
+  }
+
   /** @param {Pointer} pointer */
   hover(pointer) {
     this.isAway = false;
     const last = this.points.at(-1) ?? null;
     const close = this.points.length >= LEAST_CORNERS ? this.points[0] : null;
     this.board.hover = null;
-    const { at } = this.board.snapTo(pointer, {
+    const { at } = this.board.snapTo(this.roomFor(pointer), {
       rings: [],
-      points: this.points.slice(close ? 1 : 0, -1),
+      points: [],
       close,
       from: last,
       guides: this.points,
@@ -98,8 +109,10 @@ export class OutlineTool extends Tool {
     if (!next) return;
     const becomes = nextCorner(points, next);
     if (becomes === "close") this.close();
-    else if (becomes === "put") points.push(next);
-    else this.board.store.refuse(REFUSALS[becomes]);
+    else if (becomes === "put") {
+      points.push(next);
+      this.board.framing.reveal(points);
+    } else this.board.store.refuse(REFUSALS[becomes]);
   }
 
   async close() {
