@@ -53,7 +53,7 @@ def test_a_way_that_the_robot_does_sooner_mirrored_is_proposed_mirrored() -> Non
     found = _or_mirrored(task, slow, first, lambda: False)
     assert required(found.cost_s) < required(first.cost_s) - 1.0
     assert found.cost_s == pytest.approx(required(make_plan(jeans).cost_s), abs=1e-5)
-    assert (found.size_m, found.garment.folds) == (first.size_m, found.plan.garment.folds)
+    assert (found.size_m, found.garment.folds) == (first.size_m, required(found.plan).garment.folds)
 
 
 def test_its_json_has_the_folds_as_a_garment_file_has_them(found: Proposals) -> None:
