@@ -321,10 +321,11 @@ def _or_mirrored(task: Task, packet: Packet, found: Proposal, should_stop: Calla
     """Return a proposal, or its mirror image if the robot is soon known to do that in less time.
 
     A symmetric garment has images. They are planned only where the plan found takes an arm motion more than its folds,
-    so that a drag or a drive may be spared.
+    so that a drag or a drive may be spared, and is proven: then they take little work, too.
     """
     garment, spared_s = task.garment, task.scene.arm_motion_s
-    for folds in () if garment.folds else packet.images(Region.polygon(garment.outline)):
+    is_soon = found.plan is not None and found.plan.is_proven
+    for folds in () if garment.folds or not is_soon else packet.images(Region.polygon(garment.outline)):
         mirrored = Problem.of(replace(task, garment=replace(garment, folds=folds)))
         if should_stop() or arm_time(mirrored.context)(mirrored.start) > (found.cost_s or 0.0) - spared_s:
             break
