@@ -303,7 +303,8 @@ def _planned(
                 search.blame(blamed)
             continue
         solved.add(packet.way)
-        proposal = _or_mirrored(task, packet, proposal, should_stop)
+        if shown:  # the first one is not waited for any longer
+            proposal = _or_mirrored(task, packet, proposal, should_stop)
         if (looks := (packet.shape, proposal.cost_s)) not in shown:
             shown.add(looks)
             yield proposal
