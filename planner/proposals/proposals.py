@@ -303,7 +303,8 @@ def _planned(
                 search.blame(blamed)
             continue
         solved.add(packet.way)
-        proposal = _or_mirrored(task, packet, proposal, should_stop)
+        if shown:  # the first one is not waited for any longer
+            proposal = _or_mirrored(task, packet, proposal, should_stop)
         if (looks := (packet.shape, proposal.cost_s)) not in shown:
             shown.add(looks)
             yield proposal
@@ -320,12 +321,14 @@ def _proposal(task: Task, packet: Packet, folds: tuple[DrawnFold, ...], should_s
 def _or_mirrored(task: Task, packet: Packet, found: Proposal, should_stop: Callable[[], bool]) -> Proposal:
     """Return a proposal, or its mirror image if the robot is soon known to do that in less time.
 
-    A symmetric garment has images. They are planned only where the arms alone take less time than what was found.
+    A symmetric garment has images. They are planned only where the plan found takes an arm motion more than its folds,
+    so that a drag or a drive may be spared, and is proven: then they take little work, too.
     """
-    garment = task.garment
-    for folds in () if garment.folds else packet.images(Region.polygon(garment.outline)):
+    garment, spared_s = task.garment, task.scene.arm_motion_s
+    is_soon = found.plan is not None and found.plan.is_proven
+    for folds in () if garment.folds or not is_soon else packet.images(Region.polygon(garment.outline)):
         mirrored = Problem.of(replace(task, garment=replace(garment, folds=folds)))
-        if should_stop() or arm_time(mirrored.context)(mirrored.start) >= (found.cost_s or 0.0) - TIME_S:
+        if should_stop() or arm_time(mirrored.context)(mirrored.start) > (found.cost_s or 0.0) - spared_s:
             break
         other = _proposal(_brief(task), packet, folds, should_stop)
         if other.cost_s is not None and other.cost_s < (found.cost_s or 0.0) - TIME_S:
