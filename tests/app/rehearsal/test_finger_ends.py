@@ -87,6 +87,8 @@ def test_an_edge_is_laid_down_beyond_its_place_by_fingers_round_which_it_turned_
     fingers = robot_card_file("pr2").arms[0].gripper
     planned = StepMotion(0, "fold", 2.0, (over_the_line(0.0),))
     beyond_m = edge_laid_at(planned) - 2.0 * LINE_M
-    assert beyond_m == pytest.approx(2.0 * PAD_M + fingers.finger_thickness_m, abs=0.01)
+    # Round a finger's end cloth lies at least as tight as round a cylinder, at most as wide as a free elastica.
+    tight_m, wide_m = (2.0 * PAD_M + turns * fingers.finger_thickness_m for turns in (math.pi / 2.0 - 1.0, 4.38))
+    assert tight_m < beyond_m < wide_m
     (made,) = round_finger_ends([planned], {"left": fingers.finger_thickness_m}, 0.03)
     assert abs(edge_laid_at(made) - 2.0 * LINE_M) < 0.6 * beyond_m
