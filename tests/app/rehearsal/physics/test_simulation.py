@@ -195,5 +195,8 @@ def test_fingers_pinch_all_layers_at_their_place_and_nothing_beside_the_cloth() 
     stack = np.concatenate([np.column_stack([points, np.full(count, z)]) for z in (0.001, 0.003)])
     both = np.concatenate([triangles, triangles + count])
     at_corner = pinched(stack, both, np.array([0.0, 0.0, 0.02]), top, 0.03)
-    assert set(at_corner) == {int(i) for i in np.flatnonzero(np.hypot(stack[:, 0], stack[:, 1]) < 1e-6)}
+    apart = np.hypot(stack[:, 0], stack[:, 1])
+    assert set(np.flatnonzero(apart < 1e-6).tolist()) <= at_corner.keys()
+    assert {number + count for number in at_corner if number < count} == {n for n in at_corner if n >= count}
+    assert apart[list(at_corner)].max() < 0.02  # the nearest vertex of a triangle that the pad touches
     assert not pinched(stack, both, np.array([-0.03, 0.05, 0.02]), top, 0.03)
