@@ -69,7 +69,7 @@ def _shares(start: Point2, end: Point2, edge_m: float, shift: FloatArray) -> lis
         if high - low > 0.5 * length:  # rows that run along the edge rather than across it do not end there
             crossed += ((shift[axis] + rows * edge_m - start[axis]) / (end[axis] - start[axis])).tolist()
     if min(abs(end[0] - start[0]), abs(end[1] - start[1])) < _FLAT * edge_m:
-        crossed = _off_ends(np.array(crossed), length / edge_m)
+        crossed = list(_off_ends(np.array(crossed), length / edge_m))
     kept = [0.0]
     for share in sorted(crossed):
         if (share - kept[-1]) * length >= _APART * edge_m and (1.0 - share) * length >= _APART * edge_m:
@@ -79,18 +79,18 @@ def _shares(start: Point2, end: Point2, edge_m: float, shift: FloatArray) -> lis
     return sorted([*kept, *((a + b) / 2.0 for a, b in wide)])
 
 
-def _off_ends(shares: FloatArray, length: float) -> list[float]:
+def _off_ends(shares: FloatArray, length: float) -> FloatArray:
     """Return fractions of an edge of some edge lengths at which rows end, as far from its ends as they should be."""
     shares = np.where(shares < 0.5, _evened(shares * length) / length, shares)
-    return np.where(shares > 0.5, 1.0 - _evened((1.0 - shares) * length) / length, shares).tolist()
+    return np.where(shares > 0.5, 1.0 - _evened((1.0 - shares) * length) / length, shares)
 
 
 def _evened(gaps: FloatArray) -> FloatArray:
     """Return how far rows lie from an edge along them, of the distances at which they would lie, in edge lengths.
 
     The first row is .65 to .95 from it, and the next one no further from that than rows are: cloth turns over round the
-    ends of fingers that hold an edge, at its first row. With the rows as they happen to fall, of 16 edges of strips that
-    were folded over, aimed 3 cm short, four landed short of their place by up to 15 mm, the others up to 31 mm beyond;
+    ends of fingers that hold an edge, at its first row. With the rows as they happen to fall 4 of 16 edges of strips
+    that were folded over, aimed 3 cm short, landed short of their place by up to 15 mm, the others up to 31 mm beyond;
     with these all landed 0 to 31 mm beyond (rows 15 and 18 mm apart).
     """
     chosen = [gaps < 0.45, gaps < 0.65, gaps < 0.95, gaps < 1.0, gaps < 1.45]
