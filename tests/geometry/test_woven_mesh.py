@@ -46,3 +46,14 @@ def test_diagonals_run_both_ways_so_that_cloth_folds_alike_along_either_bias() -
     rising, falling = int((slants > 0.0).sum()), int((slants < 0.0).sum())
     assert rising + falling > 1000
     assert rising == pytest.approx(falling, rel=0.1)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_the_first_row_along_an_edge_is_nearer_to_it_than_rows_are_to_each_other(seed: int) -> None:
+    edge_m = 0.02
+    points, _, _ = corners_of("hand-towel", edge_m, seed)
+    for axis in (0, 1):
+        rows = np.unique(np.round(points[:, axis], 6))
+        for gaps in (np.diff(rows[:3]), np.diff(rows[::-1][:3] * -1.0)):
+            assert 0.65 * edge_m - 1e-5 <= gaps[0] <= 0.95 * edge_m + 1e-5
+            assert 0.59 * edge_m <= gaps[1] <= 1.15 * edge_m + 1e-5

@@ -4,11 +4,6 @@ Small spheres on the vertices touch the table, and the triangles of other layers
 four times as many contacts, and take four times as long. The table's edges are round, and triangles touch them too: at
 a sharp edge a row that came near was pulled down upon the top, and stayed there however much cloth hung beyond it.
 A socket is a body without dynamics, tied to a vertex while a grip holds it.
-
-Cloth bends at the rows of its mesh, with an energy that grows as 1 - cos of the angle: a crease folded flat at one row
-has no moment that opens it. Pulled along, it was at a dead centre, and dragged the layer below by up to 4 cm instead of
-rolling on to the next row. So springs push vertices two rows apart on a thread from each other where a loop of cloth
-would.
 """
 
 import itertools
@@ -46,25 +41,8 @@ Half of that is about what cloth falls in a time step that has lost a contact, a
 HELD = 'solref="0.01 1" solimp="0.9999 0.9999 0.001"'
 """Grips must be stiffer than contacts: softer ones let the cloth lag by 12 to 18 mm."""
 
-
-_LOOP = 0.907
-"""The height of the loop of a heavy strip folded over, in bending lengths."""
-
-_OPEN = 0.5
-"""The share of a loop's width below which springs open it: less, so that cloth of near rows bends by itself."""
-
-_BENT = 2.87
-"""The force per width of a strip bent between two plates, in bending stiffnesses per square of their distance.
-
-From the elastica, along which sin(angle) grows with the square of the curvature.
-"""
-
 _BALLS, _CLOSED_M = 3, 0.001
 """The balls at the end of a finger, and by how much they are thinner than it on each side (m)."""
-
-_BESIDE = 0.2
-"""How far beside the middle of two vertices the one between them may be, and they beside a thread, as a share of their
-distance."""
 
 
 def model_xml(
@@ -97,11 +75,6 @@ def model_xml(
         f'friction="{fabric.friction} 0 0" {contact}/><site name="p{i}"/></body>'
         for i, ((x, y, z), mass) in enumerate(zip(rest.tolist(), masses.tolist(), strict=True))
     )
-    loops = "".join(
-        f'<spatial springlength="{width:.9g} 9" stiffness="{opening_stiffness(width, fabric, resolution):.9g}">'
-        f'<site site="p{i}"/><site site="p{j}"/></spatial>'
-        for (i, j), width in _kept_apart(pattern, triangles, fabric)
-    )
     holders = "".join(f'<body name="s{i}" mocap="true" pos="0 0 -9"/>' for i in range(sockets))
     ties = "".join(f'<connect body1="s{i}" body2="v0" anchor="0 0 0" active="false" {HELD}/>' for i in range(sockets))
     return f"""<mujoco>
@@ -116,63 +89,8 @@ def model_xml(
  selfcollide="none"/>
 <elasticity young="{fabric.young_pa}" poisson="0" damping="{fabric.damping_s}"
  thickness="{fabric.shell_thickness_m}" elastic2d="both"/></flex></deformable>
-<tendon>{loops}</tendon>
 <equality>{ties}</equality>
 </mujoco>"""
-
-
-def loop_width(along_m: float, fabric: Fabric) -> float:
-    """Return below which distance springs push points apart that are so far from each other along a thread (m).
-
-    That is most of the chord between them where the loop of a crease has them at its two ends.
-    """
-    radius_m = _LOOP * fabric.bending_length_m / 2.0
-    return _OPEN * 2.0 * radius_m * math.sin(min(along_m / (2.0 * radius_m), math.pi / 2.0))
-
-
-def opening_stiffness(width_m: float, fabric: Fabric, resolution: Resolution) -> float:
-    """Return the stiffness with which a loop as long as a row is apart resists being pressed below a width (N/m).
-
-    Pressed to half of that it resists half as much as a strip between two plates: cloth bends by itself too.
-    """
-    return 4.0 * _BENT * fabric.bend_nm * resolution.edge_m / width_m**3
-
-
-def two_rows_apart(points: FloatArray, triangles: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Return the pairs of vertices along a thread with another in their middle that is joined to both, shape (k, 2).
-
-    Args:
-        points: the vertices in the frame of warp and weft, shape (n, 2), m.
-        triangles: shape (m, 3).
-    """
-    pairs = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
-    joined = np.unique(np.concatenate([pairs, pairs[:, ::-1]]), axis=0)
-    starts = np.searchsorted(joined[:, 0], np.arange(len(points) + 1))
-    found = {
-        (int(one), int(other))
-        for first, last in itertools.pairwise(starts.tolist())
-        for one, other in itertools.combinations(joined[first:last, 1], 2)
-        if _is_along(points[one], points[other]) and _is_middle(points[joined[first, 0]], points[one], points[other])
-    }
-    return np.array(sorted(found), dtype=np.int64).reshape(-1, 2)
-
-
-def _is_middle(middle: FloatArray, one: FloatArray, other: FloatArray) -> bool:
-    return float(np.linalg.norm(one + other - 2.0 * middle)) <= _BESIDE * float(np.linalg.norm(one - other))
-
-
-def _is_along(one: FloatArray, other: FloatArray) -> bool:
-    x, y = np.abs(one - other).tolist()
-    return bool(min(x, y) <= _BESIDE * max(x, y))
-
-
-def _kept_apart(
-    pattern: FloatArray, triangles: NDArray[np.int64], fabric: Fabric
-) -> list[tuple[tuple[int, int], float]]:
-    """Return the pairs of vertices that springs keep apart, and up to which distance (m)."""
-    pairs = two_rows_apart(pattern, triangles)
-    gaps = np.linalg.norm(pattern[pairs[:, 0]] - pattern[pairs[:, 1]], axis=1).tolist()
-    return [((i, j), loop_width(gap, fabric)) for (i, j), gap in zip(pairs.tolist(), gaps, strict=True)]
 
 
 def vertex_areas(points: FloatArray, triangles: NDArray[np.int64]) -> FloatArray:

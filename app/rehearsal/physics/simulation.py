@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from app.rehearsal.physics.fabric import Fabric, Resolution
 from app.rehearsal.physics.fingers import Box, FingerSize
+from app.rehearsal.physics.hinges import Hinges
 from app.rehearsal.physics.model import FREE, IN_HAND, SOCKETS, model_xml
 from app.rehearsal.physics.weave import Weave
 from planner.geometry.pose import FloatArray
@@ -44,6 +45,7 @@ class ClothSimulation:
         xml = model_xml(rest, pattern, triangles, fabric, resolution, table, fingers)
         self._model = mujoco.MjModel.from_xml_string(xml)
         self._model.eq_data[:, :6] = 0.0  # ties pull a vertex onto its socket, whatever the distance at the start was
+        self._hinges = Hinges.of(self._model)
         self._weave = Weave.of(pattern, triangles, fabric, resolution.edge_m)
         self._data = mujoco.MjData(self._model)
         self._vertex_bodies = np.array([self._model.body(f"v{i}").id for i in range(len(rest))])
@@ -112,7 +114,9 @@ class ClothSimulation:
         Raises:
             FloatingPointError: the simulation has become unstable.
         """
-        stiffness = self._weave.stiffness(self.positions)
+        positions = self.positions
+        self._hinges.stiffen(self._model, positions)
+        stiffness = self._weave.stiffness(positions)
         self._model.flex_stiffness.reshape(len(stiffness), -1)[:, : stiffness.shape[1]] = stiffness
         mujoco.mj_step(self._model, self._data)
         if self._data.warning[mujoco.mjtWarning.mjWARN_BADQACC].number or not np.isfinite(self._data.qpos).all():

@@ -24,7 +24,7 @@ def over_the_line(heading_rad: float | None, *, opens: bool = True, rolls: bool 
     """Return half a circle about the line x = .1 m from the edge at x = 0, in 2 s."""
     angles = np.linspace(0.0, math.pi, 21)
     points = [
-        (LINE_M * (1.0 - math.cos(angle)), 0.12, REST_HEIGHT_M + LINE_M * math.sin(angle)) for angle in angles.tolist()
+        (LINE_M * (1.0 - math.cos(angle)), 0.04, REST_HEIGHT_M + LINE_M * math.sin(angle)) for angle in angles.tolist()
     ]
     times_s = tuple(np.linspace(0.0, 2.0, 21).tolist())
     turned_rad = tuple(angles.tolist()) if rolls else ()
@@ -41,8 +41,8 @@ def test_the_ends_of_fingers_that_point_along_the_way_turn_about_the_line() -> N
     made = rounded(planned)
     assert made.points[0] == pytest.approx(planned.points[0])
     # At the apex the fingers' ends are over the line, as high as the cloth from there to the line is long.
-    assert made.at(1.0) == pytest.approx([LINE_M - PAD_M, 0.12, REST_HEIGHT_M + LINE_M - PAD_M], abs=1e-6)
-    assert made.at(2.0) == pytest.approx([2.0 * (LINE_M - PAD_M) - THICKNESS_M, 0.12, REST_HEIGHT_M], abs=1e-6)
+    assert made.at(1.0) == pytest.approx([LINE_M - PAD_M, 0.04, REST_HEIGHT_M + LINE_M - PAD_M], abs=1e-6)
+    assert made.at(2.0) == pytest.approx([2.0 * (LINE_M - PAD_M) - THICKNESS_M, 0.04, REST_HEIGHT_M], abs=1e-6)
 
 
 def test_the_less_fingers_point_along_the_way_the_less_hands_land_short() -> None:
@@ -75,10 +75,10 @@ def test_a_hand_that_holds_on_from_a_drag_lands_short_and_one_that_does_so_from_
 
 
 def edge_laid_at(motion: StepMotion) -> float:
-    """Return where the middle of a square's edge that a hand takes comes to lie (m)."""
-    task = Task.of(garment(rectangle_points(0.24, 0.24)))
+    """Return where the middle of a strip's edge that a hand takes comes to lie (m)."""
+    task = Task.of(garment(rectangle_points(0.24, 0.08)))
     world = PhysicsWorld(task, Fabric(), Resolution(0.015, settle_s=2.0), placement=Pose2(0.0, 0.0, 0.0))
-    edge = int(np.linalg.norm(world.truth().positions[:, :2] - [0.0, 0.12], axis=1).argmin())
+    edge = int(np.linalg.norm(world.truth().positions[:, :2] - [0.0, 0.04], axis=1).argmin())
     assert world.perform(motion).has_cloth == {"left": True}
     return float(world.truth().positions[edge, 0])
 
@@ -87,6 +87,8 @@ def test_an_edge_is_laid_down_beyond_its_place_by_fingers_round_which_it_turned_
     fingers = robot_card_file("pr2").arms[0].gripper
     planned = StepMotion(0, "fold", 2.0, (over_the_line(0.0),))
     beyond_m = edge_laid_at(planned) - 2.0 * LINE_M
-    assert beyond_m == pytest.approx(2.0 * PAD_M + fingers.finger_thickness_m, abs=0.01)
+    # Round a finger's end cloth lies at least as tight as round a cylinder, at most as wide as a free elastica.
+    tight_m, wide_m = (2.0 * PAD_M + turns * fingers.finger_thickness_m for turns in (math.pi / 2.0 - 1.0, 4.38))
+    assert tight_m < beyond_m < wide_m
     (made,) = round_finger_ends([planned], {"left": fingers.finger_thickness_m}, 0.03)
     assert abs(edge_laid_at(made) - 2.0 * LINE_M) < 0.6 * beyond_m

@@ -107,7 +107,8 @@ def test_a_run_of_a_towel_is_traced_from_where_it_lies_to_where_the_plan_has_it(
     middle = trace.at(0.5 * cost_s)
     assert middle[:, 2].max() > 0.05 > trace.at(0.0)[:, 2].max()
     np.testing.assert_array_equal(trace.at(cost_s + 1.0), UNIT_M * step.found)
-    look, _ = trace.pictures  # before the fold, and after it
+    look, *after = trace.pictures  # before the fold, and after it
+    assert after
     assert look["of_plan"] == 0 and look["known"] and len(look["expected_px"]) == len(look["fitted_px"]) == 4
     assert look["start"]["placement"] == look["fit"]["placement"]
     again = RunTrace.unpacked(trace.packed())

@@ -10,7 +10,7 @@ from planner import Plan, Task, make_plan
 from planner.cloth.garment import Garment
 from planner.geometry.isometry import Isometry
 
-COARSE = Resolution(edge_m=0.03, settle_s=0.5)
+COARSE = Resolution(edge_m=0.022, settle_s=0.5)
 FABRIC = Fabric(density_kg_m2=0.3)
 
 

@@ -16,7 +16,7 @@ def test_rows_are_as_near_as_a_cloth_has_points_for(area_m2: float, rows_m: floa
 def test_small_garments_have_about_as_many_points_as_large_ones(name: str) -> None:
     pattern = load_garment(name).pattern
     points, _ = woven_mesh(pattern, Resolution.of(pattern.area).edge_m)
-    assert 800 <= len(points) <= 1100
+    assert 800 <= len(points) <= 1150  # rows that lie at edges come in addition
 
 
 @pytest.mark.parametrize(
