@@ -82,7 +82,7 @@ pictures: $(READY_DEV) $(KERNELS) browser ## take the pictures of the documents 
 licences: $(READY_DEV) ## list the licence of each package that is installed; fail on one that is not known
 	$(BIN)/python -m tests.licences
 
-release-check: check docs licences test-long ## all that a release must pass; its wheel is in dist/
+release-check: check docs licences test ## all that a release must pass, beside `make test-long`; its wheel is in dist/
 	$(BIN)/python -m pip --disable-pip-version-check wheel --quiet --no-deps --no-build-isolation --wheel-dir dist .
 	@ls dist
 

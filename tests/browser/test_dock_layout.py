@@ -61,7 +61,7 @@ def test_between_an_open_sheet_and_the_bar_of_a_low_window_there_is_one_view(wid
     expect(inset).to_be_visible()
     sheet.click()
     expect(inset).to_be_hidden()
-    expect(wide.get_by_role("application", name="Drafting board")).to_be_visible()
+    expect(wide.get_by_role("region", name="3D view")).to_be_visible()
     sheet.click()
     expect(inset).to_be_visible()
 
