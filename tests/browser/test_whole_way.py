@@ -17,10 +17,14 @@ from tests.browser.status_pill import expect_planned
 from tests.browser.ways import ByFinger, ByKeyboard, ByMouse, Way, expect_folds
 
 # 0.4 x 0.3 m: sides that end in peaks, a notch between them. Both sides are folded in, then it is halved.
-CORNERS: list[Point] = [(0.0, 0.0), (0.4, 0.0), (0.4, 0.2), (0.3, 0.3), (0.2, 0.2), (0.1, 0.3), (0.0, 0.2)]
-FOLDS: list[tuple[Point, Point]] = [((0.1, 0.0), (0.1, 0.3)), ((0.3, 0.3), (0.3, 0.0)), ((0.3, 0.1), (0.1, 0.1))]
+CORNERS: list[Point] = [
+    (0.05, 0.15), (0.45, 0.15), (0.45, 0.35), (0.35, 0.45), (0.25, 0.35), (0.15, 0.45), (0.05, 0.35)
+]  # fmt: skip
+FOLDS: list[tuple[Point, Point]] = [
+    ((0.15, 0.15), (0.15, 0.45)), ((0.35, 0.45), (0.35, 0.15)), ((0.35, 0.25), (0.15, 0.25))
+]  # fmt: skip
 PULLED = 1
-PULLS_M = (0.2, 0.48, 0.56, 0.64, 0.72)
+PULLS_M = (0.2, 0.64, 0.72, 0.8, 0.9)
 # Where a hand puts a point: within a few pixels, and a pixel is some 3 mm there.
 NEAR_M = 0.008
 
@@ -48,7 +52,7 @@ def there_and_back(page: Page, way: Way, sheet: Sheet) -> dict[str, Any]:
     pull_until_there_is_no_plan(page, way, sheet)
     expect(status).to_have_attribute("data-is-final", "true", timeout=SEARCH_MS)
     sentence = status.inner_text().removeprefix(NO_PLAN)
-    assert sentence.startswith(("Left over: ", "Right over: ", "Bottom up: "))  # its corners are beyond the edge
+    assert sentence.startswith(("Left side over: ", "Right side over: ", "Bottom up: "))  # its corners are beyond the edge
     expect(page.locator(".reason")).to_have_text(f"{sentence}.")
     pulled = sheet.at_rest()
     assert pulled["history"]["can_undo"] == "Move vertex"

@@ -32,23 +32,16 @@ class Way(Protocol):
 
 
 class ByMouse:
-    """Clicks, drags with the button down, and the wheel."""
+    """Clicks, and drags with the button down."""
 
     def __init__(self, page: Page) -> None:
         self.page, self.hand = page, Hand(page)
 
     def draw_outline(self, corners: list[Point]) -> None:
-        before = scale(self.page)
         self.hand.tool("Draw outline")
         expect(self.page.locator(".blank")).to_be_hidden()
-        self.zoom_in(middle(corners))
-        expect_twice_as_large(self.page, before)
         for corner in [*corners, corners[0]]:
             self.hand.click(corner)
-
-    def zoom_in(self, about: Point) -> None:
-        self.page.mouse.move(*self.hand.px(about))
-        self.page.mouse.wheel(0, -430)
 
     def draw_folds(self, lines: list[tuple[Point, Point]]) -> None:
         self.hand.tool("Draw fold")
