@@ -64,6 +64,17 @@ def test_a_goal_that_is_rejected_ends_the_run(
     assert ended.how == "lost" and "another action" in ended.why
 
 
+@pytest.fixture
+def keyboard() -> Iterator[None]:
+    """Have Ctrl-C interrupt this process, whatever became of that in it before."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    blocked = signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
+    yield
+    signal.pthread_sigmask(signal.SIG_SETMASK, blocked)
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.usefixtures("keyboard")
 def test_ctrl_c_cancels_every_goal(controllers: JointTrajectoryControllers, plan: Plan, card: RobotCard) -> None:
     controllers.holds, main = True, threading.main_thread().ident or 0
 
@@ -73,7 +84,7 @@ def test_ctrl_c_cancels_every_goal(controllers: JointTrajectoryControllers, plan
 
     threading.Thread(target=interrupt, daemon=True).start()
     ended, _ = run(plan, card, controllers.address)
-    assert (ended.how, ended.done) == ("stopped", 0)
+    assert (ended.how, ended.done) == ("stopped", 0), ended.why
     deadline = threading.Event()
     for _ in range(300):
         if controllers.cancelled:
