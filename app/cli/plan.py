@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
+from rich.text import Text
 
 from app.cli.program import (
     NO_PLAN,
@@ -171,7 +172,7 @@ def _print_suggestions(answer: Plan) -> None:
             suggestions(
                 task,
                 plan=answer,
-                on_trial=lambda trial: line.update(f"Trying: {sentence(trial.says, answer.garment.folds)}"),
+                on_trial=lambda trial: line.update(Text(f"Trying: {sentence(trial.says, answer.garment.folds)}")),
                 other_robots=robot_names(),
             )
         )
