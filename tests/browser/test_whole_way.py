@@ -52,7 +52,9 @@ def there_and_back(page: Page, way: Way, sheet: Sheet) -> dict[str, Any]:
     pull_until_there_is_no_plan(page, way, sheet)
     expect(status).to_have_attribute("data-is-final", "true", timeout=SEARCH_MS)
     sentence = status.inner_text().removeprefix(NO_PLAN)
-    assert sentence.startswith(("Left side over: ", "Right side over: ", "Bottom up: "))  # its corners are beyond the edge
+    assert sentence.startswith(
+        ("Left side over: ", "Right side over: ", "Bottom up: ")
+    )  # its corners are beyond the edge
     expect(page.locator(".reason")).to_have_text(f"{sentence}.")
     pulled = sheet.at_rest()
     assert pulled["history"]["can_undo"] == "Move vertex"
