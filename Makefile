@@ -107,7 +107,7 @@ COMPILE := $(BIN)/pip-compile --quiet --strip-extras --allow-unsafe --build-deps
     --no-header --no-emit-options --no-emit-index-url --no-emit-trusted-host --no-emit-find-links
 
 # yourdfpy asks for all that trimesh can use, of which meshes of robots need pycollada alone.
-UNUSED := colorlog embreex manifold3d mapbox-earcut rtree svg-path vhacdx xxhash
+UNUSED := colorlog embreex manifold3d mapbox-earcut rtree vhacdx xxhash
 UNUSED_BESIDE_TESTS := $(UNUSED) attrs httpcore httpx jsonschema jsonschema-specifications referencing rpds-py
 leave-out = awk -v names=" $(2) " '/^[a-z]/ { split($$1, one, "=="); drops = index(names, " " one[1] " ") } !drops' $(1) > $(1).new && mv $(1).new $(1)
 

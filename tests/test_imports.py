@@ -60,7 +60,7 @@ LIBRARY_HOMES: Mapping[str, tuple[str, ...]] = {
     "yourdfpy": ("app.ui",),
     "trimesh": ("planner.robots", "app.ui"),
     "viser": ("app.ui",),
-    "svgpathtools": ("app.files",),
+    "svg": ("app.files",),
     "rosbags": ("app.files",),
     "matplotlib": ("app.files",),
     "ruamel": ("app.files",),

@@ -6,16 +6,19 @@ A curve is flattened only when the length of the drawing's unit is known, so tha
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, TypeAlias
 
 import numpy as np
-from svgpathtools import Arc, CubicBezier, Line, QuadraticBezier
+from svg.path import Arc, Close, CubicBezier, Line, QuadraticBezier
 
 from app.files.import_errors import broken
 from planner.geometry.pose import FloatArray
 
 POINTS_MAX = 50_000
 """Largest number of points of a flattened curve."""
+
+Segment: TypeAlias = Line | Close | QuadraticBezier | CubicBezier | Arc
+"""A segment of a path; an arc has radii, and ends elsewhere than it starts."""
 
 
 class Curve(Protocol):
@@ -51,7 +54,7 @@ class SvgCurve:
         piece: the name of the pattern piece that it belongs to, or None.
     """
 
-    segments: tuple[Line | QuadraticBezier | CubicBezier | Arc, ...]
+    segments: tuple[Segment, ...]
     matrix: FloatArray
     piece: str | None = None
 
@@ -109,14 +112,21 @@ def _finite(points: FloatArray) -> FloatArray:
     return points
 
 
-def _controls(segment: Line | QuadraticBezier | CubicBezier | Arc) -> FloatArray:
+def _controls(segment: Segment) -> FloatArray:
     """Return the control points of a segment, or three points of an arc, as complex numbers."""
-    if isinstance(segment, Arc):
-        return np.array([segment.start, segment.point(0.5), segment.end])
-    return np.array(segment.bpoints())
+    match segment:
+        case Arc():
+            between = [segment.point(0.5)]
+        case QuadraticBezier():
+            between = [segment.control]
+        case CubicBezier():
+            between = [segment.control1, segment.control2]
+        case _:
+            between = []
+    return np.array([segment.start, *between, segment.end])
 
 
-def _count(segment: Line | QuadraticBezier | CubicBezier | Arc, tolerance: float) -> float:
+def _count(segment: Segment, tolerance: float) -> float:
     """Return the number of pieces into which to cut a segment.
 
     A piece of a curve with second derivative c, over a stretch s of the parameter, deviates from its chord by at most
@@ -125,19 +135,17 @@ def _count(segment: Line | QuadraticBezier | CubicBezier | Arc, tolerance: float
     return max(float(np.ceil(np.sqrt(_bend(segment) / (8.0 * tolerance)))), 1.0)
 
 
-def _points(segment: Line | QuadraticBezier | CubicBezier | Arc, count: int) -> FloatArray:
+def _points(segment: Segment, count: int) -> FloatArray:
     """Return points on a segment, as complex numbers, without the first."""
     points = [segment.point(number / count) for number in range(1, count)]
     return np.array([*points, segment.end])
 
 
-def _bend(segment: Line | QuadraticBezier | CubicBezier | Arc) -> float:
+def _bend(segment: Segment) -> float:
     """Return the largest second derivative with respect to the parameter, which runs from 0 to 1."""
-    if isinstance(segment, Line):
-        return 0.0
     if isinstance(segment, Arc):
-        radius = max(abs(segment.radius.real), abs(segment.radius.imag))
+        radius = segment.radius_scale * max(segment.radius.real, segment.radius.imag)
         return float(radius * math.radians(segment.delta) ** 2)
-    controls = np.array(segment.bpoints())
+    controls = _controls(segment)
     degree = len(controls) - 1
-    return float(degree * (degree - 1) * np.abs(np.diff(controls, 2)).max())
+    return 0.0 if degree == 1 else float(degree * (degree - 1) * np.abs(np.diff(controls, 2)).max())

@@ -9,9 +9,9 @@ from typing import Annotated, Any, Literal, TypeAlias
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
-from svgpathtools import Arc, CubicBezier, Line, QuadraticBezier
+from svg.path import Arc, CubicBezier, Line, QuadraticBezier
 
-from app.files.curve import SvgCurve
+from app.files.curve import Segment, SvgCurve
 from app.files.import_errors import ImportedFileError, broken
 from app.files.sketch import DrawnLine, Sketch
 from planner.errors import FieldError
@@ -102,7 +102,7 @@ def read_panels(values: Mapping[str, Any]) -> Sketch:
     return Sketch((), (), 1.0 / asked.properties.units_in_meter).with_lines(lines)
 
 
-def _segments(name: str, panel: _Panel, *, is_relative: bool) -> list[Any]:
+def _segments(name: str, panel: _Panel, *, is_relative: bool) -> list[Segment]:
     """Return the edges of a panel as a path's segments."""
     points, made = [complex(*vertex) for vertex in panel.vertices], []
     for number, edge in enumerate(panel.edges):
@@ -122,7 +122,7 @@ def _wrong(panel: str, edge: int, what: str) -> ImportedFileError:
     return broken(f"it is a pattern specification, but edge {edge} of panel {panel[:40]!r} is not valid: {what}")
 
 
-def _segment(start: complex, end: complex, bend: _Pair | _Bezier | _Circle | None, *, is_relative: bool) -> Any:  # noqa: ANN401
+def _segment(start: complex, end: complex, bend: _Pair | _Bezier | _Circle | None, *, is_relative: bool) -> Segment:
     if bend is None:
         return Line(start, end)
     if isinstance(bend, _Circle):
@@ -131,7 +131,10 @@ def _segment(start: complex, end: complex, bend: _Pair | _Bezier | _Circle | Non
         return Arc(start, complex(1.0, 1.0) * max(radius, least), 0.0, is_large, is_right, end)
     points = bend.params if isinstance(bend, _Bezier) else [bend]
     controls = [start + complex(*point) * (end - start) if is_relative else complex(*point) for point in points]
-    return QuadraticBezier(start, *controls, end) if len(controls) == 1 else CubicBezier(start, *controls, end)
+    if len(controls) == 1:
+        return QuadraticBezier(start, controls[0], end)
+    first, second = controls
+    return CubicBezier(start, first, second, end)
 
 
 def _halves(pattern: _Pattern) -> dict[str, tuple[int, str, int]]:
@@ -155,7 +158,7 @@ def _edge_of(pattern: _Pattern, side: _Side) -> _Edge | None:
 
 
 def _beside_each_other(
-    segments: Mapping[str, Sequence[Any]], halves: Mapping[str, tuple[int, str, int]]
+    segments: Mapping[str, Sequence[Segment]], halves: Mapping[str, tuple[int, str, int]]
 ) -> dict[str, FloatArray]:
     """Return where each panel lies, as matrices of shape (3, 3): in a row, and halves where they are sewn."""
     places: dict[str, FloatArray] = {}
@@ -176,12 +179,12 @@ def _beside_each_other(
     return places
 
 
-def _signed_area(segments: Sequence[Any]) -> float:
+def _signed_area(segments: Sequence[Segment]) -> float:
     """Return the area between the corners of a panel, above zero if its edges go round to the left."""
     return float(sum((one.start.conjugate() * one.end).imag for one in segments)) / 2.0
 
 
-def _corners(segments: Sequence[Any], place: FloatArray) -> FloatArray:
+def _corners(segments: Sequence[Segment], place: FloatArray) -> FloatArray:
     return SvgCurve(tuple(segments), place).extent
 
 
@@ -189,7 +192,7 @@ def _shifted(x: float, y: float) -> FloatArray:
     return np.array([[1.0, 0.0, x], [0.0, 1.0, y], [0.0, 0.0, 1.0]])
 
 
-def _onto(panel: Sequence[Any], edge: int, other: Sequence[Any], its: int) -> FloatArray | None:
+def _onto(panel: Sequence[Segment], edge: int, other: Sequence[Segment], its: int) -> FloatArray | None:
     """Return the rotation and shift that lay a panel beside another, edge on edge; None if these differ in length."""
     start, end = other[its].start, other[its].end
     if (_signed_area(panel) > 0.0) == (

@@ -6,13 +6,13 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
-from svgpathtools.parser import parse_transform
 
 from app.files.import_errors import broken
 from app.files.markup import Element
 from app.files.svg_lengths import Sides, numbers_in, user_units, viewport
 from app.files.svg_paint import is_hidden, is_invisible
 from app.files.svg_style import StyleSheet
+from app.files.svg_transform import transform_of
 from planner.geometry.pose import FloatArray
 
 SHAPES_MAX, VISITS_MAX, CHARACTERS_MAX = 5_000, 20_000, 8_000_000
@@ -86,7 +86,7 @@ class _Drawn:
         style = self._sheet.style(element, around.style)
         if is_hidden(style):
             return
-        here = replace(around, matrix=around.matrix @ _transform(element), style=style)
+        here = replace(around, matrix=around.matrix @ transform_of(element), style=style)
         here = self._clipped(here, style.get("clip-path", ""))
         if element.tag in _GROUPS:
             inner = here.in_viewport(element) if element.tag == "svg" else here
@@ -108,7 +108,7 @@ class _Drawn:
         if here.deep >= _REFERENCES_DEEP:
             raise broken(f"line {clip.line}: references go more than {_REFERENCES_DEEP} deep")
         style = self._sheet.style(clip, {})
-        inner = _Around(here.matrix @ _transform(clip), style, here.sides, here.deep + 1)
+        inner = _Around(here.matrix @ transform_of(clip), style, here.sides, here.deep + 1)
         shapes = tuple(shape for child in clip.children for shape in self._within(child, inner))
         return replace(here, clips=(*here.clips, shapes)) if shapes else here
 
@@ -211,15 +211,3 @@ def _rounded(cx: float, cy: float, width: float, height: float, rx: float, ry: f
 
 def _translation(x: float, y: float) -> FloatArray:
     return np.array([[1.0, 0.0, x], [0.0, 1.0, y], [0.0, 0.0, 1.0]])
-
-
-def _transform(element: Element) -> FloatArray:
-    text = element.attributes.get("transform", "")
-    try:
-        with np.errstate(all="raise"):
-            matrix = np.asarray(parse_transform(text, strict=True))
-    except (ValueError, ArithmeticError) as error:
-        raise broken(f"line {element.line}: transform={text[:60]!r} is not understood: {error}") from None
-    if not np.all(np.isfinite(matrix)):
-        raise broken(f"line {element.line}: transform={text[:60]!r} is too large")
-    return matrix

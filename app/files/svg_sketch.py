@@ -2,15 +2,15 @@
 
 import json
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Any, TypeAlias
+from typing import Any, cast
 
 import numpy as np
-from svgpathtools import Arc, CubicBezier, Line, QuadraticBezier, parse_path
+from svg.path import Arc, Close, Line, Move, Path, parse_path
 
-from app.files.curve import Curve, DrawnCurve, SvgCurve
+from app.files.curve import Curve, DrawnCurve, Segment, SvgCurve
 from app.files.fold_colour import kind_of
 from app.files.import_errors import broken
 from app.files.markup import Element, read_markup
@@ -34,8 +34,8 @@ GRIP_RADIUS = "data-pleat-grip-radius-m"
 SEGMENTS_MAX = 20_000
 """Largest number of path segments in a drawing."""
 
-_BAD = (ArithmeticError, AssertionError, AttributeError, LookupError, TypeError, ValueError, UserWarning)
-"""Exceptions that svgpathtools raises on invalid path data; its warning is about arcs without a radius."""
+_BAD = (ArithmeticError, AssertionError, AttributeError, LookupError, TypeError, ValueError)
+"""Exceptions that svg.path raises on invalid path data."""
 
 _FARTHEST = 1e12
 """Largest coordinate of a curve, in units of the drawing."""
@@ -45,8 +45,8 @@ _COARSE, _PAGE_SLACK = 1e-3, 0.005
 
 _NAMED = frozenset({"g", "path", "polygon", "polyline", "rect", "use", "svg"})
 
-_COMMAND = re.compile(r"[A-Za-z]")
-_Segment: TypeAlias = Line | QuadraticBezier | CubicBezier | Arc
+_FOREIGN = re.compile(r"[^MmZzLlHhVvCcSsQqTtAaEe0-9+\-.,\s]")
+"""A character that path data does not have."""
 
 
 def read_svg(data: bytes) -> Sketch:
@@ -257,26 +257,34 @@ def _upwards(sheet: Sheet) -> FloatArray:
 
 def _curves(shape: Shape, upwards: FloatArray) -> Iterator[tuple[SvgCurve, bool]]:
     """Yield the subpaths of a shape, and whether each is closed."""
-    if not set(_COMMAND.findall(shape.data)) <= set("MmZzLlHhVvCcSsQqTtAaEe"):
-        raise _unread(shape, "there is a command in it that paths do not have")
+    if (foreign := _FOREIGN.search(shape.data)) is not None:
+        raise _unread(shape, f"paths have no {foreign[0]!r}")
     try:
-        with np.errstate(divide="raise", over="raise", invalid="raise"):
-            path = parse_path(shape.data)
+        path = parse_path(shape.data)
     except _BAD as error:
         raise _unread(shape, str(error) or "an arc leads nowhere") from None
-    for segments in _subpaths(list(path)):
+    for segments in _subpaths(_segments(path)):
         curve = SvgCurve(tuple(segments), upwards @ shape.matrix)
         if not np.all(np.abs(curve.extent) <= _FARTHEST):
             raise _unread(shape, "a number in it is too large")
         yield curve, segments[0].start == segments[-1].end
 
 
-def _subpaths(segments: list[_Segment]) -> Iterator[list[_Segment]]:
-    """Yield the connected sequences of segments; a sequence also ends where it returns to its start."""
-    subpath: list[_Segment] = []
-    for segment in segments:
-        if segment.start is None or segment.end is None:
+def _segments(path: Path) -> Iterator[Segment]:
+    """Yield the segments of a path that lead somewhere; an arc without a radius is a straight line."""
+    for segment in path:
+        if isinstance(segment, Move) or (isinstance(segment, Arc | Close) and segment.start == segment.end):
             continue
+        if isinstance(segment, Arc) and 0.0 in (segment.radius.real, segment.radius.imag):
+            yield Line(segment.start, segment.end)
+        else:
+            yield cast(Segment, segment)
+
+
+def _subpaths(segments: Iterable[Segment]) -> Iterator[list[Segment]]:
+    """Yield the connected sequences of segments; a sequence also ends where it returns to its start."""
+    subpath: list[Segment] = []
+    for segment in segments:
         if subpath and (segment.start != subpath[-1].end or subpath[-1].end == subpath[0].start):
             yield subpath
             subpath = []
