@@ -9,8 +9,8 @@ from typing import Any, ParamSpec, TypeVar
 
 from fastapi import Request
 
+from app.api.asker import workspace_of
 from app.api.problems import ClientGoneError
-from app.api.request_parsing import workspace_of
 from app.jobs.job_pool import Job, JobPool
 from app.worker.stop import Stop
 

@@ -9,6 +9,7 @@ from fastapi.concurrency import run_in_threadpool
 from pydantic import BaseModel
 from starlette.responses import JSONResponse
 
+from app.api.asker import workspace_of
 from app.api.body import JsonBody
 from app.api.commands import Wanted, dispatch, play
 from app.api.described import DescribedRoute, problems
@@ -43,7 +44,7 @@ from app.api.live_messages import document_message, document_text, playback_mess
 from app.api.messages import PlacesRequest
 from app.api.problems import ProblemResponse
 from app.api.questions import Asked, work_of
-from app.api.request_parsing import requested_garment, workspace_of
+from app.api.request_parsing import requested_garment
 from app.api.shared import is_shared
 from app.drawing.arcs import with_arcs
 from app.drawing.blank import blank_drawing

@@ -13,11 +13,12 @@ from starlette.responses import JSONResponse, Response
 
 from app import searches
 from app.api.answers import GarmentAnswer, Says
+from app.api.asker import workspace_of
 from app.api.body import read_bytes
 from app.api.described import problems
 from app.api.disconnect import answer_of
 from app.api.problems import ProblemResponse
-from app.api.request_parsing import HasGarments, workspace_of
+from app.api.request_parsing import HasGarments
 from app.document_state import DocumentState
 from app.files.crease_reading import Creases
 from app.files.export import DEFAULT_RATE_HZ, RATES_HZ, Export, Group, UnavailableFileError

@@ -8,10 +8,10 @@ from fastapi.concurrency import run_in_threadpool
 from starlette.responses import JSONResponse
 
 from app.api.answers import GarmentEntry
+from app.api.asker import workspace_of
 from app.api.body import JsonBody
 from app.api.described import DescribedRoute, problems
 from app.api.messages import WholeGarment
-from app.api.request_parsing import workspace_of
 from planner.cloth.garment import Garment
 from planner.errors import GarmentError
 

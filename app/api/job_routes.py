@@ -10,11 +10,12 @@ from fastapi.concurrency import run_in_threadpool
 from fastapi.sse import EventSourceResponse, ServerSentEvent
 from starlette.responses import JSONResponse
 
+from app.api.asker import client_of, workspace_of
 from app.api.body import JsonBody, read_object
 from app.api.described import problems, taking
 from app.api.disconnect import waking
 from app.api.job_answers import STREAM, JobAnswer, JobsAnswer, job_entry
-from app.api.request_parsing import client_of, within_request, workspace_of
+from app.api.request_parsing import within_request
 from app.job_kinds.kinds import BY_JSON
 from app.jobs.job_desk import JobDesk
 from app.jobs.job_kind import AnyKind

@@ -10,7 +10,7 @@ from fastapi.concurrency import run_in_threadpool
 from starlette.responses import FileResponse, HTMLResponse, RedirectResponse, Response
 from starlette.staticfiles import NotModifiedResponse, StaticFiles
 
-from app.api.request_parsing import workspace_of
+from app.api.asker import workspace_of
 from app.api.shared import is_shared
 from app.files.exports import find_export
 from app.page_files import scripts, static_dir, styles

@@ -10,12 +10,13 @@ from starlette.responses import JSONResponse, Response
 
 from app import searches
 from app.api.answers import DagAnswer, PictureAnswer, PlanAnswer, TimelineAnswer
+from app.api.asker import workspace_of
 from app.api.body import JsonBody, read_object
 from app.api.described import DescribedRoute, problems
 from app.api.disconnect import answer_of, quick_answer
 from app.api.messages import DagRequest, PlanRequest
 from app.api.questions import pictures
-from app.api.request_parsing import TimeLimit, requested_garment, requested_task, within_request, workspace_of
+from app.api.request_parsing import TimeLimit, requested_garment, requested_task, within_request
 from app.files.import_file import LARGEST_PLAN_FILE
 from app.worker.process import ignore
 from app.worker.stop import Stop

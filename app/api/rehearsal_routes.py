@@ -9,8 +9,8 @@ from pydantic import BaseModel
 from starlette.responses import JSONResponse
 
 from app.api.answers import Point, Point3, Says
+from app.api.asker import workspace_of
 from app.api.described import DescribedRoute, problems
-from app.api.request_parsing import workspace_of
 from app.rehearsal.trace import UNIT_M, Frames, RunTrace
 from app.workspace import Workspace
 from planner.geometry.pose import Pose2

@@ -6,11 +6,8 @@ from contextlib import contextmanager
 from dataclasses import replace
 from typing import Protocol
 
-from fastapi import Request
-
 from app.api.messages import BaseField, PlacementsRequest, PlanRequest, StartField
 from app.store.garment_repository import GarmentRepository
-from app.workspace import Workspace
 from planner.cloth.garment import Garment
 from planner.errors import FoldError, GarmentError, RequestError, SceneError
 from planner.geometry.pose import Pose2
@@ -25,23 +22,12 @@ SHORTEST_S = 0.01
 """The least time that a search is given, even when its deadline is nearer (s)."""
 
 
-def workspace_of(request: Request) -> Workspace:
-    """Return the server's workspace."""
-    workspace: Workspace = request.app.state.workspace
-    return workspace
-
-
 class HasGarments(Protocol):
     """Something in which garments can be looked up by name."""
 
     @property
     def garments(self) -> GarmentRepository:
         """The garments."""
-
-
-def client_of(request: Request) -> str:
-    """Return who asks: the address of the client."""
-    return "" if request.client is None else request.client.host
 
 
 def requested_garment(within: HasGarments, garment: str | Garment) -> Garment:

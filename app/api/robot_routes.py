@@ -10,12 +10,12 @@ from starlette.responses import JSONResponse
 
 from app import searches
 from app.api.answers import RobotEntry, RobotTaken
+from app.api.asker import workspace_of
 from app.api.body import JsonBody, read_bytes
 from app.api.described import DescribedRoute, problems
 from app.api.disconnect import answer_of
 from app.api.job_answers import JobAnswer
 from app.api.job_routes import begun
-from app.api.request_parsing import workspace_of
 from app.files.robot_archive import PACKED_BYTES_MAX
 from app.job_kinds.robots import ROBOTS
 from app.store.robot_repository import RobotRepository

@@ -6,7 +6,7 @@ from fastapi import APIRouter, Request
 from fastapi.concurrency import run_in_threadpool
 
 from app.api.answers import Checks, Health
-from app.api.request_parsing import workspace_of
+from app.api.asker import workspace_of
 from app.distribution import own_version
 from planner.task.scene import Scene
 

@@ -12,10 +12,10 @@ from fastapi.concurrency import run_in_threadpool
 from starlette.responses import Response
 
 from app.api.answers import PlanAnswer
+from app.api.asker import workspace_of
 from app.api.described import DescribedRoute, problems
 from app.api.disconnect import answer_of
 from app.api.plan_routes import planned
-from app.api.request_parsing import workspace_of
 from app.job_kinds.studies import STUDY_FILES
 from app.store.study_store import UnknownStudyError
 from app.studies.study import Study

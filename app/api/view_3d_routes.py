@@ -16,7 +16,7 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, WebSocketException
 from websockets.typing import Subprotocol
 
-from app.api.request_parsing import workspace_of
+from app.api.asker import workspace_of
 from app.api.shared import is_shared, until_revoked
 from app.ui.view_3d import View3D
 from app.ui.viser_patches import LOOPBACK, SECRET_HEADER, view_page

@@ -167,15 +167,16 @@ def _print_suggestions(answer: Plan) -> None:
     work_s = limits.work_limit_s or limits.time_limit_s
     time_s = min(_SLOWDOWN_MAX * work_s, TIME_LIMIT_S[1])
     task = replace(answer.task, limits=replace(limits, work_limit_s=work_s, time_limit_s=time_s))
+    folds, found = answer.garment.folds, []
     with errors.status("Looking for changes that give a plan...") as line:
-        found = list(
-            suggestions(
-                task,
-                plan=answer,
-                on_trial=lambda trial: line.update(Text(f"Trying: {sentence(trial.says, answer.garment.folds)}")),
-                other_robots=robot_names(),
-            )
-        )
+        for one in suggestions(
+            task,
+            plan=answer,
+            on_trial=lambda trial: line.update(Text(f"Trying: {sentence(trial.says, folds)}")),
+            other_robots=robot_names(),
+        ):
+            found.append(one)
+            errors.print(Text(f"Found: {sentence(one.says, folds)} ({one.cost_s:.2f} s)"))
     if found:
         output.print(suggestion_table(answer.garment, found))
     else:

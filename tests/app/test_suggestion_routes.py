@@ -186,6 +186,7 @@ def test_the_command_line_prints_suggestions_after_the_reasons(tmp_path: Path, m
     assert "out_of_reach" in result.stderr
     for heading in ("kind", "what", "size", "cost", "assumption?", "placement"):
         assert heading in result.stdout
+    assert "Found: " in result.stderr  # each as soon as it is found
 
 
 def test_the_command_line_limits_the_work_of_its_suggestions_and_leaves_a_slow_machine_the_time(
