@@ -84,6 +84,16 @@ def test_at_home_nothing_touches_and_the_base_stands_clear_of_the_table(pair: tu
     assert collisions.body_free(station) and collisions.free(station, homes[None]).all()
 
 
+def test_a_robot_with_high_shoulders_stands_before_a_high_table(pair: tuple[Path, str], tmp_path: Path) -> None:
+    (tmp_path / "tall.urdf").write_text(pair_urdf().replace('<origin xyz="0 0 0.8"/>', '<origin xyz="0 0 1.3"/>'))
+    result = pleat("robot", "draft", str(tmp_path / "tall.urdf"), "--out", str(tmp_path / "tall"))
+    assert result.exit_code == 0, result.output
+    low, high = (
+        read_described(folder / "robot.json").card.scene.table.height_m for folder in (pair[0], tmp_path / "tall")
+    )
+    assert high == pytest.approx(min(low + 0.5, 0.95))
+
+
 def test_what_was_guessed_and_what_is_not_known_is_said(pair: tuple[Path, str]) -> None:
     for told in ("Guessed: it stands on the floor", "Guessed: a table", "Not known: how flat", "pleat robot check"):
         assert told in pair[1]

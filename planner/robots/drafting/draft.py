@@ -39,6 +39,9 @@ TABLE_M = 0.75
 _STANDS_M = 0.55
 """A robot whose shoulders are higher over its lowest part stands on the floor, a lower one on the table (m)."""
 
+_LOWEST_TABLE_M, _HIGHEST_TABLE_M = 0.5, 0.95
+"""The lowest and highest table before which a robot on the floor is put: a couch table's and a counter's height (m)."""
+
 _JOINT_SPEED, _SLIDE_SPEED, _FINGER_S = 1.0, 0.1, 0.5
 """Speeds where a URDF has none (rad/s, m/s), and the time in which fingers close then (s)."""
 
@@ -267,7 +270,9 @@ class _Drafting:
         radius = float(round(min(max(np.linalg.norm(floor, axis=1).max(), 0.05), 3.0), 2))
         reach_m = max(length_of(arm.chain) for arm in robot.arms)
         shoulder_m = float(np.mean([arm.root[2] for arm in robot.arms]))
-        height_m = float(np.clip(round(shoulder_m - 0.3 * reach_m, 2), 0.5, TABLE_M)) if stands else TABLE_M
+        height_m = float(np.clip(round(shoulder_m - 0.3 * reach_m, 2), _LOWEST_TABLE_M, _HIGHEST_TABLE_M))
+        if not stands:
+            height_m = TABLE_M
         depth_m, table_width_m = (float(np.clip(round(share * reach_m, 1), 0.4, 1.6)) for share in (0.8, 1.1))
         table = Table(depth_m=depth_m, width_m=table_width_m, height_m=height_m)
         x_m = round(-(0.5 * table.depth_m + max(float(high[0]), 0.0) + _GAP_M), 2)
