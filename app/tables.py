@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
+from rich import box
 from rich.table import Table
 
 from planner.words.catalogue import sentence
@@ -41,16 +42,14 @@ _WHY = (
 
 def plan_table(plan: Plan) -> Table:
     """Return a solved plan as a table, one row for each primitive."""
-    table = _table(f"{plan.garment.title}: {len(plan.primitives)} primitives, {plan.cost_s:.2f} s")
-    for name, is_number in (
-        ("primitive", False),
-        ("what", False),
-        ("start [s]", True),
-        ("duration [s]", True),
-        ("base", False),
-        ("grips", False),
-    ):
-        table.add_column(name, justify="right" if is_number else "left")
+    count = len(plan.primitives)
+    table = _table(f"{plan.garment.title}: {count} primitive{'' if count == 1 else 's'}, {plan.cost_s:.2f} s")
+    table.add_column("primitive")
+    table.add_column("what")
+    table.add_column("start\n[s]", justify="right")
+    table.add_column("duration\n[s]", justify="right")
+    table.add_column("base")
+    table.add_column("grips [m]", no_wrap=True)
     for primitive in plan.steps:
         data = primitive.to_dict()
         table.add_row(
@@ -207,7 +206,7 @@ def suggestion_table(garment: Garment, found: Sequence[Suggestion]) -> Table:
 
 
 def _table(title: str) -> Table:
-    return Table(title=title, title_justify="left", header_style="bold")
+    return Table(title=title, title_justify="left", header_style="bold", box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0))
 
 
 def _what(step: PlanStep, garment: Garment) -> str:
@@ -228,7 +227,7 @@ def _base(base: dict[str, Any]) -> str:
 def _grip(grip: dict[str, Any]) -> str:
     """Return an arm, and its tool's positions at pick and place in the plane of the table (m)."""
     (x, y, _), (to_x, to_y, _) = grip["pick"], grip["place"]
-    return f"{grip['arm']} ({x:.3f}, {y:.3f}) to ({to_x:.3f}, {to_y:.3f})"
+    return f"{grip['arm']} ({x:.3f}, {y:.3f})\nto ({to_x:.3f}, {to_y:.3f})"
 
 
 def _points(points: Sequence[Point2]) -> str:
