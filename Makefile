@@ -103,7 +103,7 @@ nginx: | $(BIN)/python browser
 	echo "There is no nginx here: its tests are left out"
 
 # Pins for every machine: the versions of `requirements-dev.txt` hold for `requirements.txt` too.
-COMPILE := $(BIN)/pip-compile --quiet --strip-extras --allow-unsafe --build-deps-for editable --generate-hashes \
+COMPILE := $(BIN)/pip-compile --quiet --upgrade --strip-extras --allow-unsafe --generate-hashes \
     --no-header --no-emit-options --no-emit-index-url --no-emit-trusted-host --no-emit-find-links
 
 # yourdfpy asks for all that trimesh can use, of which meshes of robots need pycollada alone.
@@ -116,14 +116,14 @@ SERVED := --extra exports --extra imports --extra metrics --extra physics --extr
 
 lock: $(READY_DEV) ## pin the newest versions that pyproject.toml allows
 	$(PIP) install pip-tools
-	$(COMPILE) --upgrade --extra test --output-file requirements-dev.txt pyproject.toml
-	$(COMPILE) --upgrade --constraint requirements-dev.txt $(SERVED) --output-file requirements.txt pyproject.toml
-	$(COMPILE) --upgrade --constraint requirements-dev.txt --extra bench --output-file requirements-bench.txt pyproject.toml
+	$(COMPILE) --build-deps-for editable --extra test --output-file requirements-dev.txt pyproject.toml
+	$(COMPILE) --build-deps-for editable --constraint requirements-dev.txt $(SERVED) --output-file requirements.txt pyproject.toml
+	$(COMPILE) --build-deps-for editable --constraint requirements-dev.txt --extra bench --output-file requirements-bench.txt pyproject.toml
 	$(call leave-out,requirements-dev.txt,$(UNUSED))
 	$(call leave-out,requirements.txt,$(UNUSED_BESIDE_TESTS))
 	$(call leave-out,requirements-bench.txt,$(UNUSED_BESIDE_TESTS))
 	@printf '%s\n' 'mkdocs>=1.6,<2' 'mkdocs-material>=9.7' 'mkdocstrings[python]>=0.29' | \
-	    $(COMPILE) --upgrade --constraint requirements-dev.txt --output-file requirements-docs.txt -
+	    $(COMPILE) --constraint requirements-dev.txt --output-file requirements-docs.txt -
 	@PATH="$(CURDIR)/$(BIN):$$PATH" && cd tests/js && rm -rf package-lock.json node_modules && npm install --package-lock-only \
 	    --omit-lockfile-registry-resolved --ignore-scripts --no-audit --no-fund --loglevel=error
 
