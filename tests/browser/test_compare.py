@@ -33,6 +33,12 @@ def pictures(dialog: Locator) -> list[str]:
     return [picture.inner_html() for picture in dialog.locator(".compare-picture").all()]
 
 
+def sides_m(cloth: Locator) -> list[float]:
+    """Return the depth and width of a piece of cloth in a picture (m)."""
+    points = re.findall(r"(-?[\d.]+) (-?[\d.]+)", cloth.get_attribute("d") or "")
+    return [max(along) - min(along) for along in zip(*(map(float, point) for point in points), strict=True)]
+
+
 def test_two_versions_are_planned_shown_step_by_step_and_played_together(page: Page, moved: Sheet) -> None:
     page.get_by_role("button", name="Compare", exact=True).click()
     dialog = page.get_by_role("dialog", name="Two plans side by side")
@@ -43,6 +49,8 @@ def test_two_versions_are_planned_shown_step_by_step_and_played_together(page: P
     rows = dialog.locator("tbody tr")
     expect(rows.first.locator(".compare-by")).to_have_text("=")  # the first fold is the same
     expect(dialog.locator(".is-missing").first).to_be_visible()  # the second is not there on the right
+    for picture in dialog.locator(".compare-picture").all():
+        assert sides_m(picture.locator(".cloth").first) == pytest.approx([0.419, 0.686], abs=1e-3)
     before = pictures(dialog)
     dialog.get_by_role("button", name="Play").click()
     expect(dialog.get_by_role("button", name="Pause")).to_be_visible()

@@ -66,8 +66,8 @@ export class Sheet {
   }
 }
 
-/** A path through points on the screen. @param {Point[]} points @param {boolean} isClosed */
-export function path(points, isClosed = true) {
+/** A path through points on the screen, or in another unit. @param {Point[]} points @param {boolean} isClosed @param {number} digits after the point */
+export function path(points, isClosed = true, digits = 1) {
   if (!points.length) return "";
-  return `M${points.map(([x, y]) => `${x.toFixed(1)} ${y.toFixed(1)}`).join("L")}${isClosed ? "Z" : ""}`;
+  return `M${points.map(([x, y]) => `${x.toFixed(digits)} ${y.toFixed(digits)}`).join("L")}${isClosed ? "Z" : ""}`;
 }

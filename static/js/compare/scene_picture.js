@@ -9,6 +9,8 @@ import { kindOf } from "../dock/step_kinds.js";
 /** @import { Compared } from "./compared_plan.js" */
 
 const BASE_M = 0.3;
+/** To how many digits of a metre points are drawn. */
+const TENTHS_OF_MM = 4;
 /** How much is shown round table and base (m). */
 const ROUND_M = 0.08;
 
@@ -46,8 +48,10 @@ export function drawScene(root, { drawing, plan, pictures }, t_s, [x, y]) {
 /** @param {StepPicture} picture @param {Pose} placement @param {number} opacity */
 function cloth({ layers }, placement, opacity) {
   const made = svg("g", { opacity });
-  for (const { polygon, face } of layers)
-    made.append(svg("path", { class: `cloth is-${face}`, d: path(polygon.map((point) => up(toOuter(placement, point)))) }));
+  for (const { polygon, face } of layers) {
+    const points = polygon.map((point) => up(toOuter(placement, point)));
+    made.append(svg("path", { class: `cloth is-${face}`, d: path(points, true, TENTHS_OF_MM) }));
+  }
   return made;
 }
 
