@@ -3,14 +3,17 @@
  * document; what is open stays as it is, under its own address.
  */
 
+import { ringOf } from "./board/curves.js";
 import { goTo, goToNew } from "./dialogs/documents.js";
 import { sentenceOf } from "./dialogs/dialog.js";
+import { picture } from "./dialogs/picture.js";
 import { byId, element } from "./dom.js";
-import { titleOf, when } from "./gallery/tile.js";
+import { drawGarment, titleOf, when } from "./gallery/tile.js";
 import { say, translated } from "./language/say.js";
+import { pictured } from "./picture_menu.js";
 import { isViewOnly } from "./view_only.js";
 
-/** @import { DocumentEntry as Entry, GarmentEntry } from "pleat" */
+/** @import { DocumentEntry as Entry, Drawing, GarmentEntry } from "pleat" */
 
 const DOCUMENTS = "../api/documents?limit=500";
 const DOCUMENT = "document:";
@@ -24,10 +27,12 @@ export function mountGarments(store) {
   /** @type {GarmentEntry[]} */
   let garments = [];
   let shown = "";
+  let isLookedAt = false; // only then are the garments' pictures fetched
 
   const show = () => {
     if (!store.state) return;
-    const { name, title } = store.state.drawing;
+    const { drawing } = store.state;
+    const { name, title } = drawing;
     const own = { id: store.id, title, name, changed_at: "", problem: null, picture: null };
     const drawn = [own, ...documents.filter((entry) => entry.id !== store.id && entry.problem === null)];
     select.value = DOCUMENT + store.id;
@@ -38,14 +43,25 @@ export function mountGarments(store) {
     select.replaceChildren(
       group(
         say("garments.documents"),
-        drawn.map((entry) => new Option(called(entry, counts), DOCUMENT + entry.id)),
+        drawn.map((entry) => pictured(entry === own ? pictureOf(drawing) : inSmall(entry), called(entry, counts), DOCUMENT + entry.id)),
       ),
       group(
         say("garments.new_of"),
-        garments.map((entry) => new Option(translated(entry.title), GARMENT + entry.name)),
+        garments.map((entry) => pictured(picture([], []), translated(entry.title), GARMENT + entry.name)),
       ),
     );
     select.value = DOCUMENT + store.id;
+    if (isLookedAt) illustrate();
+  };
+  const illustrate = () => {
+    for (const { value, firstElementChild } of select.options)
+      if (value.startsWith(GARMENT) && firstElementChild) drawGarment(value.slice(GARMENT.length), firstElementChild);
+  };
+  const look = () => {
+    if (store.state) select.selectedOptions[0]?.firstElementChild?.replaceWith(pictureOf(store.state.drawing));
+    if (!isLookedAt) illustrate();
+    isLookedAt = true;
+    load();
   };
   const load = async () => {
     [documents, garments] = await Promise.all([listed(DOCUMENTS, documents), listed("../api/garments", garments)]);
@@ -59,7 +75,7 @@ export function mountGarments(store) {
   };
 
   select.addEventListener("change", choose);
-  for (const name of ["focus", "pointerenter"]) select.addEventListener(name, load);
+  for (const name of ["focus", "pointerenter"]) select.addEventListener(name, look);
   store.addEventListener("document", show);
   store.addEventListener("connection", () => store.isLive && load());
 }
@@ -70,6 +86,15 @@ export function group(label, options) {
   made.label = label;
   return made;
 }
+
+/** @param {Drawing} drawing */
+function pictureOf(drawing) {
+  const folds = drawing.folds.map(({ kind, start, end }) => ({ kind, start: start.point, end: end.point }));
+  return picture(ringOf(drawing), folds);
+}
+
+/** @param {Entry} entry */
+const inSmall = (entry) => picture(entry.picture?.outline ?? [], entry.picture?.folds ?? []);
 
 /** How many documents have each title. @param {Entry[]} entries */
 export function counted(entries) {

@@ -5,6 +5,7 @@
 
 import { byId } from "./dom.js";
 import { word } from "./messages/names.js";
+import { pictured, robotPicture } from "./picture_menu.js";
 import { isViewOnly } from "./view_only.js";
 
 /** @import { RobotEntry } from "pleat" */
@@ -27,7 +28,7 @@ export function mountRobots(store) {
     const answer = await fetch("../api/robots").catch(() => null);
     if (!answer?.ok) return;
     robots = await answer.json();
-    select.replaceChildren(...robots.map((robot) => new Option(called(robot), robot.name)));
+    select.replaceChildren(...robots.map((robot) => pictured(robotPicture(robot), called(robot), robot.name)));
     show();
   };
   const choose = async () => {

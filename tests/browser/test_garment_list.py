@@ -11,6 +11,7 @@ from app.drawing.drawing_json import drawing_to_dict
 from app.store.database import Database
 from app.store.document_keeper import FORMAT
 from app.store.schema import DocumentRow, StepRow
+from planner.robots.known_robots import robot_names
 from tests.app.conftest import Served
 from tests.app.samples import towel
 from tests.app.store.drafts import TOWEL
@@ -40,6 +41,20 @@ def test_choosing_a_garment_opens_it_and_leaves_what_was_open_in_the_list(page: 
     bar(page).select_option(label="My own towel")
     page.wait_for_url(f"**/{own}")
     expect(bar(page).locator("option:checked")).to_have_text("My own towel")
+
+
+def test_each_garment_and_robot_has_its_picture_in_the_list(page: Page, new_sheet: NewSheet) -> None:
+    sheet = new_sheet("vest")
+    page.goto(sheet.page_url)
+    expect(page.locator("#robot option .picture-robot")).to_have_count(len(robot_names()))
+    bar(page).click()
+    options = bar(page).locator("option")
+    expect(options.locator(".picture-cloth")).to_have_count(options.count())
+    own, same = (
+        bar(page).locator(f"option[value='{value}'] svg") for value in (bar(page).input_value(), "garment:vest")
+    )
+    assert own.inner_html() == same.inner_html()
+    page.keyboard.press("Escape")
 
 
 def test_a_document_without_a_name_of_its_own_stays_in_the_list(page: Page, new_sheet: NewSheet) -> None:

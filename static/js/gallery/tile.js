@@ -25,13 +25,18 @@ export function tile(title, about, outline, folds, onClick) {
 /** A garment of which a new document is made; its picture comes by itself. @param {GarmentEntry} entry @param {() => void} onClick */
 export function garmentTile({ name, title, shipped }, onClick) {
   const made = tile(translated(title), shipped ? "" : say("gallery.your_garment"), [], [], onClick);
-  fetch(`../api/garments/${name}`)
-    .then((answer) => (answer.ok ? answer.json() : null))
-    .then((/** @type {Garment|null} */ garment) => {
-      if (garment) made.firstElementChild?.replaceWith(picture(garment.outline, garment.folds));
-    })
-    .catch(() => {});
+  const [image] = made.children;
+  drawGarment(name, image);
   return made;
+}
+
+/** Put a garment's picture in the place of another once it is there. @param {string} name @param {Element} instead */
+export async function drawGarment(name, instead) {
+  const answer = await fetch(`../api/garments/${name}`).catch(() => null);
+  if (!answer?.ok) return;
+  /** @type {Garment} */
+  const { outline, folds } = await answer.json();
+  instead.replaceWith(picture(outline, folds));
 }
 
 /** @param {Pick<DocumentEntry, "title"|"name">} entry */
