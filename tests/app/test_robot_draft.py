@@ -25,6 +25,7 @@ from planner.robots.urdf_reader import read_urdf
 from planner.robots.urdf_shapes import Source
 from tests.app.test_cli import pleat
 from tests.robots.drafted import TOOL_AHEAD_M, pair_urdf, single_urdf
+from tests.robots.drafted import arm as arm_urdf
 
 CUBE = b"solid a\n" + b"".join(
     f"facet normal 0 0 1\nouter loop\nvertex {a}\nvertex {b}\nvertex {c}\nendloop\nendfacet\n".encode()
@@ -92,6 +93,20 @@ def test_a_robot_with_high_shoulders_stands_before_a_high_table(pair: tuple[Path
         read_described(folder / "robot.json").card.scene.table.height_m for folder in (pair[0], tmp_path / "tall")
     )
     assert high == pytest.approx(min(low + 0.5, 0.95))
+
+
+def test_arms_that_face_each_other_have_the_table_between_them(tmp_path: Path) -> None:
+    near, far = (
+        text.replace('xyz="0 0.0 0.0"', f'xyz="{x_m} 0.0 0.0"')
+        for text, x_m in ((single_urdf(), -0.6), (arm_urdf("far_", "plate", 0.0, 0.0), 0.6))
+    )
+    (tmp_path / "facing.urdf").write_text(near.replace("</robot>", f"{far}</robot>"))
+    result = pleat("robot", "draft", str(tmp_path / "facing.urdf"), "--out", str(tmp_path / "facing"))
+    assert result.exit_code == 0, result.output
+    card = read_described(tmp_path / "facing" / "robot.json").card
+    ((_, station),) = card.scene.stations
+    assert len(card.arms) == 2
+    assert station.x_m == 0.0
 
 
 def test_what_was_guessed_and_what_is_not_known_is_said(pair: tuple[Path, str]) -> None:

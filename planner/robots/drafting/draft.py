@@ -275,7 +275,11 @@ class _Drafting:
             height_m = TABLE_M
         depth_m, table_width_m = (float(np.clip(round(share * reach_m, 1), 0.4, 1.6)) for share in (0.8, 1.1))
         table = Table(depth_m=depth_m, width_m=table_width_m, height_m=height_m)
-        x_m = round(-(0.5 * table.depth_m + max(float(high[0]), 0.0) + _GAP_M), 2)
+        roots_m = [float(arm.root[0]) for arm in robot.arms]
+        if max(roots_m) - min(roots_m) > depth_m:  # arms that face each other have the table between them
+            x_m = round(-float(np.mean(roots_m)), 2) + 0.0
+        else:
+            x_m = round(-(0.5 * depth_m + max(float(high[0]), 0.0) + _GAP_M), 2)
         station = ("front", Pose2(x_m, 0.0, 0.0))
         collisions = CardRobot(robot).collisions(table, card.scene.torso_m)
         for found in stations_in_table((station,), collisions):
@@ -283,7 +287,7 @@ class _Drafting:
                 station = ("front", Pose2(round(x_m - found.back_m, 2), 0.0, 0.0))
         self._guesses.append(
             f"a table {table.depth_m:g} m deep, {table.width_m:g} m wide and {table.height_m:g} m high suits arms of "
-            f"{reach_m:.2f} m, and the base stands {-station[1].x_m:g} m from its middle"
+            f"{reach_m:.2f} m, and the base stands {abs(station[1].x_m):g} m from its middle"
         )
         near = Pose2(round(-0.15 * table.depth_m, 2), 0.0, 0.0)
         return replace(
