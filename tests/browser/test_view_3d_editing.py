@@ -13,6 +13,7 @@ from tests.app.conftest import Served
 from tests.browser.conftest import IN_VIEW, IS_THERE, VIEW_PATIENCE_MS, Sheet
 
 CAMERA = f"() => {IN_VIEW}.camera.matrixWorld.elements.map((value) => value.toFixed(4)).join(' ')"
+FROM_ABOVE = f"({IN_VIEW}.camera.matrixWorld.elements[9] > 0.99)"
 TO_PICTURE = f"""(place) => {{
   const viser = {IN_VIEW}, world = viser.nodeRefFromName[""];
   const seen = world.position.clone().set(...place).applyMatrix4(world.matrixWorld).project(viser.camera);
@@ -42,7 +43,7 @@ def still_camera(page: Page) -> str:
     before = ""
     while (now := str(page.evaluate(CAMERA))) != before:
         before = now
-        page.wait_for_timeout(300)
+        page.wait_for_timeout(500)  # longer than from one picture to the next
     return now
 
 
@@ -54,14 +55,11 @@ def corner_in_picture(page: Page, sheet: Sheet, index: int) -> Point2:
 
 
 def look_from_above(page: Page) -> str:
-    for name in ("Side", "Top"):
-        before = still_camera(page)
+    """Look from the side first, so that the camera comes to its place from above anew; return it."""
+    for name, is_there in (("Side", f"!{FROM_ABOVE}"), ("Top", FROM_ABOVE)):
         page.get_by_role("toolbar", name="Look from").get_by_role("button", name=name).click()
-
-        def has_moved(before: str = before) -> bool:
-            return bool(page.evaluate(CAMERA) != before)
-
-        until(has_moved)
+        page.wait_for_function(is_there)
+        still_camera(page)
     return still_camera(page)
 
 
