@@ -35,7 +35,7 @@ settings.load_profile("default")
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_configure(config: pytest.Config) -> None:
-    """Make the folder of plans, and let ``--hypothesis-seed`` set the random cases; the profile is loaded afterwards."""
+    """Make the folder of plans; let ``--hypothesis-seed`` set the random cases: the profile is loaded afterwards."""
     if not hasattr(config, "workerinput"):
         plans = TemporaryDirectory(prefix="plans")
         os.environ[PLANS] = plans.name
