@@ -17,7 +17,7 @@ from collections.abc import Sequence
 from functools import cache
 from multiprocessing import util
 from pathlib import Path
-from typing import TextIO
+from typing import Any, TextIO
 
 PIECE = 1 << 16
 """The most that is read of a request at once (bytes); it is a line of JSON."""
@@ -87,7 +87,7 @@ def fork_on_request(descriptor: int) -> None:
     """Fork programs as they are asked for at a socket, until it is closed."""
     import app.server.serve  # noqa: F401
     from app.cli import main
-    from planner.plans import compile_kernels
+    from planner.planning.warm_up import compile_kernels
 
     compile_kernels()
     signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # nobody waits for keepers
@@ -134,7 +134,7 @@ def _keep_a_template() -> None:
     theirs.close()
     start = util.spawnv_passfds
 
-    def start_or_ask(path: str, arguments: Sequence[str], descriptors: Sequence[int]) -> int:
+    def start_or_ask(path: Any, arguments: Sequence[Any], descriptors: Sequence[int]) -> int:
         if "multiprocessing.forkserver" not in arguments[-1]:
             return start(path, arguments, descriptors)
         util.spawnv_passfds = start

@@ -93,7 +93,7 @@ def test_an_unknown_garment_is_status_2(command: str, name: str) -> None:
         ("plan", "tie", "--start", "nowhere"),
         ("plan", "tie", "--comfort-radius-m", "1"),
         ("plan", "tie", "--scene", "missing.json"),
-        ("plan", "tie", "--json", "/nowhere/at/all.json"),
+        ("plan", "letter-towel", "--json", "/nowhere/at/all.json"),
         ("serve", "--port", "70000"),
         ("serve", "--host", "not an address"),
     ],
