@@ -1,8 +1,8 @@
 """Plan transits: keyframes for hands that let go and come to their next grips in time, while the base drives.
 
 The hands withdraw straight from where they let go (the *tail* of the transfer before), travel, and come straight to the
-next grips (the *lead* of the next transfer). If the straight path is not clear beside the moving base, they go home
-first; if that is not clear either, the base waits until they are there.
+next grips (the *lead* of the next transfer). If the straight path is not clear beside the moving base, the base waits
+until they have withdrawn, or they go home first; if that is not clear either, the base waits until they are there.
 """
 
 from collections.abc import Callable, Iterator
@@ -103,8 +103,10 @@ class TransitPlanner:
             late_s = self._late_s(free, retreat, way, approach)
             if late_s > TIME_S:
                 late += self._quicker(free, retreat, way, approach)
-            elif (keyframes := self._overlapping(retreat, way, approach, free)) is not None:
-                return free, keyframes
+            elif found := self._first_clear(
+                free, retreat, approach, partial(self._overlapping, retreat, way, approach)
+            ):
+                return found
         waiting = self._homeward(free, retreat, approach, going, coming)
         if waiting.late_s > TIME_S:
             turned = approach.moved(waiting.back[-1] - approach.joints[0])
@@ -112,11 +114,23 @@ class TransitPlanner:
         for late_s, run in sorted(late, key=lambda one: one.late_s):
             if late_s >= waiting.late_s:
                 break
-            longer = free.longer(late_s)
-            keyframes = run(longer)
-            if keyframes is not None:
-                return longer, keyframes
+            found = self._first_clear(free.longer(late_s), retreat, approach, run)
+            if found is not None:
+                return found
         return self._waiting(free.longer(waiting.late_s), retreat, approach, waiting)
+
+    def _first_clear(
+        self, free: TransitTime, retreat: Line, approach: Line, run: Callable[[TransitTime], Keyframes | None]
+    ) -> tuple[TransitTime, Keyframes] | None:
+        """Return a run's time and keyframes, beside a base that drives at once or once the hands have withdrawn.
+
+        A base that drives at once may sweep hands along that are still low. The wait is taken from the reach, of which
+        enough must be left for coming to the grips. None if neither is clear.
+        """
+        times = [free]
+        if free.is_driving and retreat.shortest_s + approach.shortest_s + self.dwell_s <= free.reach_s:
+            times.append(free.after_waiting(retreat.shortest_s))
+        return next(((time, keyframes) for time in times if (keyframes := run(time)) is not None), None)
 
     def _quicker(self, free: TransitTime, retreat: Line, way: FloatArray, approach: Line) -> Iterator["_Late"]:
         """Yield runs along a path that takes too long: as it is, with smooth lines, and without stops at corners."""

@@ -5,6 +5,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from planner.geometry.pose import FloatArray
+from planner.motion.lying_cloth import LyingCloth
 from planner.motion.plan_segment import PlanSegment, duration_s, linked
 from planner.planning.found_plan import FoundPlan
 from planner.planning.problem import Problem
@@ -63,3 +65,26 @@ def test_a_transit_depends_on_where_the_hands_come_from() -> None:
     after_first = maker.transit(plan_segments[0].transfer, (), plan_segments[1].transfer)
     assert from_home is not None and after_first is not None and from_home is not after_first
     assert maker.transits_planned == 2
+
+
+def test_a_base_waits_while_hands_withdraw_that_it_would_sweep_along(monkeypatch: pytest.MonkeyPatch) -> None:
+    plan_segments = transferring(plan_of("t-shirt"))
+    maker = Problem.of(plan_of("t-shirt").plan.task).maker
+    before, driven = next(
+        (before.transfer, after.transfer)
+        for before, after in pairwise(plan_segments)
+        if after.transit is not None and len(after.transit.timed_phases) == 2 and after.late_s == 0.0
+    )
+    assert before is not None and driven is not None
+    withdrawn = before.retreat.joints[-1]
+
+    def stands_first(cloth: LyingCloth, bases: FloatArray, joints: FloatArray, openings_m: FloatArray) -> bool:
+        low = int(np.abs(joints - withdrawn).max(axis=1).argmin())
+        return bool(np.allclose(bases[: low + 1], bases[0]))
+
+    monkeypatch.setattr(maker.transits, "is_clear", stands_first)
+    transit = maker.transit(before, (), driven)
+    assert transit is not None and transit.late_s == 0.0
+    wait, drive, _ = transit.timed_phases
+    assert wait.phase.base[0] == wait.phase.base[1] and drive.phase.base[0] != drive.phase.base[1]
+    assert wait.duration_s == pytest.approx(before.retreat.shortest_s)
