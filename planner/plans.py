@@ -7,8 +7,8 @@ The algorithm of the paper (section 5), from top to bottom:
    DAG makes available, drags towards the robot, moves between stations.
 3. Validate the path found: look for joint paths of both arms that are free of collision. Where there are none, or they
    take longer than assumed, the search continues with the costs known by then.
-4. Hands hold firmly wherever they can: every vertex within 8 cm of a grip. Only where that gives no plan is all of this
-   done again with grips that hold within the garment's own radius.
+4. Hands hold firmly wherever they can: every vertex within 8 cm of a grip. Only where that gives no plan with half of
+   the work allowed is all of this done again with grips that hold within the garment's own radius.
 5. A validated path is the plan. If the search exhausts all states first, no plan exists, and the obstacles that it met
    say why. To find this out sooner, a search that takes long also checks each fold alone with everything else relaxed:
    usually a single fold is to blame.
@@ -33,6 +33,9 @@ from planner.task.plan import Plan
 from planner.task.reason import Reason
 from planner.task.scene import Scene
 from planner.task.task import Task, TaskOptions
+
+FIRM_SHARE = 0.5
+"""The share of all work that is spent on hands that hold firmly, where no plan is found."""
 
 
 def make_plan(
@@ -103,9 +106,10 @@ def plan(
 def _firmly_or_not(task: Task, budget: Budget, hints: Hints, *, with_reasons: bool) -> Iterator[Event]:
     """Plan a task for hands that hold firmly; where there is no such plan, for hands that hold in any way."""
     is_known_firm = hints.known is not None and hints.known.context.is_firm
-    firm = Problem.of(task, budget.deadline).firm()
-    if (yield from _solved(_planned(firm, budget, hints if is_known_firm else replace(hints, known=None)))):
+    firm, part = Problem.of(task, budget.deadline).firm(), budget.part(FIRM_SHARE * budget.work_limit_s)
+    if (yield from _solved(_planned(firm, part, hints if is_known_firm else replace(hints, known=None)))):
         return
+    budget.beside_s += part.spent_s
     # This problem knows where the arms reach as far as has been asked.
     events = _planned(Problem.of(task, budget.deadline), budget, hints)
     yield from _explained(events) if with_reasons else events

@@ -12,7 +12,7 @@ rolled up, to whatever size.
 
 import math
 from collections import Counter, deque
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
 from itertools import islice
@@ -52,6 +52,9 @@ _FAILURES = 2
 
 _BRIEF_SHARE = 0.4
 """The work for the plan of a packet's first folds, and for any plan until there is a proposal, as a share of all."""
+
+_PATIENT_SHARE = 10.0
+"""The work for each packet that took all its work without a plan, where no packet has one, as a share of that."""
 
 _ASIDE = 3
 """How many ways without a plan at that work are put aside, until one of them is planned with all of it."""
@@ -199,8 +202,9 @@ def propose_folds(
         options: those of each plan, as for `Task.of`.
 
     Yields:
-        Untried ways; then those that can be done as they are found, about in the order of what people like; then
-        others, up to the count, each the best of a way of which none can be done.
+        Untried ways; then those that can be done as they are found, about in the order of what people like (where none
+        is found with that work, with ten times as much); then others, up to the count, each the best of a way of which
+        none can be done.
 
     Returns:
         What was tried.
@@ -290,7 +294,7 @@ def _planned(
         if is_brief and any(one.way == packet.way for one in aside):
             aside.append(packet)
             continue
-        proposal = _proposal(_brief(task) if is_brief else task, packet, packet.folds, should_stop)
+        proposal = _proposal(_with_work(task, _BRIEF_SHARE) if is_brief else task, packet, packet.folds, should_stop)
         if should_stop():
             break
         if is_brief and proposal.status == "budget_exceeded":
@@ -308,14 +312,32 @@ def _planned(
         if (looks := (packet.shape, proposal.cost_s)) not in shown:
             shown.add(looks)
             yield proposal
+    left: Iterable[Proposal] = (one for way, one in failed.items() if way not in solved)
+    if not shown:
+        left = _tried_longer(task, left, should_stop)
     if not should_stop():
-        yield from islice((one for way, one in failed.items() if way not in solved), count - len(shown))
+        yield from islice(left, count - len(shown))
     return Tried(search.enumerated, search.nearest_m)
 
 
 def _proposal(task: Task, packet: Packet, folds: tuple[DrawnFold, ...], should_stop: Callable[[], bool]) -> Proposal:
     plan = _plan(task, folds, should_stop)
     return Proposal(plan.garment, packet.size_m, packet.layers, packet.face, plan)
+
+
+def _tried_longer(task: Task, found: Iterable[Proposal], should_stop: Callable[[], bool]) -> Iterator[Proposal]:
+    """Yield proposals of which none has a plan: first those that get one from more work, then the others."""
+    patient = _with_work(task, _PATIENT_SHARE)
+    others = list[Proposal]()
+    for one in found:
+        if one.status == "budget_exceeded" and not should_stop():
+            plan = _plan(patient, one.garment.folds, should_stop)
+            one = replace(one, garment=plan.garment, plan=plan)
+        if one.status == "solved":
+            yield one
+        else:
+            others.append(one)
+    yield from others
 
 
 def _or_mirrored(task: Task, packet: Packet, found: Proposal, should_stop: Callable[[], bool]) -> Proposal:
@@ -330,7 +352,7 @@ def _or_mirrored(task: Task, packet: Packet, found: Proposal, should_stop: Calla
         mirrored = Problem.of(replace(task, garment=replace(garment, folds=folds)))
         if should_stop() or arm_time(mirrored.context)(mirrored.start) > (found.cost_s or 0.0) - spared_s:
             break
-        other = _proposal(_brief(task), packet, folds, should_stop)
+        other = _proposal(_with_work(task, _BRIEF_SHARE), packet, folds, should_stop)
         if other.cost_s is not None and other.cost_s < (found.cost_s or 0.0) - TIME_S:
             found = other
     return found
@@ -343,7 +365,7 @@ def _blamed(
 
     Others that begin so have no plan either. First folds that have one are added to `fine`.
     """
-    brief = _brief(task)
+    brief = _with_work(task, _BRIEF_SHARE)
     for done in range(len(task.garment.folds) + 1, len(packet.folds)):
         folds = packet.folds[:done]
         if folds not in fine and not _plan(brief, folds, should_stop).is_solved:
@@ -352,9 +374,9 @@ def _blamed(
     return ()
 
 
-def _brief(task: Task) -> Task:
-    """Return a task with less work."""
-    return replace(task, limits=replace(task.limits, work_limit_s=_BRIEF_SHARE * (task.limits.work_limit_s or 0.0)))
+def _with_work(task: Task, share: float) -> Task:
+    """Return a task with that share of its work."""
+    return replace(task, limits=replace(task.limits, work_limit_s=share * (task.limits.work_limit_s or 0.0)))
 
 
 def _plan(task: Task, folds: tuple[DrawnFold, ...], should_stop: Callable[[], bool]) -> Plan:

@@ -180,19 +180,20 @@ def a_star(
     """
     search: _Search[S, A] = _Search(heuristic, limit, is_consistent, {start: 0.0})
     search.push(start, 0.0, heuristic(start), None)
-    expanded = 0
+    expanded, bound = 0, 0.0
     while search.queue:
         estimate, minus_cost, _, state, deferred = heapq.heappop(search.queue)
-        cost = -minus_cost
+        # Each estimate popped is a lower bound: deferred edges may have one above that of what they yield.
+        cost, bound = -minus_cost, max(bound, estimate)
         if deferred is None and state in search.closed:
             continue
         if deferred is None and is_goal(state):
             yield SearchResult(Outcome.SOLVED, search.path_to(state), cost, cost, expanded, search.explored)
             return
         if deferred is None and expanded >= max_expanded:
-            yield SearchResult(Outcome.BUDGET_EXCEEDED, (), math.inf, estimate, expanded, search.explored)
+            yield SearchResult(Outcome.BUDGET_EXCEEDED, (), math.inf, bound, expanded, search.explored)
             return
-        yield SearchResult(Outcome.UNFINISHED, (), math.inf, estimate, expanded, search.explored)
+        yield SearchResult(Outcome.UNFINISHED, (), math.inf, bound, expanded, search.explored)
         if deferred is None:
             search.closed.add(state)
             expanded += 1

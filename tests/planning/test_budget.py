@@ -2,12 +2,14 @@
 
 import math
 import time
+from collections.abc import Iterator
 
 import pytest
 
-from planner import Plan, Task, deadline, load_garment, make_plan
+from planner import Plan, Task, deadline, load_garment, make_plan, plans
 from planner.planning import plan_search
 from planner.planning.budget import Budget
+from planner.planning.events import Event
 from planner.planning.problem import Problem
 from planner.plans import plan
 from tests.required import required
@@ -56,6 +58,21 @@ def test_and_falls_back_on_the_same_plan_at_the_same_time(monkeypatch: pytest.Mo
     (quick, quickly_found), (slow, slowly_found) = answers
     assert what_matters(slow) == what_matters(quick)
     assert [found.cost_s for found in slowly_found] == [found.cost_s for found in quickly_found] != []
+
+
+def test_half_of_the_work_is_left_for_looser_hands_where_no_firm_ones_are_found(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def vain(problem: Problem, budget: Budget, hints: plan_search.Hints) -> Iterator[Event]:
+        if problem.context.is_firm:
+            budget.beside_s += budget.work_limit_s
+        return plan_search.quickest(problem, budget, hints)
+
+    monkeypatch.setattr(plans, "quickest", vain)
+    towel = load_garment("hand-towel")
+    assert make_plan(towel, work_limit_s=1.0, time_limit_s=60.0).is_solved
+    monkeypatch.setattr(plans, "FIRM_SHARE", 1.0)
+    assert make_plan(towel, work_limit_s=1.0, time_limit_s=60.0).status == "budget_exceeded"
 
 
 def test_the_clock_ends_a_search_that_has_work_left() -> None:

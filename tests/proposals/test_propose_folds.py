@@ -82,6 +82,13 @@ def test_out_of_the_robots_reach_packets_are_proposed_as_infeasible() -> None:
     assert [required(one.plan).reasons[0].code for one in answer.proposals] == [Code.OUT_OF_REACH] * 2
 
 
+def test_where_no_packet_has_a_plan_with_its_work_they_are_planned_with_more() -> None:
+    (proposal,) = all_proposals(propose_folds(TOWEL, "shelf", count=1, work_limit_s=0.02)).proposals
+    assert proposal.status == "solved"
+    with_that_work = make_plan(replace(required(proposal.plan).task, limits=Task.of(TOWEL, work_limit_s=0.02).limits))
+    assert with_that_work.status == "budget_exceeded"
+
+
 def test_nothing_more_is_proposed_once_it_is_stopped() -> None:
     assert all_proposals(propose_folds(TOWEL, "shelf", should_stop=lambda: True)).proposals == ()
 

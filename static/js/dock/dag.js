@@ -2,6 +2,7 @@
 
 import { element } from "../dom.js";
 import { say } from "../language/say.js";
+import { listed } from "../messages/lengths.js";
 import { columns, wayOf } from "./dag_layout.js";
 import { before, waitsFor } from "./fold_states.js";
 import { svg } from "./icons.js";
@@ -169,7 +170,7 @@ export class Dag {
    */
   label(folds, fold, state) {
     /** @param {number[]} others */
-    const names = (others) => others.map((other) => foldName(folds[other], other)).join(say("and"));
+    const names = (others) => listed(others.map((other) => foldName(folds[other], other)));
     const [after, first] = [waitsFor(this.plan, fold), before(this.plan, fold)];
     const about = [foldName(folds[fold], fold), say(`colour.${folds[fold].kind}`), STATES[state] ?? ""];
     if (after.length) about.push(say("dag.after", { folds: names(after) }));

@@ -3,7 +3,7 @@
 import { assumptionChip } from "../assumptions.js";
 import { button, element } from "../dom.js";
 import { say } from "../language/say.js";
-import { length } from "../messages/lengths.js";
+import { length, listed } from "../messages/lengths.js";
 import { iconButton, relabel } from "./buttons.js";
 import { FoldFields } from "./fold_fields.js";
 import { icon } from "./icons.js";
@@ -98,7 +98,7 @@ export class FoldRow {
     this.waits.title = waits.length
       ? say("fold.after_hint", { folds: waits.map((other) => other.name).join(", ") })
       : "";
-    this.waiting = waits.map((other) => other.name).join(say("and"));
+    this.waiting = listed(waits.map((other) => other.name));
     this.problem = problem;
     this.isDoneBefore = isDoneBefore;
     this.mark.title = isDoneBefore ? DONE_BEFORE : "";

@@ -51,7 +51,7 @@ export const CHANGES = {
       folds: listed(wider.map((/** @type {number} */ index) => called(folds, index))),
     }),
   assume_together: ({ parts }, folds) =>
-    parts.map((/** @type {Says} */ part) => CHANGES[part.code](part, folds)).join(say("and")),
+    listed(parts.map((/** @type {Says} */ part) => CHANGES[part.code](part, folds))),
   make_blue: ({ fold }, folds) => say("message.make_blue", { fold: called(folds, fold) }),
   put_onto_cloth: ({ fold }, folds) => say("message.put_onto_cloth", { fold: called(folds, fold) }),
   put_onto_flap: ({ fold }, folds) => say("message.put_onto_flap", { fold: called(folds, fold) }),

@@ -1,7 +1,7 @@
 /** Ways and directions of the table frame in words, as the robot sees them from the near edge of the table. */
 
 import { say } from "../language/say.js";
-import { length } from "./lengths.js";
+import { length, listed } from "./lengths.js";
 
 /** A shorter way need not be told (m). */
 const NOTICEABLE_M = 5e-4;
@@ -13,7 +13,7 @@ export function moved([x, y]) {
   const parts = [];
   if (Math.abs(x) > NOTICEABLE_M) parts.push(`${length(Math.abs(x))} ${ahead(x)}`);
   if (Math.abs(y) > NOTICEABLE_M) parts.push(`${length(Math.abs(y))} ${aside(y)}`);
-  return parts.join(say("and"));
+  return listed(parts);
 }
 
 /** @param {number[]} towards */
@@ -21,7 +21,7 @@ export function direction([x, y]) {
   const parts = [];
   if (Math.abs(x) > OBLIQUE * Math.abs(y)) parts.push(ahead(x));
   if (Math.abs(y) > OBLIQUE * Math.abs(x)) parts.push(aside(y));
-  return parts.join(say("and"));
+  return listed(parts);
 }
 
 /** @param {number} x */

@@ -43,7 +43,11 @@ export const percent = (share, digits = 0) => say("amount.percent", { number: nu
 export const height = (metres) =>
   metres >= 0 ? say("height.over", { length: length(metres) }) : say("height.below", { length: length(-metres) });
 
-const list = new Intl.ListFormat(language === "en" ? "en-GB" : language); // American lists have one comma more
+const lists = language === "en" ? "en-GB" : language; // American lists have one comma more
+const [all, one] = [new Intl.ListFormat(lists), new Intl.ListFormat(lists, { type: "disjunction" })];
 
 /** Things one after the other: `a, b and c`. @param {string[]} parts */
-export const listed = (parts) => list.format(parts);
+export const listed = (parts) => all.format(parts);
+
+/** One of several things: `a, b or c`. @param {string[]} parts */
+export const either = (parts) => one.format(parts);

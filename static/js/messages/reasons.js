@@ -3,7 +3,7 @@
 import { say } from "../language/say.js";
 import { hundredths } from "./changes.js";
 import { moved } from "./directions.js";
-import { area, enough, height, length, listed, onGarment, onTable, percent, point } from "./lengths.js";
+import { area, either, enough, height, length, listed, onGarment, onTable, percent, point } from "./lengths.js";
 import { called, counted, stand, word } from "./names.js";
 
 /** @import { Reason, Says } from "pleat" */
@@ -202,7 +202,7 @@ function howTo(movable, up) {
     table: say(up > 0 ? "move.table_up" : "move.table_down"),
     torso: say(up > 0 ? "move.torso_down" : "move.torso_up"),
   };
-  return movable.map((name) => words[name]).join(say("or"));
+  return either(movable.map((name) => words[name]));
 }
 
 /** A direction of the base frame in words. @param {number[]} towards */
@@ -210,7 +210,7 @@ function whereTo(towards) {
   const words = SIDES.flatMap(([more, less], axis) =>
     Math.abs(towards[axis]) > OBLIQUE ? [towards[axis] > 0 ? more : less] : [],
   );
-  return words.join(say("and")) || say("side.shoulder");
+  return listed(words) || say("side.shoulder");
 }
 
 /** Where drags had brought the cloth. @param {Says} says */
