@@ -6,12 +6,14 @@ from collections import Counter
 from collections.abc import Generator, Iterator
 from functools import cache
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, settings
 
 from tests.laws.law import LONG, TRIED
+from tests.replay.planned import PLANS
 
 BROWSER_TESTS = Path(__file__).parent / "browser"
 EVEN = Path(__file__).parent / "even"
@@ -33,7 +35,11 @@ settings.load_profile("default")
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_configure(config: pytest.Config) -> None:
-    """Let ``--hypothesis-seed`` set the random cases; the chosen profile is loaded afterwards."""
+    """Make the folder of plans; let ``--hypothesis-seed`` set the random cases: the profile is loaded afterwards."""
+    if not hasattr(config, "workerinput"):
+        plans = TemporaryDirectory(prefix="plans")
+        os.environ[PLANS] = plans.name
+        config.add_cleanup(plans.cleanup)
     if config.getoption("hypothesis_seed") is not None:
         for name in ("default", LONG):
             settings.register_profile(name, settings.get_profile(name), derandomize=False)

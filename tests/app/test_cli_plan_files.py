@@ -11,6 +11,7 @@ from app.files.export import no_plan
 from app.files.exports import EXPORTS
 from planner import Plan
 from planner.task.plan_files import read_plan
+from tests.app.samples import towel
 from tests.app.test_cli import pleat
 from tests.required import required
 from tests.small_plan import unsolved
@@ -31,9 +32,11 @@ def test_a_plan_file_is_shown_as_it_was_planned(file: Path) -> None:
 
 @pytest.fixture(scope="module")
 def refused_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Return the plan file of a garment that cannot be folded."""
-    path = tmp_path_factory.mktemp("refused") / "no.plan.json"
-    assert pleat("plan", "scarf-halved", "--out", str(path)).exit_code == 3
+    """Return the plan file of a garment that lies out of reach."""
+    folder = tmp_path_factory.mktemp("refused")
+    garment, path = folder / "far.json", folder / "no.plan.json"
+    garment.write_text(json.dumps(towel(placement={"x_m": 3.0, "y_m": 0.0, "yaw_rad": 0.0})))
+    assert pleat("plan", str(garment), "--out", str(path)).exit_code == 3
     return path
 
 
@@ -63,7 +66,7 @@ def test_the_timeline_is_that_of_rest(file: Path) -> None:
 
 
 def test_velocities_are_how_joints_change(file: Path) -> None:
-    samples = json.loads(pleat("timeline", str(file), "--rate-hz", "200").stdout)["samples"]
+    samples = json.loads(pleat("timeline", str(file), "--rate-hz", "100").stdout)["samples"]
     off = []
     for before, after in pairwise(samples):
         step_s = after["t_s"] - before["t_s"]

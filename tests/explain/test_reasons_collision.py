@@ -61,10 +61,10 @@ def refused(x_m: float, back_off_max_m: float) -> Plan:
 def test_a_drag_that_the_arms_cannot_make_is_the_reason_for_the_fold_that_needs_it(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    open_way = planned(napkin(HALF, x_m=JUST_TOO_FAR), front_alone(0.3))
+    open_way = planned(napkin(HALF, x_m=JUST_TOO_FAR), front_alone(0.1))
     assert [p.kind for p in open_way.primitives] == ["drag", "fold"]
     barred(monkeypatch, lambda arm, base: True)
-    (reason,) = refused(JUST_TOO_FAR, 0.3).reasons
+    (reason,) = refused(JUST_TOO_FAR, 0.1).reasons
     assert (reason.fold, reason.code, reason.station) == (0, Code.COLLISION, "front")
     assert reason.message.startswith("fold 0 'half': to drag the cloth by (-0.10, 0.00) m, from front ")
     assert (reason.point, reason.short_by_m, reason.offset_m) == (None, None, (0.0, 0.0))
@@ -74,7 +74,7 @@ def test_where_the_arms_collide_in_a_drag_the_cloth_has_come_as_far_as_the_hand(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(problem, "load_robot", lambda name: HinderedRobot(lambda arm, base: True))
-    (reason,) = refused(JUST_TOO_FAR, 0.3).reasons
+    (reason,) = refused(JUST_TOO_FAR, 0.1).reasons
     # It is worst at the drag's end, 0.1 m behind where it began: at the station, where the base is least far back. The
     # left hand has the near corner there, which lay at (-0.35, 0.15), 2 cm over the table.
     assert (reason.code, reason.arm, reason.station) == (Code.COLLISION, "left", "front")

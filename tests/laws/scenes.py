@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from hypothesis import assume
 from hypothesis import strategies as st
 
-from planner import Plan, make_plan
+from planner import Plan, Task, find_plan
 from planner.cloth.garment import Garment
 from planner.cloth.garment_files import load_garment, shipped_garment_names
 from planner.folds.fold_sequence import FoldSequence
@@ -69,9 +69,9 @@ class Problem:
     def first_state(self) -> State:
         return State(0, (0.0, 0.0), [name for name, _ in self.scene.stations].index(self.start), 0)
 
-    def plan(self, heuristic: str = "arm_time", time_limit_s: float = 60.0) -> Plan:
+    def plan(self, heuristic: str = "arm_time", time_limit_s: float = 60.0, *, with_reasons: bool = False) -> Plan:
         """Return the planner's plan, with joint paths; mostly work, the same every time, ends a long search."""
-        return make_plan(
+        task = Task.of(
             self.garment,
             self.scene,
             start_station=self.start,
@@ -80,6 +80,7 @@ class Problem:
             time_limit_s=time_limit_s,
             work_limit_s=min(time_limit_s, WORK_S),
         )
+        return find_plan(task, with_reasons=with_reasons).plan
 
     def lean_cost_s(self) -> float:
         """Return the cost by the planner's own edges, which leave out those that are redundant or no cheaper."""

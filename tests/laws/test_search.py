@@ -41,7 +41,7 @@ def test_a_fold_that_is_called_impossible_alone_is_done_by_no_sequence_of_primit
 @law("planning", short=4, long=30)
 def test_a_plan_is_never_cheaper_than_the_cheapest_primitives_nor_is_there_one_without_them(problem: Problem) -> None:
     # Joint paths may take longer than the model's motions, and some cannot be had; they never make anything quicker.
-    plan = problem.plan()
+    plan = problem.plan(with_reasons=True)
     cheapest = problem.cost_s()
     assert plan.status != "solved" or required(plan.cost_s) >= cheapest - SECOND
     assert plan.status != "infeasible" or plan.reasons

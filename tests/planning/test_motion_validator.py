@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from planner import Garment, Plan, Scene, make_plan
+from planner import Garment, Plan, Scene, Task, find_plan
 from planner.cloth.garment import DrawnFold
 from planner.geometry.pose import BoolArray, FloatArray, Pose2
 from planner.geometry.table import Table
@@ -63,8 +63,8 @@ def scene(arm_motion_s: float, back_off_max_m: float = 0.05) -> Scene:
     return Scene(stations=STATIONS, back_off_max_m=back_off_max_m, arm_motion_s=arm_motion_s)
 
 
-def planned(cloth: Garment, where: Scene) -> Plan:
-    return make_plan(cloth, where, time_limit_s=60.0)
+def planned(cloth: Garment, where: Scene, *, with_reasons: bool = True) -> Plan:
+    return find_plan(Task.of(cloth, where, time_limit_s=60.0), with_reasons=with_reasons).plan
 
 
 class Eager:
@@ -247,12 +247,12 @@ def test_what_the_same_arms_fail_at_again_and_again_they_try_no_more(monkeypatch
     monkeypatch.setattr(path_search, "MotionValidator", Seen)
     barred(monkeypatch, lambda arm, base: arm == 0)
     searches = []
-    for failures_max in (1, 1_000):
+    for failures_max in (1, 3):
         give_up_after(monkeypatch, failures_max)
         begun = len(validators)
-        plan = planned(napkin(HALF), scene(IDLE_S, ROOM_TO_TURN_M))
-        assert plan.status == "infeasible" and plan.reasons[0].code == Code.COLLISION
-        searches.append(validators[begun])  # others follow, which try the reasons
+        plan = planned(napkin(HALF), scene(IDLE_S, 0.1), with_reasons=False)
+        assert plan.status == "infeasible"
+        searches.append(validators[begun])
     few, many = (Counter(run[-1].task for run in seen.rejected) for seen in searches)
     assert set(few.values()) == {1}, "after one failure they do not try with the cloth elsewhere"
     assert max(many.values()) > 1

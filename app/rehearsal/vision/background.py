@@ -64,19 +64,22 @@ def _features(image: Image) -> FloatImage:
 def _surface(features: FloatImage, border: BoolArray) -> FloatImage:
     """Return the quadratic surface through what looks like the table, without its mean, shape of the features."""
     height, width = border.shape
-    down, across = np.mgrid[-1 : 1 : height * 1j, -1 : 1 : width * 1j].astype(np.float32)
-    terms = np.stack([np.ones_like(down), across, down, across * down, across**2, down**2], axis=2)
-    used = border.copy()
-    surface = np.zeros_like(features)
+    down, across = (one.ravel() for one in np.mgrid[-1 : 1 : height * 1j, -1 : 1 : width * 1j].astype(np.float32))
+    terms = np.stack([np.ones_like(down), across, down, across * down, across**2, down**2], axis=1)
+    flat = features.reshape(len(terms), -1)
+    used = at_border = border.ravel()
+    surface = np.zeros_like(flat)
     for _ in range(_ROUNDS):
-        flat, _, _, _ = np.linalg.lstsq(terms[used], features[used], rcond=None)
-        surface = terms @ flat
-        off = features - surface
-        spread = np.maximum(1.5 * np.median(np.abs(off[used]), axis=0), _LEAST_SPREAD)
-        used = (np.abs(off / spread) < 2.5).all(axis=2)
+        some = terms[used]
+        # Six normal equations: the least squares of all pixels themselves take ten times as long.
+        shares, _, _, _ = np.linalg.lstsq(some.T @ some, some.T @ flat[used], rcond=None)
+        surface = terms @ shares
+        off = np.abs(flat - surface)
+        spread = np.maximum(1.5 * np.median(off[used], axis=0), _LEAST_SPREAD)
+        used = (off < 2.5 * spread).all(axis=1)
         if used.mean() < BORDER:
-            used = border
-    return np.asarray(surface - surface[border].mean(axis=0), np.float32)
+            used = at_border
+    return np.asarray((surface - surface[at_border].mean(axis=0)).reshape(features.shape), np.float32)
 
 
 def _border_colours(samples: FloatImage) -> tuple[FloatImage, FloatImage]:

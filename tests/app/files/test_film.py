@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from PIL import Image, ImageSequence
 
-from app.files.film import FILM_PX, GIF_PX, HOLD_S, STILL_PX, gif_film, mp4_film, still
+from app.files import film as film_module
+from app.files.film import GIF_PX, HOLD_S, STILL_PX, gif_film, mp4_film, still
 from app.language import ENGLISH
 from app.ui.colours import LIGHT
 from app.ui.scene_picture import Part, ScenePainter
@@ -41,13 +42,14 @@ def test_a_gif_lasts_as_long_as_the_plan_and_shows_another_picture_each_second(p
     assert sum(change > 20.0 for change in changes) > 0.8 * required(plan.cost_s)
 
 
-def test_an_mp4_has_the_frames_asked_for(plan: Plan) -> None:
+def test_an_mp4_has_the_frames_asked_for(plan: Plan, monkeypatch: pytest.MonkeyPatch) -> None:
     av = pytest.importorskip("av")
+    monkeypatch.setattr(film_module, "FILM_PX", (320, 180))
     film = mp4_film(plan, RATE_HZ, lambda: False, ENGLISH, is_dark=True)
     with av.open(io.BytesIO(film)) as file:
         frames = [frame.to_ndarray(format="rgb24") for frame in file.decode(video=0)]
     assert len(frames) == pytest.approx(frames_of(plan), abs=1.5)
-    assert frames[0].shape == (*FILM_PX[::-1], 3)
+    assert frames[0].shape == (180, 320, 3)
 
 
 def test_a_film_that_nobody_wants_any_more_is_empty(plan: Plan) -> None:

@@ -12,24 +12,18 @@ from app.rehearsal.step_motions import step_motions
 from app.rehearsal.world import GripMotion
 from planner import Task
 from planner.errors import RequestError, UnsolvedPlanError
-from tests.app.rehearsal.towel import COARSE, towel_plan, verdict_on
+from tests.app.rehearsal.towel import COARSE, COARSER, towel_plan, verdict_on
 
 
 def moved(grip: GripMotion, dx_m: float, dy_m: float) -> GripMotion:
     return replace(grip, points=tuple((x + dx_m, y + dy_m, z) for x, y, z in grip.points))
 
 
-def test_a_towel_folded_as_planned_holds() -> None:
-    (motion,) = step_motions(towel_plan())
-    verdict = verdict_on(towel_plan(), motion)
-    assert verdict.held, verdict
-
-
 def test_a_towel_folded_with_one_of_two_grips_is_lost() -> None:
     (motion,) = step_motions(towel_plan())
-    verdict = verdict_on(towel_plan(), replace(motion, grips=motion.grips[:1]))
+    verdict = verdict_on(towel_plan(), replace(motion, grips=motion.grips[:1]), COARSER)
     assert not verdict.held
-    assert verdict.iou < 0.9
+    assert verdict.iou < 0.7 < verdict_on(towel_plan(), motion, COARSER).iou
 
 
 @pytest.mark.long

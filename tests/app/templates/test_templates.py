@@ -1,5 +1,5 @@
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from app.drawing.garment_drawing import drawing_of
@@ -11,6 +11,7 @@ from planner import load_garment, make_plan
 from planner.cloth.garment import Garment
 from planner.errors import GarmentError
 from planner.task.reason import Code
+from tests.laws.law import law
 
 # The shipped garments whose values are the defaults of a template.
 SHIPPED = {
@@ -39,7 +40,13 @@ def refusal(name: str, **measures: float) -> MeasureError:
     return caught.value
 
 
-@each
+@pytest.mark.parametrize(
+    "template",
+    [
+        pytest.param(template, id=template.name, marks=[pytest.mark.long] if template.name in SHIPPED else [])
+        for template in TEMPLATES
+    ],
+)
 def test_a_template_makes_a_garment_that_a_robot_can_fold(template: Template) -> None:
     plan = make_plan(template.garment({}))
     assert plan.status == "solved"
@@ -69,8 +76,8 @@ def test_defaults_are_within_their_ranges_and_named(template: Template) -> None:
 
 
 @each
-@settings(max_examples=60, derandomize=True, deadline=None)
 @given(data=st.data())
+@law("geometry", short=15, long=60)
 def test_any_likely_measures_are_refused_by_name_or_make_folds_that_are_all_legal(
     template: Template, data: st.DataObject
 ) -> None:
@@ -87,8 +94,8 @@ def test_any_likely_measures_are_refused_by_name_or_make_folds_that_are_all_lega
 
 
 @each
-@settings(max_examples=30, derandomize=True, deadline=None)
 @given(data=st.data())
+@law("geometry", short=10, long=30)
 def test_a_little_more_or_less_of_everything_still_makes_legal_folds(template: Template, data: st.DataObject) -> None:
     near = {
         measure.name: measure.default_m * data.draw(st.floats(0.97, 1.03), label=measure.name)
@@ -99,8 +106,8 @@ def test_a_little_more_or_less_of_everything_still_makes_legal_folds(template: T
 
 
 @each
-@settings(max_examples=60, derandomize=True, deadline=None)
 @given(data=st.data())
+@law("geometry", short=15, long=60)
 def test_measures_of_any_size_make_a_drawing_or_are_refused_because_there_is_no_such_garment(
     template: Template, data: st.DataObject
 ) -> None:

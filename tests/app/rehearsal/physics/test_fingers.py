@@ -22,9 +22,9 @@ SIZE = FingerSize(0.06, 0.022, 0.012, 0.09)
 UP = np.array([0.0, 0.0, 1.0])
 
 
-def world(layers: int = 1) -> PhysicsWorld:
-    """A square of cloth of 24 cm on the table, its corner at the origin; or so many of its layers on one another."""
-    task = Task.of(garment(rectangle_points(0.24, 0.24)))
+def world(layers: int = 1, wide_m: float = 0.24) -> PhysicsWorld:
+    """Cloth of 24 cm on the table, its corner at the origin, wide along y; or so many of its layers on one another."""
+    task = Task.of(garment(rectangle_points(0.24, wide_m)))
     made = PhysicsWorld(task, Fabric(), Resolution(0.015, settle_s=1.0), placement=Pose2(0.0, 0.0, 0.0))
     if layers > 1:  # pleats as wide as a row: a stack of cloth, however it came about
         points, gap_m = made.simulation.positions, Fabric().layer_m
@@ -35,9 +35,12 @@ def world(layers: int = 1) -> PhysicsWorld:
     return made
 
 
-def hold(lifted_m: float = 0.0, heading_rad: float | None = 0.0, *, opens: bool = False) -> StepMotion:
+def hold(
+    lifted_m: float = 0.0, heading_rad: float | None = 0.0, *, opens: bool = False, wide_m: float = 0.24
+) -> StepMotion:
     """A hand that takes the middle of the edge at x = 0, and goes inwards."""
-    points = ((0.0, 0.12, REST_HEIGHT_M), (0.05, 0.12, REST_HEIGHT_M + lifted_m))
+    middle_m = wide_m / 2.0
+    points = ((0.0, middle_m, REST_HEIGHT_M), (0.05, middle_m, REST_HEIGHT_M + lifted_m))
     grip = GripMotion("left", (0.0, 0.4), points, opens=opens, heading_rad=heading_rad)
     return StepMotion(0, "drag", 0.4, (grip,))
 
@@ -80,7 +83,7 @@ def test_cloth_that_lies_upon_a_finger_is_held_up_by_it_until_that_is_drawn_out(
 
 def test_a_stack_higher_than_fingers_hold_slips_out_of_them() -> None:
     # At the edge is every second row: 2 and 9 layers, 4 and 18 mm when they are pressed on one another.
-    motion, (few, many) = hold(), (world(layers) for layers in (3, 17))
+    motion, (few, many) = hold(wide_m=0.12), (world(layers, 0.12) for layers in (3, 17))
     assert few.perform(motion).has_cloth == {"left": True}
     assert many.perform(motion).has_cloth == {"left": False}
     assert not many.simulation.held
