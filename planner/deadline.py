@@ -74,6 +74,10 @@ class Deadline:
         """Whether it is over since a moment, so that a single step that was begun in time has mostly ended."""
         return self.left_s < -_GRACE_S or self.is_stopped
 
+    def put_off(self, later: "Deadline") -> None:
+        """Have the time be up when it is for another deadline."""
+        self._own_s, self._wall_s = later._own_s, later._wall_s
+
     def forget(self) -> None:
         """Limit nothing any more, and know nothing of who waited."""
         self._own_s = self._wall_s = math.inf

@@ -35,7 +35,7 @@ from planner.task.scene import Scene
 from planner.task.task import Task, TaskOptions
 
 FIRM_SHARE = 0.5
-"""The share of all work that is spent on hands that hold firmly, where no plan is found."""
+"""The share of all work and time that is spent on hands that hold firmly, where no plan is found."""
 
 
 def make_plan(
@@ -97,17 +97,26 @@ def plan(
     """
     compile_kernels(task.robot)
     budget = Budget.of(task.limits.work_limit_s, task.limits.time_limit_s, should_stop)
+    part = Budget.of(FIRM_SHARE * budget.work_limit_s, FIRM_SHARE * task.limits.time_limit_s, should_stop)
     try:
-        yield from _firmly_or_not(task, budget, hints or Hints(), with_reasons=with_reasons)
+        yield from _firmly_or_not(task, part, budget, hints or Hints(), with_reasons=with_reasons)
     finally:
-        budget.deadline.forget()  # the plan keeps its context, which has it
+        for one in (part, budget):
+            one.deadline.forget()  # the plan keeps its context, which has it
 
 
-def _firmly_or_not(task: Task, budget: Budget, hints: Hints, *, with_reasons: bool) -> Iterator[Event]:
-    """Plan a task for hands that hold firmly; where there is no such plan, for hands that hold in any way."""
+def _firmly_or_not(task: Task, part: Budget, budget: Budget, hints: Hints, *, with_reasons: bool) -> Iterator[Event]:
+    """Plan a task for hands that hold firmly; where there is no such plan, for hands that hold in any way.
+
+    Once a firm plan is found, quicker ones are looked for with all of the budget, until then with a part of it.
+    """
     is_known_firm = hints.known is not None and hints.known.context.is_firm
-    firm, part = Problem.of(task, budget.deadline).firm(), budget.part(FIRM_SHARE * budget.work_limit_s)
-    if (yield from _solved(_planned(firm, part, hints if is_known_firm else replace(hints, known=None)))):
+    firm = Problem.of(task, part.deadline).firm()
+    for event in _planned(firm, part, hints if is_known_firm else replace(hints, known=None)):
+        if event.found.plan.is_solved:
+            part.widen(budget)
+            yield event
+    if event.found.plan.is_solved:
         return
     budget.beside_s += part.spent_s
     # This problem knows where the arms reach as far as has been asked.

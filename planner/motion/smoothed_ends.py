@@ -1,6 +1,5 @@
 """Smooth lines for hands that would come late: without the kinks that slow them down, and without stops at corners."""
 
-from collections.abc import Iterator
 from itertools import pairwise
 
 import numpy as np
@@ -10,8 +9,11 @@ from planner.motion.line import Line
 from planner.motion.smoothing import smoothed
 from planner.motion.transit_paths import TransitPaths
 
-_SMOOTHING_PASSES, _BLENDED = 3, (10, 30, 60, 120)
-"""How often the lines of late hands are smoothed, and paths without stops at their corners.
+_SMOOTHING_PASSES = 3
+"""How often the lines of late hands are smoothed."""
+
+BLENDED = (10, 30, 60, 120)
+"""How often paths without stops at their corners are smoothed.
 
 The more often, the further from what is known to be free.
 """
@@ -28,12 +30,11 @@ def smoothed_ends(transits: TransitPaths, retreat: Line, approach: Line) -> tupl
     return _smoothed(transits, retreat, _STRAIGHT, 0), _smoothed(transits, approach, 0, _STRAIGHT)
 
 
-def blended(transits: TransitPaths, retreat: Line, way: FloatArray, approach: Line) -> Iterator[Line]:
-    """Yield lines that join a tail, a path of shape (n, joints) and a lead, more and more smoothed."""
+def blended(transits: TransitPaths, retreat: Line, way: FloatArray, approach: Line, passes: int) -> Line:
+    """Return a line that joins a tail, a path of shape (n, joints) and a lead, smoothed so many times over."""
     whole = np.concatenate([retreat.joints, *(_cut(a, b)[1:] for a, b in pairwise(way)), approach.joints[1:]])
     may_move = _may_move(whole, *(_STRAIGHT if len(line.joints) > 1 else 0 for line in (retreat, approach)))
-    for passes in _BLENDED:
-        yield transits.line(smoothed(whole, passes, may_move))
+    return transits.line(smoothed(whole, passes, may_move))
 
 
 def _smoothed(transits: TransitPaths, line: Line, first: int, last: int) -> Line:

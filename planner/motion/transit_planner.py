@@ -1,8 +1,8 @@
 """Plan transits: keyframes for hands that let go and come to their next grips in time, while the base drives.
 
 The hands withdraw straight from where they let go (the *tail* of the transfer before), travel, and come straight to the
-next grips (the *lead* of the next transfer). If the straight path is not clear beside the moving base, they go home
-first; if that is not clear either, the base waits until they are there.
+next grips (the *lead* of the next transfer). If the straight path is not clear beside the moving base, the base waits
+until they have withdrawn, or they go home first; if that is not clear either, the base waits until they are there.
 """
 
 from collections.abc import Callable, Iterator
@@ -16,7 +16,7 @@ from planner.geometry.tolerance import TIME_S
 from planner.motion.hand_holds import settling_s
 from planner.motion.joint_trajectory import JointTrajectory
 from planner.motion.line import Keyframes, Line
-from planner.motion.smoothed_ends import blended, smoothed_ends
+from planner.motion.smoothed_ends import BLENDED, blended, smoothed_ends
 from planner.motion.transit_paths import TransitPaths
 from planner.motion.transit_time import TransitTime
 from planner.motion.travel import led_along, quickest_lines
@@ -32,16 +32,24 @@ _CHECKS_MAX = 1000
 """The most waypoints tested: hands that take minutes for a path move less from one moment to the next."""
 
 
+_STRAIGHTENED = 4
+"""How often the difference between a path that takes too long and the straight one is halved."""
+
+
 class _Late(NamedTuple):
     """A run that takes longer than there is time.
 
     Attributes:
         late_s: by how much (s).
         run: returns its keyframes in a transit that lasts so much longer, None if that is not clear.
+        way: its path between tail and lead, shape (n, joints), rad.
+        along: returns the run that is made alike along another path.
     """
 
     late_s: float
     run: Callable[[TransitTime], Keyframes | None]
+    way: FloatArray
+    along: Callable[[FloatArray], "_Late"]
 
 
 class _Homeward(NamedTuple):
@@ -103,31 +111,80 @@ class TransitPlanner:
             late_s = self._late_s(free, retreat, way, approach)
             if late_s > TIME_S:
                 late += self._quicker(free, retreat, way, approach)
-            elif (keyframes := self._overlapping(retreat, way, approach, free)) is not None:
-                return free, keyframes
+            elif found := self._first_clear(
+                free, retreat, approach, partial(self._overlapping, retreat, way, approach)
+            ):
+                return found
         waiting = self._homeward(free, retreat, approach, going, coming)
         if waiting.late_s > TIME_S:
             turned = approach.moved(waiting.back[-1] - approach.joints[0])
             late += self._quicker(free, retreat, np.concatenate([waiting.away, waiting.back[1:]]), turned)
-        for late_s, run in sorted(late, key=lambda one: one.late_s):
-            if late_s >= waiting.late_s:
+        for one in sorted(late, key=lambda one: one.late_s):
+            if one.late_s >= waiting.late_s:
                 break
-            longer = free.longer(late_s)
-            keyframes = run(longer)
-            if keyframes is not None:
-                return longer, keyframes
+            found = self._first_clear(free.longer(one.late_s), retreat, approach, one.run)
+            if found is not None:
+                return self._straightened(free, retreat, approach, one) or found
         return self._waiting(free.longer(waiting.late_s), retreat, approach, waiting)
+
+    def _first_clear(
+        self, free: TransitTime, retreat: Line, approach: Line, run: Callable[[TransitTime], Keyframes | None]
+    ) -> tuple[TransitTime, Keyframes] | None:
+        """Return a run's time and keyframes, beside a base that drives at once or once the hands have withdrawn.
+
+        A base that drives at once may sweep hands along that are still low. The wait is taken from the reach, of which
+        enough must be left for coming to the grips. None if neither is clear.
+        """
+        times = [free]
+        if free.is_driving and retreat.shortest_s + approach.shortest_s + self.dwell_s <= free.reach_s:
+            times.append(free.after_waiting(retreat.shortest_s))
+        return next(((time, keyframes) for time in times if (keyframes := run(time)) is not None), None)
+
+    def _straightened(
+        self, free: TransitTime, retreat: Line, approach: Line, late: _Late
+    ) -> tuple[TransitTime, Keyframes] | None:
+        """Return a clear run alike, as near to the straight path as is found by halving; None if none is quicker."""
+        lengths = np.append(0.0, np.cumsum(self._transits.needed_s(late.way)))
+        straight = late.way[0] + (lengths / max(lengths[-1], TIME_S))[:, None] * (late.way[-1] - late.way[0])
+        low, high, quicker, least_s = 0.0, 1.0, None, late.late_s
+        for _ in range(_STRAIGHTENED):
+            if least_s <= TIME_S or len(late.way) < 3:
+                break
+            share = 0.5 * (low + high)
+            tried = late.along(straight + share * (late.way - straight))
+            found = None
+            if tried.late_s < least_s - TIME_S:
+                found = self._first_clear(free.longer(tried.late_s), retreat, approach, tried.run)
+            if found is None:
+                low = share
+            else:
+                high, quicker, least_s = share, found, tried.late_s
+        return quicker
 
     def _quicker(self, free: TransitTime, retreat: Line, way: FloatArray, approach: Line) -> Iterator["_Late"]:
         """Yield runs along a path that takes too long: as it is, with smooth lines, and without stops at corners."""
-        calm = smoothed_ends(self._transits, retreat, approach)
-        for one, other in ((retreat, approach), calm):
-            yield _Late(self._late_s(free, one, way, other), partial(self._overlapping, one, way, other))
+        for ends in ((retreat, approach), smoothed_ends(self._transits, retreat, approach)):
+            yield self._stopping(free, *ends, way)
         if not free.borders_s:
-            for line in blended(self._transits, retreat, way, approach):
-                yield _Late(
-                    max(line.shortest_s - self._time_s(free), 0.0), partial(self._along, line, retreat, approach)
-                )
+            for passes in BLENDED:
+                yield self._blended(free, retreat, approach, passes, way)
+
+    def _stopping(self, free: TransitTime, retreat: Line, approach: Line, way: FloatArray) -> "_Late":
+        return _Late(
+            self._late_s(free, retreat, way, approach),
+            partial(self._overlapping, retreat, way, approach),
+            way,
+            partial(self._stopping, free, retreat, approach),
+        )
+
+    def _blended(self, free: TransitTime, retreat: Line, approach: Line, passes: int, way: FloatArray) -> "_Late":
+        line = blended(self._transits, retreat, way, approach, passes)
+        return _Late(
+            max(line.shortest_s - self._time_s(free), 0.0),
+            partial(self._along, line, retreat, approach),
+            way,
+            partial(self._blended, free, retreat, approach, passes),
+        )
 
     def _along(self, line: Line, retreat: Line, approach: Line, free: TransitTime) -> Keyframes | None:
         """Return keyframes along one line that joins a tail and a lead; None if that is not clear."""

@@ -41,6 +41,11 @@ class TransitTime:
         )
 
     @property
+    def is_driving(self) -> bool:
+        """Whether the base drives."""
+        return any(timed.phase.base[0] != timed.phase.base[1] for timed in self.timed_phases)
+
+    @property
     def reach_s(self) -> float:
         """The duration of the reach at its end (s)."""
         return self.timed_phases[-1].duration_s

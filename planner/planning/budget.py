@@ -61,6 +61,11 @@ class Budget:
         """Return a budget for a part of the work, with the deadline of the whole."""
         return Budget(work_s, self.deadline)
 
+    def widen(self, whole: "Budget") -> None:
+        """Allow as much as another budget does."""
+        self.work_limit_s = whole.work_limit_s
+        self.deadline.put_off(whole.deadline)
+
     def watch(self, problem: Problem) -> Problem:
         """Start to count the reach queries and joint paths of a problem; return the problem."""
         self._problems.append(problem)

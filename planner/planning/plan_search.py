@@ -38,6 +38,9 @@ APART_SHARE, APART_LEAST_S = 2.0, 0.5
 WORTH_THOROUGH = 0.01
 """Share of its cost by which a plan must be above its lower bound so that more tries are made for a quicker one."""
 
+THOROUGH_SHARE = 0.5
+"""Work on more tries for each restricted task, as a share of earlier work."""
+
 _Status: TypeAlias = Literal["solved", "infeasible", "budget_exceeded"]
 
 
@@ -78,7 +81,7 @@ class _PlanSearch:
 
     def __init__(self, problem: Problem, budget: Budget, hints: Hints, *, is_patient: bool) -> None:
         self.budget = budget
-        self.problem, self._others = problem, list[Problem]()
+        self.problem, self._restricted = problem, list[PathSearch]()
         self._known, self._like = hints.known, hints.like
         self._is_patient = is_patient
         self._hands = EdgeHands(problem.context, problem.robot, problem.maker)
@@ -90,7 +93,7 @@ class _PlanSearch:
 
     def forget(self) -> None:
         """Drop what the problems' contexts have cached: a plan's steps keep them."""
-        for problem in (self.problem, *self._others):
+        for problem in (self.problem, *(search.problem for search in self._restricted)):
             problem.context.forget()
 
     def events(self) -> Iterator[Event]:
@@ -154,17 +157,20 @@ class _PlanSearch:
         """
         if work_s <= 0.0 or not self._is_in_doubt:
             return 0.0
-        self._others.append(problem)
-        budget = self.budget.part(0.0)
         hands = EdgeHands(problem.context, problem.robot, problem.maker)
-        search = PathSearch(problem, budget, problem.task.limits.max_expanded, hands=hands)
+        search = PathSearch(problem, self.budget.part(0.0), problem.task.limits.max_expanded, hands=hands)
+        self._restricted.append(search)
+        return self._quicker(search, search.run(), work_s)
+
+    def _quicker(self, search: PathSearch, pauses: Iterable[Pause], work_s: float) -> float:
+        """Run the search of a restricted task with limited work (s); return the work done (s)."""
         search.known_s, search.found = self.exact.known_s, self.exact.found
-        begun_s = budget.spent_s
-        budget.work_limit_s = begun_s + work_s
-        for _ in search.run():
+        begun_s = search.budget.spent_s
+        search.budget.work_limit_s = begun_s + work_s
+        for _ in pauses:
             pass
         self.exact.found = search.found
-        return budget.spent_s - begun_s
+        return search.budget.spent_s - begun_s
 
     def restricted(self) -> Iterator[Event]:
         """Look for a quicker plan with larger comfort radii, and with narrower cones; nothing is told meanwhile."""
@@ -175,6 +181,13 @@ class _PlanSearch:
         for problem in with_narrower_cones(self.problem):
             left_s -= self.restrict(problem, left_s)
         yield from ()
+
+    def thorough(self) -> Iterator[Event]:
+        """Search again with more tries, this task and the restricted ones, as long as that is worth it."""
+        yield from self.run(self.exact.run_again(THOROUGH, MORE_TRANSFERS))
+        for search in self._restricted:
+            if self.is_worth_thorough:
+                self._quicker(search, search.run_again(THOROUGH, MORE_TRANSFERS), THOROUGH_SHARE * self.budget.spent_s)
 
     @property
     def _is_in_doubt(self) -> bool:
@@ -258,7 +271,7 @@ def _try_thoroughly(search: _PlanSearch, pause: Pause) -> Iterator[Event] | None
     """
     if pause is not Pause.END or not search.is_worth_thorough:
         return None
-    return search.run(search.exact.run_again(THOROUGH, MORE_TRANSFERS))
+    return search.thorough()
 
 
 STRATEGIES: tuple[Strategy, ...] = (

@@ -5,7 +5,12 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from planner.geometry.pose import FloatArray
+from planner.motion.lying_cloth import LyingCloth
 from planner.motion.plan_segment import PlanSegment, duration_s, linked
+from planner.motion.timed_phase import TimedPhase
+from planner.motion.transit_planner import TransitPlanner
+from planner.motion.transit_time import TransitTime
 from planner.planning.found_plan import FoundPlan
 from planner.planning.problem import Problem
 from tests.replay.planned import planned
@@ -63,3 +68,56 @@ def test_a_transit_depends_on_where_the_hands_come_from() -> None:
     after_first = maker.transit(plan_segments[0].transfer, (), plan_segments[1].transfer)
     assert from_home is not None and after_first is not None and from_home is not after_first
     assert maker.transits_planned == 2
+
+
+def test_a_base_waits_while_hands_withdraw_that_it_would_sweep_along(monkeypatch: pytest.MonkeyPatch) -> None:
+    plan_segments = transferring(plan_of("t-shirt"))
+    maker = Problem.of(plan_of("t-shirt").plan.task).maker
+    before, driven = next(
+        (before.transfer, after.transfer)
+        for before, after in pairwise(plan_segments)
+        if after.transit is not None and len(after.transit.timed_phases) == 2 and after.late_s == 0.0
+    )
+    assert before is not None and driven is not None
+    withdrawn = before.retreat.joints[-1]
+
+    def stands_first(cloth: LyingCloth, bases: FloatArray, joints: FloatArray, openings_m: FloatArray) -> bool:
+        low = int(np.abs(joints - withdrawn).max(axis=1).argmin())
+        return bool(np.allclose(bases[: low + 1], bases[0]))
+
+    monkeypatch.setattr(maker.transits, "is_clear", stands_first)
+    transit = maker.transit(before, (), driven)
+    assert transit is not None and transit.late_s == 0.0
+    wait, drive, _ = transit.timed_phases
+    assert wait.phase.base[0] == wait.phase.base[1] and drive.phase.base[0] != drive.phase.base[1]
+    assert wait.duration_s == pytest.approx(before.retreat.shortest_s)
+
+
+def test_a_detour_that_takes_too_long_is_led_as_near_to_the_straight_path_as_is_clear(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    plan_segments = transferring(plan_of("t-shirt"))
+    maker = Problem.of(plan_of("t-shirt").plan.task).maker
+    before, after = plan_segments[0].transfer, plan_segments[1].transfer
+    assert before is not None and after is not None and after.transfer_path.cloths[0] is not None
+    start = before.retreat.joints[-1]
+    goal = maker.transits.unwound(after.approach.joints[0], start)
+
+    def aside(joints: FloatArray) -> float:
+        along = np.clip((joints - start) @ (goal - start) / ((goal - start) @ (goal - start)), 0.0, 1.0)
+        return float(np.linalg.norm(joints - start - along[:, None] * (goal - start), axis=1).max())
+
+    home = maker.transits.unwound(maker.transits.home, start)
+    ends = max(aside(before.retreat.joints), aside(after.approach.joints + goal - after.approach.joints[0]))
+    far_enough = ends + 0.2 * (aside(home[None]) - ends)
+    monkeypatch.setattr(maker.transits, "is_clear", lambda cloth, bases, joints, openings_m: aside(joints) > far_enough)
+    reach = TimedPhase.even(0, after.free_phases[-1], 1.5)
+    free = TransitTime([reach], 0.0, after.transfer_path.cloths[0])
+
+    def lasts_s() -> float:
+        planner = TransitPlanner(maker.transits, maker.dwell_s)
+        return planner.keyframes(free, before.retreat, after.approach, before.going, after.coming)[0].end_s
+
+    near_s = lasts_s()
+    monkeypatch.setattr("planner.motion.transit_planner._STRAIGHTENED", 0)
+    assert near_s < lasts_s() - 0.1

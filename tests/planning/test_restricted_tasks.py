@@ -1,11 +1,16 @@
 """Tightened tasks, which bring to the front ways that are among many others where there is more room."""
 
 import math
+from collections.abc import Iterator
 from dataclasses import replace
 
 import pytest
 
 from planner import Scene, Task, load_garment
+from planner.motion.search_limits import THOROUGH, SearchLimits
+from planner.planning.budget import Budget
+from planner.planning.path_search import PathSearch, Pause
+from planner.planning.plan_search import Hints, _PlanSearch
 from planner.planning.problem import Problem
 from planner.planning.restricted_tasks import with_more_comfort, with_narrower_cones
 from planner.primitives.g_fold import GFold
@@ -90,3 +95,23 @@ def test_with_a_narrower_cone_what_is_known_of_transfers_is_not_computed_again(m
     assert narrower.maker.path_requests == 1, "but it counts"
     with pytest.raises(AssertionError, match="computed again"):
         closer.maker.validated((replace(fold, context=closer.context),))
+
+
+def test_where_it_is_worth_it_more_tries_are_made_in_restricted_tasks_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    again: list[Problem] = []
+
+    def noted(self: PathSearch, search_limits: SearchLimits, transfers_max: float) -> Iterator[Pause]:
+        assert search_limits is THOROUGH and transfers_max < math.inf
+        again.append(self.problem)
+        return iter(())
+
+    monkeypatch.setattr(PathSearch, "run", lambda self: iter(()))
+    monkeypatch.setattr(PathSearch, "run_again", noted)
+    monkeypatch.setattr(PathSearch, "has_doubts", True)
+    problem = problem_of(0.02, 0.7)
+    search = _PlanSearch(problem, Budget.endless(), Hints(), is_patient=True)
+    tighter = [*with_more_comfort(problem), *with_narrower_cones(problem)]
+    for one in tighter:
+        search.restrict(one, 1.0)
+    assert not list(search.thorough())
+    assert again == [problem, *tighter]
