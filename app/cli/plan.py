@@ -19,6 +19,7 @@ from app.cli.program import (
     cli,
     errors,
     failure,
+    in_a_folder,
     load_source,
     output,
     refusing,
@@ -69,7 +70,10 @@ def plan(
         int | None, typer.Option(help="With --from: the step, counted from 0, that has been done.")
     ] = None,
     out: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="Write a plan file, which show, timeline and export read.")
+        Path | None,
+        typer.Option(
+            callback=in_a_folder, metavar="FILE", help="Write a plan file, which show, timeline and export read."
+        ),
     ] = None,
     json_to: JsonOption = None,
     suggest: Annotated[bool, typer.Option("--suggest", help="Look for changes that give a (quicker) plan.")] = False,

@@ -5,7 +5,9 @@ What takes long to import is imported where it is used: not every command needs 
 Exit status: 0 done; 2 bad input or usage; 3 there is no plan, or a fold cannot be held; 4 the search ran out of time.
 """
 
+import errno
 import json
+import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -33,8 +35,18 @@ output = Console(highlight=False, markup=False)
 SourceArgument = Annotated[
     str, typer.Argument(metavar="GARMENT", help="The name of a garment, a garment file or a plan file.")
 ]
+
+
+def in_a_folder(target: str | Path | None) -> str | Path | None:
+    """Return a file to write; exit the program if its folder is missing, before what is to be written is made."""
+    if target is not None and not Path(target).parent.is_dir():
+        raise failure(f"{target}: {os.strerror(errno.ENOENT)}")
+    return target
+
+
 JsonOption = Annotated[
-    str | None, typer.Option("--json", metavar="FILE|-", help="Write JSON there; - prints it alone.")
+    str | None,
+    typer.Option("--json", callback=in_a_folder, metavar="FILE|-", help="Write JSON there; - prints it alone."),
 ]
 
 

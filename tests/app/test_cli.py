@@ -104,6 +104,15 @@ def test_wrong_usage_is_status_2(arguments: tuple[str, ...]) -> None:
     assert "Traceback" not in result.output
 
 
+@pytest.mark.parametrize("option", ["--json", "--out"])
+def test_a_folder_that_is_missing_is_named_before_anything_is_planned(
+    option: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("app.cli.plan.make_plan", lambda _: pytest.fail("it was planned"))
+    result = pleat("plan", "letter-towel", option, "/nowhere/at/all.json")
+    assert (result.exit_code, result.stderr) == (2, "/nowhere/at/all.json: No such file or directory\n")
+
+
 def test_a_port_that_is_taken_is_named(tmp_path: Path) -> None:
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = taken.getsockname()[1]
