@@ -134,12 +134,12 @@ def _keep_a_template() -> None:
     theirs.close()
     start = util.spawnv_passfds
 
-    def start_or_ask(path: Any, args: Sequence[Any], passfds: Sequence[int]) -> int:
-        if "multiprocessing.forkserver" not in args[-1]:
-            return start(path, args, passfds)
+    def start_or_ask(path: Any, arguments: Sequence[Any], descriptors: Sequence[int]) -> int:
+        if "multiprocessing.forkserver" not in arguments[-1]:
+            return start(path, arguments, descriptors)
         util.spawnv_passfds = start
-        request = json.dumps({"command": args[-1], "descriptors": passfds})
-        socket.send_fds(ours, [f"{request}\n".encode()], passfds)
+        request = json.dumps({"command": arguments[-1], "descriptors": descriptors})
+        socket.send_fds(ours, [f"{request}\n".encode()], descriptors)
         ours.close()
         return pid
 
