@@ -1,11 +1,9 @@
 """Servers that are forks of a process with the program in it: to import it takes seconds, and tests start many.
 
-A fork has a parent, its keeper, that waits for it and tells how it ended. Processes that a server starts are its own:
-its template is a fork too, made ahead because a server with threads can no longer be forked, and the kernels are in it.
+A fork has a parent, its keeper, that waits for it and tells how it ended. Processes that a server starts are its own.
 """
 
 import atexit
-import fcntl
 import json
 import os
 import select
@@ -13,11 +11,9 @@ import signal
 import socket
 import subprocess
 import sys
-from collections.abc import Sequence
 from functools import cache
-from multiprocessing import util
 from pathlib import Path
-from typing import Any, TextIO
+from typing import TextIO
 
 PIECE = 1 << 16
 """The most that is read of a request at once (bytes); it is a line of JSON."""
@@ -87,9 +83,7 @@ def fork_on_request(descriptor: int) -> None:
     """Fork programs as they are asked for at a socket, until it is closed."""
     import app.server.serve  # noqa: F401
     from app.cli import main
-    from planner.planning.warm_up import compile_kernels
 
-    compile_kernels()
     signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # nobody waits for keepers
     asked_at = socket.socket(fileno=descriptor)
     while True:
@@ -120,45 +114,4 @@ def fork_on_request(descriptor: int) -> None:
     os.environ.update(asked["environment"])
     os.chdir(asked["folder"])
     sys.argv[1:] = asked["arguments"]
-    _keep_a_template()
     main()
-
-
-def _keep_a_template() -> None:
-    """Have the first interpreter of a fork server be a fork of this process."""
-    ours, theirs = socket.socketpair()
-    pid = os.fork()
-    if pid == 0:
-        ours.close()
-        _become_what_is_asked_for(theirs)
-    theirs.close()
-    start = util.spawnv_passfds
-
-    def start_or_ask(path: Any, arguments: Sequence[Any], descriptors: Sequence[int]) -> int:
-        if "multiprocessing.forkserver" not in arguments[-1]:
-            return start(path, arguments, descriptors)
-        util.spawnv_passfds = start
-        request = json.dumps({"command": arguments[-1], "descriptors": descriptors})
-        socket.send_fds(ours, [f"{request}\n".encode()], descriptors)
-        ours.close()
-        return pid
-
-    util.spawnv_passfds = start_or_ask
-
-
-def _become_what_is_asked_for(asked_at: socket.socket) -> None:
-    """Run the command of an interpreter, with the descriptors that it is to have; end if none is asked for."""
-    request, descriptors, _, _ = socket.recv_fds(asked_at, PIECE, 9)
-    asked_at.close()
-    if not request:
-        os._exit(0)
-    asked = json.loads(request)
-    beyond = max(asked["descriptors"]) + 1
-    aside = [fcntl.fcntl(one, fcntl.F_DUPFD, beyond) for one in descriptors]
-    for one in descriptors:
-        os.close(one)
-    for one, wanted in zip(aside, asked["descriptors"], strict=True):
-        os.dup2(one, wanted)
-        os.close(one)
-    exec(asked["command"], {})
-    sys.exit()

@@ -184,12 +184,16 @@ class Sheet:
 
     def at_rest(self) -> dict[str, Any]:
         """Return the document once no gesture is in progress: the server hears of a dropped gesture a little later."""
+        return self.once(lambda state: state["gesture"] is None)
+
+    def once(self, is_there: Callable[[dict[str, Any]], bool]) -> dict[str, Any]:
+        """Return the document once a condition holds."""
         for _ in range(PATIENCE_MS // 50):
             state = self.state
-            if state["gesture"] is None:
+            if is_there(state):
                 return state
             time.sleep(0.05)
-        raise AssertionError("the gesture never ends")
+        raise AssertionError(f"the document stays as it is: {state}")
 
     @property
     def drawing(self) -> dict[str, Any]:

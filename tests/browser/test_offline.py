@@ -51,7 +51,8 @@ def test_a_corner_that_is_dragged_when_the_server_dies_stays_and_is_sent_when_it
     expect_planned(page)
     expect(page.get_by_role("button", name="Undo")).to_have_attribute("title", "Undo: Move vertex (Ctrl+Z)")
     assert label(page) == at(PULLED)
-    assert napkin_sheet.at_rest()["drawing"]["outline"][0]["point"] == pytest.approx(PULLED, abs=1e-9)
+    there = pytest.approx(PULLED, abs=1e-9)
+    napkin_sheet.once(lambda state: state["drawing"]["outline"][0]["point"] == there)
     assert napkin_sheet.can_undo == "Move vertex"
 
 
