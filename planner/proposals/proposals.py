@@ -312,11 +312,9 @@ def _planned(
         if (looks := (packet.shape, proposal.cost_s)) not in shown:
             shown.add(looks)
             yield proposal
-    left: Iterable[Proposal] = (one for way, one in failed.items() if way not in solved)
-    if not shown:
-        left = _tried_longer(task, left, should_stop)
     if not should_stop():
-        yield from islice(left, count - len(shown))
+        left = islice((one for way, one in failed.items() if way not in solved), count - len(shown))
+        yield from left if shown else _tried_longer(task, left, should_stop)
     return Tried(search.enumerated, search.nearest_m)
 
 
@@ -337,7 +335,8 @@ def _tried_longer(task: Task, found: Iterable[Proposal], should_stop: Callable[[
             yield one
         else:
             others.append(one)
-    yield from others
+    if not should_stop():
+        yield from others
 
 
 def _or_mirrored(task: Task, packet: Packet, found: Proposal, should_stop: Callable[[], bool]) -> Proposal:

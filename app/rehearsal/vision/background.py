@@ -71,7 +71,7 @@ def _surface(features: FloatImage, border: BoolArray) -> FloatImage:
     surface = np.zeros_like(flat)
     for _ in range(_ROUNDS):
         some = terms[used]
-        # Six normal equations: the least squares of all pixels themselves take ten times as long.
+        # Six normal equations are solved sooner than the least squares of all pixels.
         shares, _, _, _ = np.linalg.lstsq(some.T @ some, some.T @ flat[used], rcond=None)
         surface = terms @ shares
         off = np.abs(flat - surface)
