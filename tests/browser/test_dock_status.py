@@ -7,6 +7,7 @@ from collections.abc import Callable
 import pytest
 from playwright.sync_api import BrowserContext, Page, WebSocketRoute, expect
 
+from tests.app.conftest import Served
 from tests.browser.conftest import PATIENCE_MS, Garment, Sheet
 from tests.browser.napkin import napkin
 from tests.browser.status_pill import expect_planned
@@ -181,6 +182,11 @@ def cut_off(page: Page, sheet: Sheet, then: Callable[[WebSocketRoute], None]) ->
     page.route_web_socket("**/live", then)
     sockets[0][0].close()
     expect(page.get_by_role("status")).to_have_text("Connection lost, trying again...")
+
+
+def test_a_document_that_is_not_there_is_told_of(page: Page, designer: Served) -> None:
+    page.goto(f"{designer.url}/d/nothing")
+    expect(page.get_by_role("status")).to_contain_text("There is no such document")
 
 
 def test_a_lost_connection_is_told_and_the_player_rests(

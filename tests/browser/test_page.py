@@ -5,7 +5,7 @@ import time
 from typing import Any
 
 import pytest
-from playwright.sync_api import Browser, Page, expect
+from playwright.sync_api import Page, expect
 
 from tests.app.conftest import Served
 from tests.browser.conftest import IN_VIEW, REST, VIEW_PATIENCE_MS
@@ -183,15 +183,6 @@ def test_the_status_covers_nothing_of_the_bar(page: Page, width: int) -> None:
     )
     for (_, right), (left, _) in itertools.pairwise(edges):
         assert right <= left + 0.5
-
-
-def test_a_document_that_is_not_there_is_told_of(browser: Browser, designer: Served) -> None:
-    page = browser.new_page()
-    try:
-        page.goto(f"{designer.url}/d/nothing")
-        expect(page.get_by_role("status")).to_contain_text("There is no such document", timeout=VIEW_PATIENCE_MS)
-    finally:
-        page.close()
 
 
 @pytest.mark.long
