@@ -10,7 +10,7 @@ from playwright.sync_api import Page, expect
 
 from planner.geometry.pose import Point2, Pose2
 from tests.app.conftest import Served
-from tests.browser.conftest import IN_VIEW, VIEW_PATIENCE_MS, Sheet
+from tests.browser.conftest import IN_VIEW, IS_THERE, VIEW_PATIENCE_MS, Sheet
 
 CAMERA = f"() => {IN_VIEW}.camera.matrixWorld.elements.map((value) => value.toFixed(4)).join(' ')"
 FROM_ABOVE = f"({IN_VIEW}.camera.matrixWorld.elements[9] > 0.99)"
@@ -108,6 +108,29 @@ def test_where_there_is_nothing_to_take_the_pointer_turns_the_camera(page: Page,
     assert sheet.drawing == before
 
 
+@pytest.mark.long
+def test_what_is_dragged_when_the_3d_view_is_loaded_anew_is_let_go_where_it_is(page: Page, designer: Served) -> None:
+    sheet = Sheet(designer.url, page.url.rpartition("/")[2])
+    before = sheet.drawing
+    look_from_above(page)
+    x, y = corner_in_picture(page, sheet, 0)
+    drag(page, (x, y), (x + 20, y - 12))
+    until(lambda: sheet.state["gesture"] == "Move vertex")
+    page.evaluate("document.getElementById('view3d').contentWindow.location.reload()")
+    until(lambda: sheet.state["gesture"] is None)
+    page.mouse.up()
+    assert sheet.drawing["outline"][0] != before["outline"][0]
+    expect(page.get_by_role("toolbar", name="Look from")).to_be_visible()
+    page.wait_for_function(IS_THERE, arg="/cloth/front")
+    look_from_above(page)
+    drag(page, corner_in_picture(page, sheet, 0), (x, y))
+    page.mouse.up()
+    until(lambda: sheet.can_undo == "Move vertex" and sheet.state["gesture"] is None)
+    for _ in range(2):
+        page.keyboard.press("Control+z")
+    until(lambda: sheet.drawing == before)
+
+
 def test_a_fold_is_drawn_on_the_cloth_on_the_table(page: Page, designer: Served) -> None:
     sheet = Sheet(designer.url, page.url.rpartition("/")[2])
     count, above = len(sheet.drawing["folds"]), look_from_above(page)
@@ -127,19 +150,3 @@ def test_a_fold_is_drawn_on_the_cloth_on_the_table(page: Page, designer: Served)
     assert fold["start"]["point"] == pytest.approx([0.457, 0.21], abs=0.02)
     assert fold["end"]["point"] == pytest.approx([0.0, 0.21], abs=0.02)
     assert page.evaluate(CAMERA) == above
-
-
-def test_what_is_dragged_when_the_3d_view_is_loaded_anew_is_let_go_where_it_is(page: Page, designer: Served) -> None:
-    sheet = Sheet(designer.url, page.url.rpartition("/")[2])
-    before = sheet.drawing
-    look_from_above(page)
-    x, y = corner_in_picture(page, sheet, 0)
-    drag(page, (x, y), (x + 20, y - 12))
-    until(lambda: sheet.state["gesture"] == "Move vertex")
-    page.evaluate("document.getElementById('view3d').contentWindow.location.reload()")
-    until(lambda: sheet.state["gesture"] is None)
-    page.mouse.up()
-    assert sheet.drawing["outline"][0] != before["outline"][0]
-    assert sheet.can_undo == "Move vertex"
-    page.keyboard.press("Control+z")
-    until(lambda: sheet.drawing == before)
