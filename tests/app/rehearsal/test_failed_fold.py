@@ -51,6 +51,7 @@ def performed(left_behind_m: float, failures: int = 2) -> tuple[FoldedCloth, Per
     return cloth, Performer(towel_plan(), world, Gate(), no_plan).performed()
 
 
+@pytest.mark.long
 def test_a_fold_that_twice_left_a_quarter_of_the_edge_behind_ends_the_run_with_its_picture() -> None:
     cloth, done = performed(0.1)
     assert "after the last step" in done.reason and "fold has failed" in done.reason
