@@ -50,7 +50,7 @@ def test_the_fold_of_figure_4_brings_back_what_hangs() -> None:
     [
         pytest.param(0.01, 0.5, marks=pytest.mark.long),
         pytest.param(0.02, 0.5, marks=pytest.mark.long),
-        (0.03, 0.5),
+        pytest.param(0.03, 0.5, marks=pytest.mark.long),
         (0.1, 0.5),
         pytest.param(0.2, 1.2, marks=pytest.mark.long),
     ],
