@@ -29,6 +29,7 @@ def nothing_found(page: Page) -> None:
     page.route("**/api/suggestions*", none)
 
 
+@pytest.mark.long
 def test_the_amount_that_a_reason_names_is_offered_and_gives_a_plan(page: Page, new_sheet: NewSheet) -> None:
     nothing_found(page)
     sheet = new_sheet(apron(0.127, 0.127).to_dict())

@@ -94,6 +94,7 @@ def test_a_run_whose_cloth_is_folded_already_is_done_without_a_motion(
     assert f"Seen: step {count} of {count} is next" in result.stderr and f"Done: {count} of {count}" in result.stdout
 
 
+@pytest.mark.long
 def test_a_stack_on_the_table_is_compared_with_where_the_plan_has_it(plan: Plan) -> None:
     end, table = plan.end, plan.scene.table
     pattern, triangles = woven_mesh(plan.garment.pattern, 0.01)

@@ -107,7 +107,7 @@ def outlines(plan: Plan, after: int) -> tuple[FloatArray, FloatArray]:
     return flat, lies.placement.to_outer(evenly_along(ring, 0.01))
 
 
-@pytest.mark.parametrize("is_failed", [True, False])
+@pytest.mark.parametrize("is_failed", [True, pytest.param(False, marks=pytest.mark.long)])
 def test_no_further_step_is_made_after_a_fold_that_is_seen_to_have_failed_twice(*, is_failed: bool) -> None:
     plan = shipped_plan("jeans")
     first = next(number for number, step in enumerate(plan.steps) if step.fold is not None)
