@@ -79,7 +79,12 @@ def test_every_link_with_a_mesh_belongs_to_a_part() -> None:
     assert not without
 
 
-@pytest.mark.parametrize("level", range(len(OPENINGS_M)))
+LEVELS = range(len(OPENINGS_M))
+
+
+@pytest.mark.parametrize(
+    "level", [0, *(pytest.param(level, marks=pytest.mark.long) for level in LEVELS[1:-1]), LEVELS[-1]]
+)
 def test_every_vertex_of_every_mesh_is_inside_its_parts_shape(parts: RobotParts, level: int) -> None:
     rng = np.random.default_rng(level)
     for posture in random_postures(2, level):
@@ -150,7 +155,15 @@ def _flipped(content: bytes) -> bytes:
     return content[:middle] + bytes(byte ^ 255 for byte in content[middle : middle + 2000]) + content[middle + 2000 :]
 
 
-@pytest.mark.parametrize("spoil", [_cut_short, _flipped, lambda _: b"", lambda _: b"not shapes at all"])
+@pytest.mark.parametrize(
+    "spoil",
+    [
+        _cut_short,
+        _flipped,
+        pytest.param(lambda _: b"", marks=pytest.mark.long),
+        pytest.param(lambda _: b"not shapes at all", marks=pytest.mark.long),
+    ],
+)
 def test_a_spoilt_cache_is_made_anew(
     cache: Path, parts: RobotParts, tmp_path: Path, spoil: Callable[[bytes], bytes]
 ) -> None:

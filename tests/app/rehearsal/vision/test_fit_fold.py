@@ -20,7 +20,14 @@ def test_with_the_crease_on_its_line_the_outline_is_that_of_the_planned_stack(na
         assert redone.difference(planned).area + planned.difference(redone).area < 1e-8
 
 
-@pytest.mark.parametrize(("name", "index"), [("t-shirt", 2), ("jeans", 1), ("shirt", 4)])
+@pytest.mark.parametrize(
+    ("name", "index"),
+    [
+        pytest.param("t-shirt", 2, marks=pytest.mark.long),
+        ("jeans", 1),
+        pytest.param("shirt", 4, marks=pytest.mark.long),
+    ],
+)
 def test_a_crease_beside_its_line_is_measured(name: str, index: int) -> None:
     sequence = replayed(load_garment(name))
     done = (1 << index) - 1
