@@ -92,7 +92,8 @@ browser: $(READY_DEV)
 	if command -v apt-get >/dev/null; then \
 	    if test "$$(id -u)" = 0; then sudo=; elif sudo -n true 2>/dev/null; then sudo="sudo -n"; else sudo=false; fi; \
 	    $$sudo apt-get update -qq && \
-	    $$sudo env DEBIAN_FRONTEND=noninteractive apt-get install -qq -y --no-install-recommends chromium; \
+	    $$sudo env DEBIAN_FRONTEND=noninteractive apt-get install -qq -y --no-install-recommends \
+	        chromium $$(apt-cache pkgnames chromium-headless-shell); \
 	fi; \
 	test -x /usr/bin/chromium || $(BIN)/python -m playwright install chromium
 

@@ -5,6 +5,7 @@ from collections.abc import Callable
 import pytest
 from playwright.sync_api import Page, expect
 
+from tests.browser.board.conftest import page as page
 from tests.browser.board_desk import expect_step
 from tests.browser.board_finger import Finger
 from tests.browser.board_hand import SEVEN, Hand, Point

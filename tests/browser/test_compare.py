@@ -11,6 +11,7 @@ from playwright.sync_api import Locator, Page, Route, expect
 
 from planner import load_garment
 from tests.app.conftest import REST, Served
+from tests.browser.board.conftest import page as page
 from tests.browser.conftest import VIEW_PATIENCE_MS, Garment, Sheet
 from tests.browser.status_pill import expect_planned
 

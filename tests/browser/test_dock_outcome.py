@@ -2,7 +2,7 @@
 
 import json
 import re
-from collections.abc import Callable
+from collections.abc import Iterator
 from typing import Any
 
 import pytest
@@ -10,7 +10,10 @@ from playwright.sync_api import Locator, Page, Route, expect
 
 from planner import load_garment
 from tests.app.samples import towel
-from tests.browser.conftest import REST, Garment, Sheet
+from tests.browser.board.conftest import desk as desk
+from tests.browser.board.conftest import page as page
+from tests.browser.board_desk import Desk
+from tests.browser.conftest import REST
 from tests.browser.napkin import napkin
 from tests.browser.searches import SEARCH_MS
 from tests.browser.status_pill import cost_s, expect_planned
@@ -20,31 +23,37 @@ FAR = {"x_m": 0.4, "y_m": 0.2, "yaw_rad": -1.5707963267948966}
 
 
 @pytest.fixture
-def stuck(page: Page, new_sheet: Callable[[Garment], Sheet]) -> Sheet:
-    """Open a towel at the far end of the table, with a robot that may stand at the near end only."""
-    sheet = new_sheet(towel(placement=FAR))
-    sheet.edit(keep_front_alone)
-    page.goto(sheet.page_url)
+def front(desk: Desk) -> Iterator[Desk]:
+    """Return the desk; all stations are there again afterwards."""
+    scene = desk.drawing["scene"]
+    yield desk
+    desk.edit(lambda drawing: drawing.update(scene=scene, folds=[]))
+
+
+@pytest.fixture
+def stuck(page: Page, front: Desk) -> Desk:
+    """Lay out a towel at the far end of the table, with a robot that may stand at the near end only."""
+    front.lay(towel(placement=FAR))
+    front.edit(keep_front_alone)
     expect(page.get_by_role("status")).to_contain_text("No plan: Half: ")
-    return sheet
+    return front
 
 
 def keep_front_alone(drawing: dict[str, Any]) -> None:
     drawing["scene"]["stations"] = {"front": drawing["scene"]["stations"]["front"]}
 
 
-def planned(page: Page, sheet: Sheet) -> float:
-    """Open the page with a plan of a sheet, and return its cost (s)."""
-    page.goto(sheet.page_url)
-    expect_planned(page)
-    return cost_s(page)
+def planned(desk: Desk) -> float:
+    """Wait for the plan of what is laid out, and return its cost (s)."""
+    expect_planned(desk.page, desk.state["version"])
+    return cost_s(desk.page)
 
 
 def suggestions(page: Page) -> Locator:
     return page.get_by_role("group", name="Suggestions").get_by_role("button")
 
 
-def test_no_plan_is_a_sentence_a_suggestion_and_a_way_back(page: Page, stuck: Sheet) -> None:
+def test_no_plan_is_a_sentence_a_suggestion_and_a_way_back(page: Page, stuck: Desk) -> None:
     expect(page.locator(".reason")).to_contain_text(re.compile(r"^Half: the (left|right) hand is [\d.]+ cm short"))
     expect(page.get_by_role("list", name="Plan").get_by_role("listitem")).to_have_count(0)
     expect(page.get_by_role("button", name="Play", exact=True)).to_be_disabled()
@@ -59,7 +68,7 @@ def test_no_plan_is_a_sentence_a_suggestion_and_a_way_back(page: Page, stuck: Sh
     assert stuck.drawing["placement"] == FAR
 
 
-def test_what_is_suggested_follows_the_unit(page: Page, stuck: Sheet) -> None:
+def test_what_is_suggested_follows_the_unit(page: Page, stuck: Desk) -> None:
     move = suggestions(page).filter(has_text=re.compile(r"Move the garment [\d.]+ cm"))
     expect(move.first).to_be_visible()
     page.get_by_role("button", name="Unit: cm").click()
@@ -71,9 +80,7 @@ def test_what_is_suggested_follows_the_unit(page: Page, stuck: Sheet) -> None:
     page.get_by_role("button", name="Unit: mm").click()
 
 
-def test_where_nothing_helps_at_once_there_is_a_button_to_look_longer(
-    page: Page, new_sheet: Callable[[Garment], Sheet]
-) -> None:
+def test_where_nothing_helps_at_once_there_is_a_button_to_look_longer(page: Page, desk: Desk) -> None:
     work: list[float] = []
 
     def nothing(route: Route) -> None:
@@ -84,8 +91,7 @@ def test_where_nothing_helps_at_once_there_is_a_button_to_look_longer(
         route.fulfill(content_type="text/event-stream", body=f"event: done\ndata: {json.dumps(done)}\n\n")
 
     page.route("**/api/suggestions*", nothing)
-    sheet = new_sheet(load_garment("scarf-halved").to_dict())  # whose reasons name no amount that would do
-    page.goto(sheet.page_url)
+    desk.lay(load_garment("scarf-halved").to_dict())  # whose reasons name no amount that would do
     expect(page.locator(".search-words")).to_contain_text("not all was tried")
     expect(page.get_by_text("No single small change")).to_have_count(0)
     page.get_by_role("button", name="Look longer").click()
@@ -94,35 +100,34 @@ def test_where_nothing_helps_at_once_there_is_a_button_to_look_longer(
     assert work == [10, 60]
     page.get_by_role("button", name="Other robots").click()
     expect(page.get_by_role("dialog", name="Who can fold this?")).to_be_visible()
+    page.keyboard.press("Escape")
+    page.unroute_all()
 
 
-def test_an_edit_ends_the_search_for_what_would_help(page: Page, new_sheet: Callable[[Garment], Sheet]) -> None:
-    stuck = new_sheet(towel(placement=FAR))
-    stuck.edit(keep_front_alone)
+def test_an_edit_ends_the_search_for_what_would_help(page: Page, front: Desk) -> None:
     with page.expect_request(lambda request: "/api/suggestions?" in request.url):
-        page.goto(stuck.page_url)
+        front.lay(towel(placement=FAR))
+        front.edit(keep_front_alone)
     with page.expect_event("requestfailed", lambda request: "/api/suggestions?" in request.url):
-        stuck.edit(lambda drawing: drawing["folds"].clear())
+        front.edit(lambda drawing: drawing["folds"].clear())
     expect(page.get_by_role("status")).to_have_text("No folds yet: draw the first one")
     expect(page.get_by_text("Nothing to do")).to_be_visible()
 
 
-def test_all_the_reasons_stand_where_the_plan_would_be(page: Page, stuck: Sheet) -> None:
+def test_all_the_reasons_stand_where_the_plan_would_be(page: Page, stuck: Desk) -> None:
     reasons = page.get_by_role("list", name="Reasons").get_by_role("listitem")
     expect(reasons.first).to_be_in_viewport(ratio=0.9)
     expect(reasons.first).to_contain_text("\N{LEFT DOUBLE QUOTATION MARK}half\N{RIGHT DOUBLE QUOTATION MARK}: ")
 
 
-def test_the_numbers_say_what_the_cost_is_made_of_and_how_it_changed(
-    page: Page, new_sheet: Callable[[Garment], Sheet]
-) -> None:
-    sheet = new_sheet(napkin())
-    before_s = planned(page, sheet)
+def test_the_numbers_say_what_the_cost_is_made_of_and_how_it_changed(page: Page, desk: Desk) -> None:
+    desk.lay(napkin())
+    before_s = planned(desk)
     numbers = page.get_by_role("region", name="Numbers")
     expect(numbers).to_contain_text(f"{before_s:.1f} s")
     spent = [float(text.split()[0]) for text in numbers.locator(".is-parts dd").all_inner_texts()]
     assert sum(spent) == pytest.approx(before_s, abs=0.05 * len(spent) + 0.05)
-    sheet.edit(lambda drawing: drawing["folds"].pop())
+    desk.edit(lambda drawing: drawing["folds"].pop())
     changed = numbers.locator(".total-change")
     expect(changed).to_contain_text("less than before")
     expect_planned(page)
@@ -252,20 +257,20 @@ def test_what_is_short_at_least_is_said_to_be(modules: Page) -> None:
 
 
 @pytest.mark.long
-def test_a_better_place_is_offered_and_taken_as_one_step(page: Page, new_sheet: Callable[[Garment], Sheet]) -> None:
-    sheet = new_sheet(towel(placement={**FAR, "x_m": -0.1}))
-    sheet.edit(keep_front_alone)
-    before_s = planned(page, sheet)
+def test_a_better_place_is_offered_and_taken_as_one_step(page: Page, front: Desk) -> None:
+    front.lay(towel(placement={**FAR, "x_m": -0.1}))
+    front.edit(keep_front_alone)
+    before_s = planned(front)
     page.get_by_role("button", name="Best place").click()
     expect(page.get_by_text("Trying places")).to_be_visible()
     page.locator(".best-place .suggestion").click(timeout=SEARCH_MS)
     expect(page.locator(".total-change")).to_contain_text("less than before")
     assert cost_s(page) < before_s
-    assert (sheet.can_undo or "").startswith("Move the garment ")
+    assert (front.can_undo or "").startswith("Move the garment ")
     expect(page.locator(".best-place")).to_be_hidden()
 
 
-def test_a_change_of_a_suggestion_keeps_the_ties_of_folds_that_stay(page: Page, stuck: Sheet) -> None:
+def test_a_change_of_a_suggestion_keeps_the_ties_of_folds_that_stay(page: Page, stuck: Desk) -> None:
     drawing = stuck.drawing
     folds = [*drawing["folds"], {**drawing["folds"][0], "id": "f9", "name": "again"}]
     wanted = REST.get(stuck.path).json()["garment"]["folds"][0]

@@ -6,6 +6,7 @@ import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from tests.app.samples import towel
+from tests.browser.board.conftest import page as page
 from tests.browser.conftest import REST, Garment, Sheet
 from tests.browser.status_pill import expect_planned
 

@@ -15,6 +15,7 @@ from planner.robots.known_robots import robot_names
 from tests.app.conftest import Served
 from tests.app.samples import towel
 from tests.app.store.drafts import TOWEL
+from tests.browser.board.conftest import page as page
 from tests.browser.conftest import Garment, Sheet
 
 NewSheet = Callable[[Garment], Sheet]
@@ -119,6 +120,7 @@ def test_without_the_server_the_document_stays_and_it_is_said(page: Page, new_sh
     expect(page.get_by_role("log", name="Notices")).to_contain_text("nothing was opened")
     expect(bar(page).locator("option:checked")).to_have_text("Scarf")
     assert page.url == sheet.page_url
+    page.unroute_all()
 
 
 def test_an_import_says_what_it_replaces_before_and_after(page: Page, new_sheet: NewSheet) -> None:

@@ -1,20 +1,18 @@
 """Cloth that would not stay on the table: its message and its picture."""
 
-from collections.abc import Callable
-
 import pytest
 from playwright.sync_api import Page, expect
 
 from tests.app.samples import towel
-from tests.browser.conftest import Garment, Sheet
+from tests.browser.board.conftest import desk as desk
+from tests.browser.board.conftest import page as page
+from tests.browser.board_desk import Desk
 from tests.browser.status_pill import expect_planned
 
-NewSheet = Callable[[Garment], Sheet]
 
-
-def lying_at(new_sheet: NewSheet, x_m: float, y_m: float) -> Sheet:
-    """Return a towel from a place of the table 0.4 m on and 0.3 m left; the table ends at 0.8 m and at 0.49 m."""
-    return new_sheet(towel(placement={"x_m": x_m, "y_m": y_m, "yaw_rad": 0.0}))
+def lay_at(desk: Desk, x_m: float, y_m: float) -> None:
+    """Lay a towel from a place of the table 0.4 m on and 0.3 m left; the table ends at 0.8 m and at 0.49 m."""
+    desk.lay(towel(placement={"x_m": x_m, "y_m": y_m, "yaw_rad": 0.0}))
 
 
 @pytest.mark.parametrize(
@@ -27,9 +25,9 @@ def lying_at(new_sheet: NewSheet, x_m: float, y_m: float) -> Sheet:
     ],
 )
 def test_cloth_over_the_edge_is_a_sentence_and_a_picture(
-    page: Page, new_sheet: NewSheet, place: tuple[float, float], said: str, by: str, lines: int
+    page: Page, desk: Desk, place: tuple[float, float], said: str, by: str, lines: int
 ) -> None:
-    page.goto(lying_at(new_sheet, *place).page_url)
+    lay_at(desk, *place)
     expect(page.locator(".reason")).to_contain_text(said)
     expect(page.locator(".overhang")).to_have_count(1)
     expect(page.locator(".problem-line")).to_have_count(lines)
@@ -38,20 +36,19 @@ def test_cloth_over_the_edge_is_a_sentence_and_a_picture(
 
 
 def test_cloth_that_is_brought_back_from_the_edge_is_marked_no_more_until_that_is_undone(
-    page: Page, new_sheet: NewSheet
+    page: Page, desk: Desk
 ) -> None:
-    sheet = lying_at(new_sheet, -0.5, 0.38)
-    page.goto(sheet.page_url)
+    lay_at(desk, -0.5, 0.38)
     expect(page.locator(".overhang")).to_have_count(1)
-    sheet.edit(lambda drawing: drawing["placement"].update(y_m=-0.15))
-    expect_planned(page, sheet.state["version"])
+    desk.edit(lambda drawing: drawing["placement"].update(y_m=-0.15))
+    expect_planned(page, desk.state["version"])
     expect(page.locator(".overhang, .problem-cross")).to_have_count(0)
     page.get_by_role("button", name="Undo").click()
     expect(page.locator(".overhang")).to_have_count(1)
 
 
-def test_a_corner_of_the_table_under_the_cloth_is_marked_with_both_edges(page: Page, new_sheet: NewSheet) -> None:
-    page.goto(lying_at(new_sheet, 0.7, 0.39).page_url)
+def test_a_corner_of_the_table_under_the_cloth_is_marked_with_both_edges(page: Page, desk: Desk) -> None:
+    lay_at(desk, 0.7, 0.39)
     expect(page.locator(".reason")).to_have_text("The cloth hangs over two edges of the table at a corner.")
     # What hangs over each edge is hatched, and what hangs over both is in both.
     expect(page.locator(".overhang")).to_have_count(2)
@@ -59,11 +56,10 @@ def test_a_corner_of_the_table_under_the_cloth_is_marked_with_both_edges(page: P
     expect(page.locator(".problem-cross")).to_have_count(1)
 
 
-def test_what_hangs_loose_is_said_in_the_unit_of_the_page(page: Page, new_sheet: NewSheet) -> None:
-    page.goto(lying_at(new_sheet, -0.5, 0.3).page_url)
-    told = page.evaluate(
+def test_what_hangs_loose_is_said_in_the_unit_of_the_page(modules: Page) -> None:
+    told = modules.evaluate(
         """async () => {
-          const { sentence } = await import("page/dock/reasons.js");
+          const { sentence } = await import("/static/js/dock/reasons.js");
           const what = { code: "hangs_loose", layer: 0, edge: "far", at: [0.61, 0.57], beyond_m: 0.177 };
           const reason = { fold: null, code: "not_a_g_state", says: { code: "at_start", what, is_too_large: false } };
           const later = { ...reason, fold: 0, says: { code: "afterwards", what } };

@@ -10,6 +10,7 @@ from playwright.sync_api import Page, Route, expect
 
 from planner.proposals.target import PRESETS, SIDE_MAX_M, SIDE_MIN_M, TOLERANCE_M
 from tests.app.conftest import REST
+from tests.browser.board.conftest import page as page
 from tests.browser.board_hand import Hand
 from tests.browser.conftest import PATIENCE_MS, Garment, Sheet
 from tests.browser.searches import SEARCH_MS

@@ -7,7 +7,9 @@ import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from tests.app.samples import towel
-from tests.browser.conftest import Garment, Sheet
+from tests.browser.board.conftest import desk as desk
+from tests.browser.board.conftest import page as page
+from tests.browser.board_desk import Desk
 from tests.browser.status_pill import expect_planned
 
 Change = Callable[[dict[str, Any]], None]
@@ -58,29 +60,25 @@ def quick_fixes(page: Page) -> Locator:
 
 
 @pytest.mark.parametrize(("spoil", "label"), WRONG, ids=[spoil.__name__ for spoil, _ in WRONG])
-def test_what_is_wrong_is_fixed_by_the_first_button(
-    page: Page, new_sheet: Callable[[Garment], Sheet], spoil: Change, label: str
-) -> None:
-    sheet = new_sheet(towel())
-    sheet.edit(spoil)
-    wrong = sheet.state["problems"]
-    page.goto(sheet.page_url)
+def test_what_is_wrong_is_fixed_by_the_first_button(page: Page, desk: Desk, spoil: Change, label: str) -> None:
+    desk.lay(towel())
+    desk.edit(spoil)
+    wrong = desk.state["problems"]
     expect(quick_fixes(page).first).to_have_text(label)
     assert quick_fixes(page).count() <= 3
     quick_fixes(page).first.click()
     expect_planned(page)
-    assert sheet.state["problems"] == []
-    assert sheet.can_undo == label
+    assert desk.state["problems"] == []
+    assert desk.can_undo == label
     expect(quick_fixes(page)).to_have_count(0)
     page.get_by_role("button", name="Undo").click()
     expect(quick_fixes(page).first).to_have_text(label)
-    assert sheet.state["problems"] == wrong
+    assert desk.state["problems"] == wrong
 
 
-def test_a_quick_fix_under_the_pointer_is_shown_on_the_board(page: Page, new_sheet: Callable[[Garment], Sheet]) -> None:
-    sheet = new_sheet(towel())
-    sheet.edit(end_in_the_cloth)
-    page.goto(sheet.page_url)
+def test_a_quick_fix_under_the_pointer_is_shown_on_the_board(page: Page, desk: Desk) -> None:
+    desk.lay(towel())
+    desk.edit(end_in_the_cloth)
     quick_fixes(page).filter(has_text="Put ").hover()
     expect(page.locator(".fold.is-preview")).to_have_count(1)
     crosses = page.locator(".problem-cross")

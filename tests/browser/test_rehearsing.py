@@ -2,7 +2,7 @@
 
 import base64
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import cv2
@@ -11,6 +11,9 @@ import pytest
 from playwright.sync_api import Browser, Locator, Page, Route, expect
 
 from tests.app.rehearsal.test_rehearsal_routes import NAPKIN
+from tests.browser.board.conftest import desk as desk
+from tests.browser.board.conftest import page as page
+from tests.browser.board_desk import Desk
 from tests.browser.conftest import Garment, Sheet, windows
 from tests.browser.napkin import napkin
 from tests.browser.status_pill import expect_planned
@@ -90,25 +93,36 @@ class Rehearsals:
         route.fulfill(json=self.job | {"status": "cancelled"})
 
 
-def opened(page: Page, sheet: Sheet) -> Locator:
-    """Open a document's page, and return its button to rehearse."""
-    page.goto(sheet.page_url)
-    expect_planned(page)
+@pytest.fixture(autouse=True)
+def unrouted(page: Page) -> Iterator[None]:
+    """Leave the page, which all tests share, without answers of this test."""
+    yield
+    page.unroute_all()
+
+
+def opened(desk: Desk, garment: dict[str, Any] | None = None) -> Locator:
+    """Lay out a garment, or else the napkin, and return the button to rehearse its plan."""
+    desk.lay(garment or napkin())
+    expect_planned(desk.page, desk.state["version"])
+    return to_rehearse(desk.page)
+
+
+def to_rehearse(page: Page) -> Locator:
     return page.get_by_role("button", name="Rehearse", exact=True)
 
 
-def rehearsed(page: Page, sheet: Sheet, *runs: dict[str, Any], **pictured: object) -> Rehearsals:
-    """Rehearse a document's plan, and wait for the marks of a run."""
-    server = Rehearsals(page, **pictured)
-    server.begun_by(opened(page, sheet))
+def rehearsed(desk: Desk, *runs: dict[str, Any], **pictured: object) -> Rehearsals:
+    """Rehearse the napkin's plan, and wait for the marks of a run."""
+    server = Rehearsals(desk.page, **pictured)
+    server.begun_by(opened(desk))
     server.end(*runs)
-    expect(page.locator(".mark")).to_have_count(1)
+    expect(desk.page.locator(".mark")).to_have_count(1)
     return server
 
 
-def test_a_rehearsal_tells_of_each_step_what_became_of_it(page: Page, new_sheet: Callable[[Garment], Sheet]) -> None:
+def test_a_rehearsal_tells_of_each_step_what_became_of_it(page: Page, desk: Desk) -> None:
     server = Rehearsals(page)
-    begin, said = opened(page, new_sheet(napkin())), page.locator(".rehearsing")
+    begin, said = opened(desk), page.locator(".rehearsing")
     in_row, mark, pill = page.locator(".plan-row .plan-verdict"), page.locator(".mark"), page.locator("#status")
     begin.click()
     expect(said.get_by_role("progressbar")).to_have_js_property("value", 0.4)
@@ -148,18 +162,16 @@ def test_a_rehearsal_tells_of_each_step_what_became_of_it(page: Page, new_sheet:
         ([], "before the last step."),
     ],
 )
-def test_why_a_run_ended_early_is_said(
-    page: Page, new_sheet: Callable[[Garment], Sheet], decisions: list[str], why: str
-) -> None:
+def test_why_a_run_ended_early_is_said(page: Page, desk: Desk, decisions: list[str], why: str) -> None:
     decided = [{"step": 1, "code": code} for code in decisions]
     ended = run() | {"held": False, "reason": "for one", "replans": decisions.count("replanned"), "decisions": decided}
-    rehearsed(page, new_sheet(napkin()), ended)
+    rehearsed(desk, ended)
     expect(page.locator(".rehearsing")).to_contain_text(f"The rehearsal ended {why}")
     expect(page.locator("#status")).to_contain_text("Rehearsed: does not hold. Planned:")
 
 
-def test_a_mark_leads_to_the_end_of_its_step(page: Page, new_sheet: Callable[[Garment], Sheet]) -> None:
-    rehearsed(page, new_sheet(napkin()), run())
+def test_a_mark_leads_to_the_end_of_its_step(page: Page, desk: Desk) -> None:
+    rehearsed(desk, run())
     page.locator(".mark").click()
     first = page.get_by_role("list", name="Plan").get_by_role("button").first.inner_text()
     ends_s = re.search(r"([\d.]+) s", first)
@@ -167,9 +179,9 @@ def test_a_mark_leads_to_the_end_of_its_step(page: Page, new_sheet: Callable[[Ga
     expect(page.locator(".clock")).to_contain_text(f"{ends_s[1]} / ")
 
 
-def test_of_many_runs_each_is_a_square_that_can_be_looked_at(page: Page, new_sheet: Callable[[Garment], Sheet]) -> None:
-    sheet, server = new_sheet(napkin()), Rehearsals(page)
-    begin, said = opened(page, sheet), page.locator(".rehearsing")
+def test_of_many_runs_each_is_a_square_that_can_be_looked_at(page: Page, desk: Desk) -> None:
+    server = Rehearsals(page)
+    begin, said = opened(desk), page.locator(".rehearsing")
     server.begun_by(begin)
     server.end(run())
     often = said.get_by_role("button", name="10 times with errors")
@@ -194,10 +206,8 @@ def test_of_many_runs_each_is_a_square_that_can_be_looked_at(page: Page, new_she
     expect(page.locator(".mark")).to_have_text("held")
 
 
-def test_the_corner_shows_what_was_seen_and_what_became_of_the_cloth(
-    page: Page, new_sheet: Callable[[Garment], Sheet]
-) -> None:
-    rehearsed(page, new_sheet(napkin()), run("trace"))
+def test_the_corner_shows_what_was_seen_and_what_became_of_the_cloth(page: Page, desk: Desk) -> None:
+    rehearsed(desk, run("trace"))
     card = page.get_by_role("region", name="Pictures of the rehearsal")
     expect(card.get_by_text("Seen before step 1")).to_be_visible()
     expect(card).to_contain_text("±0.4 cm")
@@ -222,8 +232,8 @@ def test_the_corner_shows_what_was_seen_and_what_became_of_the_cloth(
     expect(card).to_be_hidden()
 
 
-def test_the_rest_is_planned_from_what_is_seen(page: Page, new_sheet: Callable[[Garment], Sheet]) -> None:
-    rehearsed(page, new_sheet(napkin()), run("trace", held=False))
+def test_the_rest_is_planned_from_what_is_seen(page: Page, desk: Desk) -> None:
+    rehearsed(desk, run("trace", held=False))
     page.get_by_role("button", name="Plan from what is seen").click()
     expect(page.locator(".start-line")).to_contain_text("Planned from the middle: nothing folded yet")
     expect_planned(page)
@@ -232,20 +242,18 @@ def test_the_rest_is_planned_from_what_is_seen(page: Page, new_sheet: Callable[[
     expect(page.get_by_role("button", name="Rehearse", exact=True)).to_be_visible()
 
 
-def test_where_it_is_not_known_where_the_cloth_lies_nothing_is_planned_from_there(
-    page: Page, new_sheet: Callable[[Garment], Sheet]
-) -> None:
+def test_where_it_is_not_known_where_the_cloth_lies_nothing_is_planned_from_there(page: Page, desk: Desk) -> None:
     unknown = {"known": False, "reason": "almost all of the outline is hidden", "says": {"code": "outline_hidden"}}
-    rehearsed(page, new_sheet(napkin()), run("trace"), **unknown, fit=None, fitted_px=[], start=None)
+    rehearsed(desk, run("trace"), **unknown, fit=None, fitted_px=[], start=None)
     card = page.get_by_role("region", name="Pictures of the rehearsal")
     expect(card).to_contain_text("The camera could not locate the cloth: almost all of the outline is hidden.")
     expect(card.get_by_role("button", name="Plan from what is seen")).to_be_disabled()
 
 
-def test_a_page_loaded_anew_finds_its_rehearsal_again(page: Page, new_sheet: Callable[[Garment], Sheet]) -> None:
+def test_a_page_loaded_anew_finds_its_rehearsal_again(page: Page, desk: Desk) -> None:
     server = Rehearsals(page)
     said = page.locator(".rehearsing")
-    server.begun_by(opened(page, new_sheet(napkin())))
+    server.begun_by(opened(desk))
     expect(said.get_by_role("progressbar")).to_be_visible()
     page.reload()
     expect(said.get_by_role("progressbar")).to_be_visible()
@@ -261,18 +269,17 @@ def test_a_page_loaded_anew_finds_its_rehearsal_again(page: Page, new_sheet: Cal
     expect(said).to_be_hidden()
 
 
-def test_an_edit_takes_the_rehearsal_back(page: Page, new_sheet: Callable[[Garment], Sheet]) -> None:
-    sheet = new_sheet(napkin())
+def test_an_edit_takes_the_rehearsal_back(page: Page, desk: Desk) -> None:
     server = Rehearsals(page)
-    server.begun_by(opened(page, sheet))
+    server.begun_by(opened(desk))
     expect(page.locator(".rehearsing").get_by_role("progressbar")).to_be_visible()
     with page.expect_response("**/api/jobs/7/cancel"):
-        sheet.edit(lambda drawing: drawing["placement"].update(y_m=-0.29))
+        desk.edit(lambda drawing: drawing["placement"].update(y_m=-0.29))
     expect(page.locator(".rehearsing")).to_be_hidden()
 
 
-def test_why_there_is_no_rehearsal_is_said(page: Page, new_sheet: Callable[[Garment], Sheet]) -> None:
-    begin = opened(page, new_sheet(napkin()))
+def test_why_there_is_no_rehearsal_is_said(page: Page, desk: Desk) -> None:
+    begin = opened(desk)
     says = {"code": "library_missing", "library": "MuJoCo", "install": "pip install this"}
     error = {"field": "", "message": "MuJoCo is missing", "says": says}
     refusal = {"title": "Unprocessable", "status": 422, "detail": "", "errors": [error]}
@@ -286,10 +293,11 @@ def test_on_a_phone_the_pictures_are_in_the_sheet(chromium: Browser, new_sheet: 
     with windows(chromium, viewport=PHONE, has_touch=True, is_mobile=True) as context:
         page = context.new_page()
         server = Rehearsals(page)
-        begin = opened(page, new_sheet(napkin()))
+        page.goto(new_sheet(napkin()).page_url)
+        expect_planned(page)
         page.locator("#sheet").tap()
         with page.expect_response("**/api/rehearsals"):
-            begin.tap()
+            to_rehearse(page).tap()
         server.end(run("trace"))
         card = page.locator(".rehearsing").get_by_role("region", name="Pictures of the rehearsal")
         expect(card.get_by_text("Seen before step 1")).to_be_visible()
@@ -297,10 +305,8 @@ def test_on_a_phone_the_pictures_are_in_the_sheet(chromium: Browser, new_sheet: 
 
 
 @pytest.mark.long
-def test_a_small_napkin_is_rehearsed_and_planned_from_what_is_seen(
-    page: Page, new_sheet: Callable[[Garment], Sheet]
-) -> None:
-    opened(page, new_sheet({**NAPKIN, "title": "Small napkin"})).click()
+def test_a_small_napkin_is_rehearsed_and_planned_from_what_is_seen(page: Page, desk: Desk) -> None:
+    opened(desk, {**NAPKIN, "title": "Small napkin"}).click()
     told = "Every step holds in simulated physics"
     expect(page.locator(".rehearsing")).to_contain_text(told, timeout=SIMULATED_MS)
     expect(page.locator(".mark")).to_have_count(1)

@@ -8,6 +8,7 @@ import pytest
 from playwright.sync_api import Page, Route, expect
 
 from tests.app.conftest import REST
+from tests.browser.board.conftest import page as page
 from tests.browser.board_hand import Hand
 from tests.browser.conftest import Garment, Sheet
 from tests.browser.searches import SEARCH_MS

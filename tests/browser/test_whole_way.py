@@ -152,6 +152,7 @@ def test_with_a_finger_on_a_phone(chromium: Browser, new_sheet: Callable[[Garmen
         there_and_back(page, ByFinger(page), new_sheet(None))
 
 
+@pytest.mark.long
 def test_with_the_mouse_and_all_of_it_is_found_again(
     chromium: Browser, designer: Served, new_sheet: Callable[[Garment], Sheet]
 ) -> None:
