@@ -28,13 +28,25 @@ async def ended(client: httpx.AsyncClient, path: str) -> dict[str, Any]:
     raise AssertionError(job)
 
 
-async def test_a_map_as_a_job_is_the_map_that_is_waited_for(client: httpx.AsyncClient) -> None:
+async def test_a_map_as_a_job_is_followed_to_its_end_and_is_the_map_that_is_waited_for(
+    client: httpx.AsyncClient,
+) -> None:
     answer = await client.post("/api/jobs/placements", json=MAP)
     assert answer.status_code == 202
     assert_described(answer.json(), JobAnswer)
     assert answer.headers["location"] == f"/api/jobs/{answer.json()['id']}"
-    job = await ended(client, answer.headers["location"])
+    path = answer.headers["location"]
+    followed = await client.get(f"{path}/events")
+    assert followed.headers["content-type"].startswith("text/event-stream")
+    *progress, (last, job) = events_in(followed.text)
+    assert {name for name, _ in progress} <= {"progress"}
+    assert last == "end"
+    for _, told in progress:
+        assert_described(told, JobEntry)
     assert_described(job, JobAnswer)
+    assert job == (await client.get(path)).json()
+    again = await client.get(f"{path}/events", headers={"last-event-id": "1"})
+    assert events_in(again.text) == [("end", job)]
     assert (job["kind"], job["about"], job["status"], job["progress"]) == ("placements", "My towel", "done", 1.0)
     assert job["result"] == (await client.post("/api/placements", json=MAP)).json()
     listed = (await client.get("/api/jobs")).json()
@@ -83,21 +95,6 @@ async def test_robots_are_compared_each_at_its_own_table(client: httpx.AsyncClie
     plan = (await client.post("/api/plans", json={"garment": towel, "robot": "so101-pair"})).json()
     assert (small["status"], small["cost_s"]) == (plan["status"], plan["cost_s"])
     assert large["status"] == "solved" and 0.03 <= large["margin_m"] <= 0.1
-
-
-async def test_a_job_can_be_followed_to_its_end_and_again_after_it(client: httpx.AsyncClient) -> None:
-    path = (await client.post("/api/jobs/placements", json=MAP)).headers["location"]
-    followed = await client.get(f"{path}/events")
-    assert followed.headers["content-type"].startswith("text/event-stream")
-    *progress, (last, job) = events_in(followed.text)
-    assert {name for name, _ in progress} <= {"progress"}
-    assert last == "end"
-    for _, told in progress:
-        assert_described(told, JobEntry)
-    assert_described(job, JobAnswer)
-    assert job == (await client.get(path)).json()
-    again = await client.get(f"{path}/events", headers={"last-event-id": "1"})
-    assert events_in(again.text) == [("end", job)]
 
 
 async def test_a_cancelled_job_ends_for_those_who_follow_it(client: httpx.AsyncClient) -> None:

@@ -73,7 +73,7 @@ def test_the_robot_is_in_the_picture_where_it_waits() -> None:
     assert np.abs(seen).max() < 1.0
 
 
-@pytest.mark.parametrize("robot", ["so101-pair", "ur5e-pair"])
+@pytest.mark.parametrize("robot", [pytest.param("so101-pair", marks=pytest.mark.long), "ur5e-pair"])
 @pytest.mark.parametrize("aspect", [0.46, 1.6])
 def test_arms_at_a_bench_fill_the_picture_with_all_of_its_top(robot: str, aspect: float) -> None:
     card, scene = load_robot(robot).card, default_scene(robot)

@@ -72,7 +72,7 @@ async def test_a_robot_of_ones_own_is_planned_for_by_name_on_the_server_and_the_
 
 
 async def test_a_document_outlives_the_robot_of_ones_own_that_folds_in_it(client: httpx.AsyncClient) -> None:
-    card = shipped_card("so101-pair").to_dict() | {"name": "bench", "title": "My bench"}
+    card = shipped_card("ur5e-single").to_dict() | {"name": "bench", "title": "My bench"}
     await client.put("/api/robots/bench", json=card)
     path = f"/api/documents/{(await client.post('/api/documents', json={})).json()['id']}"
     chosen = (await client.put(f"{path}/robot", json={"robot": "bench"})).json()

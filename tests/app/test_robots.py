@@ -54,10 +54,10 @@ def test_the_command_line_lists_what_rest_lists() -> None:
 
 @pytest.mark.usefixtures("reach_known")
 def test_a_good_card_is_told_with_what_it_reaches() -> None:
-    result = pleat("robot", "check", "so101-pair")
+    result = pleat("robot", "check", "ur5e-pair")
     assert result.exit_code == 0
     assert "a good card" in result.stdout and "75%" in result.stdout
-    reached = json.loads(pleat("robot", "check", "so101-pair", "--json", "-").stdout)["table_reached"]
+    reached = json.loads(pleat("robot", "check", "ur5e-pair", "--json", "-").stdout)["table_reached"]
     assert reached == {"arms": {"left": 0.75, "right": 0.5}, "any_arm": 1.0, "two_arms": 0.25}
 
 

@@ -47,7 +47,7 @@ def test_two_servers_on_one_database_see_what_each_other_has(tmp_path: Path, pos
             planned = first.post("/api/plans", json={"garment": towel()}).json()
             assert second.get(f"/api/plans/{planned['id']}").json() == planned
 
-            card = {**first.get("/api/robots/so101-pair").json(), "name": "bench"}
+            card = {**first.get("/api/robots/ur5e-single").json(), "name": "bench"}
             assert first.put("/api/robots/bench", json=card).status_code == 201
             until(lambda: second.get("/api/robots/bench").status_code == 200)
             assert second.delete("/api/robots/bench").status_code == 204

@@ -160,7 +160,7 @@ def test_displaced_by_what_it_is_short_the_point_is_in_reach_and_by_less_nowhere
         assert not context.reach.from_anywhere(tried).any()
 
 
-@pytest.mark.parametrize("name", ["scarf", "low"])
+@pytest.mark.parametrize("name", ["scarf", pytest.param("low", marks=pytest.mark.long)])
 def test_turned_as_the_reason_says_the_hand_lacks_what_it_says_and_no_less(name: str) -> None:
     (reason, *_) = _answer(name).plan.reasons
     context = _met(name)

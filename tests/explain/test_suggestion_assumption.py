@@ -14,7 +14,9 @@ from tests.planning.provoked import planned_with
 
 def test_the_friction_that_is_suggested_is_the_least_in_hundredths() -> None:
     # Folded over x = 0.3 of 1.2 m across the table, 0.11 m hang and 1.09 m of layers lie: 0.1009 would do.
-    strip = garment(rectangle_points(1.2, 0.2), fold((0.3, 0.0), (0.3, 0.2)), placement=Pose2(-0.6, 0.6, -math.pi / 2))
+    strip = garment(
+        rectangle_points(1.2, 0.05), fold((0.3, 0.0), (0.3, 0.05)), placement=Pose2(-0.6, 0.6, -math.pi / 2)
+    )
     smooth = Scene(friction=0.0)
     for reasons in (make_plan(strip, smooth, time_limit_s=60.0).reasons, ()):
         found = next(proven(frictions(asked(strip, smooth), reasons)))

@@ -4,30 +4,17 @@ from random import Random
 from time import process_time
 
 import pytest
-from hypothesis import settings
 
 from planner import deadline
-from tests.laws.law import LONG
 from tests.laws.plan_laws import LAWS, differences
 from tests.laws.wear import wear_task
 
-QUICK_SEEDS = (4,)
-"""A garment that is planned in a second or two."""
 
-QUICK_LAWS = ("order", "tail")
-"""Those that its many folds put to the test; small garments are planned for all of them, see `test_plan_laws`."""
-
-
-def seeds(count: int) -> list[object]:
-    return [seed if seed in QUICK_SEEDS else pytest.param(seed, marks=pytest.mark.long) for seed in range(count)]
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("seed", seeds(100))
+@pytest.mark.long
+@pytest.mark.parametrize("seed", range(100))
 def test_a_hood_a_poncho_and_a_jumper_keep_the_laws_of_plans(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(deadline, "clock_s", process_time)  # work ends a search, however busy the machine is
-    laws = tuple(LAWS) if settings.get_current_profile_name() == LONG else QUICK_LAWS
-    found = differences(wear_task(Random(seed)), seed, laws)
+    found = differences(wear_task(Random(seed)), seed, tuple(LAWS))
     assert not {name: broken for name, broken in found.by_law.items() if broken}
 
 

@@ -198,6 +198,7 @@ def test_cloth_that_lies_still_is_one_surface_and_what_is_folded_another() -> No
     assert len({id(surface) for surface in [still, *surfaces]}) == len(moving) + 1
 
 
+@pytest.mark.long
 def test_hands_that_rest_through_a_phase_for_which_there_is_no_time_take_none() -> None:
     # The grips lie nearer to the fold line than the far corner does, so they rest while the cloth begins to rise; and
     # between two stands of the base that takes no time in a way that is tried, slower as a whole than 1 ms.

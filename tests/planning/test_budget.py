@@ -75,6 +75,7 @@ def test_half_of_the_work_is_left_for_looser_hands_where_no_firm_ones_are_found(
     assert make_plan(towel, work_limit_s=1.0, time_limit_s=60.0).status == "budget_exceeded"
 
 
+@pytest.mark.long
 def test_a_firm_plan_may_take_all_of_the_work_to_be_improved(monkeypatch: pytest.MonkeyPatch) -> None:
     whole = make_plan(load_garment("tie"), work_limit_s=10.0, time_limit_s=60.0)
     monkeypatch.setattr(plans, "FIRM_SHARE", 0.3)

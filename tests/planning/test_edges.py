@@ -20,7 +20,7 @@ def edges_of(context: Context, *, are_spares_wanted: bool = False) -> Edges:
     return Edges(context, Unjudged(are_spares_wanted=are_spares_wanted))
 
 
-@pytest.mark.parametrize("name", ["tie", "scarf", "big-towel"])
+@pytest.mark.parametrize("name", [pytest.param("tie", marks=pytest.mark.long), "scarf", "big-towel"])
 def test_what_is_left_out_makes_no_plan_dearer(name: str) -> None:
     case = planned(name).found
     problem = Problem.of(case.plan.task)

@@ -1,5 +1,6 @@
 """A long search falls back on a greedy plan, and tells it while it goes on."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
@@ -7,9 +8,11 @@ from itertools import pairwise
 import pytest
 
 from planner import Plan, Scene, Task, load_garment, make_plan
+from planner.geometry.pose import Pose2
 from planner.planning import plan_search
 from planner.planning.plan_search import Hints
 from planner.plans import plan
+from tests.builders import fold, garment, rectangle_points
 from tests.replay.planned import planned, shipped_plan
 from tests.required import required
 
@@ -68,7 +71,9 @@ def test_a_plan_that_is_known_needs_nothing_to_fall_back_on() -> None:
 
 @pytest.mark.usefixtures("_falls_back_at_once")
 def test_where_there_is_no_plan_that_is_told_before_its_reasons_are_tried() -> None:
-    answer, (first,) = told(Task.of(load_garment("scarf-halved")))
+    alone = Scene(stations=Scene().stations[:1])
+    towel = garment(rectangle_points(0.4, 0.5), fold((0.4, 0.25), (0.0, 0.25)), placement=Pose2(0.2, 0.4, -math.pi / 2))
+    answer, (first,) = told(Task.of(towel, alone))
     assert answer.status == first.status == "infeasible"
     assert {reason.set for reason in first.reasons} == {None}
     assert any(reason.set is not None for reason in answer.reasons)

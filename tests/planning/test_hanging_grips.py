@@ -45,7 +45,16 @@ def test_the_fold_of_figure_4_brings_back_what_hangs() -> None:
         assert grip.place == pytest.approx((-0.8 - 0.04 + 0.24, y, 0.02))
 
 
-@pytest.mark.parametrize(("hanging_m", "length_m"), [(0.01, 0.5), (0.02, 0.5), (0.03, 0.5), (0.1, 0.5), (0.2, 1.2)])
+@pytest.mark.parametrize(
+    ("hanging_m", "length_m"),
+    [
+        pytest.param(0.01, 0.5, marks=pytest.mark.long),
+        pytest.param(0.02, 0.5, marks=pytest.mark.long),
+        pytest.param(0.03, 0.5, marks=pytest.mark.long),
+        (0.1, 0.5),
+        pytest.param(0.2, 1.2, marks=pytest.mark.long),
+    ],
+)
 def test_it_does_so_however_deep_the_cloth_hangs(hanging_m: float, length_m: float) -> None:
     plan = required(towel(hanging_m, hanging_m + 0.08, length_m))
     assert [primitive.kind for primitive in plan.primitives] == ["fold"]
@@ -71,7 +80,7 @@ def test_so_does_it_at_the_sides_and_the_mirrored_task_has_the_mirrored_plan(x_m
         assert here[other] == pytest.approx((x, -y, z))
 
 
-@pytest.mark.parametrize("hanging_m", [0.01, 0.03])
+@pytest.mark.parametrize("hanging_m", [pytest.param(0.01, marks=pytest.mark.long), 0.03])
 def test_cloth_is_laid_down_over_the_near_edge_though_most_ways_have_fingers_in_the_top(hanging_m: float) -> None:
     # The line is 0.1 m from the edge. Within the default cone most ways come from the side.
     over = fold((0.0, 0.08), (0.3, 0.08))

@@ -63,7 +63,7 @@ def tall_hood() -> Garment:
     return replace(one, placement=Pose2(-0.69325, 0.13007, -math.pi / 2))
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_more_stations_never_cost_more() -> None:
     front = Scene(stations=(("front", DEFAULT_STATIONS["front"]),))
     many, one = planned(tall_hood()), planned(tall_hood(), front)
@@ -72,7 +72,7 @@ def test_more_stations_never_cost_more() -> None:
     assert all(step.kind != "move" for step in many.steps), "a drag does without the drive round the table"
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_independent_folds_given_in_another_order_cost_the_same() -> None:
     one = hood(0.367, 0.2609, 0.3997, 0.248, 0.088, 0.1884)
     one = replace(one, placement=Pose2(-0.63198, 0.17753, -math.pi / 2))

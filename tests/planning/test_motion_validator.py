@@ -112,7 +112,12 @@ class Eager:
 @pytest.mark.parametrize("arm_motion_s", [IDLE_S, HURRIED_S])
 @pytest.mark.parametrize(
     ("folds", "back_off_max_m"),
-    [((HALF,), 0.05), ((HALF,), ROOM_TO_TURN_M), ((HALF, QUARTER), 0.05), ((OVER, BACK_OVER), 0.05)],
+    [
+        ((HALF,), 0.05),
+        pytest.param((HALF,), ROOM_TO_TURN_M, marks=pytest.mark.long),
+        ((HALF, QUARTER), 0.05),
+        ((OVER, BACK_OVER), 0.05),
+    ],
 )
 def test_a_plan_costs_what_the_search_finds_that_makes_every_run_real_at_once(
     monkeypatch: pytest.MonkeyPatch, folds: tuple[DrawnFold, ...], back_off_max_m: float, arm_motion_s: float

@@ -89,7 +89,15 @@ def test_shoulders_turn_over_the_edge_only_when_the_torso_is_down() -> None:
     assert 0.04 < contact.depth_m < 0.07  # .25 - .20, what makes shapes round and symmetric included
 
 
-@pytest.mark.parametrize(("torso_m", "opening_m"), [(0.0, 0.0), (0.12, 0.03), (TORSO_M, 0.06), (0.31, 0.09)])
+@pytest.mark.parametrize(
+    ("torso_m", "opening_m"),
+    [
+        pytest.param(0.0, 0.0, marks=pytest.mark.long),
+        pytest.param(0.12, 0.03, marks=pytest.mark.long),
+        (TORSO_M, 0.06),
+        pytest.param(0.31, 0.09, marks=pytest.mark.long),
+    ],
+)
 def test_what_is_free_is_free_for_the_full_meshes_hulls(torso_m: float, opening_m: float) -> None:
     rng = np.random.default_rng(11)
     collisions, postures = ROBOT.collisions(Table(), torso_m, opening_m), random_postures(150, 12)

@@ -30,7 +30,7 @@ from tests.app.rehearsal.towel import COARSE, COARSER, towel_plan
 from tests.required import required
 
 CAMERA = f"{CAMERAS}table"
-FEW_PER_S = 5
+FEW_PER_S = 2
 
 
 def task() -> Task:

@@ -51,6 +51,7 @@ def performed(left_behind_m: float, failures: int = 2) -> tuple[FoldedCloth, Per
     return cloth, Performer(towel_plan(), world, Gate(), no_plan).performed()
 
 
+@pytest.mark.long
 def test_a_fold_that_twice_left_a_quarter_of_the_edge_behind_ends_the_run_with_its_picture() -> None:
     cloth, done = performed(0.1)
     assert "after the last step" in done.reason and "fold has failed" in done.reason
@@ -106,7 +107,7 @@ def outlines(plan: Plan, after: int) -> tuple[FloatArray, FloatArray]:
     return flat, lies.placement.to_outer(evenly_along(ring, 0.01))
 
 
-@pytest.mark.parametrize("is_failed", [True, False])
+@pytest.mark.parametrize("is_failed", [True, pytest.param(False, marks=pytest.mark.long)])
 def test_no_further_step_is_made_after_a_fold_that_is_seen_to_have_failed_twice(*, is_failed: bool) -> None:
     plan = shipped_plan("jeans")
     first = next(number for number, step in enumerate(plan.steps) if step.fold is not None)

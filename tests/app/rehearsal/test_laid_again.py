@@ -108,7 +108,7 @@ def test_the_lower_layer_stays_while_the_upper_one_is_pulled() -> None:
     assert np.abs(off[pattern[:, 1] > DEPTH_M + 0.02]).mean() < 0.004
 
 
-@pytest.mark.parametrize(("repairs", "made"), [(1, 1), (9, REPAIRS_MAX)])
+@pytest.mark.parametrize(("repairs", "made"), [pytest.param(1, 1, marks=pytest.mark.long), (9, REPAIRS_MAX)])
 def test_what_a_fold_has_left_short_is_laid_down_again_until_it_is_seen_in_its_place_or_twice(
     repairs: int, made: int
 ) -> None:

@@ -122,6 +122,7 @@ def outline_mm(step: PlanStep, motion: StepMotion) -> float:
     return judged(world.truth(), 0, SEQUENCE, step.after, Isometry(), TASK.scene.table, Gate(), ()).outline_mm
 
 
+@pytest.mark.long
 def test_a_flap_that_trails_behind_its_crease_does_not_land_open() -> None:
     step = half_by(CREASED, OPEN)
     assert outline_mm(step, trailing(motion_of(step), seen(step))) < Gate().outline_mm

@@ -255,26 +255,6 @@ def test_a_process_that_crashes_is_told_from_one_that_was_stopped(shared: Worker
         done(shared, crash)
 
 
-NICE = """
-from app.worker import process, stop, workers
-from tests.app.worker.test_workers import niceness
-
-for more in (0, 3):
-    with workers.Workers(niceness=more) as some:
-        print(some.run(niceness, stop.Stop(), process.ignore))
-"""
-
-
-def test_workers_in_the_background_are_nicer_by_so_much() -> None:
-    even = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
-    done = subprocess.run(
-        [sys.executable, "-c", NICE], capture_output=True, text=True, check=True, timeout=PATIENCE_S, env=even
-    )
-    usual, nicer = map(int, done.stdout.split())
-    assert 0 < usual < 16
-    assert nicer == usual + 3
-
-
 def test_a_worker_looks_for_robots_where_its_caller_does(
     shared: Workers, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -290,32 +270,36 @@ def test_a_worker_may_have_workers_of_its_own_that_end_with_it(workers: Workers)
     wait_until(lambda: not is_alive(pid) and not is_alive(below))
 
 
-# A template that fails, and then one that does not; `print` is what both are asked for.
+# A template that fails, and then one that does not; what they are asked for is the niceness of their workers.
 PROGRAM = """
 from app.worker import process, stop, template, workers
+from tests.app.worker.test_workers import niceness
 
-def ask():
-    with workers.Workers() as some:
-        some.run(print, stop.Stop(), process.ignore)
+def ask(more):
+    with workers.Workers(niceness=more) as some:
+        return some.run(niceness, stop.Stop(), process.ignore)
 
 whole, template._PRELOADED = template._PRELOADED, "tests.app.worker.broken_template"
 patience_s, template._STARTED_WITHIN_S = template._STARTED_WITHIN_S, 0.5
 for _ in range(2):
     try:
-        ask()
+        ask(0)
     except template.PlannerNotLoadedError as error:
         print(error)
 template._PRELOADED, template._STARTED_WITHIN_S = whole, patience_s
-ask()
-print("done")
+print(ask(0))
+print(ask(3))
 """
 
 
-def test_a_template_that_cannot_load_the_planner_is_told_and_replaced() -> None:
-    done = subprocess.run([sys.executable, "-c", PROGRAM], capture_output=True, text=True, check=False, timeout=120.0)
-    told = [line for line in done.stdout.splitlines() if not line.startswith("<")]
-    assert told == ["the planner could not be loaded; the server's log says why"] * 2 + ["done"], done.stderr
+def test_a_template_that_cannot_load_the_planner_is_told_and_replaced_and_workers_in_the_background_are_nicer() -> None:
+    even = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+    command = [sys.executable, "-c", PROGRAM]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=PATIENCE_S, env=even)
+    *told, usual, nicer = done.stdout.splitlines()
+    assert told == ["the planner could not be loaded; the server's log says why"] * 2, done.stderr
     assert "the kernels are for another machine" in done.stderr
+    assert 0 < int(usual) < 16 and int(nicer) == int(usual) + 3
 
 
 @pytest.mark.long

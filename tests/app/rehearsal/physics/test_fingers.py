@@ -83,7 +83,7 @@ def test_cloth_that_lies_upon_a_finger_is_held_up_by_it_until_that_is_drawn_out(
 
 def test_a_stack_higher_than_fingers_hold_slips_out_of_them() -> None:
     # At the edge is every second row: 2 and 9 layers, 4 and 18 mm when they are pressed on one another.
-    motion, (few, many) = hold(wide_m=0.12), (world(layers, 0.12) for layers in (3, 17))
+    motion, (few, many) = hold(wide_m=0.06), (world(layers, 0.06) for layers in (3, 17))
     assert few.perform(motion).has_cloth == {"left": True}
     assert many.perform(motion).has_cloth == {"left": False}
     assert not many.simulation.held

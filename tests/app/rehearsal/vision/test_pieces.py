@@ -57,8 +57,8 @@ def test_several_garments_in_a_cut_out_are_counted(others: int) -> None:
     assert seen.sure.unknown is not None and seen.sure.unknown.values["cloths"] == 1 + others
 
 
-@pytest.mark.parametrize("along_rad", [0.3, 0.3 + np.pi / 2])
-@pytest.mark.parametrize("width_m", [0.05, 0.1])
+@pytest.mark.parametrize("along_rad", [0.3, pytest.param(0.3 + np.pi / 2, marks=pytest.mark.long)])
+@pytest.mark.parametrize("width_m", [pytest.param(0.05, marks=pytest.mark.long), 0.1])
 def test_cloth_with_stripes_of_the_tables_colour_is_one_and_not_sure(along_rad: float, width_m: float) -> None:
     towel = garment("hand-towel")
     image = taken([(towel, WOOD), *((ring, BLUE) for ring in striped(towel, along_rad, width_m)), SHEET])
@@ -68,7 +68,7 @@ def test_cloth_with_stripes_of_the_tables_colour_is_one_and_not_sure(along_rad: 
     assert len(seen.garment.outline) == 4
 
 
-@pytest.mark.parametrize("other", ["t-shirt", "hand-towel"])
+@pytest.mark.parametrize("other", ["t-shirt", pytest.param("hand-towel", marks=pytest.mark.long)])
 def test_two_garments_in_a_picture_are_told_as_two(other: str) -> None:
     shirt = garment("t-shirt", -0.5, 0.2)
     image = taken([(shirt, BLUE), (garment(other, 0.45, 0.25, 1.2), (60, 60, 180)), SHEET], width_m=2.4)
@@ -77,7 +77,7 @@ def test_two_garments_in_a_picture_are_told_as_two(other: str) -> None:
     assert seen.sure.unknown is not None and "2 pieces" in seen.sure.unknown.text
 
 
-@pytest.mark.parametrize("tilt_rad", [0.0, 0.15])
+@pytest.mark.parametrize("tilt_rad", [pytest.param(0.0, marks=pytest.mark.long), 0.15])
 def test_a_table_top_with_the_sheet_on_it_is_not_the_garment(tilt_rad: float) -> None:
     shirt = garment("t-shirt", -0.2, 0.0, 0.1)
     top = rectangle(0.0, 0.0, (1.6, 0.98), 0.0)

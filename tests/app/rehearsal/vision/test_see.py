@@ -45,7 +45,9 @@ def alone() -> Photo:
     return picture(BLUE_ON_WOOD)
 
 
-@pytest.mark.parametrize("look", [WHITE_ON_LIGHT_WOOD, DARK_ON_DARK, PATTERNED])
+@pytest.mark.parametrize(
+    "look", [*(pytest.param(look, marks=pytest.mark.long) for look in (WHITE_ON_LIGHT_WOOD, DARK_ON_DARK)), PATTERNED]
+)
 def test_a_t_shirt_beside_a_sheet_is_seen_with_its_corners_and_its_size(look: Look) -> None:
     seen = see(picture(look, sheet=(0.62, -0.3, 0.4)).jpeg, "shirt", "a4")
     assert seen.sure.unknown is None, seen.sure
