@@ -14,6 +14,7 @@ The algorithm of the paper (section 5), from top to bottom:
    usually a single fold is to blame.
 """
 
+import math
 from collections.abc import Callable, Generator, Iterator, Sequence
 from dataclasses import replace
 from typing import Unpack
@@ -76,6 +77,7 @@ def plan(
     *,
     should_stop: Callable[[], bool] | None = None,
     with_reasons: bool = True,
+    improving_s: float = math.inf,
 ) -> Generator[Event, None, None]:
     """Plan a task as `make_plan` does, and tell what is found on the way.
 
@@ -86,6 +88,7 @@ def plan(
         hints: plans to start from; None for none.
         should_stop: polled between events; the search ends as out of budget when it returns true.
         with_reasons: whether to find out why there is no plan, if there is none; this takes further planning.
+        improving_s: the work after which no quicker plan is looked for, once there is one (s).
 
     Yields:
         Plans found meanwhile, each quicker than the one before; where there is no plan, the reasons that the search
@@ -99,7 +102,11 @@ def plan(
     budget = Budget.of(task.limits.work_limit_s, task.limits.time_limit_s, should_stop)
     part = Budget.of(FIRM_SHARE * budget.work_limit_s, FIRM_SHARE * task.limits.time_limit_s, should_stop)
     try:
-        yield from _firmly_or_not(task, part, budget, hints or Hints(), with_reasons=with_reasons)
+        for event in _firmly_or_not(task, part, budget, hints or Hints(), with_reasons=with_reasons):
+            if event.found.plan.is_solved:
+                part.narrow(improving_s)
+                budget.narrow(improving_s)
+            yield event
     finally:
         for one in (part, budget):
             one.deadline.forget()  # the plan keeps its context, which has it

@@ -10,6 +10,7 @@ import re
 from app.jobs.job_pool import ShouldStop
 from app.step_kinds import step_words
 from app.ui.view_3d import View3D
+from app.ui.viser_patches import weave
 from app.ui.withdrawal import withdrawn
 from planner.motion.timeline import Timeline
 from planner.robots.load_robot import load_robot
@@ -55,8 +56,8 @@ def recording(plan: Plan, rate_hz: float, should_stop: ShouldStop, *, is_dark: b
         page = recorder.as_html(dark_mode=is_dark)
     finally:
         view.close()
-    title = f"<title>{html.escape(plan.garment.title)} - Pleat</title>"
-    return _TITLE.sub(lambda _: title, page, count=1).encode("utf-8", "replace")
+    head = f"<title>{html.escape(plan.garment.title)} - Pleat</title>{weave()}"
+    return _TITLE.sub(lambda _: head, page, count=1).encode("utf-8", "replace")
 
 
 def _captions(plan: Plan) -> list[str]:

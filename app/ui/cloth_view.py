@@ -1,7 +1,8 @@
 """The cloth in the 3D view: two faces in two colours, as far apart as it is thick, a hem, the outline of each layer.
 
 No face casts a shadow, because it would fall on the other. A mesh that nobody sees casts it from just below: cloth in
-the air shades the table and the cloth under it, and never itself.
+the air shades the table and the cloth under it, and never itself. Another one has the pattern's coordinates for its
+vertices: `static/weave.js` draws threads along them.
 """
 
 import numpy as np
@@ -25,7 +26,7 @@ class ClothView:
     """Shows one cloth surface at a time."""
 
     def __init__(self, scene: viser.SceneApi, root: str = ROOT) -> None:
-        """Build the nodes ``front``, ``back``, ``hem``, ``shade`` and ``edges`` below a root, without cloth yet."""
+        """Build the nodes of the cloth below a root, without cloth yet."""
         add_mesh = scene.add_mesh_simple
         self._front = add_mesh(f"{root}/front", _NO_POINTS, _NO_TRIANGLES, side="front", cast_shadow=False)
         self._back = add_mesh(f"{root}/back", _NO_POINTS, _NO_TRIANGLES, side="back", cast_shadow=False)
@@ -33,6 +34,7 @@ class ClothView:
         self._shade = add_mesh(
             f"{root}/shade", _NO_POINTS, _NO_TRIANGLES, side="double", opacity=0.0, position=_SHADE_M
         )
+        self._pattern = add_mesh(f"{root}/pattern", _NO_POINTS, _NO_TRIANGLES, visible=False)
         self._edges = scene.add_line_segments(
             f"{root}/edges",
             np.zeros((1, 2, 3)),
@@ -61,7 +63,10 @@ class ClothView:
         is_recut = before is None or len(cloth.triangles) != len(before.triangles)
         thick = ThickCloth(cloth, layer_m)
         front, back = (face.astype(np.float32) for face in thick.faces)
-        for mesh, vertices in ((self._front, front), (self._back, back), (self._shade, front)):
+        pattern = np.zeros_like(front)
+        pattern[:, :2] = cloth.pattern[cloth.triangles].reshape(-1, 2)
+        meshes = ((self._front, front), (self._back, back), (self._shade, front), (self._pattern, pattern))
+        for mesh, vertices in meshes:
             mesh.vertices = vertices
             if is_recut:
                 mesh.faces = np.arange(len(vertices), dtype=np.uint32).reshape(-1, 3)

@@ -12,6 +12,9 @@ phone panels of controls have no place in our frame: the style that we add hides
 board's background behind it. A frame is narrower than a window, so the width below
 which viser assumes a phone is reduced. The frame tells our page when there is a picture and, for those who may choose a
 viewpoint, when the server knows them; our page covers it until then.
+
+**Cloth with threads.** A mesh of viser has one colour, or a texture with which all of it is sent anew in each picture.
+A script in the page, and in recordings, has threads drawn along the pattern: see `static/weave.js`.
 """
 
 import contextlib
@@ -31,6 +34,7 @@ from websockets.asyncio.server import ServerConnection
 from websockets.datastructures import Headers
 from websockets.http11 import Request, Response
 
+from app.page_files import static_dir
 from app.ui.viewpoints.viewpoint_choice import CHANNEL
 
 LOOPBACK = "127.0.0.1"
@@ -113,5 +117,11 @@ def view_page(*, has_session: bool = True) -> bytes:
         has_session: whether its viewpoint can be chosen; that of those who have a link cannot.
     """
     ready = _TELL_READY % (_HAS_SESSION if has_session else "true", READY)
-    styled = VISER_PAGE.read_bytes().replace(b"</head>", _HIDE + _GROUND + b"</head>", 1)
+    styled = VISER_PAGE.read_bytes().replace(b"</head>", _HIDE + _GROUND + weave().encode() + b"</head>", 1)
     return styled.replace(b"<head>", b"<head>" + _NARROW + ready.encode(), 1)
+
+
+def weave() -> str:
+    """Return what has threads drawn on cloth, for the head of a page of viser's."""
+    script = (static_dir() / "weave.js").read_text(encoding="utf-8")
+    return f'<script type="module">{script}</script>'

@@ -37,12 +37,14 @@ class Budget:
         deadline: when the time is up, or nobody wants the answer any more.
         looks: the number of states, and of deferred successors, looked at.
         beside_s: the work done under separate budgets (s).
+        is_strict: whether a search that has a plan does nothing beside it once the budget is over.
     """
 
     work_limit_s: float
     deadline: Deadline
     looks: int = 0
     beside_s: float = 0.0
+    is_strict: bool = False
     _problems: list[Problem] = field(default_factory=list)
     _folds: int = 0
 
@@ -65,6 +67,10 @@ class Budget:
         """Allow as much as another budget does."""
         self.work_limit_s = whole.work_limit_s
         self.deadline.put_off(whole.deadline)
+
+    def narrow(self, work_s: float) -> None:
+        """Allow no more than that work, and nothing beside it once it is done."""
+        self.work_limit_s, self.is_strict = min(self.work_limit_s, work_s), math.isfinite(work_s)
 
     def watch(self, problem: Problem) -> Problem:
         """Start to count the reach queries and joint paths of a problem; return the problem."""

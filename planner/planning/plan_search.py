@@ -153,9 +153,10 @@ class _PlanSearch:
     def restrict(self, problem: Problem, work_s: float) -> float:
         """Look for a quicker plan in a restricted task with limited work (s); return the work done (s).
 
-        The search is left out where no quicker plan can exist.
+        The search is left out where no quicker plan can exist, or none is wanted any more.
         """
-        if work_s <= 0.0 or not self._is_in_doubt:
+        is_enough = self.budget.is_strict and self.budget.is_over
+        if work_s <= 0.0 or is_enough or not self._is_in_doubt:
             return 0.0
         hands = EdgeHands(problem.context, problem.robot, problem.maker)
         search = PathSearch(problem, self.budget.part(0.0), problem.task.limits.max_expanded, hands=hands)

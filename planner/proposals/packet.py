@@ -42,6 +42,7 @@ class Packet:
         stand: where robot and cloth are after the folds that a robot was asked about; None before it was.
         asked: the number of those folds.
         doubts: the number of those that the robot probably cannot do.
+        is_sketch: whether it was found without the robot, so that a variant may suit that better.
     """
 
     cloth: ClothState
@@ -52,6 +53,7 @@ class Packet:
     stand: Stand | None = None
     asked: int = 0
     doubts: int = 0
+    is_sketch: bool = False
 
     @staticmethod
     def of(garment: Garment) -> "Packet":

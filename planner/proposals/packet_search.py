@@ -30,6 +30,9 @@ _ENUMERATED_MAX = 600
 _LAYERS_MAX = 64
 """The most layers of a stack that is looked at."""
 
+_SOON = 20
+"""The sequences that are folded without one that fits, before sketches come first."""
+
 _VARIANTS = 3
 """The most variants that are folded: packets of one way that fit, and states of one way and size."""
 
@@ -60,6 +63,7 @@ class PacketSearch:
     Attributes:
         enumerated: the number of sequences of moves that were folded so far.
         nearest_m: the sides of the packet that lacks least to fit the target (m).
+        sketched: an iterator of packets that come next where none comes soon, or the robot cannot do the first ones.
     """
 
     def __init__(
@@ -82,6 +86,7 @@ class PacketSearch:
         self._blamed: list[tuple[DrawnFold, ...]] = []
         self.enumerated = 0
         self.nearest_m = self._begin.size_m
+        self.sketched: Iterator[Packet] = iter(())
 
     def packets(self) -> Iterator[Packet]:
         """Yield packets that fit the target, about by taste; those much smaller than the target come last.
@@ -107,12 +112,16 @@ class PacketSearch:
         if self._face != "any":  # cloth that lies front up ends with its back outside, and the other way round
             for turned in self._begin.turned(self._radius_m):
                 self._wait(0.0, turned, "look")
+        is_any = False
         while self._queue:
+            if self._blamed or (self.enumerated >= _SOON and not is_any):
+                yield from self.sketched
             waiting = heappop(self._queue)
             packet, step = waiting.packet, waiting.step
             if self._is_blamed(waiting):
                 self._wait(waiting.rank + DOUBT_EFFORT, packet, step, is_blamed=True)
             elif step == "yield":
+                is_any = True
                 yield packet
             elif step == "look":
                 self._ask(waiting)

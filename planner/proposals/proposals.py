@@ -1,8 +1,10 @@
 """Propose folds: ways to fold a garment to a size that a robot can do.
 
 Packets come from a search that asks the robot about single folds, those that people like first. Each is planned in
-turn, with little work, until enough of them have plans. Where one has none, its first folds are planned alone, to learn
-which of them are to blame. Until there is a proposal, what takes much work is put aside: something easier may follow.
+turn until enough of them have plans; the first one that has a plan is not waited for while that is improved. Where
+one has none, its first folds are planned alone, to learn which of them are to blame. To ask the robot takes much of the
+time: where no packet comes soon, or the first has no plan, those that a search without a robot finds first are planned.
+
 Of variants of one way (the same moves in another order, or from another side) only the first is proposed that can be
 done, or its mirror image if that takes less time: order and side decide much for a robot and nothing for the packet.
 
@@ -11,11 +13,11 @@ rolled up, to whatever size.
 """
 
 import math
-from collections import Counter, deque
+from collections import Counter
 from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
-from itertools import islice
+from itertools import chain, islice
 from typing import Any, TypedDict, Unpack
 
 from planner.cloth.garment import FOLDS_MAX, DrawnFold, Garment
@@ -51,20 +53,16 @@ _FAILURES = 2
 """Packets without a plan for each proposal asked for, after which no more are planned."""
 
 _BRIEF_SHARE = 0.4
-"""The work for the plan of a packet's first folds, and for any plan until there is a proposal, as a share of all."""
+"""The work for the plan of a packet's first folds, and for improving the first plan, as a share of all."""
 
 _PATIENT_SHARE = 10.0
 """The work for each packet that took all its work without a plan, where no packet has one, as a share of that."""
 
-_ASIDE = 3
-"""How many ways without a plan at that work are put aside, until one of them is planned with all of it."""
-
 _VARIANTS = 3
 """Variants of one way that are planned, at most."""
 
-
-_SKETCHES = 2
-"""Ways that are looked at for each of those that come first without a plan."""
+_FIRST, _SKETCHES = 2, 2
+"""Ways that are planned before the robot is asked about any others, and ways looked at for each of them."""
 
 
 class ProposalOptions(TypedDict, total=False):
@@ -225,44 +223,47 @@ def propose_folds(
     if target.is_roll:
         return _planned(task, RollSearch(garment, max_folds), count, stops)
     robot_check = RobotCheck(task)
-    search = PacketSearch(garment, target, max_folds, face, robot_check)
     if target.is_smallest:
-        return _planned(task, search, count, stops)
-    sketches = _sketches(task, PacketSearch(garment, target, max_folds, face), robot_check, untried)
-    return _sketched_and_planned(task, sketches, search, count, stops)
+        return _planned(task, PacketSearch(garment, target, max_folds, face), count, stops)
+    sketches = PacketSearch(garment, target, max_folds, face)
+    search = PacketSearch(garment, target, max_folds, face, robot_check)
+    return _sketched_and_planned(task, sketches, search, robot_check, count, untried, stops)
 
 
 def _sketched_and_planned(
     task: Task,
-    sketches: Generator[Proposal, None, Tried | None],
+    sketches: PacketSearch,
     search: PacketSearch,
+    robot: RobotCheck,
     count: int,
+    untried: int,
     should_stop: Callable[[], bool],
 ) -> Generator[Proposal, None, Tried]:
-    tried = yield from sketches
-    return tried or (yield from _planned(task, search, count, should_stop))
+    """Propose what a search without a robot finds first, without plans; then what the robot can do."""
+    packets = sketches.packets()
+    if untried:
+        first = next(packets, None)
+        if first is None:
+            return Tried(sketches.enumerated, sketches.nearest_m)
+        packets = chain((first,), packets)
+    sketched, shown = _sketched(packets, robot, max(untried, _FIRST)), list[Packet]()
+    for packet in islice(sketched, untried):
+        garment = replace(task.garment, folds=packet.folds)
+        yield Proposal(garment, packet.size_m, packet.layers, packet.face, None)
+        shown.append(packet)
+    search.sketched = islice(chain(shown, sketched), _FIRST)
+    return (yield from _planned(task, search, count, should_stop))
 
 
-def _sketches(
-    task: Task, search: PacketSearch, robot: RobotCheck, untried: int
-) -> Generator[Proposal, None, Tried | None]:
-    """Propose what a search without a robot finds first and of which the robot can do each fold, without plans.
-
-    Return what was tried if nothing fits, else None.
-    """
-    packets = search.packets()
-    packet = next(packets, None)
-    if packet is None:
-        return Tried(search.enumerated, search.nearest_m)
-    ways, shown = set[Way](), 0
-    while packet is not None and shown < untried and len(ways) < _SKETCHES * untried:
+def _sketched(packets: Iterator[Packet], robot: RobotCheck, most: int) -> Iterator[Packet]:
+    """Yield one packet of each way of which the robot can do each fold alone; few are looked at."""
+    ways = set[Way]()
+    for packet in packets:
         if packet.way not in ways and not packet.checked(robot).doubts:
-            garment = replace(task.garment, folds=packet.folds)
-            yield Proposal(garment, packet.size_m, packet.layers, packet.face, None)
-            shown += 1
+            yield replace(packet, is_sketch=True)
         ways.add(packet.way)
-        packet = next(packets, None)
-    return None
+        if len(ways) == _SKETCHES * most:
+            return
 
 
 def _planned(
@@ -274,39 +275,28 @@ def _planned(
     """Propose what a search finds that the robot can do."""
     solved: set[Way] = set()
     failed: dict[Way, Proposal] = {}
-    shown, fine = set[object](), set[tuple[DrawnFold, ...]]()
+    shown, fine, planned = set[object](), set[tuple[DrawnFold, ...]](), set[tuple[DrawnFold, ...]]()
     tried = Counter[Way]()
     failures = 0
-    packets, aside = search.packets(), deque[Packet]()
-    while True:
-        is_aside = bool(aside) and (bool(shown) or len({one.way for one in aside}) == _ASIDE)
-        packet = None if is_aside else next(packets, None)
-        if packet is None:
-            if not aside:
-                break
-            packet, is_aside = aside.popleft(), True
+    for packet in search.packets():
         if len(shown) == count or failures >= _FAILURES * count or (packet.doubts and len(failed) >= count):
             break
-        if packet.way in solved or (not is_aside and tried[packet.way] >= (1 if packet.doubts else _VARIANTS)):
+        is_enough = packet.way in solved or tried[packet.way] >= (1 if packet.doubts else _VARIANTS)
+        if is_enough or packet.folds in planned:
             continue
-        tried[packet.way] += not is_aside
-        is_brief = not (is_aside or shown)
-        if is_brief and any(one.way == packet.way for one in aside):
-            aside.append(packet)
-            continue
-        proposal = _proposal(_with_work(task, _BRIEF_SHARE) if is_brief else task, packet, packet.folds, should_stop)
+        planned.add(packet.folds)
+        tried[packet.way] += not packet.is_sketch
+        proposal = _proposal(task, packet, packet.folds, should_stop, is_first=not shown)
         if should_stop():
             break
-        if is_brief and proposal.status == "budget_exceeded":
-            aside.append(packet)
-            continue
         if proposal.status != "solved":
             failures += 1
             failed.setdefault(packet.way, proposal)
             if isinstance(search, PacketSearch) and (blamed := _blamed(task, packet, fine, should_stop)):
                 search.blame(blamed)
             continue
-        solved.add(packet.way)
+        if not packet.is_sketch:
+            solved.add(packet.way)
         if shown:  # the first one is not waited for any longer
             proposal = _or_mirrored(task, packet, proposal, should_stop)
         if (looks := (packet.shape, proposal.cost_s)) not in shown:
@@ -318,8 +308,10 @@ def _planned(
     return Tried(search.enumerated, search.nearest_m)
 
 
-def _proposal(task: Task, packet: Packet, folds: tuple[DrawnFold, ...], should_stop: Callable[[], bool]) -> Proposal:
-    plan = _plan(task, folds, should_stop)
+def _proposal(
+    task: Task, packet: Packet, folds: tuple[DrawnFold, ...], should_stop: Callable[[], bool], *, is_first: bool = False
+) -> Proposal:
+    plan = _plan(task, folds, should_stop, is_first=is_first)
     return Proposal(plan.garment, packet.size_m, packet.layers, packet.face, plan)
 
 
@@ -378,9 +370,14 @@ def _with_work(task: Task, share: float) -> Task:
     return replace(task, limits=replace(task.limits, work_limit_s=share * (task.limits.work_limit_s or 0.0)))
 
 
-def _plan(task: Task, folds: tuple[DrawnFold, ...], should_stop: Callable[[], bool]) -> Plan:
-    """Return the plan for some folds; where there is none, with the reasons that were met and not tried."""
-    events = plan_events(replace(task, garment=replace(task.garment, folds=folds)), should_stop=should_stop)
+def _plan(task: Task, folds: tuple[DrawnFold, ...], should_stop: Callable[[], bool], *, is_first: bool = False) -> Plan:
+    """Return the plan for some folds; where there is none, with the reasons that were met and not tried.
+
+    The first plan of all is not waited for while it is improved.
+    """
+    improving_s = _BRIEF_SHARE * (task.limits.work_limit_s or 0.0) if is_first else math.inf
+    folded = replace(task, garment=replace(task.garment, folds=folds))
+    events = plan_events(folded, should_stop=should_stop, improving_s=improving_s)
     with closing(events):
         for event in events:
             if isinstance(event, Blocked):

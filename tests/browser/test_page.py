@@ -32,6 +32,17 @@ NODE = """(name) => {
   const place = node.position.clone().applyMatrix4(node.parent.matrixWorld);
   return { meshes, size: high.map((value, axis) => value - low[axis]), place: place.toArray() };
 }"""
+WOVEN = """() => {
+  const view = document.getElementById("view3d").contentWindow;
+  const meshes = [];
+  for (const face of ["front", "back"])
+    view.__viserMutable.nodeRefFromName[`/cloth/${face}`].traverse((part) => part.isMesh && meshes.push(part));
+  const { programs } = view.__viserTestpoints.rendererInfo;
+  const drawn = programs.filter(({ cacheKey }) => cacheKey.includes("function weave("));
+  const lent = meshes.map(({ geometry: { attributes } }) => [attributes.pattern?.count, attributes.position.count]);
+  return drawn.length > 0 && drawn.every((one) => !one.diagnostics) && lent.every(([one, other]) => one === other);
+}"""
+"""Whether threads are drawn on both faces, and all of their corners have places in the pattern."""
 RENDERED = """() => {
   const view = document.getElementById("view3d").contentWindow;
   return view.__viserTestpoints?.rendererInfo.render.triangles > 20000;
@@ -144,6 +155,7 @@ def test_scrubbing_to_the_end_shows_the_folded_cloth(page: Page) -> None:
     scrub(page, duration_s(page))
     until(lambda: cloth_area(page) < 0.35 * spread_out)
     assert node(page, "/cloth/front")["size"][1] < 0.1
+    page.wait_for_function(WOVEN)
     slider = page.get_by_role("slider", name="Time")
     expect(slider).to_have_attribute("aria-valuetext", f"{duration_s(page):.1f} s")
     expect(page.get_by_role("list", name="Folds").locator("[data-state=done]")).to_have_count(5)

@@ -22,6 +22,14 @@ HAND = """() => {
   return hand.matrixWorld.elements.slice(12, 15);
 }"""
 
+WOVEN = """() => {
+  const pattern = [];
+  window.__viserMutable.nodeRefFromName["/cloth/front"]?.traverse((part) => {
+    if (part.isMesh) pattern.push(part.geometry.attributes.pattern);
+  });
+  return pattern.length > 0 && pattern.every((places) => places?.count > 0);
+}"""
+
 
 @pytest.fixture
 def saved(tmp_path: Path) -> Path:
@@ -39,6 +47,7 @@ def test_a_recording_plays_from_the_disk_and_asks_for_nothing(saved: Path, brows
     page.goto(saved.as_uri())
     assert page.title() == "Hand towel - Pleat"
     page.wait_for_function(f"({MESHES})() > 20", timeout=VIEW_PATIENCE_MS)
+    page.wait_for_function(WOVEN)
     first = page.evaluate(HAND)
     moved = f"({HAND})().some((value, axis) => Math.abs(value - {first}[axis]) > 0.05)"
     page.wait_for_function(moved, timeout=VIEW_PATIENCE_MS)

@@ -158,3 +158,10 @@ def test_time_that_is_left_out_does_not_bring_a_deadline_nearer(monkeypatch: pyt
     assert limit.left_s == pytest.approx(2.0)
     now_s[0] += 3.0
     assert limit.is_over
+
+
+def test_a_plan_is_not_improved_beyond_the_work_for_that() -> None:
+    task = Task.of(load_garment("scarf"))
+    first, end = (event.found.plan.cost_s for event in plan(task, improving_s=0.0))
+    assert end == first
+    assert required(end) > required(make_plan(task).cost_s)

@@ -5,6 +5,7 @@ import pytest
 from planner import load_garment
 from planner.cloth.garment import DrawnFold, Garment
 from planner.planning.robot_task import task_for
+from planner.proposals.packet import Packet
 from planner.proposals.packet_search import PacketSearch
 from planner.proposals.robot_check import DOUBT_EFFORT, Checked, RobotCheck
 from planner.proposals.target import Target
@@ -61,3 +62,26 @@ def test_packets_that_begin_with_blamed_folds_come_later() -> None:
     spared = next(search.packets())
     assert spared.folds[0] != first.folds[0]
     assert spared.way == first.way
+
+
+def sketched(garment: Garment) -> tuple[PacketSearch, Packet]:
+    """Return a search that asks the robot, and what it is given to begin with where that takes long."""
+    sketch = Packet.of(garment)
+    search = PacketSearch(garment, Target.of("shelf"), 8, robot=RobotCheck(task_for(garment)))
+    search.sketched = iter((sketch,))
+    return search, sketch
+
+
+def test_sketches_come_next_where_the_robot_cannot_do_what_came_first() -> None:
+    search, sketch = sketched(replace(load_garment("hand-towel"), folds=()))
+    packets = search.packets()
+    first = next(packets)
+    assert first is not sketch
+    search.blame(first.folds[:1])
+    assert next(packets) is sketch
+    assert next(packets) is not sketch
+
+
+def test_sketches_come_first_where_the_robot_must_be_asked_about_many() -> None:
+    search, sketch = sketched(BIG_TOWEL)
+    assert next(search.packets()) is sketch
