@@ -30,7 +30,7 @@ def test_a_fold_that_can_be_done_is_never_called_impossible(name: str, monkeypat
     assert looked_at.cost_s == pytest.approx(searched.cost_s, abs=1e-9)
 
 
-@sweep("name", HALVED, ("tie-halved",))
+@sweep("name", HALVED, ())
 def test_what_is_called_impossible_is_so_when_all_states_are_exhausted(
     name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:

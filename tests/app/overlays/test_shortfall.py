@@ -13,6 +13,7 @@ from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.reach_query import ReachQuery
 from planner.robots.load_robot import load_robot
 from planner.robots.pr2.robot import Pr2
+from tests.replay.planned import planned
 
 pytestmark = pytest.mark.anyio
 
@@ -95,24 +96,26 @@ def test_beyond_the_edge_the_hand_cannot_be_whatever_its_joints_and_before_it_it
     assert answers == {True, False}
 
 
-async def refused(client: httpx.AsyncClient, garment: Any, **drawing: Any) -> tuple[dict[str, Any], dict[str, Any]]:
-    """Return the first reason with a place why a document has no plan, and the overlay of the reach there."""
+async def shortfall_of(client: httpx.AsyncClient, garment: str, **drawing: Any) -> dict[str, Any]:
+    """Return the overlay of the reach where a document's hand falls short."""
     state = (await client.post("/api/documents", json={"garment": garment})).json()
     body = {"base_version": state["version"], "label": "Begin", "drawing": {**state["drawing"], **drawing}}
     await client.put(f"/api/documents/{state['id']}/drawing", json=body)
-    plan = (await client.post("/api/plans", json={"garment": garment, **drawing})).json()
-    reason = next(reason for reason in plan["reasons"] if reason["point"])
     for _ in range(200):
         told = (await client.get(f"/api/documents/{state['id']}/overlays?show=shortfall")).json()
         if told["shortfall"] is not None:
-            return reason, told["shortfall"]
+            shortfall: dict[str, Any] = told["shortfall"]
+            return shortfall
         await asyncio.sleep(0.1)
     raise AssertionError("nothing is told of the reach")
 
 
 async def test_where_the_table_is_too_deep_the_reach_ends_before_the_cross(client: httpx.AsyncClient) -> None:
     stations = {"front": {"x_m": -0.95, "y_m": 0.0, "yaw_rad": 0.0}}
-    reason, told = await refused(client, "t-shirt", scene={"stations": stations, "back_off_max_m": 0.0})
+    scene = {"stations": stations, "back_off_max_m": 0.0}
+    told = await shortfall_of(client, "t-shirt", scene=scene)
+    plan = (await client.post("/api/plans", json={"garment": "t-shirt", "scene": scene})).json()
+    reason = next(reason for reason in plan["reasons"] if reason["point"])
     assert (told["arm"], told["station"], told["fold"]) == (reason["arm"], "front", reason["fold"])
     # The shirt lies unturned, so the article's axes are the table's.
     placement = load_garment("t-shirt").placement
@@ -125,7 +128,8 @@ async def test_where_the_table_is_too_deep_the_reach_ends_before_the_cross(clien
 async def test_after_a_drag_the_reach_is_shown_as_far_back_as_the_cloth_lies_on_the_board(
     client: httpx.AsyncClient,
 ) -> None:
-    reason, told = await refused(client, "scarf-halved")
+    told = await shortfall_of(client, "scarf-halved")
+    reason = next(reason for reason in planned("scarf-halved").plan["reasons"] if reason["point"])
     assert math.hypot(*reason["offset_m"]) > 0.05
     # A hand takes the middle of the scarf's near end, 0.254 / 2 m from both corners, and lays it 1.524 m further on: it
     # rises as far as it has gone, until it is over the fold line, and comes down as far as it goes on.
