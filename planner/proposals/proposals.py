@@ -14,11 +14,12 @@ rolled up, to whatever size.
 
 import math
 from collections import Counter
-from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence, Set
 from contextlib import closing
 from dataclasses import dataclass, replace
+from heapq import heappop, heappush
 from itertools import chain, islice
-from typing import Any, TypedDict, Unpack
+from typing import Any, NamedTuple, TypedDict, Unpack
 
 from planner.cloth.garment import FOLDS_MAX, DrawnFold, Garment
 from planner.errors import RequestError
@@ -53,10 +54,13 @@ _FAILURES = 2
 """Packets without a plan for each proposal asked for, after which no more are planned."""
 
 _BRIEF_SHARE = 0.4
-"""The work for the plan of a packet's first folds, and for improving the first plan, as a share of all."""
+"""The work for the plan of a packet's first folds, for a first try and for improving the first plan, as a share."""
 
 _PATIENT_SHARE = 10.0
 """The work for each packet that took all its work without a plan, where no packet has one, as a share of that."""
+
+_ASIDE = 2
+"""How many ways without a plan at that work are put aside, until one of them is planned with all of it."""
 
 _VARIANTS = 3
 """Variants of one way that are planned, at most."""
@@ -116,6 +120,18 @@ class Proposal:
             "status": self.status,
             "cost_s": self.cost_s,
         }
+
+
+class _Aside(NamedTuple):
+    """A packet that was put aside, and the least that its plan may take (s); infinite for a variant of another one."""
+
+    bound_s: float
+    taste: float
+    packet: Packet
+
+    def __lt__(self, other: tuple[Any, ...]) -> bool:
+        """Return whether it comes before another one, as the search has them where they are alike."""
+        return self[:2] < other[:2]
 
 
 @dataclass(frozen=True, slots=True)
@@ -275,20 +291,20 @@ def _planned(
     """Propose what a search finds that the robot can do."""
     solved: set[Way] = set()
     failed: dict[Way, Proposal] = {}
-    shown, fine, planned = set[object](), set[tuple[DrawnFold, ...]](), set[tuple[DrawnFold, ...]]()
-    tried = Counter[Way]()
+    shown, fine = set[object](), set[tuple[DrawnFold, ...]]()
+    aside = list[_Aside]()
     failures = 0
-    for packet in search.packets():
+    for packet, is_brief in _turns(search.packets(), solved, shown, aside):
         if len(shown) == count or failures >= _FAILURES * count or (packet.doubts and len(failed) >= count):
             break
-        is_enough = packet.way in solved or tried[packet.way] >= (1 if packet.doubts else _VARIANTS)
-        if is_enough or packet.folds in planned:
-            continue
-        planned.add(packet.folds)
-        tried[packet.way] += not packet.is_sketch
-        proposal = _proposal(task, packet, packet.folds, should_stop, is_first=not shown)
+        briefly = _with_work(task, _BRIEF_SHARE) if is_brief else task
+        proposal = _proposal(briefly, packet, packet.folds, should_stop, is_first=not shown)
         if should_stop():
             break
+        if is_brief and proposal.status == "budget_exceeded":
+            bound_s = None if proposal.plan is None else proposal.plan.bound_s
+            heappush(aside, _Aside(bound_s or 0.0, packet.taste, packet))
+            continue
         if proposal.status != "solved":
             failures += 1
             failed.setdefault(packet.way, proposal)
@@ -306,6 +322,31 @@ def _planned(
         left = islice((one for way, one in failed.items() if way not in solved), count - len(shown))
         yield from left if shown else _tried_longer(task, left, should_stop)
     return Tried(search.enumerated, search.nearest_m)
+
+
+def _turns(
+    packets: Iterable[Packet], solved: Set[Way], shown: Set[object], aside: "list[_Aside]"
+) -> Iterator[tuple[Packet, bool]]:
+    """Yield packets to plan, and whether with little work: few of each way, and those put aside again.
+
+    They come again once there are enough of them, or a proposal: the one with the least bound first.
+    """
+    planned, tried = set[tuple[DrawnFold, ...]](), Counter[Way]()
+    for packet in chain(packets, (None,)):
+        if packet is not None:
+            is_enough = packet.way in solved or tried[packet.way] >= (1 if packet.doubts else _VARIANTS)
+            if is_enough or packet.folds in planned:
+                continue
+            planned.add(packet.folds)
+            tried[packet.way] += not packet.is_sketch
+            if any(one.packet.way == packet.way for one in aside):
+                heappush(aside, _Aside(math.inf, packet.taste, packet))
+                continue
+            yield packet, not (shown or packet.is_sketch)
+        while aside and (packet is None or shown or len({one.packet.way for one in aside}) == _ASIDE):
+            again = heappop(aside).packet
+            if again.way not in solved:
+                yield again, False
 
 
 def _proposal(
