@@ -1,9 +1,10 @@
 """Propose folds: ways to fold a garment to a size that a robot can do.
 
 Packets come from a search that asks the robot about single folds, those that people like first. Each is planned in
-turn until enough of them have plans; the first one that has a plan is not waited for while that is improved. Where
-one has none, its first folds are planned alone, to learn which of them are to blame. To ask the robot takes much of the
-time: where no packet comes soon, or the first has no plan, those that a search without a robot finds first are planned.
+turn until enough of them have plans. Until there is a proposal, what takes much work is put aside, since something
+easier may follow, and the first plan that is found is not improved at length. Where a packet has no plan, its first
+folds are planned alone, to learn which of them are to blame. To ask the robot takes much of the time: where no packet
+comes soon, or the first has no plan, those that a search without a robot finds first are planned.
 
 Of variants of one way (the same moves in another order, or from another side) only the first is proposed that can be
 done, or its mirror image if that takes less time: order and side decide much for a robot and nothing for the packet.
@@ -66,7 +67,7 @@ _VARIANTS = 3
 """Variants of one way that are planned, at most."""
 
 _FIRST, _SKETCHES = 2, 2
-"""Ways that are planned before the robot is asked about any others, and ways looked at for each of them."""
+"""Sketches that are planned where the robot must be asked much, and ways looked at for each sketch."""
 
 
 class ProposalOptions(TypedDict, total=False):

@@ -254,7 +254,7 @@ def test_a_page_loaded_anew_finds_its_rehearsal_again(page: Page, desk: Desk) ->
     server = Rehearsals(page)
     said = page.locator(".rehearsing")
     server.begun_by(opened(desk))
-    expect(said.get_by_role("progressbar")).to_be_visible()
+    expect(said.get_by_role("progressbar")).to_have_js_property("value", 0.4)  # by then the page has its id
     page.reload()
     expect(said.get_by_role("progressbar")).to_be_visible()
     server.end(run())

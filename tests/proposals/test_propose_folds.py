@@ -1,5 +1,6 @@
 from collections.abc import Sequence
 from dataclasses import replace
+from heapq import heappush
 from typing import Any
 
 import pytest
@@ -11,7 +12,7 @@ from planner.geometry.pose import Pose2
 from planner.geometry.region import Region
 from planner.planning.plan_check import require_replay
 from planner.proposals.packet import Packet
-from planner.proposals.proposals import Proposal, Proposals, _or_mirrored, all_proposals
+from planner.proposals.proposals import Proposal, Proposals, _Aside, _or_mirrored, _turns, all_proposals
 from planner.task.reason import Code
 from tests.required import required
 
@@ -87,6 +88,20 @@ def test_where_no_packet_has_a_plan_with_its_work_they_are_planned_with_more() -
     assert proposal.status == "solved"
     with_that_work = make_plan(replace(required(proposal.plan).task, limits=Task.of(TOWEL, work_limit_s=0.02).limits))
     assert with_that_work.status == "budget_exceeded"
+
+
+def test_what_is_put_aside_comes_again_the_least_bound_first_and_variants_last() -> None:
+    folds = load_garment("hand-towel").folds
+    begun = Packet.of(TOWEL)
+    one = replace(begun, moves=(("half", 0),), folds=folds[:1])
+    variant = replace(one, folds=folds[1:2])
+    other = replace(begun, moves=(("thirds", 1),), folds=folds[:2])
+    aside: list[_Aside] = []
+    turns = _turns((one, variant, other), set(), set(), aside)
+    for packet, bound_s in ((one, 2.0), (other, 1.0)):
+        assert next(turns) == (packet, True)
+        heappush(aside, _Aside(bound_s, packet.taste, packet))
+    assert [*turns] == [(other, False), (one, False), (variant, False)]
 
 
 def test_nothing_more_is_proposed_once_it_is_stopped() -> None:
