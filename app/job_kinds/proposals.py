@@ -12,7 +12,7 @@ from app.api.messages import GarmentField, TimeLimit
 from app.api.request_parsing import requested_garment
 from app.jobs.job_kind import JobKind, Progress, Stores, as_it_is
 from app.store.packed_plan import PackedPlan
-from planner.cloth.garment import FOLDS_MAX, Garment
+from planner.cloth.garment import FOLDS_MAX, DrawnFold, Garment
 from planner.geometry.given import GivenPose
 from planner.json_form import JsonForm
 from planner.planning.robot_task import with_robots_scene
@@ -155,17 +155,17 @@ class Found:
 
 def propose(asked: ProposalsTask, progress: Progress) -> dict[str, Any]:
     """Return the proposals as JSON, telling each as it is found; the work of the job."""
-    told: dict[int, dict[str, Any]] = {}
+    told: dict[tuple[DrawnFold, ...], dict[str, Any]] = {}
 
     def hear(proposal: Proposal) -> None:
         if proposal.plan is None:
             progress(0.0, "", Found(proposal.to_dict(), None))
             return
-        body = told[id(proposal)] = {**proposal.to_dict(), "plan_id": uuid.uuid4().hex}
+        body = told[proposal.garment.folds] = {**proposal.to_dict(), "plan_id": uuid.uuid4().hex}
         progress(len(told) / asked.count, f"{len(told)} found", Found(body, PackedPlan.of(proposal.plan)))
 
     found = all_proposals(_begun(asked), hear)
-    return {**found.to_dict(), "proposals": [told[id(one)] for one in found.proposals]}
+    return {**found.to_dict(), "proposals": [told[one.garment.folds] for one in found.proposals]}
 
 
 def _tell(stores: Stores, found: Found) -> dict[str, Any]:

@@ -175,16 +175,17 @@ class Proposals:
 
 def all_proposals(found: Generator[Proposal, None, Tried], hear: Callable[[Proposal], None] | None = None) -> Proposals:
     """Return all proposals of `propose_folds` but untried ones, in order; call `hear` with each when it is found."""
-    proposals: list[Proposal] = []
+    proposals: dict[tuple[DrawnFold, ...], Proposal] = {}
     while True:
         try:
-            proposals.append(next(found))
+            one = next(found)
         except StopIteration as end:
-            tried = [one for one in proposals if one.plan is not None]
+            tried = [one for one in proposals.values() if one.plan is not None]
             in_order = sorted(tried, key=lambda one: math.inf if one.cost_s is None else one.cost_s)
             return Proposals(tuple(in_order), end.value)
+        proposals[one.garment.folds] = one
         if hear is not None:
-            hear(proposals[-1])
+            hear(one)
 
 
 def propose_folds(
@@ -219,7 +220,7 @@ def propose_folds(
     Yields:
         Untried ways; then those that can be done as they are found, about in the order of what people like (where none
         is found with that work, with ten times as much); then others, up to the count, each the best of a way of which
-        none can be done.
+        none can be done. At last the first one may come again, with a quicker plan for the same folds.
 
     Returns:
         What was tried.
@@ -289,10 +290,11 @@ def _planned(
     count: int,
     should_stop: Callable[[], bool],
 ) -> Generator[Proposal, None, Tried]:
-    """Propose what a search finds that the robot can do."""
+    """Propose what a search finds that the robot can do; variants of sketched ways only if they spare an arm motion."""
     solved: set[Way] = set()
     failed: dict[Way, Proposal] = {}
     shown, fine = set[object](), set[tuple[DrawnFold, ...]]()
+    sketched_s, first = dict[Way, float](), None
     aside = list[_Aside]()
     failures = 0
     for packet, is_brief in _turns(search.packets(), solved, shown, aside):
@@ -312,8 +314,14 @@ def _planned(
             if isinstance(search, PacketSearch) and (blamed := _blamed(task, packet, fine, should_stop)):
                 search.blame(blamed)
             continue
-        if not packet.is_sketch:
+        cost_s = proposal.cost_s or 0.0
+        if packet.is_sketch:
+            sketched_s[packet.way] = cost_s
+        else:
             solved.add(packet.way)
+            if cost_s > sketched_s.get(packet.way, math.inf) - task.scene.arm_motion_s:
+                continue
+        first = first or (packet, proposal)
         if shown:  # the first one is not waited for any longer
             proposal = _or_mirrored(task, packet, proposal, should_stop)
         if (looks := (packet.shape, proposal.cost_s)) not in shown:
@@ -322,7 +330,17 @@ def _planned(
     if not should_stop():
         left = islice((one for way, one in failed.items() if way not in solved), count - len(shown))
         yield from left if shown else _tried_longer(task, left, should_stop)
+    if first is not None and not should_stop():
+        yield from _improved(task, *first, should_stop)
     return Tried(search.enumerated, search.nearest_m)
+
+
+def _improved(task: Task, packet: Packet, found: Proposal, should_stop: Callable[[], bool]) -> Iterator[Proposal]:
+    """Yield a proposal once more if all work gives a quicker plan for its folds."""
+    if found.plan is not None and not found.plan.is_proven:
+        again = _proposal(task, packet, packet.folds, should_stop)
+        if again.cost_s is not None and again.cost_s < (found.cost_s or 0.0) - TIME_S:
+            yield again
 
 
 def _turns(

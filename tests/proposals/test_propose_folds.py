@@ -90,6 +90,16 @@ def test_where_no_packet_has_a_plan_with_its_work_they_are_planned_with_more() -
     assert with_that_work.status == "budget_exceeded"
 
 
+def test_the_first_comes_again_if_there_is_a_quicker_plan_for_its_folds() -> None:
+    scarf = load_garment("scarf")
+    heard: list[Proposal] = []
+    answer = all_proposals(propose_folds(replace(scarf, folds=()), scarf, count=1), heard.append)
+    first, again = (required(one.cost_s) for one in heard)
+    assert again < first
+    assert answer.proposals == (heard[1],)
+    assert heard[1].garment.folds == heard[0].garment.folds
+
+
 def test_what_is_put_aside_comes_again_the_least_bound_first_and_variants_last() -> None:
     folds = load_garment("hand-towel").folds
     begun = Packet.of(TOWEL)

@@ -65,12 +65,18 @@ export class ProposalSearch extends EventTarget {
   /** @param {string} path of the job @param {AbortSignal} signal */
   async follow(path, signal) {
     for await (const { event, data } of eventStream(`${path}/events`, null, signal)) {
-      if (event === "found") (data.status === UNTRIED ? this.untried : this.found).push(data);
+      if (event === "found") data.status === UNTRIED ? this.untried.push(data) : this.take(data);
       else this.progress = data.progress;
       this.isDone = event === "end" && data.status === "done";
       if (event === "end" && !this.isDone) this.fault = capital(data.message || data.status);
       this.tell();
     }
+  }
+
+  /** A way may come again, with a quicker plan. @param {Proposal} proposal */
+  take(proposal) {
+    const known = this.found.findIndex(({ folds }) => JSON.stringify(folds) === JSON.stringify(proposal.folds));
+    this.found.splice(known < 0 ? this.found.length : known, 1, proposal);
   }
 
   /** Search no more; what was found stays. */
