@@ -30,8 +30,8 @@ _ENUMERATED_MAX = 600
 _LAYERS_MAX = 64
 """The most layers of a stack that is looked at."""
 
-_SOON = 20
-"""The sequences that are folded without one that fits, before sketches come first."""
+_SOON, _PAUSE = 20, 8
+"""The sequences that are folded without one that fits, before sketches come first; and before that is told."""
 
 _VARIANTS = 3
 """The most variants that are folded: packets of one way that fit, and states of one way and size."""
@@ -63,6 +63,7 @@ class PacketSearch:
     Attributes:
         enumerated: the number of sequences of moves that were folded so far.
         nearest_m: the sides of the packet that lacks least to fit the target (m).
+        is_for_smallest: whether the smallest packets are looked for, which are known only at the end.
         sketched: an iterator of packets that come next where none comes soon, or the robot cannot do the first ones.
     """
 
@@ -72,7 +73,7 @@ class PacketSearch:
         """Prepare the search; raises `FoldError` if a fold that the garment has is not legal."""
         self._begin = Packet.of(garment)
         self._radius_m = garment.grip_radius_m
-        self._is_for_smallest = target.is_smallest
+        self.is_for_smallest = target.is_smallest
         self._target_m = target.sides_of(self._begin.size_m)
         ordered = zip(sorted(self._target_m), sorted(self._begin.size_m), strict=True)
         self._full_m = tuple(min(most, begun) for most, begun in ordered)
@@ -93,26 +94,27 @@ class PacketSearch:
 
         For the smallest packet: the smallest for each number of folds, the smallest first.
         """
-        if self._is_for_smallest:
+        if self.is_for_smallest:
             best: dict[int, Packet] = {}
-            for packet in self._found():
+            for packet in filter(None, self.paced()):
                 known = best.setdefault(len(packet.folds), packet)
                 if _bulk_m2(packet.size_m) < _bulk_m2(known.size_m):
                     best[len(packet.folds)] = packet
             yield from sorted(best.values(), key=lambda packet: _bulk_m2(packet.size_m))
         else:
-            yield from self._found()
+            yield from filter(None, self.paced())
 
     def blame(self, folds: tuple[DrawnFold, ...]) -> None:
         """Have all packets that begin with some folds wait, because the robot cannot do these."""
         self._blamed.append(folds)
 
-    def _found(self) -> Iterator[Packet]:
+    def paced(self) -> Iterator[Packet | None]:
+        """Yield packets as they are found, and None where the next one takes long."""
         self._look_at(self._begin)
         if self._face != "any":  # cloth that lies front up ends with its back outside, and the other way round
             for turned in self._begin.turned(self._radius_m):
                 self._wait(0.0, turned, "look")
-        is_any = False
+        is_any, since = False, 0
         while self._queue:
             if self._blamed or (self.enumerated >= _SOON and not is_any):
                 yield from self.sketched
@@ -121,12 +123,16 @@ class PacketSearch:
             if self._is_blamed(waiting):
                 self._wait(waiting.rank + DOUBT_EFFORT, packet, step, is_blamed=True)
             elif step == "yield":
-                is_any = True
+                is_any, since = True, 0
                 yield packet
             elif step == "look":
                 self._ask(waiting)
             elif self.enumerated < _ENUMERATED_MAX and self._is_new(packet, step):
                 self.enumerated += 1
+                since += 1
+                if since == _PAUSE:
+                    since = 0
+                    yield None
                 after = packet.after(step, self._radius_m)
                 if after is not None and len(after.cloth.layers) <= _LAYERS_MAX:
                     self._wait(waiting.rank, after, "look")
@@ -150,7 +156,7 @@ class PacketSearch:
 
     def _is_new(self, packet: Packet, move: Move) -> bool:
         """Return whether few variants of a packet with a move were folded; count it."""
-        is_fit = not self._is_for_smallest and is_fitting(move.size_m, self._target_m)
+        is_fit = not self.is_for_smallest and is_fitting(move.size_m, self._target_m)
         variant = (packet.is_turned, packet.way_with(move), None if is_fit else grid_of(move.size_m), packet.doubts)
         self._folded[variant] += 1
         return self._folded[variant] <= _VARIANTS
@@ -164,13 +170,13 @@ class PacketSearch:
         if len(packet.folds) > self._max_folds:
             return
         self.nearest_m = min(self.nearest_m, packet.size_m, key=lambda size_m: excess_m(size_m, self._target_m))
-        is_fit = self._is_for_smallest or is_fitting(packet.size_m, self._target_m)
+        is_fit = self.is_for_smallest or is_fitting(packet.size_m, self._target_m)
         if is_fit and self._face in ("any", packet.face):
             self._wait(self._rank(packet), packet, "yield")
-        elif is_fit and not (packet.is_turned or self._is_for_smallest):
+        elif is_fit and not (packet.is_turned or self.is_for_smallest):
             for turned in packet.turned(self._radius_m):
                 self._wait(self._rank(turned), turned, "look")
-        if is_fit and not self._is_for_smallest:
+        if is_fit and not self.is_for_smallest:
             return
         self._met[packet.is_turned, packet.shape] = packet.doubts
         silhouette = packet.cloth.silhouette
@@ -186,7 +192,7 @@ class PacketSearch:
 
     def _rank(self, packet: Packet) -> float:
         """Return where a packet that fits comes in the queue."""
-        if self._is_for_smallest:
+        if self.is_for_smallest:
             return _bulk_m2(packet.size_m)
         return packet.taste if is_filling(packet.size_m, self._full_m) else packet.taste + _LAST
 
@@ -195,7 +201,7 @@ class PacketSearch:
 
         For the smallest packet it is the size of the rectangle.
         """
-        if self._is_for_smallest:
+        if self.is_for_smallest:
             return _bulk_m2(move.size_m)
         folds, left = len(packet.folds) + len(move.creases), _moves_left(move.size_m, self._target_m)
         return packet.effort + move.effort + FOLD_EFFORT * (folds + left) + left

@@ -124,9 +124,9 @@ class Proposal:
 
 
 class _Aside(NamedTuple):
-    """A packet that was put aside, and the least that its plan may take (s); infinite for a variant of another one."""
+    """A packet that was put aside, with the least time for each fold (s): infinite for a variant of another packet."""
 
-    bound_s: float
+    fold_s: float
     taste: float
     packet: Packet
 
@@ -297,7 +297,8 @@ def _planned(
     sketched_s, first = dict[Way, float](), None
     aside = list[_Aside]()
     failures = 0
-    for packet, is_brief in _turns(search.packets(), solved, shown, aside):
+    packets = search.paced() if isinstance(search, PacketSearch) and not search.is_for_smallest else search.packets()
+    for packet, is_brief in _turns(packets, solved, shown, aside):
         if len(shown) == count or failures >= _FAILURES * count or (packet.doubts and len(failed) >= count):
             break
         briefly = _with_work(task, _BRIEF_SHARE) if is_brief else task
@@ -306,7 +307,7 @@ def _planned(
             break
         if is_brief and proposal.status == "budget_exceeded":
             bound_s = None if proposal.plan is None else proposal.plan.bound_s
-            heappush(aside, _Aside(bound_s or 0.0, packet.taste, packet))
+            heappush(aside, _Aside((bound_s or 0.0) / len(packet.folds), packet.taste, packet))
             continue
         if proposal.status != "solved":
             failures += 1
@@ -344,14 +345,15 @@ def _improved(task: Task, packet: Packet, found: Proposal, should_stop: Callable
 
 
 def _turns(
-    packets: Iterable[Packet], solved: Set[Way], shown: Set[object], aside: "list[_Aside]"
+    packets: Iterable[Packet | None], solved: Set[Way], shown: Set[object], aside: "list[_Aside]"
 ) -> Iterator[tuple[Packet, bool]]:
     """Yield packets to plan, and whether with little work: few of each way, and those put aside again.
 
-    They come again once there are enough of them, or a proposal: the one with the least bound first.
+    They come again once there are enough of them, or a proposal, or the next packet takes long (None): the one with the
+    least bound for each of its folds first.
     """
     planned, tried = set[tuple[DrawnFold, ...]](), Counter[Way]()
-    for packet in chain(packets, (None,)):
+    for packet in packets:
         if packet is not None:
             is_enough = packet.way in solved or tried[packet.way] >= (1 if packet.doubts else _VARIANTS)
             if is_enough or packet.folds in planned:
@@ -362,10 +364,18 @@ def _turns(
                 heappush(aside, _Aside(math.inf, packet.taste, packet))
                 continue
             yield packet, not (shown or packet.is_sketch)
-        while aside and (packet is None or shown or len({one.packet.way for one in aside}) == _ASIDE):
-            again = heappop(aside).packet
-            if again.way not in solved:
-                yield again, False
+        is_due = packet is None
+        while aside and (is_due or shown or len({one.packet.way for one in aside}) == _ASIDE):
+            is_due = False
+            yield from _again(aside, solved)
+    while aside:
+        yield from _again(aside, solved)
+
+
+def _again(aside: "list[_Aside]", solved: Set[Way]) -> Iterator[tuple[Packet, bool]]:
+    packet = heappop(aside).packet
+    if packet.way not in solved:
+        yield packet, False
 
 
 def _proposal(

@@ -114,6 +114,16 @@ def test_what_is_put_aside_comes_again_the_least_bound_first_and_variants_last()
     assert [*turns] == [(other, False), (one, False), (variant, False)]
 
 
+def test_what_is_put_aside_comes_again_where_the_next_one_takes_long() -> None:
+    one = replace(Packet.of(TOWEL), moves=(("half", 0),))
+    aside: list[_Aside] = []
+    turns = _turns((one, None), set(), set(), aside)
+    assert next(turns) == (one, True)
+    heappush(aside, _Aside(1.0, one.taste, one))
+    assert next(turns) == (one, False)
+    assert not aside
+
+
 def test_nothing_more_is_proposed_once_it_is_stopped() -> None:
     assert all_proposals(propose_folds(TOWEL, "shelf", should_stop=lambda: True)).proposals == ()
 
