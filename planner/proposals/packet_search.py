@@ -63,7 +63,6 @@ class PacketSearch:
     Attributes:
         enumerated: the number of sequences of moves that were folded so far.
         nearest_m: the sides of the packet that lacks least to fit the target (m).
-        is_for_smallest: whether the smallest packets are looked for, which are known only at the end.
         sketched: an iterator of packets that come next where none comes soon, or the robot cannot do the first ones.
     """
 
@@ -73,7 +72,7 @@ class PacketSearch:
         """Prepare the search; raises `FoldError` if a fold that the garment has is not legal."""
         self._begin = Packet.of(garment)
         self._radius_m = garment.grip_radius_m
-        self.is_for_smallest = target.is_smallest
+        self._is_for_smallest = target.is_smallest
         self._target_m = target.sides_of(self._begin.size_m)
         ordered = zip(sorted(self._target_m), sorted(self._begin.size_m), strict=True)
         self._full_m = tuple(min(most, begun) for most, begun in ordered)
@@ -94,22 +93,25 @@ class PacketSearch:
 
         For the smallest packet: the smallest for each number of folds, the smallest first.
         """
-        if self.is_for_smallest:
+        if self._is_for_smallest:
             best: dict[int, Packet] = {}
-            for packet in filter(None, self.paced()):
+            for packet in filter(None, self._found()):
                 known = best.setdefault(len(packet.folds), packet)
                 if _bulk_m2(packet.size_m) < _bulk_m2(known.size_m):
                     best[len(packet.folds)] = packet
             yield from sorted(best.values(), key=lambda packet: _bulk_m2(packet.size_m))
         else:
-            yield from filter(None, self.paced())
+            yield from filter(None, self._found())
 
     def blame(self, folds: tuple[DrawnFold, ...]) -> None:
         """Have all packets that begin with some folds wait, because the robot cannot do these."""
         self._blamed.append(folds)
 
     def paced(self) -> Iterator[Packet | None]:
-        """Yield packets as they are found, and None where the next one takes long."""
+        """Yield the same packets, and None where the next one takes long."""
+        return self.packets() if self._is_for_smallest else self._found()
+
+    def _found(self) -> Iterator[Packet | None]:
         self._look_at(self._begin)
         if self._face != "any":  # cloth that lies front up ends with its back outside, and the other way round
             for turned in self._begin.turned(self._radius_m):
@@ -156,7 +158,7 @@ class PacketSearch:
 
     def _is_new(self, packet: Packet, move: Move) -> bool:
         """Return whether few variants of a packet with a move were folded; count it."""
-        is_fit = not self.is_for_smallest and is_fitting(move.size_m, self._target_m)
+        is_fit = not self._is_for_smallest and is_fitting(move.size_m, self._target_m)
         variant = (packet.is_turned, packet.way_with(move), None if is_fit else grid_of(move.size_m), packet.doubts)
         self._folded[variant] += 1
         return self._folded[variant] <= _VARIANTS
@@ -170,13 +172,13 @@ class PacketSearch:
         if len(packet.folds) > self._max_folds:
             return
         self.nearest_m = min(self.nearest_m, packet.size_m, key=lambda size_m: excess_m(size_m, self._target_m))
-        is_fit = self.is_for_smallest or is_fitting(packet.size_m, self._target_m)
+        is_fit = self._is_for_smallest or is_fitting(packet.size_m, self._target_m)
         if is_fit and self._face in ("any", packet.face):
             self._wait(self._rank(packet), packet, "yield")
-        elif is_fit and not (packet.is_turned or self.is_for_smallest):
+        elif is_fit and not (packet.is_turned or self._is_for_smallest):
             for turned in packet.turned(self._radius_m):
                 self._wait(self._rank(turned), turned, "look")
-        if is_fit and not self.is_for_smallest:
+        if is_fit and not self._is_for_smallest:
             return
         self._met[packet.is_turned, packet.shape] = packet.doubts
         silhouette = packet.cloth.silhouette
@@ -192,7 +194,7 @@ class PacketSearch:
 
     def _rank(self, packet: Packet) -> float:
         """Return where a packet that fits comes in the queue."""
-        if self.is_for_smallest:
+        if self._is_for_smallest:
             return _bulk_m2(packet.size_m)
         return packet.taste if is_filling(packet.size_m, self._full_m) else packet.taste + _LAST
 
@@ -201,7 +203,7 @@ class PacketSearch:
 
         For the smallest packet it is the size of the rectangle.
         """
-        if self.is_for_smallest:
+        if self._is_for_smallest:
             return _bulk_m2(move.size_m)
         folds, left = len(packet.folds) + len(move.creases), _moves_left(move.size_m, self._target_m)
         return packet.effort + move.effort + FOLD_EFFORT * (folds + left) + left

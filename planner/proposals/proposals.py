@@ -297,7 +297,7 @@ def _planned(
     sketched_s, first = dict[Way, float](), None
     aside = list[_Aside]()
     failures = 0
-    packets = search.paced() if isinstance(search, PacketSearch) and not search.is_for_smallest else search.packets()
+    packets = search.paced() if isinstance(search, PacketSearch) else search.packets()
     for packet, is_brief in _turns(packets, solved, shown, aside):
         if len(shown) == count or failures >= _FAILURES * count or (packet.doubts and len(failed) >= count):
             break
@@ -373,6 +373,7 @@ def _turns(
 
 
 def _again(aside: "list[_Aside]", solved: Set[Way]) -> Iterator[tuple[Packet, bool]]:
+    """Take the next packet that was put aside, and yield it unless its way has been found since."""
     packet = heappop(aside).packet
     if packet.way not in solved:
         yield packet, False
