@@ -29,6 +29,7 @@ from planner.geometry.region import Region
 from planner.geometry.tolerance import DECIMALS, TIME_S
 from planner.planning.events import Blocked
 from planner.planning.heuristic import arm_time
+from planner.planning.plan_search import Hints
 from planner.planning.problem import Problem
 from planner.planning.robot_task import task_for
 from planner.plans import plan as plan_events
@@ -416,9 +417,9 @@ def _or_mirrored(task: Task, packet: Packet, found: Proposal, should_stop: Calla
         mirrored = Problem.of(replace(task, garment=replace(garment, folds=folds)))
         if should_stop() or arm_time(mirrored.context)(mirrored.start) > (found.cost_s or 0.0) - spared_s:
             break
-        other = _proposal(_with_work(task, _BRIEF_SHARE), packet, folds, should_stop)
-        if other.cost_s is not None and other.cost_s < (found.cost_s or 0.0) - TIME_S:
-            found = other
+        plan = _plan(_with_work(task, _BRIEF_SHARE), folds, should_stop, below_s=found.cost_s or 0.0)
+        if plan.is_solved:
+            found = replace(found, garment=plan.garment, plan=plan)
     return found
 
 
@@ -444,15 +445,24 @@ def _with_work(task: Task, share: float) -> Task:
 
 
 def _plan(
-    task: Task, folds: tuple[DrawnFold, ...], should_stop: Callable[[], bool], improving_share: float = math.inf
+    task: Task,
+    folds: tuple[DrawnFold, ...],
+    should_stop: Callable[[], bool],
+    improving_share: float = math.inf,
+    below_s: float = math.inf,
 ) -> Plan:
     """Return the plan for some folds; where there is none, with the reasons that were met and not tried.
 
-    Once there is one it is improved for that share of the task's work.
+    Args:
+        task: the task.
+        folds: the folds.
+        should_stop: whether to stop.
+        improving_share: the share of the task's work for which a plan is improved once there is one.
+        below_s: the cost that it has to beat (s).
     """
     improving_s = improving_share * (task.limits.work_limit_s or 0.0)
     folded = replace(task, garment=replace(task.garment, folds=folds))
-    events = plan_events(folded, should_stop=should_stop, improving_s=improving_s)
+    events = plan_events(folded, Hints(below_s=below_s), should_stop=should_stop, improving_s=improving_s)
     with closing(events):
         for event in events:
             if isinstance(event, Blocked):
