@@ -62,7 +62,7 @@ def striped(triangles: FloatArray, line: Segment, distances_m: FloatArray) -> Pa
         distances_m: how far to its left the parallels are, in order, shape (k,), m.
     """
     there = line.left_distances(triangles)
-    first = np.searchsorted(distances_m, there.min(axis=1) + LENGTH_M, side="right")
+    first = (distances_m <= there.min(axis=1)[:, None] + LENGTH_M).sum(axis=1)
     last = np.maximum(np.searchsorted(distances_m, there.max(axis=1) - LENGTH_M), first)
     sources, number = _repeated(last - first + 1)
     strips = first[sources] + number
