@@ -99,8 +99,9 @@ def _arm_links(arm: str, frame: Sample, table: Table) -> Iterator[tuple[Body, An
 
 def _slabs(frame: Sample) -> list[Any]:
     """Return convex regions that must stay empty: the cloth on the table, 3 cm high."""
-    corners = frame.cloth.vertices[frame.cloth.triangles]
-    lying = corners[(np.abs(corners[:, :, 2]) < OVER_CLOTH_M).all(axis=1)][:, :, :2]
+    corners, unrolled = (points[frame.cloth.triangles] for points in (frame.cloth.vertices, frame.cloth.unrolled))
+    is_lying = (np.abs(corners[:, :, 2]) < OVER_CLOTH_M).all(axis=1) & ~np.isnan(unrolled).any(axis=(1, 2))
+    lying = corners[is_lying][:, :, :2]
     whole = shapely.union_all(shapely.polygons(lying).tolist(), grid_size=1e-5)
     found = []
     for piece in shapely.get_parts(shapely.constrained_delaunay_triangles(whole)):
