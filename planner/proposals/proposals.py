@@ -18,7 +18,7 @@ from collections import Counter
 from collections.abc import Callable, Generator, Iterable, Iterator, Sequence, Set
 from contextlib import closing
 from dataclasses import dataclass, replace
-from heapq import heappop, heappush
+from heapq import heapify, heappop, heappush
 from itertools import chain, islice
 from typing import Any, NamedTuple, TypedDict, Unpack
 
@@ -314,6 +314,8 @@ def _planned(
             failed.setdefault(packet.way, proposal)
             if isinstance(search, PacketSearch) and (blamed := _blamed(task, packet, fine, should_stop)):
                 search.blame(blamed)
+                aside[:] = (one for one in aside if not search.is_blamed(one.packet))
+                heapify(aside)
             continue
         cost_s = proposal.cost_s or 0.0
         if packet.is_sketch:
@@ -382,7 +384,7 @@ def _again(aside: "list[_Aside]", solved: Set[Way]) -> Iterator[tuple[Packet, bo
 def _proposal(
     task: Task, packet: Packet, folds: tuple[DrawnFold, ...], should_stop: Callable[[], bool], *, is_first: bool = False
 ) -> Proposal:
-    plan = _plan(task, folds, should_stop, is_first=is_first)
+    plan = _plan(task, folds, should_stop, _BRIEF_SHARE if is_first else math.inf)  # the first is not waited for
     return Proposal(plan.garment, packet.size_m, packet.layers, packet.face, plan)
 
 
@@ -430,7 +432,7 @@ def _blamed(
     brief = _with_work(task, _BRIEF_SHARE)
     for done in range(len(task.garment.folds) + 1, len(packet.folds)):
         folds = packet.folds[:done]
-        if folds not in fine and not _plan(brief, folds, should_stop).is_solved:
+        if folds not in fine and not _plan(brief, folds, should_stop, 0.0).is_solved:
             return folds
         fine.add(folds)
     return ()
@@ -441,12 +443,14 @@ def _with_work(task: Task, share: float) -> Task:
     return replace(task, limits=replace(task.limits, work_limit_s=share * (task.limits.work_limit_s or 0.0)))
 
 
-def _plan(task: Task, folds: tuple[DrawnFold, ...], should_stop: Callable[[], bool], *, is_first: bool = False) -> Plan:
+def _plan(
+    task: Task, folds: tuple[DrawnFold, ...], should_stop: Callable[[], bool], improving_share: float = math.inf
+) -> Plan:
     """Return the plan for some folds; where there is none, with the reasons that were met and not tried.
 
-    The first plan of all is not waited for while it is improved.
+    Once there is one it is improved for that share of the task's work.
     """
-    improving_s = _BRIEF_SHARE * (task.limits.work_limit_s or 0.0) if is_first else math.inf
+    improving_s = improving_share * (task.limits.work_limit_s or 0.0)
     folded = replace(task, garment=replace(task.garment, folds=folds))
     events = plan_events(folded, should_stop=should_stop, improving_s=improving_s)
     with closing(events):
