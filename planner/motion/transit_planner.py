@@ -152,7 +152,10 @@ class TransitPlanner:
         path = _path(retreat, approach, late[1], late[0].end_s - self.dwell_s)
         approach = approach.moved(path[-1] - approach.joints[-1])
         least_s, left, layout = late[0].end_s - free.end_s, _SHORTCUTS_MAX, self._transits.layout
+        begun_s = least_s
         for parts in PARTS:
+            if parts != PARTS[0] and least_s == begun_s:
+                break  # where the longest shortcuts are all in vain, mostly the shorter ones are, too
             for place in places(path, layout, parts, free_rows(path, retreat, approach)):
                 for tried in shortcuts(path, layout, place):
                     if least_s <= TIME_S or left == 0:
