@@ -37,6 +37,7 @@ class KnownTransfers:
         made: the transfer of each candidate, None where it has none, and the waypoints at which it was blocked, if any.
         made_at_edges: the same with hands holding edges; whether joint paths were searched, and the transfer.
         transits: how hands come from one transfer to the next, by both and by what the base does meanwhile.
+        hastened: the transits that were late, and for which shortcuts were looked for.
         sampling: how often their ways were sampled in vain.
     """
 
@@ -45,4 +46,5 @@ class KnownTransfers:
     made: dict[tuple[object, ...], tuple[Transfer | None, NoPath | None]] = field(default_factory=dict)
     made_at_edges: dict[tuple[object, ...], tuple[bool, Transfer | None]] = field(default_factory=dict)
     transits: dict[tuple[object, ...], Transit] = field(default_factory=dict)
+    hastened: set[tuple[object, ...]] = field(default_factory=set)
     sampling: Sampling = field(default_factory=Sampling)

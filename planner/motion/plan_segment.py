@@ -39,8 +39,13 @@ class PlanSegment:
         return 0.0 if self.transit is None else self.transit.late_s
 
 
-def linked(plan_segments: Sequence[PlanSegment], maker: TransferPlanner) -> tuple[PlanSegment, ...]:
-    """Return segments as they follow one another: the hands come to each transfer from the one before it."""
+def linked(
+    plan_segments: Sequence[PlanSegment], maker: TransferPlanner, *, hastens: bool = False
+) -> tuple[PlanSegment, ...]:
+    """Return segments as they follow one another: the hands come to each transfer from the one before it.
+
+    If wanted, shortcuts are looked for where they come late.
+    """
     before: Transfer | None = None
     moves: list[Step] = []
     found = []
@@ -49,7 +54,8 @@ def linked(plan_segments: Sequence[PlanSegment], maker: TransferPlanner) -> tupl
             found.append(plan_segment)
             moves += plan_segment.steps
         else:
-            found.append(replace(plan_segment, transit=maker.transit(before, moves, plan_segment.transfer)))
+            transit = maker.transit(before, moves, plan_segment.transfer, hastens=hastens)
+            found.append(replace(plan_segment, transit=transit))
             before, moves = plan_segment.transfer, []
     return tuple(found)
 

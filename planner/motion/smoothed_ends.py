@@ -32,9 +32,24 @@ def smoothed_ends(transits: TransitPaths, retreat: Line, approach: Line) -> tupl
 
 def blended(transits: TransitPaths, retreat: Line, way: FloatArray, approach: Line, passes: int) -> Line:
     """Return a line that joins a tail, a path of shape (n, joints) and a lead, smoothed so many times over."""
-    whole = np.concatenate([retreat.joints, *(_cut(a, b)[1:] for a, b in pairwise(way)), approach.joints[1:]])
-    may_move = _may_move(whole, *(_STRAIGHT if len(line.joints) > 1 else 0 for line in (retreat, approach)))
-    return transits.line(smoothed(whole, passes, may_move))
+    return smoothed_line(transits, joined(retreat.joints, way, approach.joints), retreat, approach, passes)
+
+
+def joined(retreat: FloatArray, way: FloatArray, approach: FloatArray) -> FloatArray:
+    """Return a tail, a path and a lead, of shape (n, joints) each, as one path with small steps."""
+    return np.concatenate([retreat, *(_cut(a, b)[1:] for a, b in pairwise(way)), approach[1:]])
+
+
+def smoothed_line(transits: TransitPaths, path: FloatArray, retreat: Line, approach: Line, passes: int) -> Line:
+    """Return a line along a path from a tail to a lead, smoothed so many times over but for some steps at the grips."""
+    first, last = free_rows(path, retreat, approach)
+    return transits.line(smoothed(path, passes, _may_move(path, first, len(path) - 1 - last)))
+
+
+def free_rows(path: FloatArray, retreat: Line, approach: Line) -> tuple[int, int]:
+    """Return the rows of a path from a tail to a lead between which it may be changed."""
+    first, last = (_STRAIGHT if len(line.joints) > 1 else 0 for line in (retreat, approach))
+    return first, len(path) - 1 - last
 
 
 def _smoothed(transits: TransitPaths, line: Line, first: int, last: int) -> Line:

@@ -256,13 +256,16 @@ class TransferPlanner:
             self.known.sampling.vain += found is None and samples
         return found
 
-    def transit(self, before: Transfer | None, moves: Sequence[Step], transfer: Transfer) -> Transit | None:
+    def transit(
+        self, before: Transfer | None, moves: Sequence[Step], transfer: Transfer, *, hastens: bool = False
+    ) -> Transit | None:
         """Return how hands come from a transfer, or from home, to the next one. Cached.
 
         Args:
             before: the transfer before, None for none.
             moves: the steps between the two.
             transfer: the next transfer.
+            hastens: whether shortcuts are looked for where hands come late; what is found is returned from then on.
 
         Returns:
             None where the transfer begins with cloth in the hands.
@@ -276,6 +279,12 @@ class TransferPlanner:
         if key not in known:
             self.transits_planned += 1
             known[key] = transit_between(self._hands, self._context.drive_time, before, moves, transfer, cloth)
+        if hastens and known[key].late_s > 0.0 and key not in self.known.hastened:
+            self.transits_planned += 1
+            self.known.hastened.add(key)
+            known[key] = transit_between(
+                self._hands, self._context.drive_time, before, moves, transfer, cloth, known[key]
+            )
         return known[key]
 
 

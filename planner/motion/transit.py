@@ -42,6 +42,7 @@ def transit_between(
     moves: Sequence[Step],
     transfer: Transfer,
     cloth: LyingCloth,
+    late: Transit | None = None,
 ) -> Transit:
     """Plan a transit.
 
@@ -52,6 +53,7 @@ def transit_between(
         moves: the steps between the two transfers, in which nothing is held.
         transfer: the transfer that follows.
         cloth: the cloth on the table meanwhile.
+        late: the transit as planned before, with hands that come late: a quicker one is looked for.
     """
     # Rests of a drag are part of the reach before it, and so is what a base needs to speed up and to slow down.
     lost_s = transfer.timing.borrowed_s
@@ -71,6 +73,10 @@ def transit_between(
     retreat = None if before is None else before.retreat
     going = None if before is None else before.going
     times = TransitTime(timed_phases, 0.0, cloth)
-    free, keyframes = planner.keyframes(times, retreat, transfer.approach, going, transfer.coming)
+    if late is None:
+        free, keyframes = planner.keyframes(times, retreat, transfer.approach, going, transfer.coming)
+    else:
+        before_s = TransitTime(list(late.timed_phases), 0.0, cloth)
+        free, keyframes = planner.sooner(times, retreat, transfer.approach, (before_s, late.keyframes))
     late_s = free.end_s - planned_s
     return Transit(tuple(free.timed_phases), keyframes, late_s if late_s > TIME_S else 0.0)

@@ -3,6 +3,7 @@
 The hands withdraw straight from where they let go (the *tail* of the transfer before), travel, and come straight to the
 next grips (the *lead* of the next transfer). If the straight path is not clear beside the moving base, the base waits
 until they have withdrawn, or they go home first; if that is not clear either, the base waits until they are there.
+Where hands come late nevertheless, `sooner` takes shortcuts, one arm at a time.
 """
 
 from collections.abc import Callable, Iterator
@@ -16,7 +17,8 @@ from planner.geometry.tolerance import TIME_S
 from planner.motion.hand_holds import settling_s
 from planner.motion.joint_trajectory import JointTrajectory
 from planner.motion.line import Keyframes, Line
-from planner.motion.smoothed_ends import BLENDED, blended, smoothed_ends
+from planner.motion.path_shortcuts import PARTS, places, shortcuts
+from planner.motion.smoothed_ends import BLENDED, blended, free_rows, joined, smoothed_ends, smoothed_line
 from planner.motion.transit_paths import TransitPaths
 from planner.motion.transit_time import TransitTime
 from planner.motion.travel import led_along, quickest_lines
@@ -31,9 +33,14 @@ _CHECK_S = 0.04
 _CHECKS_MAX = 1000
 """The most waypoints tested: hands that take minutes for a path move less from one moment to the next."""
 
-
 _STRAIGHTENED = 4
 """How often the difference between a path that takes too long and the straight one is halved."""
+
+_SHORTCUTS_MAX = 60
+"""The most shortcuts tested for a transit."""
+
+_GAIN_S = 0.02
+"""The least time by which a shortcut must be quicker, unless hands are in time then (s)."""
 
 
 class _Late(NamedTuple):
@@ -126,6 +133,44 @@ class TransitPlanner:
             if found is not None:
                 return self._straightened(free, retreat, approach, one) or found
         return self._waiting(free.longer(waiting.late_s), retreat, approach, waiting)
+
+    def sooner(
+        self, free: TransitTime, retreat: Line | None, approach: Line, late: tuple[TransitTime, Keyframes]
+    ) -> tuple[TransitTime, Keyframes]:
+        """Return a quicker transit than a late one, by shortcuts on its path; the late one itself if none is found.
+
+        Args:
+            free: the time of the transit.
+            retreat: the tail; None: the hands are at home.
+            approach: the lead.
+            late: what `keyframes` has returned.
+        """
+        if free.borders_s:
+            return late
+        if retreat is None:
+            retreat = self._transits.line(self._transits.home[None])
+        path = _path(retreat, approach, late[1], late[0].end_s - self.dwell_s)
+        approach = approach.moved(path[-1] - approach.joints[-1])
+        least_s, left, layout = late[0].end_s - free.end_s, _SHORTCUTS_MAX, self._transits.layout
+        begun_s = least_s
+        for parts in PARTS:
+            if parts != PARTS[0] and least_s == begun_s:
+                break  # where the longest shortcuts are all in vain, mostly the shorter ones are, too
+            for place in places(path, layout, parts, free_rows(path, retreat, approach)):
+                for tried in shortcuts(path, layout, place):
+                    if least_s <= TIME_S or left == 0:
+                        return late
+                    line = smoothed_line(self._transits, tried, retreat, approach, BLENDED[0])
+                    late_s = max(line.shortest_s - self._time_s(free), 0.0)
+                    if late_s > max(least_s - _GAIN_S, 0.0):
+                        continue
+                    left -= 1
+                    run = partial(self._along, line, retreat, approach)
+                    found = self._first_clear(free.longer(late_s), retreat, approach, run)
+                    if found is not None:
+                        path, least_s, late = tried, late_s, found
+                        break
+        return late
 
     def _first_clear(
         self, free: TransitTime, retreat: Line, approach: Line, run: Callable[[TransitTime], Keyframes | None]
@@ -306,3 +351,11 @@ def _joined(
 ) -> Keyframes:
     """Return keyframes on a tail, on the path from it to a lead, on that, and once more at its end."""
     return Keyframes.joined([out.later(start_s), *travel, down.later(comes_s), still])
+
+
+def _path(retreat: Line, approach: Line, keyframes: Keyframes, arrives_s: float) -> FloatArray:
+    """Return the path of keyframes, up to when the hands are there, with small steps between tail and lead."""
+    rows = keyframes.joints[keyframes.times_s <= arrives_s + TIME_S]
+    out, down = len(retreat.joints) - 1, len(rows) - len(approach.joints)
+    start = np.concatenate([retreat.joints[:1], rows[:out]])
+    return joined(start, np.concatenate([start[-1:], rows[out : down + 1]]), rows[down:])

@@ -4,7 +4,7 @@ Hands at edges come from few directions, for which there is mostly a path: then 
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import chain, islice
 
 from planner.geometry.tolerance import TIME_S
@@ -50,11 +50,11 @@ class EdgePath:
         return any(_is_late(plan_segment, validator) for plan_segment in self.plan_segments)
 
     def quicker(self, validator: MotionValidator) -> "EdgePath":
-        """Return this path with other transfers in place of those that take longer than is known of their steps.
+        """Return this path with shortcuts and with other transfers where it takes longer than is known of its steps.
 
         Raises `OutOfTimeError` where there is no time to find out.
         """
-        best = self
+        best = replace(self, plan_segments=linked(self.plan_segments, validator.maker, hastens=True))
         for number, (_, part) in enumerate(self.parts):
             if best.transfers[number] is None or not _is_late(best.plan_segments[number], validator):
                 continue

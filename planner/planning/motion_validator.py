@@ -140,7 +140,7 @@ class MotionValidator:
                 self._all_agree(transfers)
                 self._reject(part, seemed_s)
                 return None
-        plan_segments = self._sooner(linked(found, self.maker))
+        plan_segments = linked(self._sooner(linked(found, self.maker)), self.maker, hastens=True)
         if duration_s(plan_segments) <= seemed_s + TIME_S:
             return plan_segments
         is_known = self._all_agree(transfers)

@@ -18,6 +18,13 @@ def test_a_hood_a_poncho_and_a_jumper_keep_the_laws_of_plans(seed: int, monkeypa
     assert not {name: broken for name, broken in found.by_law.items() if broken}
 
 
+@pytest.mark.long
+def test_where_hands_must_go_round_the_tables_edge_a_wider_cone_costs_no_more(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(deadline, "clock_s", process_time)
+    found = differences(wear_task(Random(522)), 522, ("cone",))
+    assert found.gap_s < 0.1 and not found.by_law["cone"]
+
+
 def test_the_garments_have_four_to_eight_folds_and_are_of_three_kinds() -> None:
     garments = [wear_task(Random(seed)).garment for seed in range(40)]
     assert {len(garment.folds) for garment in garments} <= set(range(4, 9))

@@ -70,6 +70,20 @@ def test_a_transit_depends_on_where_the_hands_come_from() -> None:
     assert maker.transits_planned == 2
 
 
+def test_shortcuts_of_a_late_transit_are_looked_for_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    plan_segments = transferring(plan_of("t-shirt"))
+    maker = Problem.of(plan_of("t-shirt").plan.task).maker
+    monkeypatch.setattr(maker.transits, "is_clear", lambda *_: False)
+    before, after = plan_segments[0].transfer, plan_segments[1].transfer
+    assert before is not None and after is not None
+    late = maker.transit(before, (), after)
+    assert late is not None and late.late_s > 0.0 and maker.transits_planned == 1
+    hastened = maker.transit(before, (), after, hastens=True)
+    assert hastened is not None and hastened.late_s == pytest.approx(late.late_s) and maker.transits_planned == 2
+    assert maker.transit(before, (), after, hastens=True) is hastened is maker.transit(before, (), after)
+    assert maker.transits_planned == 2
+
+
 def test_a_base_waits_while_hands_withdraw_that_it_would_sweep_along(monkeypatch: pytest.MonkeyPatch) -> None:
     plan_segments = transferring(plan_of("t-shirt"))
     maker = Problem.of(plan_of("t-shirt").plan.task).maker
@@ -121,3 +135,25 @@ def test_a_detour_that_takes_too_long_is_led_as_near_to_the_straight_path_as_is_
     near_s = lasts_s()
     monkeypatch.setattr("planner.motion.transit_planner._STRAIGHTENED", 0)
     assert near_s < lasts_s() - 0.1
+
+
+def test_an_arm_in_nobodys_way_does_not_share_the_detour_of_the_other(monkeypatch: pytest.MonkeyPatch) -> None:
+    plan_segments = transferring(plan_of("t-shirt"))
+    maker = Problem.of(plan_of("t-shirt").plan.task).maker
+    before, after = plan_segments[0].transfer, plan_segments[1].transfer
+    assert before is not None and after is not None and after.transfer_path.cloths[0] is not None
+    transits, home = maker.transits, maker.transits.home
+    hindered = transits.layout.spans[1]
+
+    def is_home(cloth: LyingCloth, bases: FloatArray, joints: FloatArray, openings_m: FloatArray) -> bool:
+        away = (joints[:, hindered] - home[hindered] + np.pi) % (2.0 * np.pi) - np.pi
+        return bool(np.abs(away).max(axis=1).min() < 0.2)
+
+    monkeypatch.setattr(transits, "is_clear", is_home)
+    planner = TransitPlanner(transits, maker.dwell_s)
+    free = TransitTime([TimedPhase.even(0, after.free_phases[-1], 1.5)], 0.0, after.transfer_path.cloths[0])
+    late = planner.keyframes(free, before.retreat, after.approach, before.going, after.coming)
+    soon = planner.sooner(free, before.retreat, after.approach, late)
+    assert free.end_s < soon[0].end_s < late[0].end_s - 0.1
+    assert is_home(free.cloth, np.empty(0), soon[1].joints, np.empty(0))
+    np.testing.assert_allclose(soon[1].joints[-1], late[1].joints[-1], atol=1e-9)
