@@ -1,5 +1,7 @@
 """An edge that a fold has left short of its place is seen there, and pulled to its place by the top layers alone."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -72,6 +74,10 @@ def test_an_edge_is_seen_as_far_short_of_its_place_as_it_is(short_m: float) -> N
         found = first_edges(image, seen.camera, hidden, edge.starts, edge.ends, edge.height_m)
         assert edge.short_m(found) == pytest.approx(short_m, abs=0.003)
         assert edge.short_m(first_edges(image, seen.camera, ~hidden, edge.starts, edge.ends, edge.height_m)) is None
+        # No ray crosses an edge on which another part lies that the same fold has turned over.
+        rays = edge.starts[:0]
+        under = replace(edge, starts=rays, ends=rays, lengths_m=edge.lengths_m[:0])
+        assert under.short_m(first_edges(image, seen.camera, hidden, rays, rays, edge.height_m)) is None
 
 
 def test_hands_pull_an_edge_to_its_place_by_as_many_layers_as_the_fold_has_laid_down() -> None:
