@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from app.rehearsal.camera_world import CameraWorld
-from app.rehearsal.judge import Gate
+from app.rehearsal.eyes import Eyes
+from app.rehearsal.judge import Gate, carry
 from app.rehearsal.laid_again import SHORT_M, laid_again
 from app.rehearsal.laid_edge import LaidEdge, laid_edges
 from app.rehearsal.perform import REPAIRS_MAX, Performer
@@ -80,6 +81,26 @@ def test_an_edge_is_seen_as_far_short_of_its_place_as_it_is(short_m: float) -> N
         assert under.short_m(first_edges(image, seen.camera, hidden, rays, rays, edge.height_m)) is None
 
 
+@pytest.mark.parametrize("off_m", [-0.01, 0.01])
+def test_an_edge_that_should_lie_on_another_is_seen_as_far_short_of_that_wherever_the_stack_is_thought_to_lie(
+    off_m: float,
+) -> None:
+    plan, seen = towel_plan(), seen_step()
+    after = plan.steps[-1].after
+    world = CameraWorld(LaidShort(0.026, 9), plan.task, home(), 3)
+    world.perform(step_motions(plan)[-1])
+    world.perform(StepMotion(0, "withdraw", 0.0, ends=home()))
+    eyes = Eyes(plan.task)
+    sight = eyes.sight(world.observe(), plan.sequence, after.folds_done, after.placement, home())
+    assert sight is not None and sight.stack is not None
+    stack = replace(sight.stack, row=sight.stack.row + np.array([off_m, 0.0, 0.0, 0.0, 0.0, 0.0]))
+    there = replace(seen, carried=carry(after.placement, stack.placement))
+    for edge in laid_edges(there, stack):
+        assert edge.is_on_edge
+        assert eyes.short_m(edge) == pytest.approx(0.026, abs=0.004)
+    assert not any(edge.is_on_edge for edge in laid_edges(there))
+
+
 def test_hands_pull_an_edge_to_its_place_by_as_many_layers_as_the_fold_has_laid_down() -> None:
     seen = seen_step()
     edges = edges_of(seen)
@@ -93,10 +114,13 @@ def test_hands_pull_an_edge_to_its_place_by_as_many_layers_as_the_fold_has_laid_
 
 
 @pytest.mark.parametrize(
-    "short_m", [{"left": SHORT_M, "right": SHORT_M}, {"left": 0.02}, {"left": 0.05, "right": 0.0}, {}]
+    ("short_m", "further_m"),
+    [({"left": SHORT_M, "right": SHORT_M}, 0.0), ({"left": 0.02}, 0.0), ({}, 0.0), ({"left": 0.02, "right": 0.0}, 0.5)],
 )
-def test_an_edge_is_left_alone_that_is_near_or_out_of_reach_or_that_was_not_seen(short_m: dict[str, float]) -> None:
-    seen = seen_step()
+def test_an_edge_is_left_alone_that_is_near_or_out_of_reach_or_that_was_not_seen(
+    short_m: dict[str, float], further_m: float
+) -> None:
+    seen = replace(seen_step(), carried=Isometry.rotation(0.0, further_m, 0.0))
     assert laid_again(seen, edges_of(seen), short_m) is None
 
 
