@@ -2,7 +2,7 @@
 
 Slack that a fold leaves stays in the part that was folded over, since cloth rubs on cloth: its edge ends short. Hands
 come from above, one finger to either side of the ridge that they pinch, and take the layers that the fold has laid down
-there and none below: those stay.
+there and none below: those stay. How far they go is limited by the reach of their arms alone.
 """
 
 from collections.abc import Mapping
