@@ -92,7 +92,9 @@ def laid_edges(seen: StepSeen, after: SeenStack | None = None) -> Iterator[LaidE
         ends = np.argmin(is_part, axis=1)
         rays = np.flatnonzero(is_part[:, 0] & ~is_part.all(axis=1))
         held = np.array([one.point])
-        is_on_edge = after is not None and _is_on_edge(folded.cloth, place) and not after.is_edge_hidden(place[None])
+        is_on_edge = (
+            after is not None and _is_on_edge(folded.cloth, place, way) and not after.is_edge_hidden(place[None])
+        )
         beyond_m = 0.0
         if after is not None and is_on_edge:
             beyond_m = float((after.beside(place[None]) + after.edge_beside(place[None]))[0] @ way)
@@ -109,11 +111,12 @@ def laid_edges(seen: StepSeen, after: SeenStack | None = None) -> Iterator[LaidE
         )
 
 
-def _is_on_edge(stack: ClothState, place: FloatArray) -> bool:
-    """Return whether a place on the edge of what a fold has moved is at that of the stack too, on what did not move."""
+def _is_on_edge(stack: ClothState, place: FloatArray, way: FloatArray) -> bool:
+    """Return whether a place on the edge of what a fold has moved, one way, is on what did not move, and that ends."""
     below = stack.layers[: len(stack.layers) - stack.moved]
     is_below = any(layer.region.distances_to(place[None])[0] <= _ON_EDGE_M for layer in below)
-    return is_below and stack.silhouette.boundary_distance(_point(place)) <= _ON_EDGE_M
+    beyond = place + 2.0 * _ON_EDGE_M * way
+    return is_below and bool(stack.silhouette.distances_to(beyond[None])[0] > _ON_EDGE_M)
 
 
 def _on_top(layers: Sequence[Layer], points: FloatArray) -> FloatArray:

@@ -9,7 +9,7 @@ from app.rehearsal.camera_world import CameraWorld
 from app.rehearsal.eyes import Eyes
 from app.rehearsal.judge import Gate, carry
 from app.rehearsal.laid_again import SHORT_M, laid_again
-from app.rehearsal.laid_edge import LaidEdge, laid_edges
+from app.rehearsal.laid_edge import LaidEdge, _is_on_edge, laid_edges
 from app.rehearsal.perform import REPAIRS_MAX, Performer
 from app.rehearsal.physics.physics_world import PhysicsWorld
 from app.rehearsal.planned_cloth import planned_positions
@@ -17,6 +17,8 @@ from app.rehearsal.step_motions import step_motions
 from app.rehearsal.step_seen import StepSeen
 from app.rehearsal.vision.first_edge import first_edges
 from app.rehearsal.world import LAY, StepMotion, Truth
+from planner.cloth.garment import Garment
+from planner.folds.fold_sequence import replayed
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray
 from planner.geometry.woven_mesh import woven_mesh
@@ -99,6 +101,17 @@ def test_an_edge_that_should_lie_on_another_is_seen_as_far_short_of_that_whereve
         assert edge.is_on_edge
         assert eyes.short_m(edge) == pytest.approx(0.026, abs=0.004)
     assert not any(edge.is_on_edge for edge in laid_edges(there))
+
+
+@pytest.mark.parametrize(("line_m", "is_on_edge"), [(0.15, True), (0.14, False), (0.155, False)])
+def test_an_edge_lies_on_another_where_the_cloth_below_it_ends_ahead_of_it_not_beside_it(
+    line_m: float, *, is_on_edge: bool
+) -> None:
+    # A towel of 40 x 30 cm, seen at the corner that the fold lays down at a side of what is below.
+    fold = {"name": "over", "kind": "blue", "start": [0.4, line_m], "end": [0.0, line_m]}
+    towel = {"name": "towel", "outline": [[0.0, 0.0], [0.4, 0.0], [0.4, 0.3], [0.0, 0.3]], "folds": [fold]}
+    stack = replayed(Garment.from_dict(towel)).folded(0, 0).cloth
+    assert _is_on_edge(stack, np.array([0.4, 2.0 * line_m]), np.array([0.0, 1.0])) == is_on_edge
 
 
 def test_hands_pull_an_edge_to_its_place_by_as_many_layers_as_the_fold_has_laid_down() -> None:
