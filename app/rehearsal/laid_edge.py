@@ -1,7 +1,7 @@
 """The edge that a fold has laid down beside each hand: where it should be, and how far short of that it is seen.
 
-One that the fold lays on the edge of what it lies on should be there, wherever the stack lies. That is seen more
-exactly than the stack, which is fitted to the edges of all layers.
+The edge of one layer that the fold lays on that of what it lies on should be there, wherever the stack lies. It is seen
+more exactly than the stack, which is fitted to the edges of all layers. Of more layers the edges seen are their own.
 """
 
 from collections.abc import Iterator, Sequence
@@ -92,11 +92,11 @@ def laid_edges(seen: StepSeen, after: SeenStack | None = None) -> Iterator[LaidE
         ends = np.argmin(is_part, axis=1)
         rays = np.flatnonzero(is_part[:, 0] & ~is_part.all(axis=1))
         held = np.array([one.point])
-        is_on_edge = (
-            after is not None and _is_on_edge(folded.cloth, place, way) and not after.is_edge_hidden(place[None])
-        )
-        beyond_m = 0.0
-        if after is not None and is_on_edge:
+        in_hand = sum(bool(layer.region.distances_to(held)[0] <= _IN_HAND_M) for layer in folded.layers)
+        beyond_m, is_on_edge = 0.0, in_hand == 1 and _is_on_edge(folded.cloth, place, way)
+        if after is None or after.is_edge_hidden(place[None]):
+            is_on_edge = False
+        elif is_on_edge:
             beyond_m = float((after.beside(place[None]) + after.edge_beside(place[None]))[0] @ way)
         yield LaidEdge(
             one.arm,
@@ -105,7 +105,7 @@ def laid_edges(seen: StepSeen, after: SeenStack | None = None) -> Iterator[LaidE
             to_table.apply(points[rays, 0]),
             to_table.apply(points[rays, -1]),
             _STEP_M * (ends[rays] - 0.5) + beyond_m,
-            sum(bool(layer.region.distances_to(held)[0] <= _IN_HAND_M) for layer in folded.layers),
+            in_hand,
             GAP_M * sum(bool(layer.region.distances_to(place[None])[0] <= LENGTH_M) for layer in layers),
             is_on_edge,
         )
