@@ -2,6 +2,7 @@
 
 import uuid
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Protocol
 
 from app.live_planning import Compiled, Found, Lasting, Mapped, plan_live, prepare_live
@@ -80,6 +81,11 @@ class LiveSearch:
                 show(remembered.plan(), is_final=True)
             return
 
+        packed = self._answers.proposed(task)
+        proposed = None if packed is None else packed.plan()
+        if proposed is not None and not stop():
+            show(proposed, is_final=False)
+
         def hear(news: Found | Lasting) -> None:
             if isinstance(news, Lasting):
                 on_lasting()
@@ -87,7 +93,17 @@ class LiveSearch:
             self._shown = news
             if news.packed is not None:
                 self._answers.add(task, news.packed)
-            show(news.plan, is_final=news.is_final)
+            best = news.plan if proposed is None else _quicker(proposed, news.plan)
+            if news.is_final or best is news.plan:
+                show(best, is_final=news.is_final)
 
         known = self._shown.name if self._shown is not None and self._shown.plan is shown else None
         self._workers.run_for(self._key, plan_live, stop, hear, self._key, task, known, work_limit_s)
+
+
+def _quicker(proposed: Plan, found: Plan) -> Plan:
+    """Return the quicker of the plan with which a task was proposed and one that a search has found for it."""
+    assert proposed.cost_s is not None, "a proposal comes with a plan"
+    if found.cost_s is not None and found.cost_s <= proposed.cost_s:
+        return found
+    return replace(proposed, task=found.task, statistics=found.statistics, is_exhaustive=found.is_exhaustive)

@@ -67,6 +67,7 @@ class Player:
         self._spread: Garment | None = None
         self._bare: tuple[str, Pose2] | None = None
         self._preview: tuple[ShownPlan | ClothAlone, float] | None = None
+        self._is_previewing = True
         self._over_s: float | None = None
         self._is_withdrawing = False
         self._changed.set()
@@ -107,7 +108,7 @@ class Player:
         now_s = time.monotonic()
         state = self._document.state
         is_moving = state.playback.is_playing or self._is_withdrawing
-        if not (self._is_previewing(now_s) if state.preview is not None else is_moving):
+        if not (self._is_previewing if state.preview is not None else is_moving):
             return None if self._waits_until_s is None else max(0.0, self._waits_until_s - now_s)
         period_s = 1.0 / UPDATES_PER_S if self._view.has_watchers else _UNWATCHED_PERIOD_S
         self._due_s = max(self._due_s + period_s, now_s)
@@ -130,7 +131,7 @@ class Player:
         if state.preview is not None:
             self._show_preview(state, state.preview)
             return
-        self._preview = None
+        self._preview, self._is_previewing = None, True
         if self._is_to_rest(state):
             return
         if state.shown is None or self._has_left(state, state.shown):
@@ -150,15 +151,11 @@ class Player:
         self._view.show(frame, state.trace)
         self._document.stop_at_end()
 
-    def _is_previewing(self, now_s: float) -> bool:
-        """Return whether the plan of a change has still to be shown to its end."""
-        return self._preview is None or now_s < self._preview[1] + PREVIEW_S
-
     def _show_preview(self, state: DocumentState, shown: ShownPlan | ClothAlone) -> None:
         """Show a change that is pointed at, in a few seconds from its start; it stays at its end."""
         now_s = time.monotonic()
         if self._preview is None or self._preview[0] is not shown:
-            self._preview = (shown, now_s)
+            self._preview, self._is_previewing = (shown, now_s), True
             self._plan = self._spread = self._bare = self._waits_until_s = None
             if isinstance(shown, ShownPlan):
                 self._plan = shown.plan
@@ -167,6 +164,7 @@ class Player:
             else:
                 self._set(state.drawing.robot, state.drawing.scene)
         share = min((now_s - self._preview[1]) / PREVIEW_S, 1.0)
+        self._is_previewing = share < 1.0
         if isinstance(shown, ShownPlan):
             self._view.show(shown.timeline.at(share * shown.timeline.duration_s))
         else:

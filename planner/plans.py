@@ -115,6 +115,7 @@ def plan(
 def _firmly_or_not(task: Task, part: Budget, budget: Budget, hints: Hints, *, with_reasons: bool) -> Iterator[Event]:
     """Plan a task for hands that hold firmly; where there is no such plan, for hands that hold in any way.
 
+    A plan that has to beat a cost is looked for with firm hands only: whether there is a dearer one is not known then.
     Once a firm plan is found, quicker ones are looked for with all of the budget, until then with a part of it.
     """
     is_known_firm = hints.known is not None and hints.known.context.is_firm
@@ -124,6 +125,9 @@ def _firmly_or_not(task: Task, part: Budget, budget: Budget, hints: Hints, *, wi
             part.widen(budget)
             yield event
     if event.found.plan.is_solved:
+        return
+    if hints.are_bounding:
+        yield event
         return
     budget.beside_s += part.spent_s
     # This problem knows where the arms reach as far as has been asked.
@@ -145,7 +149,7 @@ def _planned(problem: Problem, budget: Budget, hints: Hints) -> Iterator[Event]:
         held = event.found
         if isinstance(event, Improved):
             yield event
-    for event in quickest(problem.let_go(), budget, Hints()):
+    for event in quickest(problem.let_go(), budget, Hints(below_s=hints.below_s)):
         if isinstance(event, Done):
             yield Done(held.or_quicker(event.found))
         elif isinstance(event, Blocked) and not held.plan.is_solved:

@@ -12,6 +12,7 @@ from app.files.gltf_writer import GltfWriter
 from app.files.scene_animation import add_table_and_robot
 from app.jobs.job_pool import ShouldStop
 from app.ui.colours import LIGHT
+from app.ui.thick_cloth import ThickCloth
 from planner.motion.sample import ClothSurface
 from planner.motion.timeline import Timeline
 from planner.task.plan import Plan
@@ -50,7 +51,8 @@ def _cloth(writer: GltfWriter, world: int, timeline: Timeline, should_stop: Shou
             shapes.append((sample.t_s, sample.cloth))
     ends = [t_s for t_s, _ in shapes[1:]] + [math.inf]
     for number, ((start_s, cloth), end_s) in enumerate(zip(shapes, ends, strict=True)):
-        mesh = writer.two_sided(cloth.vertices, cloth.triangles, front, back)
+        shape = ThickCloth(cloth, timeline.plan.garment.layer_m)
+        mesh = writer.two_sided(shape.vertices, shape.normals, shape.triangles, front, back)
         seen = [(start_s, 1.0)] if start_s == 0.0 else [(0.0, 0.0), (start_s, 1.0)]
         seen += [(end_s, 0.0)] if math.isfinite(end_s) else []
         scale = (seen[0][1],) * 3

@@ -49,10 +49,15 @@ class GltfWriter:
             attributes["NORMAL"] = self._numbers(normals)
         return self._mesh([(attributes, triangles, material)])
 
-    def two_sided(self, vertices: FloatArray, triangles: NDArray[np.int64], front: int, back: int) -> int:
+    def two_sided(
+        self, vertices: FloatArray, normals: FloatArray, triangles: NDArray[np.int64], front: int, back: int
+    ) -> int:
         """Add a mesh that is seen from both sides, each in a material of its own, and return it."""
-        attributes = {"POSITION": self._numbers(vertices, is_bounded=True)}
-        return self._mesh([(attributes, triangles, front), (attributes, triangles[:, ::-1], back)])
+        places = self._numbers(vertices, is_bounded=True)
+        sides = ((normals, triangles, front), (-normals, triangles[:, ::-1], back))
+        return self._mesh(
+            ({"POSITION": places, "NORMAL": self._numbers(facing)}, seen, material) for facing, seen, material in sides
+        )
 
     def node(
         self,

@@ -30,7 +30,7 @@ from planner.proposals.target import SIDE_MAX_M, SIDE_MIN_M, Target
 from planner.robots.known_robots import require_name
 from planner.strict_model import StrictModel
 from planner.task.scene import Scene
-from planner.task.task import COMFORT_MAX_M, DEFAULT_ROBOT
+from planner.task.task import COMFORT_MAX_M, DEFAULT_ROBOT, Task
 
 Side = Annotated[float, Field(ge=SIDE_MIN_M, le=SIDE_MAX_M)]
 
@@ -147,10 +147,15 @@ def _begun(asked: ProposalsTask) -> Generator[Proposal, None, Tried]:
 
 @dataclass(frozen=True, slots=True)
 class Found:
-    """A proposal as JSON with the id of its plan, if it has one, and the plan, packed in the job's process."""
+    """A proposal as JSON with the id of its plan, if it has one, and the plan, packed in the job's process.
+
+    Attributes:
+        body: the proposal.
+        plan: its plan and the task that it is one for; None if it was not planned.
+    """
 
     body: dict[str, Any]
-    plan: PackedPlan | None
+    plan: tuple[Task, PackedPlan] | None
 
 
 def propose(asked: ProposalsTask, progress: Progress) -> dict[str, Any]:
@@ -162,7 +167,11 @@ def propose(asked: ProposalsTask, progress: Progress) -> dict[str, Any]:
             progress(0.0, "", Found(proposal.to_dict(), None))
             return
         body = told[proposal.garment.folds] = {**proposal.to_dict(), "plan_id": uuid.uuid4().hex}
-        progress(len(told) / asked.count, f"{len(told)} found", Found(body, PackedPlan.of(proposal.plan)))
+        progress(
+            len(told) / asked.count,
+            f"{len(told)} found",
+            Found(body, (proposal.plan.task, PackedPlan.of(proposal.plan))),
+        )
 
     found = all_proposals(_begun(asked), hear)
     return {**found.to_dict(), "proposals": [told[one.garment.folds] for one in found.proposals]}
@@ -171,7 +180,9 @@ def propose(asked: ProposalsTask, progress: Progress) -> dict[str, Any]:
 def _tell(stores: Stores, found: Found) -> dict[str, Any]:
     """Store the plan of a proposal, if it has one, and return the proposal as JSON."""
     if found.plan is not None:
-        stores.plans.add_packed(found.plan, found.body["plan_id"])
+        task, packed = found.plan
+        stores.plans.add_packed(packed, found.body["plan_id"])
+        stores.plans.answers.propose(task, packed)
     return found.body
 
 

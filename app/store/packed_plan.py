@@ -10,7 +10,7 @@ from pydantic_core import from_json, to_json
 
 from planner.robots.load_robot import Stamp, robot_stamp
 from planner.task.plan import Plan
-from planner.task.task import TIME_LIMIT_S, Task
+from planner.task.task import TIME_LIMIT_S, Limits, Task
 
 _ANSWERS_MAX = 64
 """Number of tasks whose answers are remembered, packed: 0.1 MB each, as objects 0.3 to 0.7 MB (measured)."""
@@ -52,11 +52,15 @@ def unpacked(content: bytes) -> Plan:
 
 
 class Answers:
-    """The answers to the tasks asked last, if more search cannot improve them; safe to use from any thread."""
+    """The answers to the tasks asked last, if more search cannot improve them; safe to use from any thread.
+
+    Beside them are the plans of the proposals made last: whoever takes one asks for its task.
+    """
 
     def __init__(self) -> None:
         """Start empty."""
         self._answers: OrderedDict[tuple[Task, Stamp], PackedPlan] = OrderedDict()
+        self._proposed: OrderedDict[tuple[Task, Stamp], PackedPlan] = OrderedDict()
         self._lock = threading.Lock()
 
     def add(self, task: Task, answer: PackedPlan) -> None:
@@ -70,6 +74,18 @@ class Answers:
             self._answers[_key(task)] = answer
             if len(self._answers) > _ANSWERS_MAX:
                 self._answers.popitem(last=False)
+
+    def propose(self, task: Task, plan: PackedPlan) -> None:
+        """Remember a plan with which a task was proposed, though more search may find a quicker one."""
+        with self._lock:
+            self._proposed[_without_limits(task)] = plan
+            if len(self._proposed) > _ANSWERS_MAX:
+                self._proposed.popitem(last=False)
+
+    def proposed(self, task: Task) -> PackedPlan | None:
+        """Return the plan with which a task was proposed, if it was lately and the robot is the same."""
+        with self._lock:
+            return self._proposed.get(_without_limits(task))
 
     def get(self, task: Task) -> PackedPlan | None:
         """Return the answer to a task if it is remembered, takes no longer than allowed, and the robot is the same."""
@@ -86,3 +102,8 @@ def _key(task: Task) -> tuple[Task, Stamp]:
     """Return what the answer to a task depends on if its time limit is not reached."""
     limits = replace(task.limits, time_limit_s=TIME_LIMIT_S[1])
     return replace(task, limits=limits), robot_stamp(task.robot)
+
+
+def _without_limits(task: Task) -> tuple[Task, Stamp]:
+    """Return what a plan's being one for a task depends on."""
+    return replace(task, limits=Limits(task.limits.comfort_radius_m)), robot_stamp(task.robot)

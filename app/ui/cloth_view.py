@@ -57,19 +57,20 @@ class ClothView:
 
     def show(self, cloth: ClothSurface, layer_m: float) -> None:
         """Replace the surface shown, whose layers take a height in a stack (m)."""
-        before, self._shown = self._shown, cloth
-        if cloth is before:
+        if cloth is self._shown:
             return
-        is_recut = before is None or len(cloth.triangles) != len(before.triangles)
+        self._shown = cloth
         thick = ThickCloth(cloth, layer_m)
         front, back = (face.astype(np.float32) for face in thick.faces)
         pattern = np.zeros_like(front)
-        pattern[:, :2] = cloth.pattern[cloth.triangles].reshape(-1, 2)
+        pattern[:, :2] = thick.pattern
+        faces = thick.triangles.astype(np.uint32)
+        is_recut = not np.array_equal(faces, self._front.faces)
         meshes = ((self._front, front), (self._back, back), (self._shade, front), (self._pattern, pattern))
         for mesh, vertices in meshes:
             mesh.vertices = vertices
             if is_recut:
-                mesh.faces = np.arange(len(vertices), dtype=np.uint32).reshape(-1, 3)
+                mesh.faces = faces
         hem, triangles = thick.hem
         self._hem.vertices = hem.astype(np.float32)
         if not np.array_equal(triangles, self._hem.faces):

@@ -17,7 +17,7 @@ from app.ui.painter import Triangles, nearest
 from app.ui.robot_model import Pose3, load_robot_model
 from app.ui.robot_view import link_colour
 from app.ui.rotation import to_matrix, yaw
-from app.ui.thick_cloth import ThickCloth
+from app.ui.thick_cloth import ThickCloth, blended_normals
 from app.ui.viewpoint import Viewpoint
 from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.table_parts import table_parts
@@ -59,11 +59,8 @@ class Part:
     def of(vertices: FloatArray, triangles: Triangles, colour: Rgb, *, is_closed: bool = False) -> "Part":
         """Return a mesh with the normals of its triangles, blended at shared vertices; a closed one faces outwards."""
         a, b, c = vertices[triangles].transpose(1, 0, 2)
-        facing, corners = np.repeat(np.cross(b - a, c - a), 3, axis=0), triangles.ravel()
-        summed = [np.bincount(corners, facing[:, axis], len(vertices)) for axis in range(3)]
-        normals = np.stack(summed, axis=1).astype(float)
         inside_out = is_closed and float((np.cross(a, b) * c).sum()) < 0.0
-        normals *= (-1.0 if inside_out else 1.0) / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
+        normals = (-1.0 if inside_out else 1.0) * blended_normals(vertices, triangles)
         return Part(vertices, normals, triangles, colour)
 
     def moved(self, pose: FloatArray) -> "Part":
@@ -141,8 +138,7 @@ class ScenePainter:
 
     def _cloth(self, cloth: ClothSurface, layer_m: float) -> list[Part]:
         thick = ThickCloth(cloth, layer_m)
-        front, back = thick.faces
-        faces = np.arange(len(front)).reshape(-1, 3)
+        (front, back), faces = thick.faces, thick.triangles
         palette = self._palette
         return [
             Part.of(front, faces, palette.cloth_front),

@@ -1,8 +1,8 @@
 """Cloth as it looks: two faces, some distance apart, and a hem around each layer that bulges from one to the other.
 
-A surface of cloth has no thickness. Each triangle is moved by half of it to both sides, so those that meet at a bend
-part by less than the thickness, which nobody sees. Where cloth is folded flat its two layers end at one line of the
-pattern: they are joined by a half round as high as what lies between them.
+A surface of cloth has no thickness. Its triangles share their corners within a layer, where it lies and where it is
+lifted, and the corners are moved by half of it to both sides: so bent cloth is shaded smoothly. Where cloth is folded
+flat its two layers end at one line of the pattern: they are joined by a half round as high as what lies between them.
 """
 
 from dataclasses import dataclass
@@ -44,10 +44,29 @@ class ThickCloth:
 
     @property
     def faces(self) -> tuple[FloatArray, FloatArray]:
-        """The corners of the triangles of the front and of the back, three for each, shape (3 m, 3), m."""
-        half = np.repeat(self._half_m * self._normals, 3, axis=0)
-        corners = self._corners.reshape(-1, 3)
-        return corners + half, corners - half
+        """The vertices of the front and of the back, shape (n, 3), m."""
+        half = self._half_m * self.normals
+        return self.vertices + half, self.vertices - half
+
+    @property
+    def vertices(self) -> FloatArray:
+        """The vertices half way between the faces, shape (n, 3), m."""
+        return np.asarray(self._corners.reshape(-1, 3)[self._shared[0]])
+
+    @cached_property
+    def normals(self) -> FloatArray:
+        """The unit normals on the front at the vertices, shape (n, 3)."""
+        return blended_normals(self.vertices, self.triangles)
+
+    @property
+    def triangles(self) -> NDArray[np.int64]:
+        """The triangles of either face, shape (m, 3), counter-clockwise as seen from the front."""
+        return self._shared[1]
+
+    @property
+    def pattern(self) -> FloatArray:
+        """The pattern's coordinates of either face's vertices, shape (n, 2), m."""
+        return np.asarray(self.cloth.pattern[self.cloth.triangles.ravel()[self._shared[0]]])
 
     @property
     def edges(self) -> FloatArray:
@@ -66,11 +85,22 @@ class ThickCloth:
         return vertices, np.concatenate([_strips(len(hems), _HEM_LINES), bent])
 
     @cached_property
+    def _shared(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """Which of the triangles' corners are the faces' vertices, shape (n,), and the triangles, shape (m, 3).
+
+        Vertices are in the order of the corners: while cloth moves without being cut anew, the triangles stay the same.
+        """
+        is_lifted = np.asarray(np.isnan(self.cloth.unrolled[self.cloth.triangles]).any(axis=(1, 2)))
+        _, first, names = np.unique(2 * self._names + is_lifted[:, None], return_index=True, return_inverse=True)
+        order = np.argsort(first)
+        return first[order], np.argsort(order)[names].reshape(-1, 3)
+
+    @cached_property
     def _corners(self) -> FloatArray:
         return np.asarray(self.cloth.vertices[self.cloth.triangles])
 
     @cached_property
-    def _normals(self) -> FloatArray:
+    def _facets(self) -> FloatArray:
         """The unit normals on the front of the triangles, shape (m, 3)."""
         a, b, c = self._corners.transpose(1, 0, 2)
         return _units(np.cross(b - a, c - a))
@@ -80,12 +110,24 @@ class ThickCloth:
         """Each layer's stretches of edge, shape (n, 2, 3), and half the thickness away from it and to its front."""
         owners, sides = self._sides
         ends = self._corners[owners[:, None], _SIDES[sides]]
-        normals, half_m = self._normals[owners], self._half_m
+        normals, half_m = self._facets[owners], self._half_m
         return ends, half_m * _units(np.cross(ends[:, 1] - ends[:, 0], normals)), half_m * normals
 
     @cached_property
+    def _names(self) -> NDArray[np.int64]:
+        """A number for the place of each corner in its layer, shape (m, 3)."""
+        steps = np.round(self._corners / LENGTH_M).astype(np.int64)
+        layers = np.broadcast_to(self.cloth.layers[:, None, None], (*steps.shape[:2], 1))
+        _, names = np.unique(np.concatenate([steps, layers], axis=2).reshape(-1, 4), axis=0, return_inverse=True)
+        return names.reshape(-1, 3)
+
+    @cached_property
     def _sides(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-        return free_sides(self.cloth)
+        """The triangles' sides that no two of a layer share: the triangles, shape (n,), and which side of each."""
+        ends = np.sort(self._names[:, _SIDES], axis=2) @ np.array([self._names.size, 1])
+        _, first, counts = np.unique(ends, return_index=True, return_counts=True)
+        free = first[counts == 1]
+        return free // 3, free % 3
 
     @cached_property
     def _creases(self) -> NDArray[np.int64]:
@@ -131,19 +173,11 @@ class ThickCloth:
         return np.asarray(middle[:, :, None] + np.cos(turn) * across[:, :, None] + np.sin(turn) * out[:, :, None])
 
 
-def free_sides(cloth: ClothSurface) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Return the triangles' sides that no two of a layer share: the triangles, shape (n,), and which side of each.
-
-    Triangles need not share vertices: corners at the same place are the same corner.
-    """
-    corners = np.round(cloth.vertices[cloth.triangles] / LENGTH_M).astype(np.int64)
-    layers = np.broadcast_to(cloth.layers[:, None, None], (*corners.shape[:2], 1))
-    places = np.concatenate([corners, layers], axis=2)
-    _, names = np.unique(places.reshape(-1, 4), axis=0, return_inverse=True)
-    ends = names.reshape(-1, 3)[:, _SIDES].reshape(-1, 2)
-    _, first, counts = np.unique(np.sort(ends, axis=1), axis=0, return_index=True, return_counts=True)
-    free = first[counts == 1]
-    return free // 3, free % 3
+def blended_normals(vertices: FloatArray, triangles: NDArray[np.int64]) -> FloatArray:
+    """Return unit normals at vertices, shape (n, 3): the mean of their triangles', shape (m, 3), by area."""
+    a, b, c = vertices[triangles].transpose(1, 0, 2)
+    facing, corners = np.repeat(np.cross(b - a, c - a), 3, axis=0), triangles.ravel()
+    return _units(np.stack([np.bincount(corners, facing[:, axis], len(vertices)) for axis in range(3)], axis=1))
 
 
 def _strips(count: int, lines: int) -> NDArray[np.int64]:

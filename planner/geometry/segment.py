@@ -57,6 +57,11 @@ class Segment:
         ux, uy = self.direction
         return (self.start[0] + position_m * ux, self.start[1] + position_m * uy)
 
+    def beside(self, distance_m: float) -> "Segment":
+        """Return the segment moved to its left by a distance (m)."""
+        (nx, ny), (ax, ay), (bx, by) = self.left, self.start, self.end
+        return Segment((ax + distance_m * nx, ay + distance_m * ny), (bx + distance_m * nx, by + distance_m * ny))
+
     def distances(self, points: FloatArray) -> FloatArray:
         """Return the distances of points, shape (n, 2), from the segment itself (m)."""
         across, along = self.left_distances(points), self.positions(points)

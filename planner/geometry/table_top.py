@@ -57,6 +57,11 @@ class TableTop:
         is_within_x = left - LENGTH_M <= x0 and x1 <= right + LENGTH_M
         return bool(is_within_x and near - LENGTH_M <= y0 and y1 <= far + LENGTH_M)
 
+    def room_m(self, points: FloatArray) -> float:
+        """Return how far inside the edges points of the unrolled plane, shape (n, 2 or 3), all lie (m); 0 beyond."""
+        places = points[:, :2]
+        return max(float(np.minimum(places - self.low, np.subtract(self.high, places)).min(initial=math.inf)), 0.0)
+
     def beyond(self, points: FloatArray) -> FloatArray:
         """Return how far points, shape (..., 2 or 3), lie beyond the top in the unrolled plane (m); 0 on it."""
         out = points[..., :2] - np.minimum(np.maximum(points[..., :2], self.low), self.high)

@@ -13,6 +13,10 @@ Parts = tuple[FloatArray, NDArray[np.int64]]
 """Triangles, shape (n, 3, 2), m, and the index of the triangle that each is a part of, shape (n,)."""
 
 
+_FAR_M = 1e6
+"""The distance of a line beyond all cloth (m)."""
+
+
 def parted(triangles: FloatArray, line: Segment) -> tuple[Parts, Parts]:
     """Return the parts of triangles to the left and to the right of the line through a segment.
 
@@ -22,21 +26,20 @@ def parted(triangles: FloatArray, line: Segment) -> tuple[Parts, Parts]:
 
     Returns:
         The parts on either side, with the orientation of their triangles. Neighbours share the ends of their cuts to
-            the
-        last digit.
+        the last digit.
     """
     distances = line.left_distances(triangles)
-    sides = np.where(np.abs(distances) <= LENGTH_M, 0.0, np.sign(distances))
-    low, high = sides.min(axis=1), sides.max(axis=1)
-    is_left, is_cut = low >= 0.0, (low < 0.0) & (high > 0.0)
-    left, right = np.flatnonzero(is_left), np.flatnonzero(~is_left & ~is_cut)
-    if not is_cut.any():
+    is_left = distances.min(axis=1) >= -LENGTH_M
+    left, right = np.flatnonzero(is_left), np.flatnonzero(~is_left & (distances.max(axis=1) <= LENGTH_M))
+    cut = np.flatnonzero(~is_left & (distances.max(axis=1) > LENGTH_M))
+    if not len(cut):
         return (triangles[left], left), (triangles[right], right)
-    parts, sources, sign = _halves(triangles[is_cut], distances[is_cut], sides[is_cut])
-    names, is_here = np.flatnonzero(is_cut)[sources], sign > 0.0
+    zero = np.zeros((len(cut), 1))
+    above, of_above = _between(triangles[cut], distances[cut], zero, zero + _FAR_M)
+    below, of_below = _between(triangles[cut], distances[cut], zero - _FAR_M, zero)
     return (
-        (np.concatenate([triangles[left], parts[is_here]]), np.concatenate([left, names[is_here]])),
-        (np.concatenate([triangles[right], parts[~is_here]]), np.concatenate([right, names[~is_here]])),
+        (np.concatenate([triangles[left], above]), np.concatenate([left, cut[of_above]])),
+        (np.concatenate([triangles[right], below]), np.concatenate([right, cut[of_below]])),
     )
 
 
@@ -50,37 +53,96 @@ def creased(triangles: FloatArray, lines: Iterable[Segment]) -> Parts:
     return triangles, sources
 
 
-def _halves(
-    triangles: FloatArray, distances: FloatArray, sides: FloatArray
-) -> tuple[FloatArray, NDArray[np.int64], FloatArray]:
-    """Cut triangles that the line crosses; return the parts, the triangle and the side (1 left, -1 right) of each."""
-    of_all = sides.sum(axis=1, keepdims=True)
-    # Put first the corner on the line, if there is one, otherwise the one that is alone on its side.
-    first = np.argmax(np.where(of_all == 0.0, sides == 0.0, sides * of_all < 0.0), axis=1)
-    order = (first[:, None] + np.arange(3)) % 3
-    distances = np.take_along_axis(distances, order, axis=1)
-    sides = np.take_along_axis(sides, order, axis=1)
-    p, a, b = np.take_along_axis(triangles, order[..., None], axis=1).transpose(1, 0, 2)
-    is_through = sides[:, 0] == 0.0
-    alone, through = np.flatnonzero(~is_through), np.flatnonzero(is_through)
-    to_a = _crossing(p, a, distances[:, 0], distances[:, 1], alone)
-    to_b = _crossing(p, b, distances[:, 0], distances[:, 2], alone)
-    between = _crossing(a, b, distances[:, 1], distances[:, 2], through)
-    p0, a0, b0, p1, a1, b1 = p[alone], a[alone], b[alone], p[through], a[through], b[through]
-    parts = [(p0, to_a, to_b), (to_a, a0, b0), (to_a, b0, to_b), (p1, a1, between), (p1, between, b1)]
-    return (
-        np.concatenate([np.stack(part, axis=1) for part in parts]),
-        np.concatenate([alone, alone, alone, through, through]),
-        np.concatenate([sides[alone, 0], sides[alone, 1], sides[alone, 1], sides[through, 1], sides[through, 2]]),
-    )
+def striped(triangles: FloatArray, line: Segment, distances_m: FloatArray) -> Parts:
+    """Cut triangles along several parallels of a line at once, and return all their parts.
+
+    Args:
+        triangles: shape (n, 3, 2), m.
+        line: the line.
+        distances_m: how far to its left the parallels are, in order, shape (k,), m.
+    """
+    there = line.left_distances(triangles)
+    first = (distances_m <= there.min(axis=1)[:, None] + LENGTH_M).sum(axis=1)
+    last = np.maximum(np.searchsorted(distances_m, there.max(axis=1) - LENGTH_M), first)
+    sources, number = _repeated(last - first + 1)
+    strips = first[sources] + number
+    bounds = np.concatenate([[-_FAR_M], distances_m, [_FAR_M]])
+    lows, highs = bounds[strips, None], bounds[strips + 1, None]
+    parts, of_parts = _between(triangles[sources], there[sources], lows, highs)
+    return parts, sources[of_parts]
+
+
+def fanned(triangles: FloatArray, line: Segment, places_m: FloatArray) -> Parts:
+    """Cut triangles that have a side on a line from their third corner to places on that side; return all parts.
+
+    So they meet the corners of triangles beyond the line that were cut across it.
+
+    Args:
+        triangles: shape (n, 3, 2), m.
+        line: the line.
+        places_m: positions along it, in order, shape (k,), m.
+    """
+    is_on = np.abs(line.left_distances(triangles)) <= LENGTH_M
+    apex = np.argmin(is_on, axis=1)
+    p, a, b = np.take_along_axis(triangles, ((apex[:, None] + np.arange(3)) % 3)[..., None], axis=1).transpose(1, 0, 2)
+    starts, ends = line.positions(a), line.positions(b)
+    low, high = np.minimum(starts, ends) + LENGTH_M, np.maximum(starts, ends) - LENGTH_M
+    first = np.searchsorted(places_m, low)
+    counts = np.where(is_on.sum(axis=1) == 2, np.maximum(np.searchsorted(places_m, high) - first, 0), 0)
+    sources, number = _repeated(counts + 1)
+    points = np.array(line.start) + places_m[:, None] * np.array(line.direction)
+    chosen = np.where(starts < ends, first, first + counts - 1)[sources]
+    step = np.where(starts < ends, 1, -1)[sources]
+    last = len(places_m) - 1
+    before = points[np.clip(chosen + step * (number - 1), 0, last)]
+    after = points[np.clip(chosen + step * number, 0, last)]
+    is_first, is_last = (number == 0)[:, None], (number == counts[sources])[:, None]
+    parts = [p[sources], np.where(is_first, a[sources], before), np.where(is_last, b[sources], after)]
+    return np.stack(parts, axis=1), sources
+
+
+def _repeated(counts: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return each index as often as is asked for, in order, and for each the number of its repetition."""
+    sources = np.repeat(np.arange(len(counts)), counts)
+    return sources, np.arange(len(sources)) - np.repeat(np.cumsum(counts) - counts, counts)
+
+
+def _between(triangles: FloatArray, distances: FloatArray, lows: FloatArray, highs: FloatArray) -> Parts:
+    """Return the parts of triangles between two parallels of a line each, to the tolerance.
+
+    Args:
+        triangles: shape (n, 3, 2), m.
+        distances: those of their corners to the left of the line, shape (n, 3), m.
+        lows: the nearer parallels' distances, shape (n, 1), m.
+        highs: the farther ones', alike.
+    """
+    ends, others = triangles, np.roll(triangles, -1, axis=1)
+    starts_m, ends_m = distances, np.roll(distances, -1, axis=1)
+    crossings = [_crossing(ends, others, starts_m - cut, ends_m - cut) for cut in (lows, highs)]
+    is_down = (ends_m < starts_m)[..., None]
+    (low, cuts_low), (high, cuts_high) = crossings
+    points = np.stack([ends, np.where(is_down, high, low), np.where(is_down, low, high)], axis=2)
+    is_inside = (distances - lows >= -LENGTH_M) & (distances - highs <= LENGTH_M)
+    down = is_down[..., 0]
+    is_there = np.stack(
+        [is_inside, np.where(down, cuts_high, cuts_low), np.where(down, cuts_low, cuts_high)], axis=2
+    ).reshape(-1, 9)
+    order = np.argsort(~is_there, axis=1, kind="stable")[:, :5]
+    corners = np.take_along_axis(points.reshape(-1, 9, 2), order[..., None], axis=1)
+    sources, number = _repeated(np.maximum(is_there.sum(axis=1) - 2, 0))
+    return np.stack([corners[sources, 0], corners[sources, number + 1], corners[sources, number + 2]], axis=1), sources
 
 
 def _crossing(
-    start: FloatArray, end: FloatArray, from_m: FloatArray, to_m: FloatArray, chosen: NDArray[np.int64]
-) -> FloatArray:
-    """Return where sides cross the line, computed from left to right so that the sides' orientation does not matter."""
-    start, end, from_m, to_m = start[chosen], end[chosen], from_m[chosen], to_m[chosen]
-    is_left = (from_m > to_m)[:, None]
-    left, right = np.where(is_left, start, end), np.where(is_left, end, start)
+    start: FloatArray, end: FloatArray, from_m: FloatArray, to_m: FloatArray
+) -> tuple[FloatArray, NDArray[np.bool_]]:
+    """Return where sides cross a line, shape (n, 3, 2), and whether they do.
+
+    Each is computed from left to right, so that the sides' orientation does not matter.
+    """
     above, below = np.maximum(from_m, to_m), np.minimum(from_m, to_m)
-    return np.asarray(left + (right - left) * (above / (above - below))[:, None])
+    is_cut = (above > LENGTH_M) & (below < -LENGTH_M)
+    is_left = (from_m > to_m)[..., None]
+    left, right = np.where(is_left, start, end), np.where(is_left, end, start)
+    shares = above / np.where(is_cut, above - below, 1.0)
+    return left + (right - left) * shares[..., None], is_cut

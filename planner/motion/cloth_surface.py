@@ -1,9 +1,9 @@
 """The cloth in space at one moment: every layer cut where it bends, and each flat piece triangulated.
 
-Cloth bends along the baseline of a fold in progress and along the table's edges. So each layer is cut by the baseline:
-cloth not lifted yet or already laid down lies flat, cloth in between stands. Flat parts are cut by the table's edges,
-beyond which they hang. Layers are drawn as high above each other as they lie in a stack (`Garment.layer_m`). Standing
-cloth keeps its lengths, so it ends between the fingertips, below the tool frame.
+Cloth bends near the baseline of a fold in progress and along the table's edges. So each layer is cut where it leaves
+the table: cloth not lifted yet or already laid down lies flat, the rest stands (`LiftedCloth`). Flat parts are cut by
+the table's edges, beyond which they hang. Layers are drawn as high above each other as they lie in a stack
+(`Garment.layer_m`). Standing cloth keeps its lengths, so it ends between the fingertips, below the tool frame.
 """
 
 from collections.abc import Sequence
@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planner.cloth.layer import Layer
+from planner.cloth.must_hold import must_hold
 from planner.folds.fold_path import FoldPath
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.drape import bends, draped
@@ -22,6 +23,7 @@ from planner.geometry.pose import BoolArray, FloatArray, Pose2
 from planner.geometry.segment import Segment
 from planner.geometry.table_top import TableTop
 from planner.geometry.triangles import creased, parted
+from planner.motion.lifted_cloth import LiftedCloth
 from planner.motion.sample import ClothSurface
 from planner.task.phase import ClothMotion
 
@@ -136,12 +138,15 @@ class _Mesh:
             rolled[self.top.beyond(flat) > 0.0] = np.nan
         self._add(pieces, draped(self.top, unrolled, gaps, self.droop), rolled)
 
-    def erect(self, pieces: _Pieces, path: FoldPath, sweep: float) -> None:
+    def erect(self, pieces: _Pieces, path: FoldPath, sweep: float, shape: LiftedCloth) -> None:
         """Add cloth that a fold has lifted."""
-        swept = path.swept(self.placement.to_outer(pieces.triangles).reshape(-1, 2), sweep)
-        lean = self._gaps(pieces)[..., None] * np.array([*path.line.left, 0.0])
-        standing = draped(self.top, swept).reshape(-1, 3, 3) - lean
-        self._add(pieces, standing, np.full(standing.shape, np.nan))
+        points = self.placement.to_outer(pieces.triangles).reshape(-1, 2)
+        places, distances = path.line.positions(points), path.line.left_distances(points)
+        moved = shape.offsets(places, distances, np.repeat(self._gaps(pieces), 3))
+        standing = draped(self.top, path.swept(points, sweep))
+        standing[:, :2] += moved[:, :1] * np.array(path.line.left)
+        standing[:, 2] += moved[:, 1]
+        self._add(pieces, standing.reshape(-1, 3, 3), np.full((len(pieces.triangles), 3, 3), np.nan))
 
     def _gaps(self, pieces: _Pieces) -> FloatArray:
         """Return the height above the table at which each piece is drawn (m), shape (n, 1)."""
@@ -166,6 +171,7 @@ class ClothSurfaces:
     def __init__(self, sequence: FoldSequence) -> None:
         self._sequence = sequence
         self._last: tuple[ClothMoment, ClothSurface] | None = None
+        self._holds: dict[int, FloatArray] = {}
 
     def at(self, moment: ClothMoment) -> ClothSurface:
         """Return the cloth at a moment; while no part of it moves, the result is the same object."""
@@ -192,17 +198,23 @@ class ClothSurfaces:
         is_falling = sweep > 1.0
         moving = _Pieces.of(folded.layers, numbers[::-1] if is_falling else numbers)
         depth = float(line.left_distances(folded.moving.coordinates).max())
-        standing, lying = moving.parted(_baseline(line, depth * abs(1.0 - sweep)))
+        path = FoldPath(placed(line, mesh.placement), depth, mesh.top, mesh.top)
+        held = self._held(done, fold)
+        stands = path.swept(mesh.placement.to_outer(folded.moving.coordinates), sweep)
+        room_m = mesh.top.room_m(stands[stands[:, 2] > 0.0])
+        lifted = LiftedCloth.of(line, depth, sweep, held, room_m)
+        standing, lying = moving.parted(line.beside(lifted.leaves_at_m))
         mesh.lay(_Pieces.of(folded.cloth.layers[:staying], range(staying)))
         mesh.lay(lying.turned(line) if is_falling else lying)
-        mesh.erect(standing, FoldPath(placed(line, mesh.placement), depth, mesh.top, mesh.top), sweep)
+        standing = standing.parts(*lifted.cut(standing.triangles, line))
+        mesh.erect(standing, path, sweep, lifted)
 
-
-def _baseline(line: Segment, distance: float) -> Segment:
-    """Return the line beyond which cloth no longer lies: parallel to the fold line, to its left (m)."""
-    nx, ny = line.left
-    (ax, ay), (bx, by) = line.start, line.end
-    return Segment((ax + distance * nx, ay + distance * ny), (bx + distance * nx, by + distance * ny))
+    def _held(self, done: int, fold: int) -> FloatArray:
+        """Return the points that are held during a fold, shape (n, 2), article frame (m)."""
+        if fold not in self._holds:
+            line = self._sequence.folds[fold].line
+            self._holds[fold] = must_hold(self._sequence.folded(done, fold).moving, line.left, (line,), 0.0)
+        return self._holds[fold]
 
 
 def placed(line: Segment, placement: Pose2) -> Segment:

@@ -51,10 +51,17 @@ class Hints:
     Attributes:
         known: a plan for the task; it is the answer unless a quicker one is found.
         like: plans for similar tasks, to fall back on.
+        below_s: the cost that a plan has to beat (s); where none does, that is no proof that there is none.
     """
 
     known: FoundPlan | None = None
     like: Sequence[FoundPlan] = ()
+    below_s: float = math.inf
+
+    @property
+    def are_bounding(self) -> bool:
+        """Whether not every plan is an answer."""
+        return self.below_s < math.inf
 
 
 def quickest(problem: Problem, budget: Budget, hints: Hints, *, is_patient: bool = True) -> Iterator[Event]:
@@ -87,9 +94,9 @@ class _PlanSearch:
         self._hands = EdgeHands(problem.context, problem.robot, problem.maker)
         self.exact = PathSearch(problem, budget, problem.task.limits.max_expanded, hands=self._hands)
         self._waiting = [*STRATEGIES]
-        self._shown_s = math.inf
-        if self._known is not None:
-            self._shown_s = self.exact.known_s = self._known.plan.cost_s or 0.0
+        self._is_bounded = hints.are_bounding
+        known_s = math.inf if self._known is None else self._known.plan.cost_s or 0.0
+        self._shown_s = self.exact.known_s = min(known_s, hints.below_s)
 
     def forget(self) -> None:
         """Drop what the problems' contexts have cached: a plan's steps keep them."""
@@ -99,7 +106,7 @@ class _PlanSearch:
     def events(self) -> Iterator[Event]:
         """Search, and yield what is found meanwhile, and the answer."""
         exact = self.exact
-        status: _Status = "infeasible"
+        status: _Status = "budget_exceeded" if self._is_bounded else "infeasible"
         is_cut_short = False
         if self.problem.unrest is None:
             yield from self.run(exact.run())
@@ -115,7 +122,7 @@ class _PlanSearch:
         if status == "infeasible":
             yield Blocked(self._answer(status, (), is_cut_short=is_cut_short), exact.obstacles)
         # It is made anew, since it counts what was asked meanwhile to find out why.
-        yield Done(self._answer(status, (), is_cut_short=is_cut_short))
+        yield Done(self._answer(status, (), is_cut_short=is_cut_short or self._is_bounded))
 
     def run(self, pauses: Iterable[Pause]) -> Iterator[Event]:
         """Run a search; at each pause, try the strategies that are due."""

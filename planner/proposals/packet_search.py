@@ -107,6 +107,10 @@ class PacketSearch:
         """Have all packets that begin with some folds wait, because the robot cannot do these."""
         self._blamed.append(folds)
 
+    def is_blamed(self, packet: Packet) -> bool:
+        """Return whether a packet begins with folds that the robot cannot do."""
+        return any(packet.folds[: len(blamed)] == blamed for blamed in self._blamed)
+
     def paced(self) -> Iterator[Packet | None]:
         """Yield the same packets, and None where the next one takes long."""
         return self.packets() if self._is_for_smallest else self._found()
@@ -119,10 +123,10 @@ class PacketSearch:
         is_any, since = False, 0
         while self._queue:
             if self._blamed or (self.enumerated >= _SOON and not is_any):
-                yield from self.sketched
+                yield from (packet for packet in self.sketched if not self.is_blamed(packet))
             waiting = heappop(self._queue)
             packet, step = waiting.packet, waiting.step
-            if self._is_blamed(waiting):
+            if not waiting.is_blamed and self.is_blamed(packet):
                 self._wait(waiting.rank + DOUBT_EFFORT, packet, step, is_blamed=True)
             elif step == "yield":
                 is_any, since = True, 0
@@ -138,10 +142,6 @@ class PacketSearch:
                 after = packet.after(step, self._radius_m)
                 if after is not None and len(after.cloth.layers) <= _LAYERS_MAX:
                     self._wait(waiting.rank, after, "look")
-
-    def _is_blamed(self, waiting: "_Waiting") -> bool:
-        folds = waiting.packet.folds
-        return not waiting.is_blamed and any(folds[: len(blamed)] == blamed for blamed in self._blamed)
 
     def _ask(self, waiting: "_Waiting") -> None:
         """Ask the robot about a packet, and look at it, or later if it means an effort."""

@@ -18,7 +18,7 @@ from collections import Counter
 from collections.abc import Callable, Generator, Iterable, Iterator, Sequence, Set
 from contextlib import closing
 from dataclasses import dataclass, replace
-from heapq import heappop, heappush
+from heapq import heapify, heappop, heappush
 from itertools import chain, islice
 from typing import Any, NamedTuple, TypedDict, Unpack
 
@@ -29,6 +29,7 @@ from planner.geometry.region import Region
 from planner.geometry.tolerance import DECIMALS, TIME_S
 from planner.planning.events import Blocked
 from planner.planning.heuristic import arm_time
+from planner.planning.plan_search import Hints
 from planner.planning.problem import Problem
 from planner.planning.robot_task import task_for
 from planner.plans import plan as plan_events
@@ -314,6 +315,8 @@ def _planned(
             failed.setdefault(packet.way, proposal)
             if isinstance(search, PacketSearch) and (blamed := _blamed(task, packet, fine, should_stop)):
                 search.blame(blamed)
+                aside[:] = (one for one in aside if not search.is_blamed(one.packet))
+                heapify(aside)
             continue
         cost_s = proposal.cost_s or 0.0
         if packet.is_sketch:
@@ -382,7 +385,7 @@ def _again(aside: "list[_Aside]", solved: Set[Way]) -> Iterator[tuple[Packet, bo
 def _proposal(
     task: Task, packet: Packet, folds: tuple[DrawnFold, ...], should_stop: Callable[[], bool], *, is_first: bool = False
 ) -> Proposal:
-    plan = _plan(task, folds, should_stop, is_first=is_first)
+    plan = _plan(task, folds, should_stop, _BRIEF_SHARE if is_first else math.inf)  # the first is not waited for
     return Proposal(plan.garment, packet.size_m, packet.layers, packet.face, plan)
 
 
@@ -414,9 +417,9 @@ def _or_mirrored(task: Task, packet: Packet, found: Proposal, should_stop: Calla
         mirrored = Problem.of(replace(task, garment=replace(garment, folds=folds)))
         if should_stop() or arm_time(mirrored.context)(mirrored.start) > (found.cost_s or 0.0) - spared_s:
             break
-        other = _proposal(_with_work(task, _BRIEF_SHARE), packet, folds, should_stop)
-        if other.cost_s is not None and other.cost_s < (found.cost_s or 0.0) - TIME_S:
-            found = other
+        plan = _plan(_with_work(task, _BRIEF_SHARE), folds, should_stop, below_s=found.cost_s or 0.0)
+        if plan.is_solved:
+            found = replace(found, garment=plan.garment, plan=plan)
     return found
 
 
@@ -430,7 +433,7 @@ def _blamed(
     brief = _with_work(task, _BRIEF_SHARE)
     for done in range(len(task.garment.folds) + 1, len(packet.folds)):
         folds = packet.folds[:done]
-        if folds not in fine and not _plan(brief, folds, should_stop).is_solved:
+        if folds not in fine and not _plan(brief, folds, should_stop, 0.0).is_solved:
             return folds
         fine.add(folds)
     return ()
@@ -441,14 +444,25 @@ def _with_work(task: Task, share: float) -> Task:
     return replace(task, limits=replace(task.limits, work_limit_s=share * (task.limits.work_limit_s or 0.0)))
 
 
-def _plan(task: Task, folds: tuple[DrawnFold, ...], should_stop: Callable[[], bool], *, is_first: bool = False) -> Plan:
+def _plan(
+    task: Task,
+    folds: tuple[DrawnFold, ...],
+    should_stop: Callable[[], bool],
+    improving_share: float = math.inf,
+    below_s: float = math.inf,
+) -> Plan:
     """Return the plan for some folds; where there is none, with the reasons that were met and not tried.
 
-    The first plan of all is not waited for while it is improved.
+    Args:
+        task: the task.
+        folds: the folds.
+        should_stop: whether to stop.
+        improving_share: the share of the task's work for which a plan is improved once there is one.
+        below_s: the cost that it has to beat (s).
     """
-    improving_s = _BRIEF_SHARE * (task.limits.work_limit_s or 0.0) if is_first else math.inf
+    improving_s = improving_share * (task.limits.work_limit_s or 0.0)
     folded = replace(task, garment=replace(task.garment, folds=folds))
-    events = plan_events(folded, should_stop=should_stop, improving_s=improving_s)
+    events = plan_events(folded, Hints(below_s=below_s), should_stop=should_stop, improving_s=improving_s)
     with closing(events):
         for event in events:
             if isinstance(event, Blocked):

@@ -1,10 +1,13 @@
 """A search remembers answers for all documents, not what they were found with, and keeps cloth for the next drawing."""
 
 import gc
+from dataclasses import replace
 from typing import Any
 
 import pytest
 
+from app.files.slowed import slowed
+from app.live_planning import Found
 from app.live_search import LiveSearch
 from app.store.packed_plan import Answers, PackedPlan
 from app.worker.stop import Stop
@@ -75,3 +78,27 @@ def test_the_answer_asked_for_least_recently_is_forgotten(monkeypatch: pytest.Mo
     assert answers.get(first) is not None
     answers.add(third, packed)
     assert [answers.get(task) is None for task in (first, second, third)] == [False, True, False]
+
+
+class Finding(InThread):
+    """A worker that finds one plan, at once."""
+
+    def __init__(self, plan: Plan) -> None:
+        super().__init__()
+        self._plan = plan
+
+    def run_for(self, key: str, work: Any, stop: Any, on_news: Any, *_: Any, **_named: Any) -> Any:
+        on_news(Found(self._plan, "name", is_final=True))
+
+
+def test_a_document_that_takes_a_proposal_shows_its_plan_until_there_is_a_quicker_one() -> None:
+    task, quick = Task.of(strip(-0.3, 0.3, 0.1), work_limit_s=3.0), small_plan()
+    slow = replace(slowed(quick, 0.5), statistics=replace(quick.statistics, expanded=77))
+    for proposed, found in ((quick, slow), (slow, quick)):
+        answers = Answers()
+        answers.propose(Task.of(strip(-0.3, 0.3, 0.1)), PackedPlan.of(proposed))
+        first, last = answer_to(LiveSearch(Finding(found), answers), task)
+        assert first == proposed
+        assert (last.cost_s, last.statistics) == (quick.cost_s, found.statistics)
+        (other,) = answer_to(LiveSearch(Finding(found), answers), Task.of(strip(-0.3, 0.3, 0.11)))
+        assert other is found

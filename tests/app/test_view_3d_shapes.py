@@ -92,8 +92,10 @@ def test_a_square_of_cloth_is_as_thick_as_it_says_and_its_hem_bulges() -> None:
     square = ClothSurface(corners, np.arange(6).reshape(-1, 3), np.zeros(2, dtype=np.int64), corners, corners[:, :2])
     thick = ThickCloth(square, 0.25)
     front, back = thick.faces
-    np.testing.assert_allclose(front, corners + np.array([0.0, 0.0, 0.1]))
-    np.testing.assert_allclose(back, corners - np.array([0.0, 0.0, 0.1]))
+    assert len(front) == len(back) == len(thick.pattern) == 4
+    np.testing.assert_allclose(front[thick.triangles.ravel()], corners + np.array([0.0, 0.0, 0.1]))
+    np.testing.assert_allclose(back[thick.triangles.ravel()], corners - np.array([0.0, 0.0, 0.1]))
+    np.testing.assert_allclose(thick.pattern[thick.triangles.ravel()], corners[:, :2])
     assert len(thick.edges) == 4  # none along the diagonal
     np.testing.assert_allclose(np.linalg.norm(thick.edges[:, 0] - thick.edges[:, 1], axis=1), 1.0)
     vertices, triangles = thick.hem

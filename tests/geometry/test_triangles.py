@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 from planner.geometry.tolerance import LENGTH_M
-from planner.geometry.triangles import creased, parted
+from planner.geometry.triangles import creased, fanned, parted, striped
 
 # An L of 0.4 x 0.4 m, counter-clockwise.
 ELL = [(0.0, 0.0), (0.4, 0.0), (0.4, 0.1), (0.1, 0.1), (0.1, 0.4), (0.0, 0.4)]
@@ -82,3 +82,27 @@ def test_creases_leave_nothing_out() -> None:
     for line in (ACROSS, Segment((0.05, 0.0), (0.05, 1.0))):
         distances = line.left_distances(cut)
         assert np.all((distances.min(axis=1) >= -LENGTH_M) | (distances.max(axis=1) <= LENGTH_M))
+
+
+def test_stripes_are_what_one_cut_after_the_other_leaves() -> None:
+    triangles = Region.polygon(ELL).triangles
+    places = np.array([-0.05, 0.0, 0.01, 0.12])
+    cut, sources = striped(triangles, ACROSS, places)
+    np.testing.assert_allclose(np.bincount(sources, areas(cut)), areas(triangles))
+    distances = ACROSS.left_distances(cut)
+    for place in places:
+        assert np.all((distances.min(axis=1) >= place - LENGTH_M) | (distances.max(axis=1) <= place + LENGTH_M))
+    assert np.all(areas(cut) > 0.0)
+
+
+def test_what_is_cut_on_one_side_of_a_line_only_meets_fans_on_the_other() -> None:
+    square = np.array([[[0.0, 0.0], [0.3, 0.0], [0.3, 0.3]], [[0.0, 0.0], [0.3, 0.3], [0.0, 0.3]]])
+    line, columns = Segment((0.0, 0.1), (1.0, 0.1)), np.array([0.05, 0.1, 0.2])
+    (above, _), (below, _) = parted(square, line)
+    cut, _ = striped(above, Segment((0.0, 0.1), (0.0, 1.0)), -columns[::-1])
+    fans, sources = fanned(below, line, columns)
+    np.testing.assert_allclose(np.bincount(sources, areas(fans)), areas(below))
+    sides = np.round(np.concatenate([cut, fans]) / LENGTH_M)
+    rim = {0.0, np.round(0.3 / LENGTH_M)}
+    for start, end in lone_sides(sides + 0.0):
+        assert any(x == u and x in rim for x, u in zip(np.frombuffer(start), np.frombuffer(end), strict=True))

@@ -96,3 +96,13 @@ def test_who_has_enough_closes_the_stream_and_nothing_more_is_searched(monkeypat
     queries = first.context.reach.memory.queries
     stream.close()
     assert list(stream) == [] and first.context.reach.memory.queries == queries
+
+
+@pytest.mark.parametrize("spare_s", [-0.5, 0.5])
+def test_where_no_plan_beats_a_cost_none_is_told_and_nothing_is_proven(spare_s: float) -> None:
+    quickest = shipped_plan("vest")
+    answer, found = told(Task.of(load_garment("vest")), Hints(below_s=required(quickest.cost_s) + spare_s))
+    if spare_s > 0.0:
+        assert answer.cost_s == quickest.cost_s
+    else:
+        assert (answer.status, answer.is_proven, found) == ("budget_exceeded", False, [])

@@ -1,20 +1,23 @@
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from heapq import heappush
 from typing import Any
 
 import pytest
 
+from app.files.slowed import slowed
 from planner import Plan, Scene, Task, load_garment, make_plan, propose_folds
 from planner.cloth.garment import DrawnFold
 from planner.errors import FoldError, RequestError
 from planner.geometry.pose import Pose2
 from planner.geometry.region import Region
 from planner.planning.plan_check import require_replay
+from planner.proposals import proposals
 from planner.proposals.packet import Packet
-from planner.proposals.proposals import Proposal, Proposals, _Aside, _or_mirrored, _turns, all_proposals
+from planner.proposals.proposals import Proposal, Proposals, _Aside, _or_mirrored, _planned, _turns, all_proposals
 from planner.task.reason import Code
 from tests.required import required
+from tests.small_plan import small_plan
 
 TOWEL = replace(load_garment("hand-towel"), folds=())
 
@@ -122,6 +125,40 @@ def test_what_is_put_aside_comes_again_where_the_next_one_takes_long() -> None:
     heappush(aside, _Aside(1.0, one.taste, one))
     assert next(turns) == (one, False)
     assert not aside
+
+
+class Given:
+    """A search that has found packets."""
+
+    enumerated, nearest_m = 2, 0.0
+
+    def __init__(self, *packets: Packet) -> None:
+        self._packets = packets
+
+    def packets(self) -> Iterator[Packet]:
+        yield from self._packets
+
+
+@pytest.mark.parametrize("spared_s", [2.0, 4.0])
+def test_a_variant_of_a_sketched_way_is_proposed_only_if_it_spares_an_arm_motion(
+    spared_s: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    task, plan = Task.of(TOWEL), small_plan()
+    whole_s = required(plan.cost_s)
+    costs = {"sketch": whole_s + spared_s, "variant": whole_s}
+    folds = {name: (replace(load_garment("hand-towel").folds[0], name=name),) for name in costs}
+
+    def planned(_task: Task, packet: Packet, drawn: tuple[DrawnFold, ...], *_: Any, **_named: Any) -> Proposal:
+        quick = slowed(plan, whole_s / costs[drawn[0].name])
+        return Proposal(replace(TOWEL, folds=drawn), (costs[drawn[0].name], 0.3), 1, "front", quick)
+
+    monkeypatch.setattr(proposals, "_proposal", planned)
+    monkeypatch.setattr(proposals, "_or_mirrored", lambda _task, _packet, found, _stop: found)
+    way = replace(Packet.of(TOWEL), moves=(("half", 0),))
+    search = Given(*(replace(way, folds=folds[name], is_sketch=name == "sketch") for name in costs))
+    found = [*_planned(task, search, 3, lambda: False)]  # type: ignore[arg-type]
+    names = [one.garment.folds[0].name for one in found]
+    assert names == (["sketch", "variant"] if spared_s > task.scene.arm_motion_s else ["sketch"])
 
 
 def test_nothing_more_is_proposed_once_it_is_stopped() -> None:
