@@ -2,10 +2,9 @@
 
 Slack that a fold leaves stays in the part that was folded over, since cloth rubs on cloth: its edge ends short. Hands
 come from above, one finger to either side of the ridge that they pinch, and take the layers that the fold has laid down
-there and none below: those stay.
+there and none below: those stay. How far they go is limited by the reach of their arms alone.
 """
 
-import math
 from collections.abc import Mapping
 from dataclasses import replace
 
@@ -15,16 +14,14 @@ from app.rehearsal.corrections import carried_along
 from app.rehearsal.laid_edge import LaidEdge
 from app.rehearsal.step_seen import StepSeen
 from app.rehearsal.world import LAY, GripMotion, StepMotion, way_done
-from planner.geometry.pose import Point3
+from planner.geometry.reach_query import ReachQuery
+from planner.robots.load_robot import load_robot
 
 SHORT_M = 0.012
 """An edge further short of its place is laid down again (m)."""
 
 _INSIDE_M = 0.01
 """How far inside of an edge fingers pinch it (m)."""
-
-_POINTS = 121
-"""Points of its way from which is measured how far a hand leaves it."""
 
 _SPEED_M_S, _LEAST_S = 0.05, 0.5
 """How fast hands pull an edge (m/s), and for how long at least (s)."""
@@ -33,8 +30,7 @@ _SPEED_M_S, _LEAST_S = 0.05, 0.5
 def laid_again(seen: StepSeen, edges: Mapping[str, LaidEdge], short_m: Mapping[str, float]) -> StepMotion | None:
     """Return the motion that pulls the edges that a step's fold has laid down to their places.
 
-    None if no edge is so far short, if it is not known of each hand how far, or if one would have to leave the way that
-    it came by more than the comfort radius.
+    None if no edge is so far short, if it is not known of each hand how far, or if one is out of an arm's reach.
 
     Args:
         seen: the step, and where the stack lies after it.
@@ -54,15 +50,19 @@ def laid_again(seen: StepSeen, edges: Mapping[str, LaidEdge], short_m: Mapping[s
         return GripMotion(edge.arm, times_s, (), layers=edge.layers).along(points)
 
     grips = tuple(map(pulled, edges.values()))
-    if max(_apart_m(ways[grip.arm], at) for grip in grips for at in grip.points) > seen.radius_m:
+    if not all(_is_in_reach(seen, grip) for grip in grips):
         return None
     return replace(seen.motion, kind=LAY, duration_s=times_s[1], grips=grips, needs_all=True)
 
 
-def _apart_m(way: GripMotion, point: Point3) -> float:
-    """Return how far a point is from the way of a hand (m)."""
-    times_s = np.linspace(way.times_s[0], way.times_s[-1], _POINTS)
-    return min(math.dist(way.at(time_s), point) for time_s in times_s.tolist())
+def _is_in_reach(seen: StepSeen, grip: GripMotion) -> bool:
+    """Return whether an arm reaches all of a hand's motion from where the base stands, in one direction of the hand."""
+    scene, points = seen.plan.scene, np.array(grip.points)
+    reach = load_robot(seen.plan.task.robot).reach(scene.torso_m, 0.0, is_passing=True)
+    above_floor = points[:, 2] + scene.table.height_m
+    asked = np.column_stack([seen.step.after.base.pose.to_inner(points[:, :2]), above_floor])
+    query = ReachQuery(reach.arm_names.index(grip.arm), asked, np.arange(len(reach.approaches)))
+    return bool(reach.from_anywhere(query).all(axis=1).any())
 
 
 def opened(seen: StepSeen, edges: Mapping[str, LaidEdge], short_m: Mapping[str, float]) -> StepMotion:

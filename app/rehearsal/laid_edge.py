@@ -1,4 +1,8 @@
-"""The edge that a fold has laid down beside each hand: where the plan has it, and how far short of that it is seen."""
+"""The edge that a fold has laid down beside each hand: where it should be, and how far short of that it is seen.
+
+The edge of one layer that the fold lays on that of what it lies on should be there, wherever the stack lies. It is seen
+more exactly than the stack, which is fitted to the edges of all layers. Of more layers the edges seen are their own.
+"""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -7,6 +11,8 @@ import numpy as np
 
 from app.rehearsal.judge import GAP_M
 from app.rehearsal.step_seen import StepSeen
+from app.rehearsal.vision.seen_stack import SeenStack
+from planner.cloth.cloth_state import ClothState
 from planner.cloth.layer import Layer
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray, Point2
@@ -22,6 +28,9 @@ _STEP_M = 0.002
 _IN_HAND_M = 0.011
 """A layer nearer to a hand than that is in it (m)."""
 
+_ON_EDGE_M = 0.002
+"""Edges nearer to each other than that should lie on one another (m)."""
+
 _LEAST_RAYS = 3
 
 
@@ -31,13 +40,14 @@ class LaidEdge:
 
     Attributes:
         arm: the arm's name.
-        place: where the fold lays down what the hand holds (m).
+        place: where the fold should have laid down what the hand held (m).
         way: the direction in which it came there, of length 1, shape (2,).
         starts: where rays start, on the part that was folded over, shape (n, 2), m.
         ends: where they end, beyond its edge, shape (n, 2), m.
         lengths_m: how far it is along each of them to where the edge should be, shape (n,), m.
         layers: how many layers the hand held.
         height_m: the height of the stack there (m).
+        is_on_edge: whether it should lie on another edge, which is seen.
     """
 
     arm: str
@@ -48,6 +58,7 @@ class LaidEdge:
     lengths_m: FloatArray
     layers: int
     height_m: float
+    is_on_edge: bool
 
     def short_m(self, seen_m: FloatArray) -> float | None:
         """Return how far short of its place the edge is where rays come to one, shape (n,), m; None if too few do."""
@@ -55,10 +66,14 @@ class LaidEdge:
         return float(np.median(short)) if len(short) >= _LEAST_RAYS else None
 
 
-def laid_edges(seen: StepSeen) -> Iterator[LaidEdge]:
+def laid_edges(seen: StepSeen, after: SeenStack | None = None) -> Iterator[LaidEdge]:
     """Yield the edges that a step's fold lays down, as the cloth lies; of a step that folds nothing over none.
 
     The part that comes to lie on top is of one layer where rays cross it: other edges are not taken for this one.
+
+    Args:
+        seen: the step, and where the stack lies.
+        after: how the stack was seen after it; None where it was not.
     """
     step, sequence = seen.step, seen.sequence
     if step.fold is None:
@@ -77,16 +92,31 @@ def laid_edges(seen: StepSeen) -> Iterator[LaidEdge]:
         ends = np.argmin(is_part, axis=1)
         rays = np.flatnonzero(is_part[:, 0] & ~is_part.all(axis=1))
         held = np.array([one.point])
+        in_hand = sum(bool(layer.region.distances_to(held)[0] <= _IN_HAND_M) for layer in folded.layers)
+        beyond_m, is_on_edge = 0.0, in_hand == 1 and _is_on_edge(folded.cloth, place, way)
+        if after is None or after.is_edge_hidden(place[None]):
+            is_on_edge = False
+        elif is_on_edge:
+            beyond_m = float((after.beside(place[None]) + after.edge_beside(place[None]))[0] @ way)
         yield LaidEdge(
             one.arm,
-            to_table.apply_point(_point(place)),
+            to_table.apply_point(_point(place + beyond_m * way)),
             np.array(seen.to_table(_point(way))),
             to_table.apply(points[rays, 0]),
             to_table.apply(points[rays, -1]),
-            _STEP_M * (ends[rays] - 0.5),
-            sum(bool(layer.region.distances_to(held)[0] <= _IN_HAND_M) for layer in folded.layers),
+            _STEP_M * (ends[rays] - 0.5) + beyond_m,
+            in_hand,
             GAP_M * sum(bool(layer.region.distances_to(place[None])[0] <= LENGTH_M) for layer in layers),
+            is_on_edge,
         )
+
+
+def _is_on_edge(stack: ClothState, place: FloatArray, way: FloatArray) -> bool:
+    """Return whether a place on the edge of what a fold has moved, one way, is on what did not move, and that ends."""
+    below = stack.layers[: len(stack.layers) - stack.moved]
+    is_below = any(layer.region.distances_to(place[None])[0] <= _ON_EDGE_M for layer in below)
+    beyond = place + 2.0 * _ON_EDGE_M * way
+    return is_below and bool(stack.silhouette.distances_to(beyond[None])[0] > _ON_EDGE_M)
 
 
 def _on_top(layers: Sequence[Layer], points: FloatArray) -> FloatArray:

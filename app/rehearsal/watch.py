@@ -184,15 +184,16 @@ class Watch:
     def _short(self, seen: StepSeen, sight: Sight) -> tuple[dict[str, LaidEdge], dict[str, float]]:
         """Return the edges that a fold has laid down, by arm, and how far short of their places those are that it sees.
 
-        Nearer than it is known where the stack lies they count as in their places.
+        Nearer than it is known where the stack lies they count as in their places, unless they should lie on an edge.
         """
         if sight.fit is None:
             return {}, {}
         there = replace(seen, carried=carry(seen.step.after.placement, sight.fit.placement))
-        edges = {edge.arm: edge for edge in laid_edges(there)}
+        edges = {edge.arm: edge for edge in laid_edges(there, sight.stack)}
         found = {arm: self.eyes.short_m(edge) for arm, edge in edges.items()}
         told = {arm: short_m for arm, short_m in found.items() if short_m is not None}
-        return edges, told if max(told.values(), default=0.0) > sight.fit.error_m else dict.fromkeys(told, 0.0)
+        known_m = 0.0 if all(edge.is_on_edge for edge in edges.values()) else sight.fit.error_m
+        return edges, told if max(told.values(), default=0.0) > known_m else dict.fromkeys(told, 0.0)
 
     def _is_failed(self, sight: Sight) -> bool:
         """Return whether a fold of this run has left the cloth with another outline than it should have."""

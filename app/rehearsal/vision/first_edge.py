@@ -37,6 +37,8 @@ def first_edges(
         ends: where they end, shape (n, 2), m.
         height_m: how high over the table they are (m).
     """
+    if not len(starts):
+        return np.empty(0)
     length_m = float(np.hypot(*(ends - starts).T).max())
     shares = np.linspace(0.0, 1.0, max(2, round(length_m / _STEP_M)))
     points = starts[:, None] + shares[:, None] * (ends - starts)[:, None]

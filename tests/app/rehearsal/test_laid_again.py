@@ -1,12 +1,15 @@
 """An edge that a fold has left short of its place is seen there, and pulled to its place by the top layers alone."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from app.rehearsal.camera_world import CameraWorld
-from app.rehearsal.judge import Gate
+from app.rehearsal.eyes import Eyes
+from app.rehearsal.judge import Gate, carry
 from app.rehearsal.laid_again import SHORT_M, laid_again
-from app.rehearsal.laid_edge import LaidEdge, laid_edges
+from app.rehearsal.laid_edge import LaidEdge, _is_on_edge, laid_edges
 from app.rehearsal.perform import REPAIRS_MAX, Performer
 from app.rehearsal.physics.physics_world import PhysicsWorld
 from app.rehearsal.planned_cloth import planned_positions
@@ -14,6 +17,8 @@ from app.rehearsal.step_motions import step_motions
 from app.rehearsal.step_seen import StepSeen
 from app.rehearsal.vision.first_edge import first_edges
 from app.rehearsal.world import LAY, StepMotion, Truth
+from planner.cloth.garment import Garment
+from planner.folds.fold_sequence import replayed
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray
 from planner.geometry.woven_mesh import woven_mesh
@@ -72,6 +77,41 @@ def test_an_edge_is_seen_as_far_short_of_its_place_as_it_is(short_m: float) -> N
         found = first_edges(image, seen.camera, hidden, edge.starts, edge.ends, edge.height_m)
         assert edge.short_m(found) == pytest.approx(short_m, abs=0.003)
         assert edge.short_m(first_edges(image, seen.camera, ~hidden, edge.starts, edge.ends, edge.height_m)) is None
+        # No ray crosses an edge on which another part lies that the same fold has turned over.
+        rays = edge.starts[:0]
+        under = replace(edge, starts=rays, ends=rays, lengths_m=edge.lengths_m[:0])
+        assert under.short_m(first_edges(image, seen.camera, hidden, rays, rays, edge.height_m)) is None
+
+
+@pytest.mark.parametrize("off_m", [-0.01, 0.01])
+def test_an_edge_that_should_lie_on_another_is_seen_as_far_short_of_that_wherever_the_stack_is_thought_to_lie(
+    off_m: float,
+) -> None:
+    plan, seen = towel_plan(), seen_step()
+    after = plan.steps[-1].after
+    world = CameraWorld(LaidShort(0.026, 9), plan.task, home(), 3)
+    world.perform(step_motions(plan)[-1])
+    world.perform(StepMotion(0, "withdraw", 0.0, ends=home()))
+    eyes = Eyes(plan.task)
+    sight = eyes.sight(world.observe(), plan.sequence, after.folds_done, after.placement, home())
+    assert sight is not None and sight.stack is not None
+    stack = replace(sight.stack, row=sight.stack.row + np.array([off_m, 0.0, 0.0, 0.0, 0.0, 0.0]))
+    there = replace(seen, carried=carry(after.placement, stack.placement))
+    for edge in laid_edges(there, stack):
+        assert edge.is_on_edge
+        assert eyes.short_m(edge) == pytest.approx(0.026, abs=0.004)
+    assert not any(edge.is_on_edge for edge in laid_edges(there))
+
+
+@pytest.mark.parametrize(("line_m", "is_on_edge"), [(0.15, True), (0.14, False), (0.155, False)])
+def test_an_edge_lies_on_another_where_the_cloth_below_it_ends_ahead_of_it_not_beside_it(
+    line_m: float, *, is_on_edge: bool
+) -> None:
+    # A towel of 40 x 30 cm, seen at the corner that the fold lays down at a side of what is below.
+    fold = {"name": "over", "kind": "blue", "start": [0.4, line_m], "end": [0.0, line_m]}
+    towel = {"name": "towel", "outline": [[0.0, 0.0], [0.4, 0.0], [0.4, 0.3], [0.0, 0.3]], "folds": [fold]}
+    stack = replayed(Garment.from_dict(towel)).folded(0, 0).cloth
+    assert _is_on_edge(stack, np.array([0.4, 2.0 * line_m]), np.array([0.0, 1.0])) == is_on_edge
 
 
 def test_hands_pull_an_edge_to_its_place_by_as_many_layers_as_the_fold_has_laid_down() -> None:
@@ -87,10 +127,13 @@ def test_hands_pull_an_edge_to_its_place_by_as_many_layers_as_the_fold_has_laid_
 
 
 @pytest.mark.parametrize(
-    "short_m", [{"left": SHORT_M, "right": SHORT_M}, {"left": 0.02}, {"left": 0.05, "right": 0.0}, {}]
+    ("short_m", "further_m"),
+    [({"left": SHORT_M, "right": SHORT_M}, 0.0), ({"left": 0.02}, 0.0), ({}, 0.0), ({"left": 0.02, "right": 0.0}, 0.5)],
 )
-def test_an_edge_is_left_alone_that_is_near_or_out_of_reach_or_that_was_not_seen(short_m: dict[str, float]) -> None:
-    seen = seen_step()
+def test_an_edge_is_left_alone_that_is_near_or_out_of_reach_or_that_was_not_seen(
+    short_m: dict[str, float], further_m: float
+) -> None:
+    seen = replace(seen_step(), carried=Isometry.rotation(0.0, further_m, 0.0))
     assert laid_again(seen, edges_of(seen), short_m) is None
 
 
