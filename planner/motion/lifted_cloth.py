@@ -18,7 +18,7 @@ from planner.geometry.tolerance import LENGTH_M
 from planner.geometry.triangles import Parts, fanned, striped
 
 _RADIUS_M = 0.025
-"""The radius of the bend (m): about the length at which a strip of cotton, held level, has bent down."""
+"""The radius of the bend (m): about the bending length of cotton, that of a strip which bends down by its weight."""
 
 _SHARP_M = 0.001
 """The radius below which cloth is drawn with a corner (m): it has hardly been lifted, or stands above the fold line."""
