@@ -138,3 +138,18 @@ def test_a_plan_file_dropped_on_a_side_is_shown_there_and_one_that_is_none_is_re
     expect(dialog).to_be_visible()
     side.evaluate(drop, text)
     expect(cost).to_have_text(f"{len(stored['primitives'])} steps, {stored['cost_s']:.1f} s")
+
+
+def test_where_there_is_nothing_to_compare_with_a_plan_is_asked_for(
+    page: Page, new_sheet: Callable[[Garment], Sheet]
+) -> None:
+    page.goto(new_sheet("hand-towel").page_url)
+    expect_planned(page)
+    page.route("**/api/documents?limit=500", lambda route: route.fulfill(json=[]))
+    page.get_by_role("button", name="Compare", exact=True).click()
+    dialog = page.get_by_role("dialog", name="Two plans side by side")
+    expect(dialog.get_by_label("Id of a plan").first).to_be_visible()
+    expect(dialog.get_by_label("Id of a plan").nth(1)).to_be_hidden()
+    left, right = (dialog.locator(".compare-cost").nth(side) for side in (0, 1))
+    expect(right).to_contain_text(" s")
+    expect(left).to_have_text("")

@@ -32,7 +32,7 @@ export async function showCompare(store) {
 }
 
 class Comparison {
-  /** @param {Choice[]} choices the first is shown on the right, beside the second */
+  /** @param {Choice[]} choices the first is shown on the right, beside the second if there is one */
   constructor(choices) {
     this.clock = new SharedClock();
     this.choices = choices;
@@ -55,8 +55,9 @@ class Comparison {
     /** @type {{row: HTMLElement, steps: (Primitive|null)[]}[]} */
     this.rows = [];
     this.clock.addEventListener("tick", () => this.tick());
-    const [now, before = now] = choices;
-    this.sides[0].show(before);
+    const [now, before] = choices;
+    if (before) this.sides[0].show(before);
+    else this.sides[0].ask();
     this.sides[1].show(now);
   }
 

@@ -81,6 +81,12 @@ export class Side extends EventTarget {
     if (this.chosen) this.select.value = String(this.choices.indexOf(this.chosen));
   }
 
+  /** Have a plan named by its id or its file. */
+  ask() {
+    this.select.value = ANOTHER;
+    this.pick();
+  }
+
   pick() {
     const isAnother = this.select.value === ANOTHER;
     this.another.hidden = !isAnother;
