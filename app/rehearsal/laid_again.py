@@ -2,9 +2,11 @@
 
 Slack that a fold leaves stays in the part that was folded over, since cloth rubs on cloth: its edge ends short. Hands
 come from above, one finger to either side of the ridge that they pinch, and take the layers that the fold has laid down
-there and none below: those stay. How far they go is limited by the reach of their arms alone.
+there and none below: those stay. An edge that should lie on another is pulled wherever arms reach; any other no further
+from the way that it came than the comfort radius, since its place is known less well.
 """
 
+import math
 from collections.abc import Mapping
 from dataclasses import replace
 
@@ -14,6 +16,7 @@ from app.rehearsal.corrections import carried_along
 from app.rehearsal.laid_edge import LaidEdge
 from app.rehearsal.step_seen import StepSeen
 from app.rehearsal.world import LAY, GripMotion, StepMotion, way_done
+from planner.geometry.pose import Point3
 from planner.geometry.reach_query import ReachQuery
 from planner.robots.load_robot import load_robot
 
@@ -23,6 +26,9 @@ SHORT_M = 0.012
 _INSIDE_M = 0.01
 """How far inside of an edge fingers pinch it (m)."""
 
+_POINTS = 121
+"""Points of its way from which is measured how far a hand leaves it."""
+
 _SPEED_M_S, _LEAST_S = 0.05, 0.5
 """How fast hands pull an edge (m/s), and for how long at least (s)."""
 
@@ -30,7 +36,8 @@ _SPEED_M_S, _LEAST_S = 0.05, 0.5
 def laid_again(seen: StepSeen, edges: Mapping[str, LaidEdge], short_m: Mapping[str, float]) -> StepMotion | None:
     """Return the motion that pulls the edges that a step's fold has laid down to their places.
 
-    None if no edge is so far short, if it is not known of each hand how far, or if one is out of an arm's reach.
+    None if no edge is so far short, if it is not known of each hand how far, or if one is out of an arm's reach, or too
+    far from the way that it came.
 
     Args:
         seen: the step, and where the stack lies after it.
@@ -52,7 +59,16 @@ def laid_again(seen: StepSeen, edges: Mapping[str, LaidEdge], short_m: Mapping[s
     grips = tuple(map(pulled, edges.values()))
     if not all(_is_in_reach(seen, grip) for grip in grips):
         return None
+    doubtful = [grip for grip in grips if not edges[grip.arm].is_on_edge]
+    if max((_apart_m(ways[grip.arm], at) for grip in doubtful for at in grip.points), default=0.0) > seen.radius_m:
+        return None
     return replace(seen.motion, kind=LAY, duration_s=times_s[1], grips=grips, needs_all=True)
+
+
+def _apart_m(way: GripMotion, point: Point3) -> float:
+    """Return how far a point is from the way of a hand (m)."""
+    times_s = np.linspace(way.times_s[0], way.times_s[-1], _POINTS)
+    return min(math.dist(way.at(time_s), point) for time_s in times_s.tolist())
 
 
 def _is_in_reach(seen: StepSeen, grip: GripMotion) -> bool:
