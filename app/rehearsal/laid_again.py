@@ -2,8 +2,8 @@
 
 Slack that a fold leaves stays in the part that was folded over, since cloth rubs on cloth: its edge ends short. Hands
 come from above, one finger to either side of the ridge that they pinch, and take the layers that the fold has laid down
-there and none below: those stay. An edge that should lie on another is pulled wherever arms reach; any other no further
-from the way that it came than the comfort radius, since its place is known less well.
+there and none below: those stay. The edge of a single layer is pulled wherever arms reach. Of several layers each has
+an edge that may be seen, so they are pulled no further from the way that they came than the comfort radius.
 """
 
 import math
@@ -59,8 +59,8 @@ def laid_again(seen: StepSeen, edges: Mapping[str, LaidEdge], short_m: Mapping[s
     grips = tuple(map(pulled, edges.values()))
     if not all(_is_in_reach(seen, grip) for grip in grips):
         return None
-    doubtful = [grip for grip in grips if not edges[grip.arm].is_on_edge]
-    if max((_apart_m(ways[grip.arm], at) for grip in doubtful for at in grip.points), default=0.0) > seen.radius_m:
+    stacked = [grip for grip in grips if edges[grip.arm].layers > 1]
+    if max((_apart_m(ways[grip.arm], at) for grip in stacked for at in grip.points), default=0.0) > seen.radius_m:
         return None
     return replace(seen.motion, kind=LAY, duration_s=times_s[1], grips=grips, needs_all=True)
 

@@ -163,9 +163,8 @@ def test_what_a_fold_has_left_short_is_laid_down_again_until_it_is_seen_in_its_p
     assert len(done.steps) == 1  # judged when it has been laid down again
 
 
-def test_only_an_edge_that_should_lie_on_another_is_pulled_far() -> None:
+def test_several_layers_are_not_pulled_far() -> None:
     seen, short_m = seen_step(), {"left": 0.05, "right": 0.05}
     edges = edges_of(seen)
-    assert laid_again(seen, edges, short_m) is None
-    on_edges = {arm: replace(edge, is_on_edge=True) for arm, edge in edges.items()}
-    assert laid_again(seen, on_edges, short_m) is not None
+    assert laid_again(seen, {arm: replace(edge, layers=1) for arm, edge in edges.items()}, short_m) is not None
+    assert laid_again(seen, {arm: replace(edge, layers=2) for arm, edge in edges.items()}, short_m) is None
