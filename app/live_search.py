@@ -1,5 +1,6 @@
 """Has a document planned in a worker while it is being drawn, unless the answer is remembered."""
 
+import math
 import uuid
 from collections.abc import Callable
 from dataclasses import replace
@@ -93,17 +94,23 @@ class LiveSearch:
             self._shown = news
             if news.packed is not None:
                 self._answers.add(task, news.packed)
-            best = news.plan if proposed is None else _quicker(proposed, news.plan)
-            if news.is_final or best is news.plan:
-                show(best, is_final=news.is_final)
+            if proposed is None or _is_better(news, proposed):
+                show(news.plan, is_final=news.is_final)
+            elif news.is_final:
+                statistics = replace(news.plan.statistics, bound_s=None)  # it may be one for hands that hold firmly
+                kept = replace(proposed, task=news.plan.task, statistics=statistics, is_exhaustive=False)
+                show(kept, is_final=True)
 
         known = self._shown.name if self._shown is not None and self._shown.plan is shown else None
         self._workers.run_for(self._key, plan_live, stop, hear, self._key, task, known, work_limit_s)
 
 
-def _quicker(proposed: Plan, found: Plan) -> Plan:
-    """Return the quicker of the plan with which a task was proposed and one that a search has found for it."""
-    assert proposed.cost_s is not None, "a proposal comes with a plan"
-    if found.cost_s is not None and found.cost_s <= proposed.cost_s:
-        return found
-    return replace(proposed, task=found.task, statistics=found.statistics, is_exhaustive=found.is_exhaustive)
+def _is_better(news: Found, proposed: Plan) -> bool:
+    """Return whether a plan that was found takes the place of the one with which its task was proposed.
+
+    A search's answer does if it has a plan, even a dearer one: it may hold firmly where the other does not, and equal
+    tasks have equal answers.
+    """
+    if news.is_final:
+        return news.plan.is_solved
+    return (news.plan.cost_s or math.inf) < (proposed.cost_s or math.inf)

@@ -199,7 +199,7 @@ class ClothSurfaces:
         moving = _Pieces.of(folded.layers, numbers[::-1] if is_falling else numbers)
         depth = float(line.left_distances(folded.moving.coordinates).max())
         path = FoldPath(placed(line, mesh.placement), depth, mesh.top, mesh.top)
-        held = self._held(done, fold)
+        held = self._held(fold)
         stands = path.swept(mesh.placement.to_outer(folded.moving.coordinates), sweep)
         room_m = mesh.top.room_m(stands[stands[:, 2] > 0.0])
         lifted = LiftedCloth.of(line, depth, sweep, held, room_m)
@@ -209,11 +209,11 @@ class ClothSurfaces:
         standing = standing.parts(*lifted.cut(standing.triangles, line))
         mesh.erect(standing, path, sweep, lifted)
 
-    def _held(self, done: int, fold: int) -> FloatArray:
+    def _held(self, fold: int) -> FloatArray:
         """Return the points that are held during a fold, shape (n, 2), article frame (m)."""
         if fold not in self._holds:
             line = self._sequence.folds[fold].line
-            self._holds[fold] = must_hold(self._sequence.folded(done, fold).moving, line.left, (line,), 0.0)
+            self._holds[fold] = must_hold(self._sequence.moving(fold), line.left, (line,), 0.0)
         return self._holds[fold]
 
 

@@ -15,7 +15,7 @@ from bench.in_thread import InThread
 from planner import Plan, Task
 from planner.primitives.context import Context
 from tests.planning.provoked import hammer, strip
-from tests.small_plan import small_plan
+from tests.small_plan import small_plan, unsolved
 
 
 def answer_to(search: LiveSearch, task: Task) -> list[Plan]:
@@ -91,14 +91,19 @@ class Finding(InThread):
         on_news(Found(self._plan, "name", is_final=True))
 
 
-def test_a_document_that_takes_a_proposal_shows_its_plan_until_there_is_a_quicker_one() -> None:
+def test_a_document_that_takes_a_proposal_shows_its_plan_until_a_search_has_its_answer() -> None:
     task, quick = Task.of(strip(-0.3, 0.3, 0.1), work_limit_s=3.0), small_plan()
-    slow = replace(slowed(quick, 0.5), statistics=replace(quick.statistics, expanded=77))
-    for proposed, found in ((quick, slow), (slow, quick)):
+    for found, proposed in ((slowed(quick, 0.5), quick), (quick, slowed(quick, 0.5))):
         answers = Answers()
         answers.propose(Task.of(strip(-0.3, 0.3, 0.1)), PackedPlan.of(proposed))
-        first, last = answer_to(LiveSearch(Finding(found), answers), task)
-        assert first == proposed
-        assert (last.cost_s, last.statistics) == (quick.cost_s, found.statistics)
+        assert answer_to(LiveSearch(Finding(found), answers), task) == [proposed, found]
         (other,) = answer_to(LiveSearch(Finding(found), answers), Task.of(strip(-0.3, 0.3, 0.11)))
         assert other is found
+
+
+def test_where_a_search_finds_no_plan_a_document_keeps_that_of_its_proposal() -> None:
+    answers, task, none = Answers(), Task.of(strip(-0.3, 0.3, 0.1)), replace(unsolved(), status="budget_exceeded")
+    answers.propose(task, PackedPlan.of(small_plan()))
+    first, last = answer_to(LiveSearch(Finding(none), answers), task)
+    assert first == small_plan() and last.cost_s == first.cost_s
+    assert not last.is_proven
