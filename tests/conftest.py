@@ -12,6 +12,7 @@ from typing import Any
 import pytest
 from hypothesis import HealthCheck, settings
 
+from tests.app.nursery import be_had
 from tests.laws.law import LONG, TRIED
 from tests.replay.planned import PLANS
 
@@ -40,6 +41,7 @@ def pytest_configure(config: pytest.Config) -> None:
     if not hasattr(config, "workerinput"):
         plans = TemporaryDirectory(prefix="plans")
         os.environ[PLANS] = plans.name
+        be_had(plans.name)
         config.add_cleanup(plans.cleanup)
     if config.getoption("hypothesis_seed") is not None:
         for name in ("default", LONG):
