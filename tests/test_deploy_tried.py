@@ -71,6 +71,7 @@ def asked(port: int, token: str) -> None:
         assert client.post("/api/dag", json={"garment": "t-shirt"}).status_code == 200
 
 
+@pytest.mark.long
 def test_what_the_container_copies_is_a_server_that_answers_and_stops(tmp_path: Path) -> None:
     image, variables = tmp_path / "image", dict[str, str]()
     image.mkdir()

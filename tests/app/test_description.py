@@ -8,6 +8,7 @@ from pydantic import TypeAdapter
 
 from app.api import job_answers, suggestion_routes
 from planner.task.task import Limits
+from tests.app.samples import towel
 from tests.app.test_described_answers import assert_described
 from tests.app.test_suggestion_routes import events_in
 
@@ -56,7 +57,7 @@ async def test_every_example_of_a_body_is_answered(client: httpx.AsyncClient) ->
             for given in parameter["schema"].get("examples", ()):
                 path = path.replace(f"{{{parameter['name']}}}", given)
         if "{document_id}" in path:
-            document = (await client.post("/api/documents", json={"garment": "hand-towel"})).json()
+            document = (await client.post("/api/documents", json={"garment": towel()})).json()
             path = path.replace("{document_id}", document["id"])
         if path in ("/api/rehearsals", "/api/runs"):
             plan = (await client.post("/api/plans", json={"garment": "letter-towel"})).json()

@@ -156,7 +156,12 @@ def of_meshes(triangles: int, corners: bytes) -> bytes:
     ("corners", "told"),
     [
         (b"", "has no triangles"),
-        (struct.pack("<11f", 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1), "meshes before it; at most 1000000"),
+        pytest.param(
+            struct.pack("<11f", 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1),
+            "meshes before it; at most 1000000",
+            marks=pytest.mark.long,
+            id="too many",
+        ),
     ],
 )
 async def test_meshes_of_too_many_triangles_together_or_of_no_size_are_refused(

@@ -108,6 +108,7 @@ def test_where_there_is_nothing_to_take_the_pointer_turns_the_camera(page: Page,
     assert sheet.drawing == before
 
 
+@pytest.mark.long
 def test_what_is_dragged_when_the_3d_view_is_loaded_anew_is_let_go_where_it_is(page: Page, designer: Served) -> None:
     sheet = Sheet(designer.url, page.url.rpartition("/")[2])
     before = sheet.drawing

@@ -100,6 +100,7 @@ def test_from_where_a_fold_is_begun_is_known_whatever_other_folds_are_done(done:
                 assert stands.least(fold, offset, 0)[standoff] == asked, (offset, fold, standoff)
 
 
+@pytest.mark.long
 def test_forty_loose_folds_on_two_sides_take_a_state_for_each_fold_and_a_few_for_drags() -> None:
     context = work_of(tabs_on_two_sides(40))
     edges, bound = edges_of(context), DrivingBound(context, START)

@@ -81,7 +81,7 @@ def test_where_there_is_no_plan_that_is_told_before_its_reasons_are_tried() -> N
 
 def test_a_plan_slower_than_assumed_is_shown_while_a_quicker_one_is_looked_for() -> None:
     # Where an arm motion takes little time, hands come late from one fold to the next: the search goes on with a plan.
-    answer, shown = told(Task.of(load_garment("scarf"), Scene(arm_motion_s=2.0), work_limit_s=4.0))
+    answer, shown = told(Task.of(load_garment("scarf"), Scene(arm_motion_s=2.0), work_limit_s=2.0))
     assert shown and all(one.is_solved and not one.is_proven for one in shown)
     costs_s = [required(one.cost_s) for one in shown]
     assert costs_s == sorted(costs_s, reverse=True) and costs_s[-1] >= required(answer.cost_s) - 1e-9

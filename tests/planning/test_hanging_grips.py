@@ -60,6 +60,7 @@ def test_it_does_so_however_deep_the_cloth_hangs(hanging_m: float, length_m: flo
     assert [primitive.kind for primitive in plan.primitives] == ["fold"]
 
 
+@pytest.mark.long
 def test_it_does_so_as_deep_as_the_arms_reach() -> None:
     # Arms that reach so far down turn so much on their way that they take longer than an arm motion.
     plan = make_plan(towel(0.4, 0.48, 1.2), time_limit_s=60.0)

@@ -225,7 +225,7 @@ def test_what_one_arm_cannot_do_the_other_does(monkeypatch: pytest.MonkeyPatch) 
     assert {g.arm for p in plan.primitives for g in p.grips} == {"left", "right"} - {grip.arm}
 
 
-@pytest.mark.parametrize("back_off_max_m", [0.0, 0.1])
+@pytest.mark.parametrize("back_off_max_m", [0.0, pytest.param(0.1, marks=pytest.mark.long)])
 def test_where_an_arm_is_barred_everywhere_the_reason_is_a_collision(
     monkeypatch: pytest.MonkeyPatch, back_off_max_m: float
 ) -> None:
@@ -269,6 +269,7 @@ def test_what_the_arms_have_failed_at_from_one_station_they_try_from_another(mon
     assert planned(napkin(HALF), scene(IDLE_S, ROOM_TO_TURN_M)).is_solved
 
 
+@pytest.mark.long
 def test_a_fold_whose_hands_hold_on_is_to_blame_for_the_red_one_that_waits_for_it(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

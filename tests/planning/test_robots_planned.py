@@ -66,7 +66,7 @@ def test_the_tools_are_where_the_grips_are_when_they_take_the_cloth(plan: Plan) 
     for grip in step.grips:
         arm = next(one for one in read_robot(NAME).arms if one.card.name == grip.arm)
         nearest = np.inf
-        for t in np.linspace(0.0, required(plan.cost_s), 1801):
+        for t in np.linspace(0.0, required(plan.cost_s), 601):
             q = pin.neutral(model)
             for name, value in played.at(float(t)).to_dict()["joints"].items():
                 q[model.joints[model.getJointId(name)].idx_q] = value

@@ -17,6 +17,7 @@ def test_outlines_are_garments_that_are_larger_than_their_targets() -> None:
         assert not is_fitting((x1 - x0, y1 - y0), (target.width, target.length)), name
 
 
+@pytest.mark.long
 def test_proposals_are_timed_with_and_without_a_robot(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setattr("bench.fold_to_size.ROBOTS", ("pr2",))
     report = fold_to_size(["hand-towel"], 1)

@@ -143,7 +143,7 @@ def test_a_mirrored_garment_is_folded_the_same_ways() -> None:
 
 
 def test_sequences_are_counted_and_limited() -> None:
-    search = PacketSearch(replace(load_garment("t-shirt"), folds=()), Target.of("shelf"), 8)
+    search = PacketSearch(replace(load_garment("hand-towel"), folds=()), Target.of("shelf"), 8)
     next(search.packets())
     few = search.enumerated
     list(search.packets())

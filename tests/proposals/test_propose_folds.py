@@ -77,6 +77,7 @@ def test_each_is_told_as_it_is_found_after_different_ways_without_a_plan() -> No
     assert heard[0].size_m != heard[1].size_m
 
 
+@pytest.mark.long
 def test_out_of_the_robots_reach_packets_are_proposed_as_infeasible() -> None:
     scene = replace(Scene(), stations=(("front", Pose2(-3.0, 0.0, 0.0)),))
     answer = all_proposals(propose_folds(TOWEL, "shelf", count=1, scene=scene))

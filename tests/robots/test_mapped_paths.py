@@ -34,7 +34,7 @@ class Bench:
         self.card, arm = robot.card, robot.arms[0]
         self.table_m = robot.card.scene.table.height_m
         shoulder_m = float(arm.root[2])
-        heights_m = (self.table_m - 0.02 - shoulder_m, self.table_m + 0.16 - shoulder_m)
+        heights_m = (self.table_m - 0.02 - shoulder_m, self.table_m + 0.1 - shoulder_m)
         self.chain, self.root = arm.chain, arm.root
         self.arm = MappedArm(arm, reach_map(arm.chain, ALL_ROUND, heights_m, directory=cache))
         self.speeds = np.full(len(arm.chain.low), 2.0)
@@ -121,9 +121,9 @@ def random_lines(bench: Bench, count: int, length_m: float) -> list[ToolPath]:
     rng = np.random.default_rng(3)
     lines: list[ToolPath] = []
     while len(lines) < count:
-        ahead, aside, over = rng.uniform((0.1, -0.6, 0.0), (1.0, 0.6, 0.1)) * (length_m / 0.3, length_m / 0.3, 1.0)
+        ahead, aside, over = rng.uniform((0.1, -0.6, 0.0), (1.0, 0.6, 0.06)) * (length_m / 0.3, length_m / 0.3, 1.0)
         start = before(bench, ahead, aside, over)
-        bearing, rise = rng.uniform(-math.pi, math.pi), rng.uniform(0.0, 0.05)
+        bearing, rise = rng.uniform(-math.pi, math.pi), rng.uniform(0.0, 0.03)
         end = start + np.array([length_m * math.cos(bearing), length_m * math.sin(bearing), rise])
         path = line(start, end, rng.choice([30, 45, 60, 75, 90]), rng.choice([-30, 0, 30]))
         if bench.arm.can_reach(path.positions, path.rotations).all():
@@ -134,7 +134,7 @@ def random_lines(bench: Bench, count: int, length_m: float) -> list[ToolPath]:
 @pytest.mark.long
 def test_an_arm_of_six_joints_is_on_its_path_at_every_pose(ur5e: Bench) -> None:
     for pitch_deg in (30, 60, 90):
-        path = line(before(ur5e, 0.5, -0.15, 0.03), before(ur5e, 0.6, 0.15, 0.1), pitch_deg)
+        path = line(before(ur5e, 0.5, -0.15, 0.03), before(ur5e, 0.6, 0.15, 0.07), pitch_deg)
         ur5e.require_followed(path, joints_of(ur5e.found(path)))
 
 
@@ -173,7 +173,7 @@ def test_samples_of_a_pose_take_it_with_the_fingers_either_way_round(ur5e: Bench
 
 
 def test_near_to_known_joints_there_are_joints_for_a_path_nearby(ur5e: Bench) -> None:
-    path = line(before(ur5e, 0.5, -0.15, 0.03), before(ur5e, 0.6, 0.15, 0.1), 60)
+    path = line(before(ur5e, 0.5, -0.15, 0.03), before(ur5e, 0.6, 0.15, 0.07), 60)
     known = joints_of(ur5e.found(path))
     shifted = replace(path, positions=path.positions + np.array([0.004, 0.003, 0.002]))
     near = required(near_path(ur5e.arm, shifted, 0.0, everywhere, known))
@@ -184,7 +184,7 @@ def test_near_to_known_joints_there_are_joints_for_a_path_nearby(ur5e: Bench) ->
 
 
 def test_an_arm_goes_round_what_the_calmest_path_would_run_into(ur5e: Bench) -> None:
-    path = line(before(ur5e, 0.5, -0.15, 0.03), before(ur5e, 0.6, 0.15, 0.1), 60)
+    path = line(before(ur5e, 0.5, -0.15, 0.03), before(ur5e, 0.6, 0.15, 0.07), 60)
     side = np.sign(joints_of(ur5e.found(path))[:, 2])
     other = joints_of(ur5e.found(path, lambda poses, joints: np.sign(joints[:, 2]) != side[poses]))
     ur5e.require_followed(path, other)
