@@ -178,13 +178,14 @@ def proposals_table(garment: Garment, found: Proposals) -> Table:
         names = [fold.name for fold in one.garment.folds[kept:]]
         width_m, length_m = one.size_m
         reasons = () if one.plan is None else one.plan.reasons[:1]
+        status = f"{one.status}, with loose grips" if one.is_loose else one.status
         table.add_row(
             ", ".join([*([f"{kept} kept"] if kept else []), *names]),
             f"{width_m:.3f} x {length_m:.3f}",
             str(one.layers),
             one.face,
             "" if one.cost_s is None else f"{one.cost_s:.2f}",
-            ": ".join([one.status, *(sentence(why.says, one.garment.folds, why.fold) for why in reasons)]),
+            ": ".join([status, *(sentence(why.says, one.garment.folds, why.fold) for why in reasons)]),
         )
     return table
 

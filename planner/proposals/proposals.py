@@ -4,7 +4,9 @@ Packets come from a search that asks the robot about single folds, those that pe
 turn until enough of them have plans. Until there is a proposal, what takes much work is put aside, since something
 easier may follow, and the first plan that is found is not improved at length. Where a packet has no plan, its first
 folds are planned alone, to learn which of them are to blame. To ask the robot takes much of the time: where no packet
-comes soon, or the first has no plan, those that a search without a robot finds first are planned.
+comes soon, or the first has no plan, those that a search without a robot finds first are planned. Little work may give
+a plan with loose grips where much work gives a firm one, which may take longer: such proposals say that they are loose,
+and are planned once more at the end.
 
 Of variants of one way (the same moves in another order, or from another side) only the first is proposed that can be
 done, or its mirror image if that takes less time: order and side decide much for a robot and nothing for the packet.
@@ -28,6 +30,7 @@ from planner.geometry.pose import Pose2
 from planner.geometry.region import Region
 from planner.geometry.tolerance import DECIMALS, TIME_S
 from planner.planning.events import Blocked
+from planner.planning.found_plan import FoundPlan
 from planner.planning.heuristic import arm_time
 from planner.planning.plan_search import Hints
 from planner.planning.problem import Problem
@@ -92,6 +95,7 @@ class Proposal:
         layers: the most layers that lie on one another.
         face: the face of the cloth that is seen most from above: "front" or "back".
         plan: the plan, or that there is none; None before one is looked for.
+        is_loose: whether hands hold some cloth from further away than firm grips do: no other plan was found.
     """
 
     garment: Garment
@@ -99,6 +103,7 @@ class Proposal:
     layers: int
     face: str
     plan: Plan | None
+    is_loose: bool = False
 
     @property
     def status(self) -> str:
@@ -109,6 +114,11 @@ class Proposal:
     def cost_s(self) -> float | None:
         """The time that the plan takes (s); None without one."""
         return None if self.plan is None else self.plan.cost_s
+
+    def planned(self, found: FoundPlan) -> "Proposal":
+        """Return the same packet with a plan for its folds."""
+        is_loose = found.plan.is_solved and not found.context.is_firm
+        return replace(self, garment=found.plan.garment, plan=found.plan, is_loose=is_loose)
 
     def to_dict(self) -> dict[str, Any]:
         """Return the proposal as JSON, without the plan."""
@@ -121,6 +131,7 @@ class Proposal:
             "face": self.face,
             "status": self.status,
             "cost_s": self.cost_s,
+            "is_loose": self.is_loose,
         }
 
 
@@ -221,7 +232,8 @@ def propose_folds(
     Yields:
         Untried ways; then those that can be done as they are found, about in the order of what people like (where none
         is found with that work, with ten times as much); then others, up to the count, each the best of a way of which
-        none can be done. At last the first one may come again, with a quicker plan for the same folds.
+        none can be done. At last the first one may come again, with a quicker plan for the same folds, and those with
+        loose grips, with firm ones.
 
     Returns:
         What was tried.
@@ -295,7 +307,7 @@ def _planned(
     solved: set[Way] = set()
     failed: dict[Way, Proposal] = {}
     shown, fine = set[object](), set[tuple[DrawnFold, ...]]()
-    sketched_s, first = dict[Way, float](), None
+    sketched_s, found = dict[Way, float](), list[Proposal]()
     aside = list[_Aside]()
     failures = 0
     packets = search.paced() if isinstance(search, PacketSearch) else search.packets()
@@ -325,25 +337,30 @@ def _planned(
             solved.add(packet.way)
             if cost_s > sketched_s.get(packet.way, math.inf) - task.scene.arm_motion_s:
                 continue
-        first = first or (packet, proposal)
         if shown:  # the first one is not waited for any longer
             proposal = _or_mirrored(task, packet, proposal, should_stop)
         if (looks := (packet.shape, proposal.cost_s)) not in shown:
             shown.add(looks)
+            found.append(proposal)
             yield proposal
     if not should_stop():
         left = islice((one for way, one in failed.items() if way not in solved), count - len(shown))
         yield from left if shown else _tried_longer(task, left, should_stop)
-    if first is not None and not should_stop():
-        yield from _improved(task, *first, should_stop)
+    yield from _improved(task, found, should_stop)
     return Tried(search.enumerated, search.nearest_m)
 
 
-def _improved(task: Task, packet: Packet, found: Proposal, should_stop: Callable[[], bool]) -> Iterator[Proposal]:
-    """Yield a proposal once more if all work gives a quicker plan for its folds."""
-    if found.plan is not None and not found.plan.is_proven:
-        again = _proposal(task, packet, packet.folds, should_stop)
-        if again.cost_s is not None and again.cost_s < (found.cost_s or 0.0) - TIME_S:
+def _improved(task: Task, found: Sequence[Proposal], should_stop: Callable[[], bool]) -> Iterator[Proposal]:
+    """Yield the first proposal again if all work gives a quicker plan, and loose ones if much work gives a firm one."""
+    for index, one in enumerate(found):
+        is_quickest = one.plan is None or one.plan.is_proven or index > 0
+        if should_stop() or (is_quickest and not one.is_loose):
+            continue
+        share = _PATIENT_SHARE if one.is_loose else 1.0
+        again = one.planned(_plan(_with_work(task, share), one.garment.folds, should_stop))
+        if again.cost_s is not None and (
+            (one.is_loose and not again.is_loose) or again.cost_s < (one.cost_s or 0.0) - TIME_S
+        ):
             yield again
 
 
@@ -385,8 +402,8 @@ def _again(aside: "list[_Aside]", solved: Set[Way]) -> Iterator[tuple[Packet, bo
 def _proposal(
     task: Task, packet: Packet, folds: tuple[DrawnFold, ...], should_stop: Callable[[], bool], *, is_first: bool = False
 ) -> Proposal:
-    plan = _plan(task, folds, should_stop, _BRIEF_SHARE if is_first else math.inf)  # the first is not waited for
-    return Proposal(plan.garment, packet.size_m, packet.layers, packet.face, plan)
+    found = _plan(task, folds, should_stop, _BRIEF_SHARE if is_first else math.inf)  # the first is not waited for
+    return Proposal(found.plan.garment, packet.size_m, packet.layers, packet.face, None).planned(found)
 
 
 def _tried_longer(task: Task, found: Iterable[Proposal], should_stop: Callable[[], bool]) -> Iterator[Proposal]:
@@ -395,8 +412,7 @@ def _tried_longer(task: Task, found: Iterable[Proposal], should_stop: Callable[[
     others = list[Proposal]()
     for one in found:
         if one.status == "budget_exceeded" and not should_stop():
-            plan = _plan(patient, one.garment.folds, should_stop)
-            one = replace(one, garment=plan.garment, plan=plan)
+            one = one.planned(_plan(patient, one.garment.folds, should_stop))
         if one.status == "solved":
             yield one
         else:
@@ -417,9 +433,9 @@ def _or_mirrored(task: Task, packet: Packet, found: Proposal, should_stop: Calla
         mirrored = Problem.of(replace(task, garment=replace(garment, folds=folds)))
         if should_stop() or arm_time(mirrored.context)(mirrored.start) > (found.cost_s or 0.0) - spared_s:
             break
-        plan = _plan(_with_work(task, _BRIEF_SHARE), folds, should_stop, below_s=found.cost_s or 0.0)
-        if plan.is_solved:
-            found = replace(found, garment=plan.garment, plan=plan)
+        image = found.planned(_plan(_with_work(task, _BRIEF_SHARE), folds, should_stop, below_s=found.cost_s or 0.0))
+        if image.status == "solved":
+            found = image
     return found
 
 
@@ -433,7 +449,7 @@ def _blamed(
     brief = _with_work(task, _BRIEF_SHARE)
     for done in range(len(task.garment.folds) + 1, len(packet.folds)):
         folds = packet.folds[:done]
-        if folds not in fine and not _plan(brief, folds, should_stop, 0.0).is_solved:
+        if folds not in fine and not _plan(brief, folds, should_stop, 0.0).plan.is_solved:
             return folds
         fine.add(folds)
     return ()
@@ -450,7 +466,7 @@ def _plan(
     should_stop: Callable[[], bool],
     improving_share: float = math.inf,
     below_s: float = math.inf,
-) -> Plan:
+) -> FoundPlan:
     """Return the plan for some folds; where there is none, with the reasons that were met and not tried.
 
     Args:
@@ -467,7 +483,7 @@ def _plan(
         for event in events:
             if isinstance(event, Blocked):
                 break
-    return event.found.plan
+    return event.found
 
 
 def _require(name: str, value: int, most: int) -> None:

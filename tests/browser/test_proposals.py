@@ -68,6 +68,7 @@ def proposal(outline: list[list[float]], size_m: tuple[float, float]) -> dict[st
         "layers": 2,
         "status": "solved",
         "cost_s": 9.0,
+        "is_loose": False,
         "plan_id": "1",
     }
 
@@ -91,6 +92,7 @@ def test_the_size_is_pulled_and_what_changes_begins_anew(page: Page, new_sheet: 
         long_m = 0.2 if wanted["to"] == "drawer" else 0.3 if like == "tie" else 0.4 if like else 0.1
         size_m = (max(x for x, _ in wanted["garment"]["outline"]), long_m)
         found = [] if wanted["to"] == {"width_m": 0.1, "length_m": 0.25} else [proposal(TOWEL["outline"], size_m)]
+        found = [{**one, "is_loose": like == "tie"} for one in found]
         lines = [f"event: found\ndata: {json.dumps(one)}\n\n" for one in found]
         end = {"status": "done", "progress": 1.0, "message": "", "result": {"proposals": found}}
         body = "".join([*lines, f"event: end\ndata: {json.dumps(end)}\n\n"])
@@ -119,10 +121,12 @@ def test_the_size_is_pulled_and_what_changes_begins_anew(page: Page, new_sheet: 
     like = panel.get_by_role("combobox", name="Fold it like another garment")
     like.select_option(label="Bath mat")
     expect(cards).to_contain_text(size(60, 40))
+    expect(cards).not_to_contain_text("loose grips")
     assert asked[-1]["to"] == {"like": mat.state["garment"]}
     like.select_option(label="Tie")
     expect(like).to_have_class(re.compile("is-chosen"))
     expect(cards).to_contain_text(size(60, 30))
+    expect(cards).to_contain_text("loose grips")
     assert asked[-1]["to"] == {"like": "tie"}
     panel.get_by_role("button", name="Drawer").click()
     expect(like).to_have_value("")

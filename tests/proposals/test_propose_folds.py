@@ -1,6 +1,7 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from heapq import heappush
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -14,7 +15,16 @@ from planner.geometry.region import Region
 from planner.planning.plan_check import require_replay
 from planner.proposals import proposals
 from planner.proposals.packet import Packet
-from planner.proposals.proposals import Proposal, Proposals, _Aside, _or_mirrored, _planned, _turns, all_proposals
+from planner.proposals.proposals import (
+    Proposal,
+    Proposals,
+    _Aside,
+    _improved,
+    _or_mirrored,
+    _planned,
+    _turns,
+    all_proposals,
+)
 from planner.task.reason import Code
 from tests.required import required
 from tests.small_plan import small_plan
@@ -32,6 +42,7 @@ def test_what_is_proposed_for_a_towel_can_be_done_the_quickest_first(found: Prop
     costs = [one.cost_s for one in found.proposals if one.cost_s is not None]
     assert costs == sorted(costs)
     assert found.is_any_solved
+    assert not any(one.is_loose for one in found.proposals)
     assert found.tried.enumerated > 3
 
 
@@ -64,7 +75,7 @@ def test_its_json_has_the_folds_as_a_garment_file_has_them(found: Proposals) -> 
     data = found.to_dict()
     assert set(data) == {"proposals", "enumerated"}
     for one, answer in zip(found.proposals, data["proposals"], strict=True):
-        assert set(answer) == {"folds", "garment", "size_m", "layers", "face", "status", "cost_s"}
+        assert set(answer) == {"folds", "garment", "size_m", "layers", "face", "status", "cost_s", "is_loose"}
         assert answer["folds"] == answer["garment"]["folds"] == one.garment.to_dict()["folds"]
         assert answer["cost_s"] == required(one.plan).cost_s
 
@@ -102,6 +113,19 @@ def test_the_first_comes_again_if_there_is_a_quicker_plan_for_its_folds() -> Non
     assert again < first
     assert answer.proposals == (heard[1],)
     assert heard[1].garment.folds == heard[0].garment.folds
+
+
+@pytest.mark.parametrize("is_firm", [True, False])
+def test_a_loose_proposal_comes_again_with_a_firm_plan_though_that_takes_longer(
+    is_firm: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    plan = small_plan()
+    packet = Packet.of(plan.garment)
+    loose = Proposal(plan.garment, packet.size_m, packet.layers, packet.face, plan, is_loose=True)
+    longer = SimpleNamespace(plan=slowed(plan, 0.5), context=SimpleNamespace(is_firm=is_firm))
+    monkeypatch.setattr(proposals, "_plan", lambda *_: longer)
+    again = [*_improved(plan.task, [loose], lambda: False)]
+    assert [(one.is_loose, one.plan) for one in again] == ([(False, longer.plan)] if is_firm else [])
 
 
 def test_what_is_put_aside_comes_again_the_least_bound_first_and_variants_last() -> None:

@@ -68,22 +68,24 @@ class ProposalCard {
     /** @type {object|null} the playing that goes on */
     this.playing = null;
     this.plan = new PointedPlan(store, proposal.plan_id);
-    const { folds, layers, cost_s: cost, size_m: size } = proposal;
+    const { folds, layers, cost_s: cost, size_m: size, is_loose: isLoose } = proposal;
     const shown = element("span", "card-picture");
     this.stack(folds.length).then((stack) => shown.replaceChildren(layersPicture(stack, 0)), () => {});
     const without = proposal.plan_id ? say("proposal.unplanned") : say("proposal.untried");
     const robot = cost === null ? without : say("proposal.planned", { time: seconds(cost) });
-    const counted = `${say("import.folds", { count: folds.length })}, ${say("proposal.layers", { count: layers })}`;
+    const counted = [say("import.folds", { count: folds.length }), say("proposal.layers", { count: layers })];
+    if (isLoose) counted.push(say("proposal.loose"));
     const words = element(
       "span",
       "card-words",
       element("span", "suggestion-cost", robot),
       element("span", "", inWords(size)),
-      element("span", "hint", counted),
+      element("span", "hint", counted.join(", ")),
     );
     this.root = button("card proposal-card", onChosen, shown, words);
     this.root.dataset.status = proposal.status;
     if (cost !== null) this.root.setAttribute("aria-description", say("proposal.planned_hint"));
+    if (isLoose) this.root.title = say("proposal.loose_hint");
     for (const name of ["pointerenter", "focus"]) this.root.addEventListener(name, () => this.play());
     for (const name of ["pointerleave", "blur"]) this.root.addEventListener(name, () => this.leave());
   }

@@ -16,6 +16,7 @@ import { eventStream, rest } from "../event_stream.js";
  * @property {number} layers
  * @property {string} status of its plan
  * @property {number|null} cost_s
+ * @property {boolean} is_loose whether its plan holds some cloth far from a hand
  * @property {string} [plan_id] none before it is planned
  */
 /** @typedef {object} Asked the body of the request, as JSON */
@@ -73,7 +74,7 @@ export class ProposalSearch extends EventTarget {
     }
   }
 
-  /** A way may come again, with a quicker plan. @param {Proposal} proposal */
+  /** A way may come again, with a quicker or a firmer plan. @param {Proposal} proposal */
   take(proposal) {
     const known = this.found.findIndex(({ folds }) => JSON.stringify(folds) === JSON.stringify(proposal.folds));
     this.found.splice(known < 0 ? this.found.length : known, 1, proposal);
