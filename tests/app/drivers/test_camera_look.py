@@ -60,11 +60,16 @@ def test_of_each_state_of_the_plan_the_camera_tells_the_step_that_is_next(
     assert found.off_m < 0.006 and abs(found.turned_rad) < 0.03
 
 
-def test_cloth_that_lies_elsewhere_or_is_none_of_the_states_ends_the_run(plan: Plan, card: RobotCard) -> None:
+def test_cloth_that_lies_elsewhere_ends_the_run(plan: Plan, card: RobotCard) -> None:
     start, joints = plan.task.start, card.home_values(0.0)
     moved = replace(start, placement=start.placement.moved(0.05, 0.0))
     with pytest.raises(LostError, match=r"the cloth lies \d\.\d cm beside and .* before step 0: move it, or plan anew"):
         step_seen(plan, seen(plan, card, moved), calibration(hung(overhead(plan.scene.table))), joints)
+
+
+@pytest.mark.long
+def test_cloth_that_is_none_of_the_states_ends_the_run(plan: Plan, card: RobotCard) -> None:
+    start, joints = plan.task.start, card.home_values(0.0)
     crumpled = seen(plan, card, start)
     middle = hung(overhead(plan.scene.table)).pixels(
         np.array([[*start.placement.to_outer(np.array([0.1, 0.08])), 0.0]])

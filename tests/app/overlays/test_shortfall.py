@@ -125,6 +125,7 @@ async def test_where_the_table_is_too_deep_the_reach_ends_before_the_cross(clien
     assert np.hypot(*(edge - told["point"][:2]).T).min() == pytest.approx(reason["short_by_m"], abs=0.005)
 
 
+@pytest.mark.long
 async def test_after_a_drag_the_reach_is_shown_as_far_back_as_the_cloth_lies_on_the_board(
     client: httpx.AsyncClient,
 ) -> None:

@@ -11,6 +11,7 @@ from app.rehearsal.judge import Gate, carry
 from app.rehearsal.laid_again import SHORT_M, laid_again
 from app.rehearsal.laid_edge import LaidEdge, _is_on_edge, laid_edges
 from app.rehearsal.perform import REPAIRS_MAX, Performer
+from app.rehearsal.physics.fabric import Resolution
 from app.rehearsal.physics.physics_world import PhysicsWorld
 from app.rehearsal.planned_cloth import planned_positions
 from app.rehearsal.step_motions import step_motions
@@ -23,8 +24,9 @@ from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray
 from planner.geometry.woven_mesh import woven_mesh
 from tests.app.rehearsal.flat_cloth import FlatCloth, home, no_plan
-from tests.app.rehearsal.towel import COARSE, FABRIC, towel_plan
+from tests.app.rehearsal.towel import FABRIC, towel_plan
 
+FINE = Resolution(edge_m=0.022, step_s=0.008)
 DEPTH_M = 0.15
 """How far from the fold line the edge of the towel lies."""
 
@@ -139,7 +141,7 @@ def test_an_edge_is_left_alone_that_is_near_or_out_of_reach_or_that_was_not_seen
 
 def test_the_lower_layer_stays_while_the_upper_one_is_pulled() -> None:
     plan, seen = towel_plan(), seen_step()
-    world = PhysicsWorld(plan.task, FABRIC, COARSE, seed=1)
+    world = PhysicsWorld(plan.task, FABRIC, FINE, seed=1)
     pattern = world.truth().pattern
     world.simulation.put(folded_short(pattern, 0.02))
     edges = edges_of(seen)
