@@ -1,5 +1,6 @@
 """The dock on windows of all sizes, for fingers, and for readers who want no motion."""
 
+import itertools
 import re
 from collections.abc import Callable, Iterator
 
@@ -53,6 +54,19 @@ def test_nothing_lies_over_the_tools_of_the_3d_view(wide: Page, width: int) -> N
     wide.evaluate("document.getElementById('viewpoints').hidden = false")  # as if its 3D view were there
     for name in ("Who can fold this?", "Follow", "Free"):
         wide.get_by_role("button", name=name, exact=True).click(trial=True)
+
+
+def test_the_status_covers_nothing_of_the_bar(wide: Page) -> None:
+    for width in (721, 900, 1000, 1440):
+        wide.set_viewport_size({"width": width, "height": 600})
+        edges = wide.evaluate(
+            """() => ["h1", "#garment", ".bar-group", "#status", ".bar-end"].map((name) => {
+              const box = document.querySelector(name).getBoundingClientRect();
+              return [box.left, box.right];
+            })"""
+        )
+        for (_, right), (left, _) in itertools.pairwise(edges):
+            assert right <= left + 0.5, width
 
 
 def test_between_an_open_sheet_and_the_bar_of_a_low_window_there_is_one_view(wide: Page) -> None:

@@ -6,6 +6,7 @@ from typing import Any
 
 from playwright.sync_api import Locator, Page, Route, expect
 
+from tests.app.samples import towel
 from tests.browser.conftest import Garment, Sheet
 from tests.browser.napkin import napkin
 from tests.browser.status_pill import expect_planned
@@ -26,17 +27,17 @@ def ready(page: Page, sheet: Sheet) -> Locator:
 def test_a_run_is_confirmed_stopped_and_gone_on_with_to_its_end(
     page: Page, new_sheet: Callable[[Garment], Sheet]
 ) -> None:
-    said = ready(page, new_sheet(napkin(folds=napkin()["folds"][1:2])))
-    expect(said).to_contain_text("Next: step 1 of 2. Drag")
+    said = ready(page, new_sheet(towel()))
+    expect(said).to_contain_text("Next: step 1 of 1. Fold")
     go, stop, clock = said.get_by_role("button", name="Do step 1"), said.get_by_role("button", name="Stop"), "#time"
     go.click()
     expect(go).to_be_hidden()
     page.wait_for_function("document.querySelector('#time').value > 0.5", timeout=RUN_MS)
     stop.click()
-    expect(said).to_contain_text("Stopped in step 1. Next: step 1 of 2.")
+    expect(said).to_contain_text("Stopped in step 1. Next: step 1 of 1.")
     expect(page.locator(clock)).to_have_value("0")
     said.get_by_role("button", name="All from here").click()
-    expect(said).to_contain_text("Done: all 2 steps.", timeout=RUN_MS)
+    expect(said).to_contain_text("Done: all 1 steps.", timeout=RUN_MS)
     page.wait_for_function("document.querySelector('#time').valueAsNumber > document.querySelector('#time').max - 0.1")
     said.get_by_role("button", name="Close").click()
     expect(said).to_be_hidden()

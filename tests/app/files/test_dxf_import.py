@@ -2,7 +2,7 @@ import io
 
 import numpy as np
 import pytest
-from ezdxf import filemanagement
+from ezdxf import filemanagement, options
 from ezdxf.document import Drawing
 
 from app.files.import_errors import ImportedFileError, UnitsNeededError
@@ -19,6 +19,8 @@ def drawing(units: int = MM) -> Drawing:
 
 
 def saved(made: Drawing) -> bytes:
+    """Return a drawing's file, the same on every run: without its time and its identifier."""
+    options.write_fixed_meta_data_for_testing = True
     text = io.StringIO()
     made.write(text)
     return text.getvalue().encode()
