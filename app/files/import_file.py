@@ -1,20 +1,17 @@
 """Imports a file as a garment; the ending of its name decides its format."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import replace
 from pathlib import PurePath
-from typing import Any
 
 from app.distribution import missing
 from app.files.crease_reading import Creases
 from app.files.garment_json import read_json
-from app.files.graded_sizes import Graded
 from app.files.import_errors import ImportedFileError
-from app.files.pieces import Pieces
-from app.files.seam_allowance import Allowance, Line
+from app.files.seam_allowance import Line
 from app.files.sketch import Sketch
-from app.files.sketch_garment import garment_of
-from app.files.sketch_size import UNITS_M, Sizes
+from app.files.sketch_garment import Imported, garment_of
+from app.files.sketch_size import UNITS_M
 from app.files.svg_sketch import read_svg
 from app.rehearsal.vision.vision_errors import LARGEST_PICTURE, NothingToldError, PictureError, ScaleNeededError
 from app.templates.catalogue import find_template
@@ -48,33 +45,6 @@ _PICTURES = {"png": "png", "jpg": "jpeg", "jpeg": "jpeg"}
 
 ENDINGS = (_JSON, _FOLD, *_SKETCHES, *_PICTURES)
 """The endings of the names of files that can be imported, in lower case."""
-
-
-@dataclass(frozen=True, slots=True)
-class Imported:
-    """The content of an imported file.
-
-    Attributes:
-        format: "json", "fold", "svg", "dxf", "png" or "jpeg".
-        garment: the garment.
-        notes: remarks on the import, in sentences.
-        creases: the cloth on which the fold lines were read; None if it makes no difference.
-        sizes: the size that a drawing would have in other units; None for a garment file or a picture.
-        seen: how sure a garment in a picture is, as JSON; None for other files.
-        allowance: a drawing's seam allowance, and whether it was taken along; None for none.
-        graded: a drawing's graded sizes, and which was taken; None for one size.
-        pieces: a drawing's pieces, and which was taken; None for one piece.
-    """
-
-    format: str
-    garment: Garment
-    notes: tuple[Message, ...]
-    creases: Creases | None = None
-    sizes: Sizes | None = None
-    seen: dict[str, Any] | None = None
-    allowance: Allowance | None = None
-    graded: Graded | None = None
-    pieces: Pieces | None = None
 
 
 def largest(filename: str) -> int:
@@ -128,23 +98,14 @@ def import_file(
         raise ImportedFileError("filename", lacking)
     drawn = read_json(data) if ending in (_JSON, _FOLD) else None
     if isinstance(drawn, tuple):
-        return Imported(ending, *drawn)
+        return Imported(*drawn, format=ending)
     if ending in _PICTURES:
         return _picture(_PICTURES[ending], path.stem, data, measured, like)
     if drawn is None and ending not in _SKETCHES:
         endings = ", ".join(f".{known}" for known in ENDINGS)
         raise ImportedFileError("filename", f"{path.name[:80]!r} ends in none of {endings}")
-    found = garment_of(drawn or _SKETCHES[ending](data), path.stem, units, scale, creases, line, size, piece)
-    return Imported(
-        ending,
-        found.garment,
-        found.notes,
-        found.creases,
-        found.sizes,
-        allowance=found.allowance,
-        graded=found.graded,
-        pieces=found.pieces,
-    )
+    sketch = drawn or _SKETCHES[ending](data)
+    return replace(garment_of(sketch, path.stem, units, scale, creases, line, size, piece), format=ending)
 
 
 def _ending(filename: str) -> str:
@@ -169,4 +130,4 @@ def _picture(kind: str, name: str, data: bytes, measured: str | None, like: str 
         raise ImportedFileError("file", error.says) from None
     doubt = () if found.sure.unknown is None else (found.sure.unknown,)
     told = {key: value for key, value in found.to_dict().items() if key not in ("garment", "notes")}
-    return Imported(kind, found.garment, (*doubt, *found.notes), seen=told)
+    return Imported(found.garment, (*doubt, *found.notes), seen=told, format=kind)
