@@ -47,10 +47,9 @@ from app.api.questions import Asked, work_of
 from app.api.request_parsing import requested_garment
 from app.api.shared import is_shared
 from app.drawing.arcs import with_arcs
-from app.drawing.blank import blank_drawing
 from app.drawing.drawing import Drawing
 from app.drawing.edit import StaleVersionError
-from app.drawing.garment_drawing import drawing_of
+from app.drawing.garment_drawing import blank_drawing, drawing_of
 from app.open_document import OpenDocument
 from app.overlays.overlays import OVERLAYS
 from app.workspace import Workspace

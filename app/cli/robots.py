@@ -3,7 +3,7 @@
 import shutil
 from dataclasses import asdict
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 from rich.progress import Progress
@@ -52,7 +52,7 @@ def check(
         task = progress.add_task("Looking where the arms can go", total=1.0)
         reach = table_reach(found, lambda share: progress.update(task, completed=share))
     reached = {"arms": reach.arms, "any_arm": reach.any_arm, "two_arms": reach.two_arms}
-    told = {"tool_points": [asdict(point) for point in points], "warnings": warnings}
+    told: dict[str, Any] = {"tool_points": [asdict(point) for point in points], "warnings": warnings}
     told |= {"name": found.card.name, "title": found.card.title, "table_reached": reached}
     program.print_answer(told, json_to, robot_check_table(found.card, reach))
 

@@ -101,7 +101,7 @@ def away_from(points: FloatArray, ring: FloatArray) -> FloatArray:
 def simplified(ring: FloatArray, tolerance_m: float) -> FloatArray:
     """Return a ring of points, shape (n, 2), with fewer of them that deviates by at most a tolerance (m)."""
     closed = shapely.LineString(np.concatenate([ring, ring[:1]]))
-    return shapely.get_coordinates(closed.simplify(tolerance_m, preserve_topology=False))[:-1]
+    return np.asarray(shapely.get_coordinates(closed.simplify(tolerance_m, preserve_topology=False))[:-1])
 
 
 def is_within(ring: FloatArray, around: FloatArray) -> bool:
