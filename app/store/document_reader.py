@@ -10,7 +10,7 @@ from sqlalchemy.orm import Session
 
 from app.drawing.draft import Draft
 from app.drawing.drawing import Drawing
-from app.drawing.drawing_json import DrawingModel
+from app.drawing.drawing_json import drawing_from_dict
 from app.drawing.solve import solve
 from app.store.document_errors import BrokenDocumentError, NewerDocumentError, UnknownDocumentError
 from app.store.document_keeper import FORMAT, DocumentKeeper, Kept
@@ -118,7 +118,7 @@ def _readable(session: Session, document_id: str) -> DocumentRow:
 
 
 def _drawing(text: str) -> Drawing:
-    return DrawingModel.model_validate_json(text).value()
+    return drawing_from_dict(from_json(text))
 
 
 def _start(row: DocumentRow) -> WorldState | None:
