@@ -17,7 +17,7 @@ from app.document_state import DocumentState, VersionPlan
 from app.drawing.draft import Draft
 from app.drawing.drawing import Drawing
 from app.drawing.edit import Edit, OvertakenError, StaleVersionError
-from app.held_folds import Checks, HeldFold
+from app.held_folds import FoldCheck, FoldChecks
 from app.language import Language
 from app.observable import Listener, Observable
 from app.playback import Playback
@@ -170,11 +170,11 @@ class Document(Played):
 
         self._state.change(change)
 
-    def put_checks(self, drawing: Drawing, folds: tuple[HeldFold, ...]) -> None:
+    def put_checks(self, drawing: Drawing, folds: tuple[FoldCheck, ...]) -> None:
         """Store the grips that the folds of a drawing need; ignore them if the drawing has changed."""
 
         def change(state: DocumentState) -> DocumentState:
-            return replace(state, checks=Checks(state.version, folds)) if state.drawing == drawing else state
+            return replace(state, checks=FoldChecks(state.version, folds)) if state.drawing == drawing else state
 
         self._state.change(change)
 

@@ -6,21 +6,9 @@ from pydantic import BaseModel
 
 from app.api.answers import GarmentAnswer, LayerAnswer, Point, Point3, Says
 from app.drawing.drawing import Drawing, End
-from app.store.picture import Picture
 from planner.geometry.pose import Pose2
 
 Ring = list[Point]
-
-
-class DocumentEntryAnswer(BaseModel):
-    """A document in the list."""
-
-    id: str
-    title: str
-    name: str
-    changed_at: str
-    problem: str | None
-    picture: Picture | None
 
 
 class VersionAnswer(BaseModel):

@@ -17,7 +17,6 @@ from app.api.disconnect import answer_of
 from app.api.document_answers import (
     CreaseAnswer,
     DocumentAnswer,
-    DocumentEntryAnswer,
     OverlaysAnswer,
     PlacesAnswer,
     PlaybackAnswer,
@@ -52,6 +51,7 @@ from app.drawing.edit import StaleVersionError
 from app.drawing.garment_drawing import blank_drawing, drawing_of
 from app.open_document import OpenDocument
 from app.overlays.overlays import OVERLAYS
+from app.store.document_repository import DocumentEntry
 from app.workspace import Workspace
 from planner.errors import RequestError
 
@@ -91,10 +91,10 @@ class ShareAnswer(BaseModel):
     path: str
 
 
-@router.get("", response_model=list[DocumentEntryAnswer], responses=problems(422))
+@router.get("", responses=problems(422))
 async def list_documents(
     request: Request, response: Response, limit: Limit = PAGE, after: After | None = None
-) -> list[dict[str, Any]]:
+) -> tuple[DocumentEntry, ...]:
     """Return the documents, the latest changed first; those whose file cannot be read come last.
 
     If there are more than `limit`, the header `Link` leads to the next ones: `<?limit=...&after=...>; rel="next"`.
@@ -104,7 +104,7 @@ async def list_documents(
     if page.end is not None:
         query = urlencode({"limit": limit, "after": "/".join(page.end)})
         response.headers["link"] = f'<?{query}>; rel="next"'
-    return [asdict(entry) for entry in page.entries]
+    return page.entries
 
 
 @router.post(

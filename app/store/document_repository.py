@@ -18,6 +18,7 @@ from app.store.document_reader import DAMAGES, KeptDocument, KeptVersion, in_sho
 from app.store.picture import Picture
 from app.store.schema import DocumentRow, StepRow
 from app.store.storage_error import StorageError
+from planner.json_form import STRICT
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,6 +33,8 @@ class DocumentEntry:
         problem: why it cannot be opened, or None.
         picture: what it looks like; None where it cannot be read.
     """
+
+    __pydantic_config__ = STRICT
 
     id: str
     title: str = ""

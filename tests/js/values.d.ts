@@ -24,7 +24,7 @@ export type Scene = Schemas["Scene"];
 export type Table = Schemas["Table"];
 
 export type DocumentState = Schemas["DocumentAnswer"];
-export type DocumentEntry = Schemas["DocumentEntryAnswer"];
+export type DocumentEntry = Schemas["DocumentEntry"];
 export type DocumentVersion = Schemas["VersionAnswer"];
 export type DrawingProblem = Schemas["DrawingProblem"];
 export type Step = Schemas["StepAnswer"];
