@@ -107,11 +107,7 @@ async def list_documents(
     return page.entries
 
 
-@router.post(
-    "",
-    status_code=201,
-    responses={201: {"model": DocumentAnswer}, **problems(403, 404, 413, 422, 429, 507)},
-)
+@router.post("", status_code=201, responses={201: {"model": DocumentAnswer}, **problems(403, 404, 413, 422, 429, 507)})
 async def create_document(request: Request, wanted: NewDocumentBody) -> JSONResponse:
     """Create a document; its address is in `Location`."""
     opened = await run_in_threadpool(_created, workspace_of(request), wanted)
@@ -165,8 +161,7 @@ async def redo(request: Request, document_id: str, wanted: TravelRequestBody) ->
 
 
 @router.post(
-    "/{document_id}/playback",
-    responses={200: {"model": PlaybackAnswer}, **problems(403, 404, 409, 413, 422, 429)},
+    "/{document_id}/playback", responses={200: {"model": PlaybackAnswer}, **problems(403, 404, 409, 413, 422, 429)}
 )
 async def post_playback(request: Request, document_id: str, command: CommandBody) -> JSONResponse:
     """Carry out a command as on the websocket: play, pause, seek, speed, theme, choose."""
@@ -179,8 +174,7 @@ async def post_playback(request: Request, document_id: str, command: CommandBody
 
 
 @router.post(
-    "/{document_id}/crease",
-    responses={200: {"model": CreaseAnswer}, **problems(403, 404, 409, 413, 422, 429, 503)},
+    "/{document_id}/crease", responses={200: {"model": CreaseAnswer}, **problems(403, 404, 409, 413, 422, 429, 503)}
 )
 async def post_crease(request: Request, document_id: str, wanted: CreaseRequestBody) -> JSONResponse:
     """Return the fold that takes a point of the cloth to another place, or that runs along a line."""

@@ -140,11 +140,7 @@ class FileEntry(BaseModel):
     says: Says | None
 
 
-@router.post(
-    "/imports",
-    openapi_extra=_ANY_FILE,
-    responses={200: {"model": ImportAnswer}, **problems(413, 422, 503)},
-)
+@router.post("/imports", openapi_extra=_ANY_FILE, responses={200: {"model": ImportAnswer}, **problems(413, 422, 503)})
 async def post_import(
     request: Request,
     filename: FileName,

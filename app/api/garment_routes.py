@@ -40,8 +40,7 @@ async def read_garment(request: Request, name: AnyName) -> JSONResponse:
 
 
 @router.put(
-    "/{name}",
-    responses={200: {"model": Garment}, 201: {"model": Garment}, **problems(403, 409, 413, 422, 507)},
+    "/{name}", responses={200: {"model": Garment}, 201: {"model": Garment}, **problems(403, 409, 413, 422, 507)}
 )
 async def save_garment(request: Request, name: OwnName, garment: GarmentBody) -> JSONResponse:
     """Save or replace a garment of one's own: 201 if it is new, 200 if it existed."""

@@ -57,9 +57,7 @@ class FoldMesh:
         found: dict[tuple[int, int], list[int]] = {}
         faces = []
         for ring, corners in zip(rings, carried, strict=True):
-            faces.append(
-                tuple(_vertex(ring[i], corners[:, i], places, found) for i in range(len(ring))),
-            )
+            faces.append(tuple(_vertex(ring[i], corners[:, i], places, found) for i in range(len(ring))))
         steps = range(len(cloths))
         layers = tuple(tuple(way[step] for way in ways) for step in steps)
         is_turned = tuple(

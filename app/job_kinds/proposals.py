@@ -102,8 +102,8 @@ def _prepare(stores: Stores, wanted: ProposalsRequest) -> ProposalsTask:
         options["start_station"] = wanted.start_station
     garment = requested_garment(stores, wanted.garment)
     same = ("robot", "count", "untried", "max_folds", "face", "scene", "work_limit_s")
-    asked = {name: getattr(wanted, name) for name in same} | options
-    begin = partial(propose_folds, garment, _target(stores, wanted.to), **asked)
+    asked: dict[str, Any] = {name: getattr(wanted, name) for name in same}
+    begin = partial(propose_folds, garment, _target(stores, wanted.to), **asked, **options)
     begin()  # checks the rest
     return ProposalsTask(garment, wanted.count, begin)
 
