@@ -57,10 +57,7 @@ class Comparison:
 
 
 def compared(
-    garment: Garment,
-    robots: Sequence[str],
-    limits: Limits | None = None,
-    should_stop: Callable[[], bool] | None = None,
+    garment: Garment, robots: Sequence[str], limits: Limits | None = None, should_stop: Callable[[], bool] | None = None
 ) -> Iterator[Comparison]:
     """Plan a garment for each robot, at the table and the place that suit it.
 

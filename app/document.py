@@ -11,13 +11,13 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
-from typing import Protocol
+from typing import TYPE_CHECKING
 
 from app.document_state import DocumentState, VersionPlan
 from app.drawing.draft import Draft
 from app.drawing.drawing import Drawing
 from app.drawing.edit import Edit, OvertakenError, StaleVersionError
-from app.held_folds import Checks, HeldFold
+from app.held_folds import FoldCheck, FoldChecks
 from app.language import Language
 from app.observable import Listener, Observable
 from app.playback import Playback
@@ -27,26 +27,13 @@ from planner.task.plan import Plan
 from planner.task.task import Task
 from planner.task.world_state import WorldState
 
+if TYPE_CHECKING:
+    from app.store.document_reader import KeptDocument
+
 STOPPED = "planning was stopped; the next change is planned again"
 
 Keep = Callable[[int, Draft], None]
 KeepStart = Callable[[WorldState | None], None]
-
-
-class Saved(Protocol):
-    """A document as it is saved."""
-
-    @property
-    def version(self) -> int:
-        """Its version."""
-
-    @property
-    def draft(self) -> Draft:
-        """Its drawing and history."""
-
-    @property
-    def start(self) -> WorldState | None:
-        """The world state from which it is planned; None for the drawing's own."""
 
 
 class EndedDocumentError(FoldingError):
@@ -109,7 +96,7 @@ class Document(Played):
         start: WorldState | None = None,
         keep: Keep = lambda _version, _draft: None,
         keep_start: KeepStart = lambda _start: None,
-        reread: Callable[[], Saved] | None = None,
+        reread: "Callable[[], KeptDocument] | None" = None,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         """Start with a drawing that has no plan yet.
@@ -183,11 +170,11 @@ class Document(Played):
 
         self._state.change(change)
 
-    def put_checks(self, drawing: Drawing, folds: tuple[HeldFold, ...]) -> None:
+    def put_checks(self, drawing: Drawing, folds: tuple[FoldCheck, ...]) -> None:
         """Store the grips that the folds of a drawing need; ignore them if the drawing has changed."""
 
         def change(state: DocumentState) -> DocumentState:
-            return replace(state, checks=Checks(state.version, folds)) if state.drawing == drawing else state
+            return replace(state, checks=FoldChecks(state.version, folds)) if state.drawing == drawing else state
 
         self._state.change(change)
 

@@ -8,7 +8,7 @@ from typing import Any
 from app.drawing.draft import Draft
 from app.drawing.drawing import Drawing
 from app.drawing.solution import Solution
-from app.held_folds import Checks
+from app.held_folds import FoldChecks
 from app.language import ENGLISH, Language
 from app.playback import Playback
 from app.rehearsal.trace import RunTrace
@@ -108,7 +108,7 @@ class DocumentState:
     committed: VersionPlan | None = None
     before: VersionPlan | None = None
     shown: ShownPlan | None = None
-    checks: Checks | None = None
+    checks: FoldChecks | None = None
     start: WorldState | None = None
     failure: str | None = None
     prepared: float | None = None

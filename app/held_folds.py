@@ -11,13 +11,14 @@ from planner.geometry.pose import Point2
 
 
 @dataclass(frozen=True, slots=True)
-class HeldFold:
+class FoldCheck:
     """The vertices and grips of one fold.
 
     Attributes:
         must_hold: the vertices that must be held, article frame (m).
-        grips: the grips that hold them (m); empty if there are too few arms.
-        grips_needed: the number of grips; None if there are too few arms.
+        grips: the fewest that hold them (m), empty if there are too few arms; as pages are told, those of the plan,
+            which may have a hand more so that corners are held firmly.
+        grips_needed: the number of the fewest; None if there are too few arms.
     """
 
     must_hold: tuple[Point2, ...]
@@ -26,7 +27,7 @@ class HeldFold:
 
 
 @dataclass(frozen=True, slots=True)
-class Checks:
+class FoldChecks:
     """The vertices and grips of the folds.
 
     Attributes:
@@ -35,10 +36,10 @@ class Checks:
     """
 
     version: int
-    folds: tuple[HeldFold, ...]
+    folds: tuple[FoldCheck, ...]
 
 
-def held_folds(solution: Solution, arms: int) -> Iterator[HeldFold]:
+def held_folds(solution: Solution, arms: int) -> Iterator[FoldCheck]:
     """Yield, for each legal fold in the user's order, what a number of arms has to hold."""
     if solution.replay is None:
         return
@@ -47,4 +48,4 @@ def held_folds(solution: Solution, arms: int) -> Iterator[HeldFold]:
         support_angle_rad = drawing.scene.support_angle_rad
         vertices = must_hold(folded.moving, line.left, (line,), support_angle_rad)
         found = grip_covers(folded.moving, vertices, radius_m(drawing, fold), arms)
-        yield HeldFold(found.vertices, found.covers[0] if found.covers else (), found.count)
+        yield FoldCheck(found.vertices, found.covers[0] if found.covers else (), found.count)

@@ -7,8 +7,8 @@ finding the quickest plan, so the result is told first, and another if the full 
 import uuid
 from collections import OrderedDict
 from dataclasses import dataclass, replace
+from typing import TypeAlias
 
-from app.known_plans import KnownPlans
 from app.store.packed_plan import PackedPlan
 from app.worker.process import Caller
 from planner import quick_plan
@@ -20,6 +20,41 @@ from planner.plans import plan
 from planner.robots.load_robot import prepare_robot
 from planner.task.plan import Plan
 from planner.task.task import TIME_LIMIT_S, Task
+
+_PLANS_MAX = 4
+"""Number of plans remembered."""
+
+_Way: TypeAlias = tuple[tuple[object, ...], ...]
+
+
+class KnownPlans:
+    """The latest plan for each sequence of primitives and stations."""
+
+    def __init__(self) -> None:
+        """Start empty."""
+        self._plans: OrderedDict[_Way, tuple[str, FoundPlan]] = OrderedDict()
+
+    def add(self, name: str, found: FoundPlan) -> None:
+        """Remember a solved plan by a name, in place of the previous one with its sequence.
+
+        Drop the sequence added least recently if there are too many.
+        """
+        if not found.plan.is_solved:
+            return
+        way = tuple((step.kind, step.fold, step.base.station) for step in found.plan.steps)
+        self._plans[way] = name, found
+        self._plans.move_to_end(way)
+        while len(self._plans) > _PLANS_MAX:
+            self._plans.popitem(last=False)
+
+    def named(self, name: str) -> FoundPlan | None:
+        """Return the plan of a name, if it is remembered."""
+        return next((found for known, found in self._plans.values() if known == name), None)
+
+    def by_cost(self) -> list[FoundPlan]:
+        """Return the plans, the quickest first."""
+        return sorted((found for _, found in self._plans.values()), key=lambda found: found.plan.cost_s or 0.0)
+
 
 _DOCUMENTS_MAX = 16
 """Number of documents whose plans a worker knows, with what they were found with: 0.3 to 5 MB each (measured)."""

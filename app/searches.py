@@ -6,9 +6,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from app.files.import_file import Imported, import_file
+from app.files.import_file import import_file
 from app.files.robot_archive import has_card, unpack_robot
 from app.files.robot_draft import drafted_alone
+from app.files.sketch_garment import Imported
 from app.jobs.job_kind import Progress
 from app.robot_warnings import warnings_of
 from app.store.packed_plan import PackedPlan

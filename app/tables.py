@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from rich import box
-from rich.table import Table
+from rich.table import Column, Table
 
 from planner.words.catalogue import sentence
 
@@ -43,12 +43,8 @@ _WHY = (
 def plan_table(plan: Plan) -> Table:
     """Return a solved plan as a table, one row for each primitive."""
     count = len(plan.primitives)
-    table = _table(f"{plan.garment.title}: {count} primitive{'' if count == 1 else 's'}, {plan.cost_s:.2f} s")
-    table.add_column("primitive")
-    table.add_column("what")
-    table.add_column("start\n[s]", justify="right")
-    table.add_column("duration\n[s]", justify="right")
-    table.add_column("base")
+    title = f"{plan.garment.title}: {count} primitive{'' if count == 1 else 's'}, {plan.cost_s:.2f} s"
+    table = _table(title, "primitive", "what", _right("start\n[s]"), _right("duration\n[s]"), "base")
     table.add_column("grips [m]", no_wrap=True)
     for primitive in plan.steps:
         data = primitive.to_dict()
@@ -65,11 +61,7 @@ def plan_table(plan: Plan) -> Table:
 
 def dag_table(garment: Garment, edges: Sequence[Sequence[int]]) -> Table:
     """Return the Fold-DAG as a table: each fold, and the folds that must precede it."""
-    table = _table(f"{garment.title}: {len(garment.folds)} folds")
-    table.add_column("fold", justify="right")
-    table.add_column("name")
-    table.add_column("kind")
-    table.add_column("waits for")
+    table = _table(f"{garment.title}: {len(garment.folds)} folds", _right("fold"), "name", "kind", "waits for")
     for index, fold in enumerate(garment.folds):
         before = ", ".join(str(first) for first, then in edges if then == index)
         table.add_row(str(index), fold.name, fold.kind, before or "-")
@@ -78,9 +70,7 @@ def dag_table(garment: Garment, edges: Sequence[Sequence[int]]) -> Table:
 
 def robots_table(cards: Sequence[CardFile]) -> Table:
     """Return robots as a table."""
-    table = _table(f"{len(cards)} robots")
-    for name in ("name", "title", "arms", "joints", "base"):
-        table.add_column(name)
+    table = _table(f"{len(cards)} robots", "name", "title", "arms", "joints", "base")
     for card in cards:
         arms, joints = ", ".join(arm.name for arm in card.arms), ", ".join(str(len(arm.joints)) for arm in card.arms)
         table.add_row(card.name, card.title, arms, joints, card.base.kind)
@@ -89,9 +79,8 @@ def robots_table(cards: Sequence[CardFile]) -> Table:
 
 def robot_check_table(card: CardFile, reach: TableReach) -> Table:
     """Return a card that is complete as a table: each arm, and how much of the table is in its reach."""
-    table = _table(f"{card.title}: a good card, all that it names is there")
-    for name, is_number in (("arm", False), ("joints", True), ("tool", False), ("reaches of the table", True)):
-        table.add_column(name, justify="right" if is_number else "left")
+    title = f"{card.title}: a good card, all that it names is there"
+    table = _table(title, "arm", _right("joints"), "tool", _right("reaches of the table"))
     for arm in card.arms:
         table.add_row(arm.name, str(len(arm.joints)), arm.tool.link, f"{reach.arms[arm.name]:.0%}")
     table.add_row("any", "", "", f"{reach.any_arm:.0%}")
@@ -102,10 +91,9 @@ def robot_check_table(card: CardFile, reach: TableReach) -> Table:
 
 def comparison_table(found: Sequence[Comparison]) -> Table:
     """Return who can fold a garment as a table: for each robot how long it takes, with what margin, or what helps."""
-    table = _table(f"{found[0].plan.garment.title}: who can fold it" if found else "")
-    for name, is_number in (("robot", False), ("folds it", False), ("cost [s]", True), ("margin [mm]", True)):
-        table.add_column(name, justify="right" if is_number else "left")
-    table.add_column("why not, and what it would take")
+    title = f"{found[0].plan.garment.title}: who can fold it" if found else ""
+    numbers = _right("cost [s]"), _right("margin [mm]")
+    table = _table(title, "robot", "folds it", *numbers, "why not, and what it would take")
     for one in found:
         folds, plan = one.plan.garment.folds, one.plan
         causes = sorted(plan.reasons, key=lambda reason: reason.code == "waits_for_fold")
@@ -125,16 +113,13 @@ def comparison_table(found: Sequence[Comparison]) -> Table:
 def check_table(garment: Garment, report: GarmentCheck) -> Table:
     """Return for each fold the number of grippers it needs, and the corners that must be held, with the reasons."""
     width, height = report.size_m
-    table = _table(
+    title = (
         f"{garment.title}: a good file, {len(report.folds)} legal fold{'' if len(report.folds) == 1 else 's'}; "
         f"outline of {report.points} points, {width:.3f} x {height:.3f} m, {report.area_m2:.3f} m2"
     )
+    corners = "corners of the part that moves [m]"
+    table = _table(title, _right("fold"), "name", "kind", _right("grippers"), corners)
     table.caption, table.caption_justify = _WHY, "left"
-    table.add_column("fold", justify="right")
-    table.add_column("name")
-    table.add_column("kind")
-    table.add_column("grippers", justify="right")
-    table.add_column("corners of the part that moves [m]")
     for index, fold in enumerate(report.folds):
         needed = "too many" if fold.grips_needed is None else str(fold.grips_needed)
         lines = [*_corners(fold), _held_at(fold, garment, index)]
@@ -162,18 +147,8 @@ def _held_at(fold: FoldCheck, garment: Garment, index: int) -> str:
 def proposals_table(garment: Garment, found: Proposals) -> Table:
     """Return ways to fold a garment to a size, the quickest first."""
     kept, number = len(garment.folds), len(found.proposals)
-    table = _table(
-        f"{garment.title}: {number} proposal{'' if number == 1 else 's'}, of {found.tried.enumerated} ways tried"
-    )
-    for name, is_number in (
-        ("folds", False),
-        ("size [m]", True),
-        ("layers", True),
-        ("face", False),
-        ("seconds", True),
-        ("status", False),
-    ):
-        table.add_column(name, justify="right" if is_number else "left")
+    title = f"{garment.title}: {number} proposal{'' if number == 1 else 's'}, of {found.tried.enumerated} ways tried"
+    table = _table(title, "folds", _right("size [m]"), _right("layers"), "face", _right("seconds"), "status")
     for one in found.proposals:
         names = [fold.name for fold in one.garment.folds[kept:]]
         width_m, length_m = one.size_m
@@ -192,12 +167,8 @@ def proposals_table(garment: Garment, found: Proposals) -> Table:
 
 def suggestion_table(garment: Garment, found: Sequence[Suggestion]) -> Table:
     """Return the changes that would give a plan, or a quicker one; those a person can make come before assumptions."""
-    table = _table(f"{garment.title}: {len(found)} suggestion{'' if len(found) == 1 else 's'}")
-    table.add_column("kind")
-    table.add_column("what")
-    table.add_column("size", justify="right")
-    table.add_column("cost [s]", justify="right")
-    table.add_column("assumption?")
+    title = f"{garment.title}: {len(found)} suggestion{'' if len(found) == 1 else 's'}"
+    table = _table(title, "kind", "what", _right("size"), _right("cost [s]"), "assumption?")
     for one in sorted(found, key=lambda one: one.is_assumption):
         is_so = "yes" if one.is_assumption else "no"
         table.add_row(
@@ -206,8 +177,14 @@ def suggestion_table(garment: Garment, found: Sequence[Suggestion]) -> Table:
     return table
 
 
-def _table(title: str) -> Table:
-    return Table(title=title, title_justify="left", header_style="bold", box=box.SIMPLE_HEAD, padding=(0, 1, 0, 0))
+def _table(title: str, *columns: str | Column) -> Table:
+    look: dict[str, Any] = {"header_style": "bold", "box": box.SIMPLE_HEAD, "padding": (0, 1, 0, 0)}
+    return Table(*columns, title=title, title_justify="left", **look)
+
+
+def _right(name: str) -> Column:
+    """Return the column of numbers."""
+    return Column(name, justify="right")
 
 
 def _what(step: PlanStep, garment: Garment) -> str:

@@ -18,7 +18,8 @@ from app.open_document import OpenDocument
 from app.settings import Settings
 from app.store.data_folder import DataFolder
 from app.store.database import Database
-from app.store.document_repository import DocumentRepository, KeptDocument
+from app.store.document_reader import KeptDocument
+from app.store.document_repository import DocumentRepository
 from app.store.garment_repository import GarmentRepository
 from app.store.job_repository import JobRepository
 from app.store.plan_store import PlanStore

@@ -58,14 +58,6 @@ class GarmentAnswer(BaseModel):
     placement: Pose2
 
 
-class GarmentEntry(BaseModel):
-    """A garment in the list."""
-
-    name: str
-    title: str
-    shipped: bool
-
-
 class RobotEntry(BaseModel):
     """A robot in the list; its arms from left to right."""
 
@@ -96,11 +88,16 @@ class LayerAnswer(BaseModel):
     face: Literal["front", "back"]
 
 
-class DagAnswer(BaseModel):
-    """The Fold-DAG, and the layers after all folds from bottom to top."""
+class DagPart(BaseModel):
+    """The Fold-DAG of a plan."""
 
     folds: int
     edges: list[tuple[int, int]]
+
+
+class DagAnswer(DagPart):
+    """The Fold-DAG, and the layers after all folds from bottom to top."""
+
     layers: list[LayerAnswer]
 
 
@@ -148,13 +145,6 @@ class MovePart(StepPart):
 
 
 PrimitiveAnswer = Annotated[FoldPart | DragPart | ArmDragPart | MovePart, Field(discriminator="kind")]
-
-
-class DagPart(BaseModel):
-    """The Fold-DAG of a plan."""
-
-    folds: int
-    edges: list[tuple[int, int]]
 
 
 class Says(BaseModel):

@@ -130,9 +130,7 @@ def put_garment(
     now = document.state.drawing
     drawn = drawing_of(garment, now.scene, now.robot)
     drawing = replace(
-        with_arcs(drawn) if has_arcs else drawn,
-        start_station=now.start_station,
-        comfort_radius_m=now.comfort_radius_m,
+        with_arcs(drawn) if has_arcs else drawn, start_station=now.start_station, comfort_radius_m=now.comfort_radius_m
     )
     edit = Edit(label or f"Open {garment.title}", drawing, base_version=base_version, gesture="open")
     state = document.edit(edit)

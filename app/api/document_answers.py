@@ -1,87 +1,14 @@
 """Response models of documents and their overlays, which describe the interface at /docs."""
 
-from typing import Any, Literal
+from typing import Literal
 
-from pydantic import BaseModel, ConfigDict
+from pydantic import BaseModel
 
 from app.api.answers import GarmentAnswer, LayerAnswer, Point, Point3, Says
-from app.drawing.drawing_json import ChordTieModel, CornerTieModel, CreaseTieModel, EdgeTieModel
-from app.store.picture import Picture
-from planner.cloth.fold_kinds import FoldName
+from app.drawing.drawing import Drawing, End
 from planner.geometry.pose import Pose2
-from planner.task.scene import Scene
 
 Ring = list[Point]
-
-
-class EndAnswer(BaseModel):
-    """An end of a fold: its position (m), and what it is tied to."""
-
-    point: Point
-    on: CornerTieModel | EdgeTieModel | CreaseTieModel | ChordTieModel | None
-
-
-class CurveAnswer(BaseModel):
-    """The curve of an edge: its middle as seen from the middle of the chord, in chord lengths, `across` to the left."""
-
-    along: float
-    across: float
-
-
-def _curve_may_be_missing(schema: dict[str, Any]) -> None:
-    """Describe the curve without its default: with one it would be taken for a field that is always sent."""
-    schema["required"] = ["id", "point"]
-    del schema["properties"]["curve"]["default"]
-
-
-class CornerAnswer(BaseModel):
-    """A corner of the outline (m), and the curve of the edge to the next one; a straight edge has none."""
-
-    model_config = ConfigDict(json_schema_extra=_curve_may_be_missing)
-
-    id: str
-    point: Point
-    curve: CurveAnswer | None = None
-
-
-class FoldAnswer(BaseModel):
-    """A fold of a drawing; `twin` is the mirrored fold that moves along with it."""
-
-    id: str
-    name: str
-    kind: FoldName
-    start: EndAnswer
-    end: EndAnswer
-    grip_radius_m: float | None
-    twin: str | None
-
-
-class DrawingAnswer(BaseModel):
-    """A drawing, every field filled in."""
-
-    name: str
-    title: str
-    outline: list[CornerAnswer]
-    areal_density_kg_m2: float
-    thickness_m: float
-    grip_radius_m: float
-    folds: list[FoldAnswer]
-    placement: Pose2
-    scene: Scene
-    start_station: str
-    comfort_radius_m: float
-    robot: str
-
-
-class DocumentEntryAnswer(BaseModel):
-    """A document in the list."""
-
-    id: str
-    title: str
-    name: str
-    changed_at: str
-    problem: str | None
-    picture: Picture | None
 
 
 class VersionAnswer(BaseModel):
@@ -89,7 +16,7 @@ class VersionAnswer(BaseModel):
 
     label: str
     changed_at: str
-    drawing: DrawingAnswer
+    drawing: Drawing
 
 
 class SolvedFold(BaseModel):
@@ -146,7 +73,7 @@ class DocumentAnswer(BaseModel):
     id: str
     version: int
     robot: RobotPart
-    drawing: DrawingAnswer
+    drawing: Drawing
     garment: GarmentAnswer
     solved: list[SolvedFold]
     steps: list[StepAnswer]
@@ -169,8 +96,8 @@ class PlaybackAnswer(BaseModel):
 class CreaseAnswer(BaseModel):
     """A fold that could be drawn: its ends, the cloth that moves, and where it lands (m)."""
 
-    start: EndAnswer
-    end: EndAnswer
+    start: End
+    end: End
     moving: list[Ring]
     landed: list[Ring]
 
@@ -199,7 +126,7 @@ class QuickFixAnswer(BaseModel):
 
     label: str
     says: Says
-    drawing: DrawingAnswer
+    drawing: Drawing
 
 
 class QuickFixesAnswer(BaseModel):

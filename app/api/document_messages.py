@@ -10,7 +10,7 @@ from pydantic import ConfigDict, Field, PlainValidator
 from pydantic_core import PydanticCustomError
 
 from app.api.messages import GarmentField, PlacesRequest, StartField, either, gives, leaves_out
-from app.drawing.drawing_json import DrawingModel
+from app.drawing.drawing import Drawing
 from app.language import Language
 from app.playback import SPEED_MAX, SPEED_MIN
 from planner.cloth.fold_kinds import FoldName
@@ -58,7 +58,7 @@ class EditRequest(StrictModel):
     base_version: Version
     label: Label = "Edit"
     phase: Literal["preview", "commit", "cancel"] = "commit"
-    drawing: Annotated[Any, PlainValidator(_drawing, json_schema_input_type=DrawingModel)] | None = None
+    drawing: Annotated[Any, PlainValidator(_drawing, json_schema_input_type=Drawing)] | None = None
     coalesce: Key | None = None
     gesture: Key | None = None
 

@@ -17,7 +17,6 @@ from app.api.disconnect import answer_of
 from app.api.document_answers import (
     CreaseAnswer,
     DocumentAnswer,
-    DocumentEntryAnswer,
     OverlaysAnswer,
     PlacesAnswer,
     PlaybackAnswer,
@@ -47,12 +46,12 @@ from app.api.questions import Asked, work_of
 from app.api.request_parsing import requested_garment
 from app.api.shared import is_shared
 from app.drawing.arcs import with_arcs
-from app.drawing.blank import blank_drawing
 from app.drawing.drawing import Drawing
 from app.drawing.edit import StaleVersionError
-from app.drawing.garment_drawing import drawing_of
+from app.drawing.garment_drawing import blank_drawing, drawing_of
 from app.open_document import OpenDocument
 from app.overlays.overlays import OVERLAYS
+from app.store.document_repository import DocumentEntry
 from app.workspace import Workspace
 from planner.errors import RequestError
 
@@ -92,10 +91,10 @@ class ShareAnswer(BaseModel):
     path: str
 
 
-@router.get("", response_model=list[DocumentEntryAnswer], responses=problems(422))
+@router.get("", responses=problems(422))
 async def list_documents(
     request: Request, response: Response, limit: Limit = PAGE, after: After | None = None
-) -> list[dict[str, Any]]:
+) -> tuple[DocumentEntry, ...]:
     """Return the documents, the latest changed first; those whose file cannot be read come last.
 
     If there are more than `limit`, the header `Link` leads to the next ones: `<?limit=...&after=...>; rel="next"`.
@@ -105,14 +104,10 @@ async def list_documents(
     if page.end is not None:
         query = urlencode({"limit": limit, "after": "/".join(page.end)})
         response.headers["link"] = f'<?{query}>; rel="next"'
-    return [asdict(entry) for entry in page.entries]
+    return page.entries
 
 
-@router.post(
-    "",
-    status_code=201,
-    responses={201: {"model": DocumentAnswer}, **problems(403, 404, 413, 422, 429, 507)},
-)
+@router.post("", status_code=201, responses={201: {"model": DocumentAnswer}, **problems(403, 404, 413, 422, 429, 507)})
 async def create_document(request: Request, wanted: NewDocumentBody) -> JSONResponse:
     """Create a document; its address is in `Location`."""
     opened = await run_in_threadpool(_created, workspace_of(request), wanted)
@@ -166,8 +161,7 @@ async def redo(request: Request, document_id: str, wanted: TravelRequestBody) ->
 
 
 @router.post(
-    "/{document_id}/playback",
-    responses={200: {"model": PlaybackAnswer}, **problems(403, 404, 409, 413, 422, 429)},
+    "/{document_id}/playback", responses={200: {"model": PlaybackAnswer}, **problems(403, 404, 409, 413, 422, 429)}
 )
 async def post_playback(request: Request, document_id: str, command: CommandBody) -> JSONResponse:
     """Carry out a command as on the websocket: play, pause, seek, speed, theme, choose."""
@@ -180,8 +174,7 @@ async def post_playback(request: Request, document_id: str, command: CommandBody
 
 
 @router.post(
-    "/{document_id}/crease",
-    responses={200: {"model": CreaseAnswer}, **problems(403, 404, 409, 413, 422, 429, 503)},
+    "/{document_id}/crease", responses={200: {"model": CreaseAnswer}, **problems(403, 404, 409, 413, 422, 429, 503)}
 )
 async def post_crease(request: Request, document_id: str, wanted: CreaseRequestBody) -> JSONResponse:
     """Return the fold that takes a point of the cloth to another place, or that runs along a line."""

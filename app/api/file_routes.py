@@ -1,7 +1,7 @@
 """Routes of files: importing a garment, and exporting a document."""
 
 from collections.abc import Mapping
-from dataclasses import asdict
+from dataclasses import asdict, fields
 from functools import partial
 from typing import Annotated, Any, Literal
 
@@ -23,9 +23,12 @@ from app.document_state import DocumentState
 from app.files.crease_reading import Creases
 from app.files.export import DEFAULT_RATE_HZ, RATES_HZ, Export, Group, UnavailableFileError
 from app.files.exports import EXPORTS, find_export
+from app.files.graded_sizes import Graded
 from app.files.import_errors import ImportedFileError, UnitsNeededError
-from app.files.import_file import ENDINGS, SCALES, Imported, largest
-from app.files.seam_allowance import Line
+from app.files.import_file import ENDINGS, SCALES, largest
+from app.files.pieces import Pieces
+from app.files.seam_allowance import Allowance, Line
+from app.files.sketch_garment import Imported
 from app.files.sketch_size import UNITS_M
 from app.templates.catalogue import find_template
 from app.worker.process import ignore
@@ -97,27 +100,6 @@ What = Annotated[str, Path(json_schema_extra={"enum": [export.what for export in
 Rate = Annotated[float, Query(ge=RATES_HZ[0], le=RATES_HZ[1], allow_inf_nan=False)]
 
 
-class AllowanceAnswer(BaseModel):
-    """The distance of a drawing's seam line from its cut line (m), and which of them was taken as the outline."""
-
-    line: Line
-    width_m: float
-
-
-class GradedAnswer(BaseModel):
-    """The sizes of a pattern that is graded, from small to large, and which of them was taken."""
-
-    size: str
-    sizes: list[str]
-
-
-class PiecesAnswer(BaseModel):
-    """The pieces of a pattern, the largest first, and which of them was taken."""
-
-    piece: str
-    pieces: list[str]
-
-
 class ImportAnswer(BaseModel):
     """An imported garment, and notes about the import.
 
@@ -135,9 +117,9 @@ class ImportAnswer(BaseModel):
     creases: Creases | None
     sizes: dict[str, tuple[float, float]] | None
     seen: dict[str, Any] | None
-    allowance: AllowanceAnswer | None
-    graded: GradedAnswer | None
-    pieces: PiecesAnswer | None
+    allowance: Allowance | None
+    graded: Graded | None
+    pieces: Pieces | None
 
 
 class FileEntry(BaseModel):
@@ -158,11 +140,7 @@ class FileEntry(BaseModel):
     says: Says | None
 
 
-@router.post(
-    "/imports",
-    openapi_extra=_ANY_FILE,
-    responses={200: {"model": ImportAnswer}, **problems(413, 422, 503)},
-)
+@router.post("/imports", openapi_extra=_ANY_FILE, responses={200: {"model": ImportAnswer}, **problems(413, 422, 503)})
 async def post_import(
     request: Request,
     filename: FileName,
@@ -250,15 +228,7 @@ def _made(export: Export, state: DocumentState, rate_hz: float, should_stop: Sto
 
 
 def _imported(imported: Imported) -> dict[str, Any]:
-    return {
-        "format": imported.format,
-        "garment": imported.garment.to_dict(),
-        "notes": [note.text for note in imported.notes],
-        "says": [note.to_dict() for note in imported.notes],
-        "creases": imported.creases,
-        "sizes": imported.sizes,
-        "seen": imported.seen,
-        "allowance": None if imported.allowance is None else asdict(imported.allowance),
-        "graded": None if imported.graded is None else asdict(imported.graded),
-        "pieces": None if imported.pieces is None else asdict(imported.pieces),
-    }
+    told = {field.name: getattr(imported, field.name) for field in fields(imported)}
+    parts = {name: asdict(part) for name in ("allowance", "graded", "pieces") if (part := told[name]) is not None}
+    notes = {"notes": [note.text for note in imported.notes], "says": [note.to_dict() for note in imported.notes]}
+    return {**told, **parts, **notes, "garment": imported.garment.to_dict()}

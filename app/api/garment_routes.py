@@ -1,17 +1,16 @@
 """Routes of garments: the list, one, and saving one's own."""
 
-from dataclasses import asdict
-from typing import Annotated, Any
+from typing import Annotated
 
 from fastapi import APIRouter, Depends, Path, Request, Response
 from fastapi.concurrency import run_in_threadpool
 from starlette.responses import JSONResponse
 
-from app.api.answers import GarmentEntry
 from app.api.asker import workspace_of
 from app.api.body import JsonBody
 from app.api.described import DescribedRoute, problems
 from app.api.messages import WholeGarment
+from app.store.garment_repository import GarmentEntry
 from planner.cloth.garment import Garment
 from planner.errors import GarmentError
 
@@ -27,11 +26,10 @@ OwnName = Annotated[str, Path(examples=[_TOWEL["name"]])]
 GarmentBody = Annotated[Garment, Depends(JsonBody(WholeGarment, _TOWEL))]
 
 
-@router.get("", response_model=list[GarmentEntry])
-async def list_garments(request: Request) -> list[dict[str, Any]]:
+@router.get("")
+async def list_garments(request: Request) -> list[GarmentEntry]:
     """Return all garments, the shipped ones first."""
-    entries = await run_in_threadpool(workspace_of(request).garments.entries)
-    return [asdict(entry) for entry in entries]
+    return await run_in_threadpool(workspace_of(request).garments.entries)
 
 
 @router.get("/{name}", responses={200: {"model": Garment}, **problems(404)})
@@ -42,8 +40,7 @@ async def read_garment(request: Request, name: AnyName) -> JSONResponse:
 
 
 @router.put(
-    "/{name}",
-    responses={200: {"model": Garment}, 201: {"model": Garment}, **problems(403, 409, 413, 422, 507)},
+    "/{name}", responses={200: {"model": Garment}, 201: {"model": Garment}, **problems(403, 409, 413, 422, 507)}
 )
 async def save_garment(request: Request, name: OwnName, garment: GarmentBody) -> JSONResponse:
     """Save or replace a garment of one's own: 201 if it is new, 200 if it existed."""

@@ -4,7 +4,7 @@ from typing import Literal
 
 from pydantic import BaseModel, RootModel
 
-from app.api.answers import PictureAnswer, PlanAnswer, Point
+from app.api.answers import PictureAnswer, PlanAnswer
 from app.api.document_answers import (
     CreaseAnswer,
     DocumentAnswer,
@@ -16,6 +16,7 @@ from app.api.document_answers import (
 )
 from app.api.document_messages import Sent
 from app.api.problems import Problem
+from app.held_folds import FoldChecks
 from planner.task.world_state import WorldState
 
 
@@ -40,25 +41,6 @@ class PlanBefore(BaseModel):
     cost_s: float | None
 
 
-class FoldCheck(BaseModel):
-    """The corners of a fold that must be held, and the grips that hold them (m).
-
-    `grips` are those of the plan, which may have a hand more so that corners are held firmly; where no plan makes the
-    fold, the fewest that hold. `grips_needed` is the number of the fewest.
-    """
-
-    must_hold: list[Point]
-    grips: list[Point]
-    grips_needed: int | None
-
-
-class ChecksAnswer(BaseModel):
-    """The corners and grips of each legal fold of a version."""
-
-    version: int
-    folds: list[FoldCheck]
-
-
 class PlanMessage(BaseModel):
     """The answer to the drawing; while it is being planned, `plan` is the previous one.
 
@@ -75,7 +57,7 @@ class PlanMessage(BaseModel):
     may_look_longer: bool
     start: WorldState | None
     before: PlanBefore | None
-    checks: ChecksAnswer | None
+    checks: FoldChecks | None
 
 
 class Result(BaseModel):

@@ -1,14 +1,15 @@
 """The three messages that tell pages about a document; each is written once for all of its pages."""
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
+from dataclasses import asdict, replace
 from typing import Any
 
 from app.document import Document
 from app.document_state import DocumentState, VersionPlan, shown_robot
 from app.drawing.drawing_json import drawing_to_dict
 from app.drawing.garment_json import garment_to_dict
-from app.held_folds import Checks
+from app.held_folds import FoldChecks
 from app.open_document import OpenDocument
 from app.visitors_view import VisitorsView
 from planner.geometry.pose import Point2
@@ -172,22 +173,15 @@ def _figures(answer: VersionPlan) -> dict[str, Any]:
     return {"version": answer.version, "status": answer.plan.status, "cost_s": answer.plan.cost_s}
 
 
-def _planned_grips(state: DocumentState) -> dict[int, list[Point2]]:
+def _planned_grips(state: DocumentState) -> dict[int, tuple[Point2, ...]]:
     """Return the grips of each fold that the plan of this version makes, article frame as it lies before the fold."""
     if state.answer is None or not state.is_answered:
         return {}
     steps = state.answer.plan.steps
-    return {step.fold: [one.point for one in step.holdings] for step in steps if step.fold is not None}
+    return {step.fold: tuple(one.point for one in step.holdings) for step in steps if step.fold is not None}
 
 
-def _checks(checks: Checks, planned: Mapping[int, Sequence[Point2]]) -> dict[str, Any]:
+def _checks(checks: FoldChecks, planned: Mapping[int, tuple[Point2, ...]]) -> dict[str, Any]:
     """Return what each fold needs; grips as the plan has them, where it makes the fold, else the fewest that do."""
-    folds = [
-        {
-            "must_hold": [list(point) for point in fold.must_hold],
-            "grips": [list(point) for point in planned.get(number) or fold.grips],
-            "grips_needed": fold.grips_needed,
-        }
-        for number, fold in enumerate(checks.folds)
-    ]
-    return {"version": checks.version, "folds": folds}
+    folds = (replace(fold, grips=planned.get(number) or fold.grips) for number, fold in enumerate(checks.folds))
+    return asdict(replace(checks, folds=tuple(folds)))

@@ -54,10 +54,7 @@ async def post_dag(request: Request, wanted: DagRequestBody) -> JSONResponse:
     return JSONResponse(await quick_answer(request, _dag, workspace_of(request), wanted))
 
 
-@router.post(
-    "/plans",
-    responses={200: {"model": PlanAnswer}, **problems(404, 413, 422, 503)},
-)
+@router.post("/plans", responses={200: {"model": PlanAnswer}, **problems(404, 413, 422, 503)})
 async def post_plan(request: Request, wanted: PlanRequestBody) -> Response:
     """Plan a garment; "there is no plan" is an answer, too.
 
@@ -70,9 +67,7 @@ async def post_plan(request: Request, wanted: PlanRequestBody) -> Response:
 
 
 @router.post(
-    "/plans/imports",
-    openapi_extra=_PLAN_FILE_BODY,
-    responses={200: {"model": PlanAnswer}, **problems(413, 422, 503)},
+    "/plans/imports", openapi_extra=_PLAN_FILE_BODY, responses={200: {"model": PlanAnswer}, **problems(413, 422, 503)}
 )
 async def post_plan_file(request: Request) -> JSONResponse:
     """Import a plan file: replay it and keep it under a new id.
@@ -85,8 +80,7 @@ async def post_plan_file(request: Request) -> JSONResponse:
 
 
 @router.get(
-    "/plans/{plan_id}",
-    responses={200: {"model": PlanAnswer, "content": {PLAN_FILE_TYPE: {}}}, **problems(404)},
+    "/plans/{plan_id}", responses={200: {"model": PlanAnswer, "content": {PLAN_FILE_TYPE: {}}}, **problems(404)}
 )
 async def read_plan(request: Request, plan_id: str) -> Response:
     """Return a plan made before; with task and trajectory, as a plan file, if `Accept` asks for that."""
@@ -106,10 +100,7 @@ async def read_plan_file(request: Request, plan_id: str) -> Response:
     return await _plan_file(await _kept(request, plan_id))
 
 
-@router.get(
-    "/plans/{plan_id}/timeline",
-    responses={200: {"model": TimelineAnswer}, **problems(404, 409, 422, 503)},
-)
+@router.get("/plans/{plan_id}/timeline", responses={200: {"model": TimelineAnswer}, **problems(404, 409, 422, 503)})
 async def read_timeline(request: Request, plan_id: str, rate_hz: SampleRate = 30.0) -> Response:
     """Return a solved plan's timeline, sampled from 0 to its end."""
     plan = await _kept(request, plan_id)

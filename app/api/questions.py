@@ -7,13 +7,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 
 from app import searches
-from app.api.document_messages import (
-    AskOverlays,
-    AskPictures,
-    AskQuickFixes,
-    AskSteps,
-    CreaseRequest,
-)
+from app.api.document_messages import AskOverlays, AskPictures, AskQuickFixes, AskSteps, CreaseRequest
 from app.api.messages import PlacesRequest
 from app.api.request_parsing import TimeLimit
 from app.document_state import DocumentState

@@ -112,10 +112,7 @@ async def read_trace_cloth(request: Request, trace_id: str) -> JSONResponse:
 
 def _trace(workspace: Workspace, trace_id: str) -> dict[str, Any]:
     trace = RunTrace.unpacked(workspace.traces.content(trace_id))
-    return {
-        "steps": [{"of_plan": step.of_plan, **step.outlines} for step in trace.steps],
-        "pictures": trace.pictures,
-    }
+    return {"steps": [{"of_plan": step.of_plan, **step.outlines} for step in trace.steps], "pictures": trace.pictures}
 
 
 def _cloth(workspace: Workspace, trace_id: str) -> dict[str, Any]:

@@ -115,8 +115,7 @@ async def read_robot_warnings(request: Request, name: AnyName) -> list[dict[str,
 
 
 @router.put(
-    "/{name}",
-    responses={200: {"model": CardFile}, 201: {"model": CardFile}, **problems(403, 409, 413, 422, 503, 507)},
+    "/{name}", responses={200: {"model": CardFile}, 201: {"model": CardFile}, **problems(403, 409, 413, 422, 503, 507)}
 )
 async def save_robot_card(request: Request, name: OwnName, card: CardBody) -> JSONResponse:
     """Save or replace the card of a robot of one's own: 201 if it is new, 200 if it existed.

@@ -96,10 +96,7 @@ class DoneEvent(BaseModel):
 
 EVENTS = (TryingEvent, SuggestionEvent, DoneEvent)
 
-_SHIFTED: dict[str, Any] = {
-    "kind": "placement",
-    "says": {"code": "place", "quarters": 0, "by": [-0.1, 0.0]},
-}
+_SHIFTED: dict[str, Any] = {"kind": "placement", "says": {"code": "place", "quarters": 0, "by": [-0.1, 0.0]}}
 STREAM = event_stream(
     {
         "trying": (TryingEvent, _SHIFTED),
@@ -249,13 +246,9 @@ async def _begun(request: Request, wanted: PlanRequestBody, known: Known = None)
 
 
 @router.post(
-    "/suggestions",
-    response_class=EventSourceResponse,
-    responses={200: STREAM, **problems(404, 413, 422, 503)},
+    "/suggestions", response_class=EventSourceResponse, responses={200: STREAM, **problems(404, 413, 422, 503)}
 )
-async def post_suggestions(
-    search: Annotated[SuggestionSearch, Depends(_begun)],
-) -> AsyncIterator[ServerSentEvent]:
+async def post_suggestions(search: Annotated[SuggestionSearch, Depends(_begun)]) -> AsyncIterator[ServerSentEvent]:
     """Find the smallest changes that give a plan, each with its plan, and return them as server-sent events.
 
     Each event `trying` names a change before it is planned, each event `suggestion` has one change as it is found;
@@ -267,10 +260,7 @@ async def post_suggestions(
         yield event
 
 
-@router.post(
-    "/placements",
-    responses={200: {"model": PlacementsAnswer}, **problems(404, 413, 422, 503)},
-)
+@router.post("/placements", responses={200: {"model": PlacementsAnswer}, **problems(404, 413, 422, 503)})
 async def post_placements(request: Request, wanted: PlacementsRequestBody) -> JSONResponse:
     """Plan a garment wherever it could be laid on the default table, not turned, and return the costs."""
     workspace, limit = workspace_of(request), TimeLimit(wanted.time_limit_s)

@@ -11,6 +11,7 @@ from starlette.responses import JSONResponse
 from app.api.answers import GarmentAnswer, Point
 from app.api.body import JsonBody
 from app.api.described import DescribedRoute, problems
+from app.store.picture import PictureFold
 from app.templates.catalogue import TEMPLATES, find_template
 from app.templates.measure import MeasureError, Measures
 from planner.cloth.garment import TITLE_MAX
@@ -30,14 +31,6 @@ class MeasureAnswer(BaseModel):
     max_m: float
 
 
-class FoldLineAnswer(BaseModel):
-    """A fold; the cloth to the left of start -> end moves."""
-
-    kind: str
-    start: Point
-    end: Point
-
-
 class TemplateAnswer(BaseModel):
     """A template, and the garment that it makes of its defaults (m)."""
 
@@ -46,7 +39,7 @@ class TemplateAnswer(BaseModel):
     text: str
     measures: list[MeasureAnswer]
     outline: list[Point]
-    folds: list[FoldLineAnswer]
+    folds: list[PictureFold]
 
 
 class MadeAnswer(BaseModel):
@@ -74,10 +67,7 @@ async def list_templates() -> list[dict[str, Any]]:
     return await run_in_threadpool(lambda: [template.to_dict() for template in TEMPLATES])
 
 
-@router.post(
-    "/{name}",
-    responses={200: {"model": MadeAnswer}, **problems(404, 413, 422)},
-)
+@router.post("/{name}", responses={200: {"model": MadeAnswer}, **problems(404, 413, 422)})
 async def post_template(request: Request, name: Name, wanted: MadeRequestBody) -> JSONResponse:
     """Return the garment that a template makes of these measures, with its folds."""
     template = find_template(name)

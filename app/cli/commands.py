@@ -28,16 +28,10 @@ _OF_PLAN = "0 there is a plan, 2 bad input, 3 there is none, 4 the search ended 
 
 COMMANDS = {
     "plan": _Command(
-        "plan",
-        "Plan a garment's folds, and print the plan.",
-        "pleat plan t-shirt --robot ur5e-pair",
-        _OF_PLAN,
+        "plan", "Plan a garment's folds, and print the plan.", "pleat plan t-shirt --robot ur5e-pair", _OF_PLAN
     ),
     "show": _Command(
-        "plan",
-        "Print the plan in a plan file, or why there is none.",
-        "pleat show tie.plan.json",
-        _OF_PLAN,
+        "plan", "Print the plan in a plan file, or why there is none.", "pleat show tie.plan.json", _OF_PLAN
     ),
     "timeline": _Command(
         "plan",
@@ -56,11 +50,7 @@ COMMANDS = {
         "pleat propose vest --to 25x30cm --anew",
         "0 the robot can do one, 2 bad input, 3 it can do none",
     ),
-    "dag": _Command(
-        "garment",
-        "Print which fold waits for which.",
-        "pleat dag shirt",
-    ),
+    "dag": _Command("garment", "Print which fold waits for which.", "pleat dag shirt"),
     "check": _Command(
         "garment",
         "Check that a garment file is good, its folds are legal, and each can be held by the robot's grippers.",
@@ -101,16 +91,8 @@ COMMANDS = {
         "Print a board of markers, and calibrate a camera over the table with pictures of it.",
         "pleat camera calibrate *.jpg --out camera.json",
     ),
-    "robots": _Command(
-        "robots",
-        "Print the robots that are shipped, and your own.",
-        "pleat robots",
-    ),
-    "robot": _Command(
-        "robots",
-        "List the robots, check a card, draft one of a URDF.",
-        "pleat robot check so101-pair",
-    ),
+    "robots": _Command("robots", "Print the robots that are shipped, and your own.", "pleat robots"),
+    "robot": _Command("robots", "List the robots, check a card, draft one of a URDF.", "pleat robot check so101-pair"),
     "study": _Command(
         "study",
         "Plan the product of garments, robots, tables, placements and limits: one table, one report.",
@@ -121,16 +103,8 @@ COMMANDS = {
         "Make the plan of one cell of a study again, and write it as a plan file.",
         "pleat study-plan heights 17 --out cell.plan.json",
     ),
-    "serve": _Command(
-        "serve",
-        "Serve the designer until Ctrl-C.",
-        "pleat serve --port 8000",
-    ),
-    "cache": _Command(
-        "cache",
-        "Print what is kept for later runs, and how large it is.",
-        "pleat cache --clear",
-    ),
+    "serve": _Command("serve", "Serve the designer until Ctrl-C.", "pleat serve --port 8000"),
+    "cache": _Command("cache", "Print what is kept for later runs, and how large it is.", "pleat cache --clear"),
     "backup": _Command(
         "backup",
         "Write a data folder and its database to one file; the server may be running.",

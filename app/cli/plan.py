@@ -8,24 +8,7 @@ from typing import Annotated
 import typer
 from rich.text import Text
 
-from app.cli.program import (
-    NO_PLAN,
-    OUT_OF_BUDGET,
-    STANDARD_OUTPUT,
-    DataOption,
-    JsonOption,
-    SourceArgument,
-    blaming,
-    cli,
-    errors,
-    failure,
-    in_a_folder,
-    load_source,
-    output,
-    refusing,
-    tell_of_compiling,
-    write_json,
-)
+from app.cli import program
 from app.tables import plan_table, suggestion_table
 from planner import Plan, Scene, Task, Timeline, make_plan, suggestions
 from planner.cloth.garment import Garment
@@ -50,9 +33,9 @@ class HeuristicName(StrEnum):
     ZERO = "zero"
 
 
-@cli.command()
+@program.cli.command()
 def plan(
-    garment: SourceArgument,
+    garment: program.SourceArgument,
     comfort_radius_m: Annotated[float | None, typer.Option(help="Reach margin (m).", show_default="0.03")] = None,
     scene: Annotated[Path | None, typer.Option(help="A scene file.")] = None,
     start: Annotated[str | None, typer.Option(help="The station where the robot starts.", show_default="front")] = None,
@@ -72,12 +55,14 @@ def plan(
     out: Annotated[
         Path | None,
         typer.Option(
-            callback=in_a_folder, metavar="FILE", help="Write a plan file, which show, timeline and export read."
+            callback=program.in_a_folder,
+            metavar="FILE",
+            help="Write a plan file, which show, timeline and export read.",
         ),
     ] = None,
-    json_to: JsonOption = None,
+    json_to: program.JsonOption = None,
     suggest: Annotated[bool, typer.Option("--suggest", help="Look for changes that give a (quicker) plan.")] = False,
-    data: DataOption = None,
+    data: program.DataOption = None,
 ) -> None:
     """Plan a garment's folds, and print the plan."""
     options = TaskOptions()
@@ -92,53 +77,53 @@ def plan(
     if robot is not None:
         options["robot"] = robot
     where = None if scene is None else _read_scene(scene, robot or DEFAULT_ROBOT)
-    task = _task(load_source(garment), where, options, garment)
+    task = _task(program.load_source(garment), where, options, garment)
     if from_plan is not None:
         task = _going_on(task, from_plan, after_step, has_scene=scene is not None)
     elif after_step is not None:
-        raise failure("--after-step: needs --from")
-    with blaming(garment):
-        tell_of_compiling(task.robot)
+        raise program.failure("--after-step: needs --from")
+    with program.blaming(garment):
+        program.tell_of_compiling(task.robot)
         answer = make_plan(task)
-    write_json(answer.answer(), json_to)
+    program.write_json(answer.answer(), json_to)
     if out is not None:
-        with refusing(out):
+        with program.refusing(out):
             write_plan(answer, out)
-    is_quiet = json_to == STANDARD_OUTPUT
+    is_quiet = json_to == program.STANDARD_OUTPUT
     if answer.is_solved and not is_quiet:
-        output.print(plan_table(answer))
+        program.output.print(plan_table(answer))
     status = _status(answer)
     if suggest and not is_quiet:
         _print_suggestions(answer)
     raise typer.Exit(status)
 
 
-@cli.command()
+@program.cli.command()
 def show(file: PlanFileArgument) -> None:
     """Print the plan in a plan file, or why there is none."""
-    with blaming(file):
+    with program.blaming(file):
         answer = read_plan(file)
     if answer.is_solved:
-        output.print(plan_table(answer))
+        program.output.print(plan_table(answer))
     raise typer.Exit(_status(answer))
 
 
-@cli.command()
+@program.cli.command()
 def timeline(
     file: PlanFileArgument,
     rate_hz: Annotated[float, typer.Option(help="Samples a second (1..200).")] = 30.0,
     json_to: Annotated[str, typer.Option("--json", metavar="FILE|-", help="Write it there; - prints it.")] = "-",
 ) -> None:
     """Sample a plan from its start to its end: base, joints, velocities, grippers."""
-    with blaming(file):
+    with program.blaming(file):
         played = Timeline.of(read_plan(file))
         samples = [frame.to_dict() for frame in played.samples(rate_hz)]
-    write_json({"rate_hz": rate_hz, "samples": samples}, json_to)
+    program.write_json({"rate_hz": rate_hz, "samples": samples}, json_to)
 
 
 def _task(source: Garment | Plan, scene: Scene | None, options: TaskOptions, name: str) -> Task:
     """Return the task of a garment, or that of a plan with the given options changed."""
-    with blaming(name):
+    with program.blaming(name):
         if isinstance(source, Garment):
             return task_for(source, scene, **options)
         if options.get("robot", source.task.robot) != source.task.robot:
@@ -152,14 +137,14 @@ def _task(source: Garment | Plan, scene: Scene | None, options: TaskOptions, nam
 
 def _going_on(task: Task, path: Path, after_step: int | None, *, has_scene: bool) -> Task:
     """Return the task with the start taken from a plan after a step, and the plan's scene unless another is given."""
-    with blaming(path):
+    with program.blaming(path):
         before = read_plan(path)
         start = before.state_after(len(before.steps) - 1 if after_step is None else after_step)
         return replace(task if has_scene else task.in_scene(before.scene), start=start)
 
 
 def _read_scene(path: Path, robot: str) -> Scene:
-    with blaming(path):
+    with program.blaming(path):
         data = read_json(path)
         if not isinstance(data, dict):
             raise SceneError("", "a scene file holds one JSON object")
@@ -172,7 +157,7 @@ def _print_suggestions(answer: Plan) -> None:
     time_s = min(_SLOWDOWN_MAX * work_s, TIME_LIMIT_S[1])
     task = replace(answer.task, limits=replace(limits, work_limit_s=work_s, time_limit_s=time_s))
     folds, found = answer.garment.folds, []
-    with errors.status("Looking for changes that give a plan...") as line:
+    with program.errors.status("Looking for changes that give a plan...") as line:
         for one in suggestions(
             task,
             plan=answer,
@@ -180,27 +165,27 @@ def _print_suggestions(answer: Plan) -> None:
             other_robots=robot_names(),
         ):
             found.append(one)
-            errors.print(Text(f"Found: {sentence(one.says, folds)} ({one.cost_s:.2f} s)"))
+            program.errors.print(Text(f"Found: {sentence(one.says, folds)} ({one.cost_s:.2f} s)"))
     if found:
-        output.print(suggestion_table(answer.garment, found))
+        program.output.print(suggestion_table(answer.garment, found))
     else:
-        output.print(f"No change was found within {work_s:g} s of work.")
+        program.output.print(f"No change was found within {work_s:g} s of work.")
 
 
 def _status(answer: Plan) -> int:
     """Return the exit status for a plan; print why there is none."""
     if answer.status == "budget_exceeded":
         bound = answer.statistics.bound_s
-        errors.print(
+        program.errors.print(
             "The search ran out of time. Raise --time-limit-s" + (f"; lower bound {bound:.2f} s" if bound else "")
         )
-        return OUT_OF_BUDGET
+        return program.OUT_OF_BUDGET
     if answer.is_solved and not answer.is_proven:
         bound = answer.statistics.bound_s or 0.0
         why = "The search ran out of time. " if answer.statistics.is_cut_short else ""
-        errors.print(f"{why}There may be a quicker plan, but none takes less than {bound:.2f} s")
+        program.errors.print(f"{why}There may be a quicker plan, but none takes less than {bound:.2f} s")
     for reason in answer.reasons:
         met = "" if reason.is_tried else "; met on the way, not tried whether it is the cause"
         why = sentence(reason.says, answer.garment.folds, reason.fold)
-        errors.print(f"{reason.code.value}: {why}{met}")
-    return 0 if answer.is_solved else NO_PLAN
+        program.errors.print(f"{reason.code.value}: {why}{met}")
+    return 0 if answer.is_solved else program.NO_PLAN

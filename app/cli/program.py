@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from rich.console import Console
+from rich.console import Console, RenderableType
 
 from app.cli.commands import cli as cli
 from planner.errors import FieldError, FoldingError, RequestError
@@ -94,6 +94,13 @@ def write_json(answer: Any, target: str | None) -> None:  # noqa: ANN401
     """Write JSON to a file or to standard output; do nothing for None."""
     if target is not None:
         write_text(json.dumps(answer, indent=1) + "\n", target)
+
+
+def print_answer(answer: Any, json_to: str | None, shown: RenderableType) -> None:  # noqa: ANN401
+    """Write an answer as JSON if that is asked for, and print it for people unless the JSON is printed alone."""
+    write_json(answer, json_to)
+    if json_to != STANDARD_OUTPUT:
+        output.print(shown)
 
 
 def write_text(text: str, target: str) -> None:

@@ -6,21 +6,7 @@ from typing import Annotated
 
 import typer
 
-from app.cli.program import (
-    NO_PLAN,
-    STANDARD_OUTPUT,
-    DataOption,
-    JsonOption,
-    SourceArgument,
-    blaming,
-    cli,
-    errors,
-    failure,
-    garment_of,
-    output,
-    tell_of_compiling,
-    write_json,
-)
+from app.cli import program
 from app.tables import proposals_table
 from planner import propose_folds
 from planner.proposals.proposals import all_proposals
@@ -35,9 +21,9 @@ class FaceName(StrEnum):
     BACK = "back"
 
 
-@cli.command("propose")
+@program.cli.command("propose")
 def propose(
-    garment: SourceArgument,
+    garment: program.SourceArgument,
     to: Annotated[
         str | None,
         typer.Option(
@@ -52,33 +38,31 @@ def propose(
     max_folds: Annotated[int, typer.Option(help="The most folds of a proposal.")] = 8,
     face: Annotated[FaceName, typer.Option(help="The face of the cloth that looks up at the end.")] = FaceName.ANY,
     anew: Annotated[bool, typer.Option("--anew", help="Leave out the folds that the garment has.")] = False,
-    json_to: JsonOption = None,
-    data: DataOption = None,
+    json_to: program.JsonOption = None,
+    data: program.DataOption = None,
 ) -> None:
     """Propose folds that bring a garment to a size, or fold it like another one, each planned for a robot.
 
     Folds that the garment has are kept as the beginning.
     """
-    source = garment_of(garment)
+    source = program.garment_of(garment)
     chosen = replace(source, folds=()) if anew else source
     if (to is None) == (like is None):
-        raise failure("Expected either --to SIZE or --like GARMENT.")
-    target = to or garment_of(like or "")
-    with blaming(garment):
+        raise program.failure("Expected either --to SIZE or --like GARMENT.")
+    target = to or program.garment_of(like or "")
+    with program.blaming(garment):
         found = propose_folds(chosen, target, robot=robot, count=count, max_folds=max_folds, face=face.value)
-        tell_of_compiling(robot)
+        program.tell_of_compiling(robot)
         answer = all_proposals(found)
-    write_json(answer.to_dict(), json_to)
-    if json_to != STANDARD_OUTPUT:
-        output.print(proposals_table(chosen, answer))
+    program.print_answer(answer.to_dict(), json_to, proposals_table(chosen, answer))
     if not answer.proposals and like is not None:
-        errors.print(f"--like: no fold of {like} fits the outline of {garment}.")
+        program.errors.print(f"--like: no fold of {like} fits the outline of {garment}.")
     elif not answer.proposals:
         wide, long = (f"{100.0 * side_m:.0f}" for side_m in sorted(answer.tried.nearest_m))
-        errors.print(
+        program.errors.print(
             f"--to: nothing fits {to}: the smallest found is {wide} x {long} cm, of {answer.tried.enumerated} ways "
             "tried. Choose a larger size or raise --max-folds"
         )
     elif not answer.is_any_solved:
-        errors.print("The robot can do none of them.")
-    raise typer.Exit(0 if answer.is_any_solved else NO_PLAN)
+        program.errors.print("The robot can do none of them.")
+    raise typer.Exit(0 if answer.is_any_solved else program.NO_PLAN)

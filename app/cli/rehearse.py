@@ -7,20 +7,7 @@ import typer
 from rich.progress import Progress
 from rich.table import Table
 
-from app.cli.program import (
-    NO_PLAN,
-    STANDARD_OUTPUT,
-    DataOption,
-    JsonOption,
-    SourceArgument,
-    blaming,
-    cli,
-    errors,
-    load_source,
-    output,
-    tell_of_compiling,
-    write_json,
-)
+from app.cli import program
 from app.rehearsal.rehearse import RehearsalOptions, rehearse
 from app.rehearsal.result import RehearsalResult
 from app.step_kinds import step_words
@@ -44,37 +31,35 @@ class Switch(StrEnum):
     OFF = "off"
 
 
-@cli.command("rehearse")
+@program.cli.command("rehearse")
 def rehearse_command(
-    source: SourceArgument,
+    source: program.SourceArgument,
     robot: Annotated[str | None, typer.Option(help="The robot, for a garment.", show_default=DEFAULT_ROBOT)] = None,
     runs: Annotated[int, typer.Option(help="How often the plan is performed.")] = 1,
     seed: Annotated[int, typer.Option(help="The seed of the first run; each after it has the next.")] = 0,
     noise: Annotated[NoiseName, typer.Option(help="The errors of robot, cloth and camera.")] = NoiseName.NONE,
     feedback: Annotated[Switch, typer.Option(help="Look before each step, and correct it.")] = Switch.ON,
-    json_to: JsonOption = None,
-    data: DataOption = None,
+    json_to: program.JsonOption = None,
+    data: program.DataOption = None,
 ) -> None:
     """Perform a plan in simulated physics, and say of every step whether it holds."""
-    with blaming(source):
+    with program.blaming(source):
         options = RehearsalOptions(runs, seed, noise.value, feedback is Switch.ON)
-        found = load_source(source)
+        found = program.load_source(source)
         if isinstance(found, Plan) and robot not in (None, found.task.robot):
             raise RequestError("robot", f"the plan is one for {found.task.robot}")
         if not isinstance(found, Plan):
-            tell_of_compiling(robot or DEFAULT_ROBOT)
+            program.tell_of_compiling(robot or DEFAULT_ROBOT)
         plan = found if isinstance(found, Plan) else make_plan(task_for(found, robot=robot or DEFAULT_ROBOT))
         if not plan.is_solved:
-            errors.print(f"{source}: the plan is {plan.status}, so there is nothing to rehearse")
-            raise typer.Exit(NO_PLAN)
-        with Progress(console=errors, transient=True) as bar:
+            program.errors.print(f"{source}: the plan is {plan.status}, so there is nothing to rehearse")
+            raise typer.Exit(program.NO_PLAN)
+        with Progress(console=program.errors, transient=True) as bar:
             task = bar.add_task("Rehearsing", total=1.0)
             result = rehearse(plan, options, lambda share: bar.update(task, completed=share))
-    write_json(result.to_dict(), json_to)
-    if json_to != STANDARD_OUTPUT:
-        output.print(_table(plan, result))
+    program.print_answer(result.to_dict(), json_to, _table(plan, result))
     if not result.is_held:
-        raise typer.Exit(NO_PLAN)
+        raise typer.Exit(program.NO_PLAN)
 
 
 def _table(plan: Plan, result: RehearsalResult) -> Table:

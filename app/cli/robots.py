@@ -3,46 +3,33 @@
 import shutil
 from dataclasses import asdict
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 from rich.progress import Progress
 
-from app.cli.program import (
-    STANDARD_OUTPUT,
-    DataOption,
-    JsonOption,
-    blaming,
-    cli,
-    errors,
-    failure,
-    output,
-    refusing,
-    write_json,
-)
+from app.cli import program
 from app.tables import robot_check_table, robots_table
 from planner.robots.known_robots import robot_cards, robot_entry
 from planner.robots.own_robots import CARD
 
 robot = typer.Typer(help="List the robots, check a card, draft one of a URDF.", no_args_is_help=True)
-cli.add_typer(robot, name="robot")
+program.cli.add_typer(robot, name="robot")
 
 
-@cli.command()
+@program.cli.command()
 @robot.command("list")
-def robots(json_to: JsonOption = None, data: DataOption = None) -> None:
+def robots(json_to: program.JsonOption = None, data: program.DataOption = None) -> None:
     """Print the robots that are shipped, and your own."""
     cards = robot_cards()
-    write_json([robot_entry(card) for card in cards], json_to)
-    if json_to != STANDARD_OUTPUT:
-        output.print(robots_table(cards))
+    program.print_answer([robot_entry(card) for card in cards], json_to, robots_table(cards))
 
 
 @robot.command()
 def check(
     card: Annotated[str, typer.Argument(metavar="CARD", help="The name of a robot, or a card's file.")],
-    json_to: JsonOption = None,
-    data: DataOption = None,
+    json_to: program.JsonOption = None,
+    data: program.DataOption = None,
 ) -> None:
     """Check that a card is complete, that what it names is there, and how much of its table it reaches.
 
@@ -55,20 +42,19 @@ def check(
     from planner.robots.table_reach import table_reach
     from planner.robots.tool_point import tool_points
 
-    with blaming(card):
+    with program.blaming(card):
         found = read_robot(card)
         points, warnings = tool_points(found), warnings_of(found)
-    told_on = errors if json_to == STANDARD_OUTPUT else output
+    told_on = program.errors if json_to == program.STANDARD_OUTPUT else program.output
     for warning in warnings:
         told_on.print(f"Warning: {warning['message']}.", markup=False, soft_wrap=True)
-    with Progress(console=errors, transient=True) as progress:
+    with Progress(console=program.errors, transient=True) as progress:
         task = progress.add_task("Looking where the arms can go", total=1.0)
         reach = table_reach(found, lambda share: progress.update(task, completed=share))
     reached = {"arms": reach.arms, "any_arm": reach.any_arm, "two_arms": reach.two_arms}
-    told = {"tool_points": [asdict(point) for point in points], "warnings": warnings}
-    write_json({"name": found.card.name, "title": found.card.title, "table_reached": reached, **told}, json_to)
-    if json_to != STANDARD_OUTPUT:
-        output.print(robot_check_table(found.card, reach))
+    told: dict[str, Any] = {"tool_points": [asdict(point) for point in points], "warnings": warnings}
+    told |= {"name": found.card.name, "title": found.card.title, "table_reached": reached}
+    program.print_answer(told, json_to, robot_check_table(found.card, reach))
 
 
 @robot.command()
@@ -88,23 +74,23 @@ def draft(
     from app.robot_warnings import warnings_of
     from planner.robots.described_robot import read_described
 
-    with refusing(out):
+    with program.refusing(out):
         if out.exists() and any(out.iterdir()):
-            raise failure(f"--out: {out} is not empty")
+            raise program.failure(f"--out: {out} is not empty")
         is_new = not out.exists()
         out.mkdir(parents=True, exist_ok=True)
     try:
-        with blaming(file), refusing(file):
+        with program.blaming(file), program.refusing(file):
             draft = drafted(file, name or out.resolve().name, out)
             warnings = warnings_of(read_described(out / CARD))
     except typer.Exit:
         if is_new:
             shutil.rmtree(out)
         raise
-    output.print(f"{out / CARD}: {len(draft.card.arms)} arms, each with a gripper", soft_wrap=True)
+    program.output.print(f"{out / CARD}: {len(draft.card.arms)} arms, each with a gripper", soft_wrap=True)
     for title, told in (("Guessed", draft.guesses), ("Not known", draft.unknown)):
         for one in told:
-            output.print(f"{title}: {one}.", soft_wrap=True)
+            program.output.print(f"{title}: {one}.", soft_wrap=True)
     for warning in warnings:
-        output.print(f"Warning: {warning['message']}.", soft_wrap=True)
-    output.print(f"Look through it, then: pleat robot check {out / CARD}", soft_wrap=True)
+        program.output.print(f"Warning: {warning['message']}.", soft_wrap=True)
+    program.output.print(f"Look through it, then: pleat robot check {out / CARD}", soft_wrap=True)

@@ -7,19 +7,7 @@ from typing import Annotated
 
 import typer
 
-from app.cli.program import (
-    NO_PLAN,
-    STANDARD_OUTPUT,
-    JsonOption,
-    blaming,
-    cli,
-    errors,
-    failure,
-    garment_of,
-    load_source,
-    output,
-    write_json,
-)
+from app.cli import program
 from app.rehearsal.camera.calibration import Calibration, CalibrationError
 from app.rehearsal.vision.seen_garment import Seen
 from app.rehearsal.vision.seen_garment import see as see_garment
@@ -31,7 +19,7 @@ from planner.cloth.garment import Garment
 from planner.task.plan import Plan
 
 
-@cli.command()
+@program.cli.command()
 def see(
     image: Annotated[Path, typer.Argument(metavar="IMAGE", help="A PNG or JPEG of a garment on a table.")],
     scale: Annotated[
@@ -63,25 +51,23 @@ def see(
         Path | None,
         typer.Option(metavar="FILE", help="The camera that took it, as `pleat camera calibrate` found it: no --scale."),
     ] = None,
-    json_to: JsonOption = None,
+    json_to: program.JsonOption = None,
 ) -> None:
     """Read a garment from a picture: its outline, where it lies, how sure that is; or how far it is folded."""
     if like is not None and state is not None:
-        raise failure("--like and --state-of cannot be given together")
+        raise program.failure("--like and --state-of cannot be given together")
     if calibration is not None and scale is not None:
-        raise failure("--scale and --calibration cannot be given together")
+        raise program.failure("--scale and --calibration cannot be given together")
     scaled = scale if calibration is None else calibration_file(calibration)
     if state is not None:
-        _see_state(image, scaled, load_source(state), json_to)
+        _see_state(image, scaled, program.load_source(state), json_to)
         return
-    kind = None if like is None else find_template(like) or garment_of(like)
+    kind = None if like is None else find_template(like) or program.garment_of(like)
     with telling(image):
         found = see_garment(picture_file(image), image.stem, scaled, kind)
-    write_json(found.to_dict(), json_to)
-    if json_to != STANDARD_OUTPUT:
-        output.print(_told(found))
+    program.print_answer(found.to_dict(), json_to, _told(found))
     if found.sure.unknown is not None:
-        errors.print(f"{image}: not sure: {found.sure.unknown.text}")
+        program.errors.print(f"{image}: not sure: {found.sure.unknown.text}")
 
 
 def _see_state(image: Path, scale: str | Calibration | None, of: Garment | Plan, json_to: str | None) -> None:
@@ -89,11 +75,9 @@ def _see_state(image: Path, scale: str | Calibration | None, of: Garment | Plan,
     garment, plan = (of.garment, of) if isinstance(of, Plan) else (of, None)
     with telling(image):
         found = see_state(picture_file(image), scale, garment, plan)
-    write_json(found.to_dict(), json_to)
-    if json_to != STANDARD_OUTPUT:
-        output.print(_state_told(found))
+    program.print_answer(found.to_dict(), json_to, _state_told(found))
     if found.unknown is not None:
-        errors.print(f"{image}: not sure: {found.unknown.text}")
+        program.errors.print(f"{image}: not sure: {found.unknown.text}")
 
 
 def calibration_file(path: Path) -> Calibration:
@@ -101,36 +85,36 @@ def calibration_file(path: Path) -> Calibration:
     try:
         return Calibration.read(path)
     except OSError as error:
-        raise failure(f"{path}: {error.strerror}") from None
+        raise program.failure(f"{path}: {error.strerror}") from None
     except CalibrationError as error:
-        raise failure(f"{path}: {error}") from None
+        raise program.failure(f"{path}: {error}") from None
 
 
 def picture_file(path: Path) -> bytes:
     """Return a picture's content; exit the program if it cannot be read."""
     try:
         if path.stat().st_size > LARGEST_PICTURE:
-            raise failure(f"{path}: has {path.stat().st_size} bytes, more than {LARGEST_PICTURE}")
+            raise program.failure(f"{path}: has {path.stat().st_size} bytes, more than {LARGEST_PICTURE}")
         return path.read_bytes()
     except OSError as error:
-        raise failure(f"{path}: {error.strerror}") from None
+        raise program.failure(f"{path}: {error.strerror}") from None
 
 
 @contextmanager
 def telling(source: Path) -> Iterator[None]:
     """Exit the program if a picture is bad input or shows nothing that can be recognised."""
-    with blaming(source):
+    with program.blaming(source):
         try:
             yield
         except NothingToldError as error:
-            errors.print(f"{source}: {error}")
-            raise typer.Exit(NO_PLAN) from None
+            program.errors.print(f"{source}: {error}")
+            raise typer.Exit(program.NO_PLAN) from None
         except ScaleNeededError as error:
-            raise failure(f"{source}: --scale: {error}") from None
+            raise program.failure(f"{source}: --scale: {error}") from None
         except PictureError as error:
             if error.field != "scale":
                 raise
-            raise failure(f"--scale: {error.message}") from None
+            raise program.failure(f"--scale: {error.message}") from None
 
 
 def _state_told(found: SeenState) -> str:

@@ -7,12 +7,14 @@ keeps its form when a corner is moved. The planner sees the points alone.
 
 import math
 from dataclasses import dataclass
-from typing import Final
+from typing import Annotated, Final
 
 import numpy as np
+from pydantic import Field
 
 from planner.cloth.outline import EDGE_MIN_M
 from planner.geometry.pose import FloatArray, Point2
+from planner.json_form import STRICT
 
 CURVE_TOLERANCE_M: Final = 1e-3
 """Largest distance between a curve and the polygon that stands for it (m): less than a robot's grip can tell."""
@@ -34,8 +36,10 @@ class Curve:
         across: its distance to the left of the chord (chord lengths).
     """
 
-    along: float
-    across: float
+    __pydantic_config__ = STRICT
+
+    along: Annotated[float, Field(ge=-CURVE_MAX, le=CURVE_MAX)]
+    across: Annotated[float, Field(ge=-CURVE_MAX, le=CURVE_MAX)]
 
     @property
     def turned(self) -> "Curve":

@@ -3,20 +3,53 @@
 A drawing may be invalid, e.g. its outline may cross itself or a fold may end off the cloth. It is still an ordinary
 value; solving it (`app.drawing.solve`) finds its problems. Corners and folds have ids that stay the same while the
 drawing changes, so that a tie keeps its corner when other corners are added or removed.
+
+Its JSON form follows from its annotations (`app.drawing.drawing_json`).
 """
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from typing import TypeAlias, TypeVar
+from typing import Annotated, Any, Literal, TypeAlias, TypeVar
+
+from pydantic import AfterValidator, BeforeValidator, ConfigDict, Field, GetPydanticSchema
 
 from app.drawing.curve import Curve
-from planner.cloth.fold_kinds import FOLD_KINDS
-from planner.cloth.garment import DEFAULT_THICKNESS_M
-from planner.geometry.pose import Point2, Pose2
+from planner.cloth.fold_kinds import FOLD_KINDS, FoldName
+from planner.cloth.garment import DEFAULT_THICKNESS_M, FOLDS_MAX, NAME_PATTERN, TITLE_MAX, Thickness
+from planner.cloth.outline import POINTS_MAX
+from planner.geometry.given import GivenPose, PlanePoint
+from planner.geometry.pose import Point2
+from planner.json_form import STRICT
+from planner.strict_model import Positive
 from planner.task.scene import Scene
-from planner.task.task import DEFAULT_ROBOT
+from planner.task.task import COMFORT_MAX_M, DEFAULT_ROBOT
 
 T = TypeVar("T")
+
+_FORM = ConfigDict(**STRICT, serialize_by_alias=True)
+
+_Id = Annotated[str, Field(pattern=r"^[A-Za-z0-9_-]{1,16}$")]
+_Fraction = Annotated[float, Field(ge=0.0, le=1.0)]
+_Title = Annotated[str, Field(max_length=TITLE_MAX)]
+_Name = Annotated[str, Field(pattern=rf"^{NAME_PATTERN.pattern}$")]
+_Kind = Annotated[str, GetPydanticSchema(lambda _, schema: schema(FoldName))]
+_RobotName = Annotated[str, Field(pattern=rf"^{NAME_PATTERN.pattern}(@\S{{1,2000}})?$")]
+"""A robot's name, and changes of its card (see `planner.robots.varied_card`)."""
+
+
+def _whole(given: Any) -> Any:  # noqa: ANN401
+    """Return a curve's JSON, whose handle is over the middle of the chord unless it says otherwise."""
+    return {"along": 0.0, **given} if isinstance(given, dict) else given
+
+
+def _if_bent(curve: Curve | None) -> Curve | None:
+    return curve if curve is not None and (curve.along or curve.across) else None
+
+
+def _may_lack_curve(schema: dict[str, Any]) -> None:
+    """Describe the curve without its default: with one it would be taken for a field that is always sent."""
+    schema["required"] = ["id", "point"]
+    schema["properties"]["curve"].pop("default", None)
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,16 +62,23 @@ class Corner:
         curve: the curve of the edge to the next corner; None where that is straight.
     """
 
-    id: str
-    point: Point2
-    curve: Curve | None = None
+    __pydantic_config__ = ConfigDict(**STRICT, json_schema_extra=_may_lack_curve)
+
+    id: _Id
+    point: PlanePoint
+    curve: Annotated[
+        Curve | None, BeforeValidator(_whole), AfterValidator(_if_bent), Field(exclude_if=lambda curve: curve is None)
+    ] = None
 
 
 @dataclass(frozen=True, slots=True)
 class CornerTie:
     """A tie to a corner of the outline."""
 
-    corner: str
+    __pydantic_config__ = _FORM
+
+    corner: Annotated[_Id, Field(alias="vertex")]
+    kind: Literal["vertex"] = "vertex"
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,9 +88,12 @@ class EdgeTie:
     The corners are neighbours until a corner is inserted between them.
     """
 
-    start: str
-    end: str
-    fraction: float
+    __pydantic_config__ = _FORM
+
+    start: Annotated[_Id, Field(alias="from")]
+    end: Annotated[_Id, Field(alias="to")]
+    fraction: _Fraction
+    kind: Literal["edge"] = "edge"
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,14 +106,21 @@ class CreaseTie:
         carried: the ids of the folds before it that had moved the layer in question.
     """
 
-    fold: str
-    fraction: float
-    carried: tuple[str, ...] = ()
+    __pydantic_config__ = STRICT
+
+    fold: _Id
+    fraction: _Fraction
+    carried: Annotated[tuple[_Id, ...], Field(max_length=FOLDS_MAX)] = ()
+    kind: Literal["crease"] = "crease"
 
 
 @dataclass(frozen=True, slots=True)
 class ChordTie:
     """No tie: the end is where the fold's line meets the boundary nearest to the end's point."""
+
+    __pydantic_config__ = STRICT
+
+    kind: Literal["chord"] = "chord"
 
 
 Tie: TypeAlias = CornerTie | EdgeTie | CreaseTie | ChordTie
@@ -85,8 +135,10 @@ class End:
         tie: its tie; None for an end just drawn, or if no tie can be found.
     """
 
-    point: Point2
-    tie: Tie | None = None
+    __pydantic_config__ = _FORM
+
+    point: PlanePoint
+    tie: Annotated[Tie | None, Field(alias="on", discriminator="kind")] = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,13 +155,15 @@ class Crease:
         twin: the id of the fold that mirrors this one, if they are linked.
     """
 
-    id: str
-    name: str
-    kind: str
+    __pydantic_config__ = STRICT
+
+    id: _Id
+    name: _Title
+    kind: _Kind
     start: End
     end: End
-    grip_radius_m: float | None = None
-    twin: str | None = None
+    grip_radius_m: Positive | None = None
+    twin: _Id | None = None
 
     @property
     def is_red(self) -> bool:
@@ -141,18 +195,20 @@ class Drawing:
         thickness_m: the cloth's thickness where fingers press it (m).
     """
 
-    name: str
-    title: str
-    outline: tuple[Corner, ...]
-    areal_density_kg_m2: float
-    grip_radius_m: float
-    folds: tuple[Crease, ...]
-    placement: Pose2
+    __pydantic_config__ = STRICT
+
+    name: _Name
+    title: _Title
+    outline: Annotated[tuple[Corner, ...], Field(max_length=POINTS_MAX)]
+    areal_density_kg_m2: Positive
+    grip_radius_m: Positive
+    folds: Annotated[tuple[Crease, ...], Field(max_length=FOLDS_MAX)]
+    placement: GivenPose
     scene: Scene
-    start_station: str
-    comfort_radius_m: float
-    robot: str = DEFAULT_ROBOT
-    thickness_m: float = DEFAULT_THICKNESS_M
+    start_station: _Title
+    comfort_radius_m: Annotated[float, Field(ge=0.0, le=COMFORT_MAX_M)]
+    robot: _RobotName = DEFAULT_ROBOT
+    thickness_m: Thickness = DEFAULT_THICKNESS_M
 
     @property
     def points(self) -> tuple[Point2, ...]:

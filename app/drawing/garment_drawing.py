@@ -1,7 +1,7 @@
-"""Turns a garment into a drawing: corners and folds get ids; solving ties the folds to the cloth."""
+"""The first drawing of a document: of a garment, whose corners and folds get ids, or an empty one."""
 
 from app.drawing.drawing import Corner, Crease, Drawing, End
-from planner.cloth.garment import Garment
+from planner.cloth.garment import DEFAULT_DENSITY_KG_M2, DEFAULT_GRIP_RADIUS_M, Garment, centred_placement
 from planner.planning.robot_task import default_placement, default_scene
 from planner.task.scene import Scene
 from planner.task.task import DEFAULT_ROBOT
@@ -39,4 +39,20 @@ def drawing_of(garment: Garment, scene: Scene | None = None, robot: str = DEFAUL
         COMFORT_RADIUS_M,
         robot,
         garment.thickness_m,
+    )
+
+
+def blank_drawing() -> Drawing:
+    """Return a drawing without outline or folds, with the article frame's origin in the middle of the table."""
+    return Drawing(
+        name="untitled",
+        title="Untitled",
+        outline=(),
+        areal_density_kg_m2=DEFAULT_DENSITY_KG_M2,
+        grip_radius_m=DEFAULT_GRIP_RADIUS_M,
+        folds=(),
+        placement=centred_placement(((0.0, 0.0),)),
+        scene=Scene(),
+        start_station=START_STATION,
+        comfort_radius_m=COMFORT_RADIUS_M,
     )

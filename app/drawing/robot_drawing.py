@@ -30,11 +30,7 @@ def with_robot(solution: Solution, robot: str, past: Iterable[Drawing] = ()) -> 
     for known in past:
         if known.robot == robot and known.outline == drawing.outline:
             return replace(
-                drawing,
-                robot=robot,
-                scene=known.scene,
-                start_station=known.start_station,
-                placement=known.placement,
+                drawing, robot=robot, scene=known.scene, start_station=known.start_station, placement=known.placement
             )
     scene = default_scene(robot)
     return replace(

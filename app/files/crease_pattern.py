@@ -6,7 +6,6 @@ folded over one after the other, in the file's order; others take several layers
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from functools import partial
 from typing import Any
 
 import numpy as np
@@ -92,12 +91,7 @@ def _flat(coordinates: Sequence[Sequence[float]]) -> FloatArray:
 
 
 def _curve(points: FloatArray, ends: Iterable[int]) -> DrawnCurve:
-    line = points[list(ends)]
-    return DrawnCurve(line, partial(_as_it_is, line), is_bent=False)
-
-
-def _as_it_is(line: FloatArray, _tolerance: float) -> FloatArray:
-    return line
+    return DrawnCurve.through(points[list(ends)])
 
 
 def _straight(points: FloatArray, edges: Sequence[tuple[int, int]]) -> list[list[int]]:

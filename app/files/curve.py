@@ -101,6 +101,11 @@ class DrawnCurve:
     is_bent: bool
     piece: str | None = None
 
+    @staticmethod
+    def through(points: FloatArray, *, is_bent: bool = False, piece: str | None = None) -> "DrawnCurve":
+        """Return the line through points, shape (n, 2), whatever the tolerance."""
+        return DrawnCurve(points, lambda _: points, is_bent, piece)
+
     def flattened(self, tolerance: float) -> FloatArray:
         """Return points on the line."""
         return _finite(self.cut(tolerance))

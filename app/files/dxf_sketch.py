@@ -47,16 +47,7 @@ _BLOCKS_DEEP = 8
 
 _LINES = frozenset({"LINE", "LWPOLYLINE", "POLYLINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE"})
 _TEXTS = frozenset({"TEXT", "MTEXT", "ATTRIB"})
-_BAD = (
-    DXFError,
-    ArithmeticError,
-    AssertionError,
-    AttributeError,
-    LookupError,
-    RecursionError,
-    TypeError,
-    ValueError,
-)
+_BAD = (DXFError, ArithmeticError, AssertionError, AttributeError, LookupError, RecursionError, TypeError, ValueError)
 """Exceptions that ezdxf raises on files that are not DXF or hold nonsensical numbers."""
 
 # It would log every number that it repairs in a user's file to the server's log.

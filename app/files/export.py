@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
 from app.distribution import missing
+from app.language import ENGLISH, say
 from planner.errors import FoldingError, GarmentError
 from planner.message import Message
 
@@ -38,8 +39,6 @@ class Export:
 
     Attributes:
         what: its name in a request.
-        title: its displayed name.
-        text: its use, in a sentence.
         ending: the ending of the file's name.
         media_type: its media type.
         why_not: returns the reason why a state cannot be exported now; None if it can.
@@ -51,8 +50,6 @@ class Export:
     """
 
     what: str
-    title: str
-    text: str
     ending: str
     media_type: str
     why_not: Callable[[DocumentState], Message | None]
@@ -61,6 +58,16 @@ class Export:
     is_slow: bool = False
     is_folder: bool = False
     needs: tuple[str, ...] = ()
+
+    @property
+    def title(self) -> str:
+        """Its displayed name."""
+        return say(ENGLISH, f"file.{self.what}")
+
+    @property
+    def text(self) -> str:
+        """Its use, in a sentence."""
+        return say(ENGLISH, f"file.{self.what}.text")
 
     @property
     def needs_plan(self) -> bool:

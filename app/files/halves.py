@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from app.files.sketch import MirrorLine
-from planner.geometry.arrangement import are_alike, reflected, united_ring
+from planner.geometry.arrangement import are_alike, reflected, signed_area, united_ring
 from planner.geometry.pose import FloatArray
 from planner.geometry.ring import after, corners
 from planner.geometry.segment import Segment
@@ -133,7 +133,7 @@ def whole_line(ends: FloatArray, line: Segment) -> FloatArray | None:
 
 def joined(rings: Sequence[FloatArray]) -> tuple[int, int, FloatArray] | None:
     """Return the indices of the first two rings that are halves of one piece, and the piece; else None."""
-    areas = [_area(ring) for ring in rings]
+    areas = [abs(signed_area(ring)) for ring in rings]
     for one in range(len(rings)):
         for other in range(one + 1, len(rings)):
             if abs(areas[one] - areas[other]) <= 0.02 * areas[one]:
@@ -141,8 +141,3 @@ def joined(rings: Sequence[FloatArray]) -> tuple[int, int, FloatArray] | None:
                 if whole is not None:
                     return one, other, whole
     return None
-
-
-def _area(ring: FloatArray) -> float:
-    x, y = (ring - ring[0]).T
-    return abs(float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1)))) / 2.0

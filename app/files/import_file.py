@@ -1,26 +1,27 @@
 """Imports a file as a garment; the ending of its name decides its format."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import replace
 from pathlib import PurePath
-from typing import Any
+
+from pydantic_core import from_json
 
 from app.distribution import missing
+from app.files.crease_pattern import is_crease_pattern, read_fold
 from app.files.crease_reading import Creases
-from app.files.garment_json import read_json
-from app.files.graded_sizes import Graded
-from app.files.import_errors import ImportedFileError
-from app.files.pieces import Pieces
-from app.files.seam_allowance import Allowance, Line
+from app.files.import_errors import ImportedFileError, broken
+from app.files.pattern_panels import is_pattern_specification, read_panels
+from app.files.seam_allowance import Line
 from app.files.sketch import Sketch
-from app.files.sketch_garment import garment_of
-from app.files.sketch_size import UNITS_M, Sizes
+from app.files.sketch_garment import Imported, garment_of
+from app.files.sketch_size import UNITS_M
 from app.files.svg_sketch import read_svg
 from app.rehearsal.vision.vision_errors import LARGEST_PICTURE, NothingToldError, PictureError, ScaleNeededError
 from app.templates.catalogue import find_template
 from planner.cloth.garment import Garment
 from planner.message import Message
-from planner.task.plan_files import ENDING
+from planner.task.plan import Plan
+from planner.task.plan_files import ENDING, VERSION_FIELD
 
 LARGEST_FILE = 2 << 20
 """Largest size of a drawing or garment file (bytes)."""
@@ -48,33 +49,6 @@ _PICTURES = {"png": "png", "jpg": "jpeg", "jpeg": "jpeg"}
 
 ENDINGS = (_JSON, _FOLD, *_SKETCHES, *_PICTURES)
 """The endings of the names of files that can be imported, in lower case."""
-
-
-@dataclass(frozen=True, slots=True)
-class Imported:
-    """The content of an imported file.
-
-    Attributes:
-        format: "json", "fold", "svg", "dxf", "png" or "jpeg".
-        garment: the garment.
-        notes: remarks on the import, in sentences.
-        creases: the cloth on which the fold lines were read; None if it makes no difference.
-        sizes: the size that a drawing would have in other units; None for a garment file or a picture.
-        seen: how sure a garment in a picture is, as JSON; None for other files.
-        allowance: a drawing's seam allowance, and whether it was taken along; None for none.
-        graded: a drawing's graded sizes, and which was taken; None for one size.
-        pieces: a drawing's pieces, and which was taken; None for one piece.
-    """
-
-    format: str
-    garment: Garment
-    notes: tuple[Message, ...]
-    creases: Creases | None = None
-    sizes: Sizes | None = None
-    seen: dict[str, Any] | None = None
-    allowance: Allowance | None = None
-    graded: Graded | None = None
-    pieces: Pieces | None = None
 
 
 def largest(filename: str) -> int:
@@ -128,23 +102,14 @@ def import_file(
         raise ImportedFileError("filename", lacking)
     drawn = read_json(data) if ending in (_JSON, _FOLD) else None
     if isinstance(drawn, tuple):
-        return Imported(ending, *drawn)
+        return Imported(*drawn, format=ending)
     if ending in _PICTURES:
         return _picture(_PICTURES[ending], path.stem, data, measured, like)
     if drawn is None and ending not in _SKETCHES:
         endings = ", ".join(f".{known}" for known in ENDINGS)
         raise ImportedFileError("filename", f"{path.name[:80]!r} ends in none of {endings}")
-    found = garment_of(drawn or _SKETCHES[ending](data), path.stem, units, scale, creases, line, size, piece)
-    return Imported(
-        ending,
-        found.garment,
-        found.notes,
-        found.creases,
-        found.sizes,
-        allowance=found.allowance,
-        graded=found.graded,
-        pieces=found.pieces,
-    )
+    sketch = drawn or _SKETCHES[ending](data)
+    return replace(garment_of(sketch, path.stem, units, scale, creases, line, size, piece), format=ending)
 
 
 def _ending(filename: str) -> str:
@@ -169,4 +134,42 @@ def _picture(kind: str, name: str, data: bytes, measured: str | None, like: str 
         raise ImportedFileError("file", error.says) from None
     doubt = () if found.sure.unknown is None else (found.sure.unknown,)
     told = {key: value for key, value in found.to_dict().items() if key not in ("garment", "notes")}
-    return Imported(kind, found.garment, (*doubt, *found.notes), seen=told)
+    return Imported(found.garment, (*doubt, *found.notes), seen=told, format=kind)
+
+
+def read_json(data: bytes) -> tuple[Garment, tuple[Message, ...]] | Sketch:
+    """Return the garment in a garment file or a plan file, and remarks on it; of a pattern the drawing.
+
+    Raises:
+        ImportedFileError: the file is not a JSON object, one of another kind, or a pattern that is not valid.
+        GarmentError: the garment is invalid; the error names the field.
+        RequestError: the plan is invalid; the error names the field.
+    """
+    try:
+        values = from_json(data.removeprefix(b"\xef\xbb\xbf"), allow_inf_nan=False)
+    except ValueError as error:
+        raise broken(f"it is not JSON: {error}") from None
+    if not isinstance(values, dict):
+        raise broken("it is not a JSON object")
+    if is_pattern_specification(values):
+        return read_panels(values)
+    if is_crease_pattern(values):
+        return read_fold(values)
+    if "pleat_robot" in values:
+        text = "it is the card of a robot: import it as a zip with its URDF and its meshes"
+        raise ImportedFileError("file", Message("robot_card_file", text))
+    if VERSION_FIELD in values:
+        return _garment_of(Plan.from_dict(values))
+    return Garment.from_dict(values), ()
+
+
+def _garment_of(plan: Plan) -> tuple[Garment, tuple[Message, ...]]:
+    """Return the garment of a plan, placed as at the plan's start, and a note that says so."""
+    done = len(plan.task.start.folds_done)
+    from_middle = f" after {done} of its folds" if done else ""
+    text = (
+        f"the file is a plan{from_middle}: its garment was taken, where it lies at the plan's start, "
+        "and is planned anew with this document's table, stations and costs"
+    )
+    note = Message("garment_of_plan", text, {"folds_done": done})
+    return replace(plan.task.garment, placement=plan.task.start.placement), (note,)

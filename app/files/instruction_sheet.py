@@ -163,12 +163,7 @@ def _robot(base: Pose2, view: _View, frame: Frame) -> Iterator[Shape]:
     """Draw the robot where it stands, or at the edge of the picture towards where it stands."""
     left, top, width, height = frame
     x, y = view.spot(np.array([base.x_m, base.y_m]))
-    at = np.array(
-        [
-            min(max(x, left + _ROBOT), left + width - _ROBOT),
-            min(max(y, top + _ROBOT), top + height - _ROBOT),
-        ]
-    )
+    at = np.array([min(max(x, left + _ROBOT), left + width - _ROBOT), min(max(y, top + _ROBOT), top + height - _ROBOT)])
     ahead = np.array([-math.sin(base.yaw_rad), -math.cos(base.yaw_rad)]) * _ROBOT
     aside = np.array([ahead[1], -ahead[0]])
     ring = [at + u * ahead + v * aside for u, v in ((-1, -1), (1, -1), (1, 1), (-1, 1))]

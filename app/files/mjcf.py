@@ -14,6 +14,7 @@ from xml.etree.ElementTree import Element, SubElement, tostring
 import numpy as np
 
 from app.distribution import missing
+from app.ui.rotation import to_matrix
 from planner.errors import RobotError
 from planner.geometry.pose import FloatArray
 
@@ -78,7 +79,7 @@ class _Conversion:
                     SubElement(self._robot, "link", name=child)
                 # The first joint turns from the parent's axes to the body's, the others are along these already.
                 at = (
-                    place + _rotation(turn) @ model.jnt_pos[joint] - shift
+                    place + to_matrix(tuple(turn)) @ model.jnt_pos[joint] - shift
                     if number == 0
                     else model.jnt_pos[joint] - before
                 )
@@ -168,21 +169,9 @@ def _text(values: FloatArray) -> str:
     return " ".join(repr(float(value)) for value in values)
 
 
-def _rotation(quat: FloatArray) -> FloatArray:
-    """Return the rotation of a quaternion w, x, y, z; shape (3, 3)."""
-    w, x, y, z = (quat / np.linalg.norm(quat)).tolist()
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-        ]
-    )
-
-
 def _rpy(quat: FloatArray) -> FloatArray:
     """Return the roll, pitch and yaw of a quaternion, as a URDF has them (rad)."""
-    turn = _rotation(quat)
+    turn = to_matrix(tuple(quat))
     pitch = np.arcsin(np.clip(-turn[2, 0], -1.0, 1.0))
     if abs(turn[2, 0]) > 1.0 - 1e-12:  # straight up or down: roll and yaw are one
         return np.array([0.0, pitch, np.arctan2(-turn[0, 1], turn[1, 1])])

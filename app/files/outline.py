@@ -13,7 +13,7 @@ from app.files.pieces import in_pieces, joined_name, named_pieces, piece_wanted
 from app.files.seam_allowance import Allowance, Line, seam_line
 from app.files.sketch import MirrorLine, Sketch
 from planner.cloth.outline import AREA_MIN_M2, EDGE_MIN_M, POINTS_MAX
-from planner.geometry.arrangement import are_tangled, enclosing_rings
+from planner.geometry.arrangement import are_tangled, enclosing_rings, signed_area, simplified
 from planner.geometry.pose import FloatArray
 from planner.geometry.segment import Segment
 
@@ -115,7 +115,7 @@ class _Ring:
     @property
     def size_m2(self) -> float:
         """The area in it (m2)."""
-        return abs(area(self.points))
+        return abs(signed_area(self.points))
 
 
 def find_outline(sketch: Sketch, unit_m: float, wanted: Line = "seam") -> FoundOutline:
@@ -184,14 +184,8 @@ def _cornered(ring: FloatArray) -> tuple[FloatArray, float, float]:
     tolerance_m = 0.0
     while len(points) > POINTS_MAX:
         tolerance_m = 2.0 * tolerance_m or TOLERANCE_M
-        points = _spaced(_simplified(whole, tolerance_m))
+        points = _spaced(simplified(whole, tolerance_m))
     return points, spacing_m, tolerance_m
-
-
-def area(ring: FloatArray) -> float:
-    """Return the signed area of a ring of points, shape (n, 2): positive if it is counter-clockwise."""
-    x, y = (ring - ring[0]).T
-    return float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))) / 2.0
 
 
 def _rings(lines: Sequence[_Line]) -> list[_Ring]:
@@ -253,30 +247,3 @@ def _spaced(line: FloatArray) -> FloatArray:
     while len(kept) > 1 and np.hypot(*(kept[-1] - kept[0])) < EDGE_MIN_M:
         kept.pop()
     return np.array(kept)
-
-
-def _simplified(ring: FloatArray, tolerance_m: float) -> FloatArray:
-    """Return a ring with fewer corners that deviates by at most a tolerance (Douglas-Peucker)."""
-    far = int(np.hypot(*(ring - ring[0]).T).argmax())
-    closed = np.concatenate([ring, ring[:1]])
-    keep = np.zeros(len(closed), dtype=bool)
-    keep[[0, far, len(ring)]] = True
-    waiting = [(0, far), (far, len(ring))]
-    while waiting:
-        first, last = waiting.pop()
-        if last - first < 2:
-            continue
-        off = _off_chord(closed[first : last + 1])
-        worst = int(off.argmax())
-        if off[worst] > tolerance_m:
-            keep[first + worst] = True
-            waiting += [(first, first + worst), (first + worst, last)]
-    return closed[:-1][keep[:-1]]
-
-
-def _off_chord(line: FloatArray) -> FloatArray:
-    """Return the distances of points from the segment between the first and the last."""
-    chord, from_first = line[-1] - line[0], line - line[0]
-    length2 = float(chord @ chord)
-    along = np.clip(from_first @ chord / length2, 0.0, 1.0) if length2 > 0.0 else np.zeros(len(line))
-    return np.asarray(np.hypot(*(from_first - along[:, None] * chord).T))

@@ -10,6 +10,7 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 
+from planner.geometry.arrangement import away_from, perimeter, signed_area
 from planner.geometry.pose import FloatArray
 
 Line: TypeAlias = Literal["seam", "cut"]
@@ -44,14 +45,14 @@ def allowance_m(cut: FloatArray, inner: FloatArray) -> float | None:
         cut: the corners of the outer line, shape (n, 2).
         inner: those of the other one, shape (m, 2).
     """
-    away = _distances(_along(inner), cut)
+    away = away_from(_along(inner), cut)
     width = float(np.median(away))
     if not 0.0 < width <= WIDEST_SHARE * float(np.ptp(cut, axis=0).min()):
         return None
     if float(np.abs(away - width).max()) > _EVEN_SHARE * width:
         return None
-    between = abs(_area(cut)) - abs(_area(inner))
-    strip = width * (_perimeter(cut) + _perimeter(inner)) / 2.0
+    between = abs(signed_area(cut)) - abs(signed_area(inner))
+    strip = width * (perimeter(cut) + perimeter(inner)) / 2.0
     return width if abs(between - strip) <= _EVEN_SHARE * strip else None
 
 
@@ -71,22 +72,3 @@ def _along(ring: FloatArray) -> FloatArray:
     """Return points along a ring, evenly within each edge."""
     following = np.roll(ring, -1, axis=0)
     return np.concatenate([ring + (following - ring) * piece / _PIECES for piece in range(_PIECES)])
-
-
-def _distances(points: FloatArray, ring: FloatArray) -> FloatArray:
-    """Return how far points are from a ring's edges, shape (n,)."""
-    nearest = np.full(len(points), np.inf)
-    for start, end in zip(ring, np.roll(ring, -1, axis=0), strict=True):
-        edge, offset = end - start, points - start
-        share = np.clip(offset @ edge / max(float(edge @ edge), np.finfo(float).tiny), 0.0, 1.0)
-        nearest = np.minimum(nearest, np.hypot(*(offset - np.outer(share, edge)).T))
-    return nearest
-
-
-def _area(ring: FloatArray) -> float:
-    x, y = (ring - ring[0]).T
-    return float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))) / 2.0
-
-
-def _perimeter(ring: FloatArray) -> float:
-    return float(np.hypot(*(np.roll(ring, -1, axis=0) - ring).T).sum())

@@ -50,26 +50,30 @@ _NAME_MAX = 63
 
 
 @dataclass(frozen=True, slots=True)
-class SketchedGarment:
-    """A garment read from a drawing.
+class Imported:
+    """A garment read from a file.
 
     Attributes:
         garment: the garment.
         notes: remarks on how it was read, in sentences.
         creases: the cloth on which its fold lines were read; None if it makes no difference.
-        sizes: the size that it would have in other units.
-        allowance: its seam allowance, and whether it was taken along; None if the drawing tells of none.
-        graded: the graded sizes of the drawing, and which was taken; None if it has one size.
-        pieces: the pieces of the drawing, and which was taken; None if it has one.
+        sizes: the size that a drawing would have in other units; None for a garment file or a picture.
+        allowance: a drawing's seam allowance, and whether it was taken along; None for none.
+        graded: a drawing's graded sizes, and which was taken; None for one size.
+        pieces: a drawing's pieces, and which was taken; None for one piece.
+        seen: how sure a garment in a picture is, as JSON; None for other files.
+        format: "json", "fold", "svg", "dxf", "png" or "jpeg".
     """
 
     garment: Garment
     notes: tuple[Message, ...]
-    creases: Creases | None
-    sizes: Sizes
+    creases: Creases | None = None
+    sizes: Sizes | None = None
     allowance: Allowance | None = None
     graded: Graded | None = None
     pieces: Pieces | None = None
+    seen: dict[str, Any] | None = None
+    format: str = ""
 
 
 def garment_of(
@@ -81,7 +85,7 @@ def garment_of(
     line: Line | None = None,
     size: str | None = None,
     piece: str | None = None,
-) -> SketchedGarment:
+) -> Imported:
     """Return the garment that a drawing shows.
 
     Args:
@@ -129,7 +133,7 @@ def garment_of(
     wide, tall = (found.points.max(axis=0) - found.points.min(axis=0)).tolist()
     sizes = {name: (wide * each / unit_m * scale, tall * each / unit_m * scale) for name, each in UNITS_M.items()}
     pieces = Pieces(found.piece, found.pieces) if len(found.pieces) > 1 else None
-    return SketchedGarment(garment, tuple(notes), read, sizes, found.allowance, graded, pieces)
+    return Imported(garment, tuple(notes), read, sizes, found.allowance, graded, pieces)
 
 
 def _read(garment: Garment, creases: Creases | None, notes: list[Message]) -> tuple[Garment, Creases | None]:

@@ -17,14 +17,7 @@ PX_PER_INCH = 96.0
 
 _PX_M = INCH_M / PX_PER_INCH
 
-_IN_M = {
-    "mm": 1e-3,
-    "cm": 1e-2,
-    "in": INCH_M,
-    "pt": INCH_M / 72.0,
-    "pc": INCH_M / 6.0,
-    "q": 0.25e-3,
-}
+_IN_M = {"mm": 1e-3, "cm": 1e-2, "in": INCH_M, "pt": INCH_M / 72.0, "pc": INCH_M / 6.0, "q": 0.25e-3}
 """Lengths of the physical units of CSS (m)."""
 
 Sides: TypeAlias = tuple[float, float]

@@ -4,7 +4,6 @@ import json
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 from typing import Any, cast
 
 import numpy as np
@@ -14,14 +13,13 @@ from app.files.curve import Curve, DrawnCurve, Segment, SvgCurve
 from app.files.fold_colour import kind_of
 from app.files.import_errors import broken
 from app.files.markup import Element, read_markup
-from app.files.outline import area
 from app.files.piece_labels import piece_in, says_on_fold, size_in
 from app.files.sketch import DrawnLine, FoldLine, MirrorLine, Role, Sketch
 from app.files.svg_lengths import Sheet, Sides, sheet_of
 from app.files.svg_paint import WHITE_MIN, colour_of, is_filled, is_stroked, is_white
 from app.files.svg_shapes import Shape, shapes_of
 from planner.errors import FieldError
-from planner.geometry.arrangement import clipped, is_clipped_away
+from planner.geometry.arrangement import clipped, is_clipped_away, signed_area
 from planner.geometry.pose import FloatArray
 from planner.strict_model import LARGEST_M
 
@@ -221,7 +219,7 @@ class _Reading:
         if parts is None:
             return [curve]
         closed = [np.concatenate([part, part[:1]]) for part in parts]
-        return [DrawnCurve(points, partial(_same, points), curve.is_bent, curve.piece) for points in closed]
+        return [DrawnCurve.through(points, is_bent=curve.is_bent, piece=curve.piece) for points in closed]
 
     def _is_page(self, curve: Curve) -> bool:
         points, box = self._coarse(curve), self._sheet.view_box
@@ -230,11 +228,7 @@ class _Reading:
         low, high = points.min(axis=0), points.max(axis=0)
         slack = _PAGE_SLACK * np.ptp(sheet, axis=0)
         is_wide = bool(np.all(low <= sheet[0] + slack) and np.all(high >= sheet[1] - slack))
-        return is_wide and abs(area(points[:-1])) >= (1.0 - _PAGE_SLACK) * float(np.prod(high - low))
-
-
-def _same(points: FloatArray, _: float) -> FloatArray:
-    return points
+        return is_wide and abs(signed_area(points[:-1])) >= (1.0 - _PAGE_SLACK) * float(np.prod(high - low))
 
 
 def labels_of(element: Element) -> list[str]:

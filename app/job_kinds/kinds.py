@@ -12,15 +12,7 @@ from app.job_kinds.studies import STUDIES
 from app.job_kinds.suggestions import SUGGESTIONS
 from app.jobs.job_kind import AnyKind
 
-BY_JSON: tuple[AnyKind, ...] = (
-    COMPARISONS,
-    PLACEMENTS,
-    PROPOSALS,
-    REHEARSALS,
-    RUNS,
-    STUDIES,
-    SUGGESTIONS,
-)
+BY_JSON: tuple[AnyKind, ...] = (COMPARISONS, PLACEMENTS, PROPOSALS, REHEARSALS, RUNS, STUDIES, SUGGESTIONS)
 """The kinds that are asked for with a body of JSON, each at a route that is made of it."""
 
 KINDS: Mapping[str, AnyKind] = {kind.name: kind for kind in (*BY_JSON, ROBOTS)}

@@ -1,9 +1,10 @@
 """Proposals as a job: ways to fold a garment to a size, each planned."""
 
 import uuid
-from collections.abc import Generator
+from collections.abc import Callable, Generator
 from dataclasses import dataclass
-from typing import Annotated, Any
+from functools import partial
+from typing import Annotated, Any, NamedTuple
 
 from pydantic import Field, PlainValidator
 from pydantic_core import PydanticCustomError
@@ -86,20 +87,12 @@ class ProposalsRequest(StrictModel):
         return with_robots_scene(data)
 
 
-@dataclass(frozen=True, slots=True)
-class ProposalsTask:
-    """What proposals are asked for; the arguments of `propose_folds`."""
+class ProposalsTask(NamedTuple):
+    """What proposals are asked for: the garment, how many, and what begins to look for them as they are taken."""
 
     garment: Garment
-    to: Target | Garment
-    robot: str
     count: int
-    untried: int
-    max_folds: int
-    face: str
-    scene: Scene | None
-    work_limit_s: float
-    options: ProposalOptions
+    begin: Callable[[], Generator[Proposal, None, Tried]]
 
 
 def _prepare(stores: Stores, wanted: ProposalsRequest) -> ProposalsTask:
@@ -107,42 +100,18 @@ def _prepare(stores: Stores, wanted: ProposalsRequest) -> ProposalsTask:
     options = ProposalOptions(placement=wanted.placement, comfort_radius_m=wanted.comfort_radius_m)
     if wanted.start_station is not None:
         options["start_station"] = wanted.start_station
-    asked = ProposalsTask(
-        requested_garment(stores, wanted.garment),
-        _target(stores, wanted.to),
-        wanted.robot,
-        wanted.count,
-        wanted.untried,
-        wanted.max_folds,
-        wanted.face,
-        wanted.scene,
-        wanted.work_limit_s,
-        options,
-    )
-    _begun(asked)  # checks the rest
-    return asked
+    garment = requested_garment(stores, wanted.garment)
+    same = ("robot", "count", "untried", "max_folds", "face", "scene", "work_limit_s")
+    asked: dict[str, Any] = {name: getattr(wanted, name) for name in same}
+    begin = partial(propose_folds, garment, _target(stores, wanted.to), **asked, **options)
+    begin()  # checks the rest
+    return ProposalsTask(garment, wanted.count, begin)
 
 
 def _target(stores: Stores, to: To) -> Target | Garment:
     if isinstance(to, LikeField):
         return requested_garment(stores, to.like)
     return Target.of(to if isinstance(to, str) else (to.width_m, to.length_m))
-
-
-def _begun(asked: ProposalsTask) -> Generator[Proposal, None, Tried]:
-    """Return proposals that are looked for as they are taken."""
-    return propose_folds(
-        asked.garment,
-        asked.to,
-        robot=asked.robot,
-        count=asked.count,
-        untried=asked.untried,
-        max_folds=asked.max_folds,
-        face=asked.face,
-        scene=asked.scene,
-        work_limit_s=asked.work_limit_s,
-        **asked.options,
-    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -173,7 +142,7 @@ def propose(asked: ProposalsTask, progress: Progress) -> dict[str, Any]:
             Found(body, (proposal.plan.task, PackedPlan.of(proposal.plan))),
         )
 
-    found = all_proposals(_begun(asked), hear)
+    found = all_proposals(asked.begin(), hear)
     return {**found.to_dict(), "proposals": [told[one.garment.folds] for one in found.proposals]}
 
 

@@ -72,12 +72,7 @@ class JobDesk:
     """The jobs of a server; safe to use from any thread."""
 
     def __init__(
-        self,
-        kinds: Mapping[str, AnyKind],
-        stores: Stores,
-        repository: JobRepository,
-        pool: JobPool,
-        workers: Workers,
+        self, kinds: Mapping[str, AnyKind], stores: Stores, repository: JobRepository, pool: JobPool, workers: Workers
     ) -> None:
         """Take up no job before `resume`."""
         self._kinds = kinds

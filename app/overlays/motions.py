@@ -91,13 +91,7 @@ def _grips(plan: Plan, number: int) -> list[dict[str, Any]]:
             name: None if point is None else _plane(place.to_inner(np.array(point)))
             for name, point in (("pick", grip.pick), ("apex", grip.apex), ("place", grip.place))
         }
-        found.append(
-            {
-                "arm": grip.arm,
-                **ends,
-                "points": place.to_inner(_bends(np.array(points))).tolist(),
-            }
-        )
+        found.append({"arm": grip.arm, **ends, "points": place.to_inner(_bends(np.array(points))).tolist()})
     return found
 
 

@@ -14,8 +14,7 @@ from starlette.applications import Starlette
 from app.api.create_app import create_app
 from app.server.arenas import use_few_arenas
 from app.server.log import logging_to, standard_error
-from app.server.timed_protocol import TimedProtocol
-from app.server.websocket_protocol import WebSocketProtocol
+from app.server.protocols import TimedProtocol, WebSocketProtocol
 from app.settings import Settings
 from app.store.access_token import AccessToken, file_token, kept_token
 from app.store.data_folder import DataFolder

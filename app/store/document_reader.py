@@ -10,10 +10,10 @@ from sqlalchemy.orm import Session
 
 from app.drawing.draft import Draft
 from app.drawing.drawing import Drawing
-from app.drawing.drawing_json import DrawingModel
+from app.drawing.drawing_json import drawing_from_dict
 from app.drawing.solve import solve
 from app.store.document_errors import BrokenDocumentError, NewerDocumentError, UnknownDocumentError
-from app.store.document_keeper import FORMAT, Kept
+from app.store.document_keeper import FORMAT, DocumentKeeper, Kept
 from app.store.schema import DocumentRow, StepRow
 from app.store.tape import Sheet, Tape, history_of
 from planner.errors import RequestError
@@ -29,20 +29,20 @@ DAMAGES = (ArithmeticError, AttributeError, LookupError, RecursionError, TypeErr
 
 
 @dataclass(frozen=True, slots=True)
-class ReadDocument:
+class KeptDocument:
     """A document as saved; a gesture in progress counts as a step.
 
     Attributes:
         version: its version.
         draft: its drawing and history.
-        kept: what its keeper goes on from.
+        keeper: saves its further changes.
         start: the world state from which it is planned; None for the drawing's own.
     """
 
     version: int
     draft: Draft
-    kept: Kept
-    start: WorldState | None
+    keeper: DocumentKeeper
+    start: WorldState | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,15 +60,15 @@ class KeptVersion:
     drawing: dict[str, Any]
 
 
-def read_document(session: Session, document_id: str) -> ReadDocument:
-    """Return a document as saved.
+def read_document(session: Session, keeper: DocumentKeeper) -> KeptDocument:
+    """Return a keeper's document as saved; the keeper goes on from there.
 
     Raises:
         UnknownDocumentError: there is none.
         NewerDocumentError: a newer version of Pleat wrote it.
         BrokenDocumentError: it cannot be read.
     """
-    row = _readable(session, document_id)
+    row = _readable(session, keeper.id)
     steps = session.scalars(select(StepRow).where(StepRow.document_id == row.id).order_by(StepRow.number)).all()
     try:
         if [step.number for step in steps] != [*range(row.first, row.first + len(steps))] or not (
@@ -80,8 +80,9 @@ def read_document(session: Session, document_id: str) -> ReadDocument:
         tape = Tape(sheets, row.now - row.first)
         version, draft = _resumed(row, tape)
     except DAMAGES as error:
-        raise BrokenDocumentError(document_id, in_short(error)) from None
-    return ReadDocument(version, draft, Kept(tape, row.first, row.revision), _start(row))
+        raise BrokenDocumentError(keeper.id, in_short(error)) from None
+    keeper.kept = Kept(tape, row.first, row.revision)
+    return KeptDocument(version, draft, keeper, _start(row))
 
 
 def read_versions(session: Session, document_id: str) -> tuple[KeptVersion, ...]:
@@ -117,7 +118,7 @@ def _readable(session: Session, document_id: str) -> DocumentRow:
 
 
 def _drawing(text: str) -> Drawing:
-    return DrawingModel.model_validate_json(text).value()
+    return drawing_from_dict(from_json(text))
 
 
 def _start(row: DocumentRow) -> WorldState | None:

@@ -7,39 +7,91 @@ from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 
-from sqlalchemy import CursorResult, delete, func, select, update
+from pydantic_core import from_json
+from sqlalchemy import CursorResult, and_, delete, func, select, tuple_, update
+from sqlalchemy.orm import Session
 
-from app.drawing.draft import Draft
 from app.store.database import Database
-from app.store.document_errors import UnknownDocumentError
+from app.store.document_errors import BrokenDocumentError, NewerDocumentError, UnknownDocumentError
 from app.store.document_keeper import FORMAT, DocumentKeeper
-from app.store.document_list import DocumentPage, read_page
-from app.store.document_reader import KeptVersion, read_document, read_versions
-from app.store.schema import DocumentRow
+from app.store.document_reader import DAMAGES, KeptDocument, KeptVersion, in_short, read_document, read_versions
+from app.store.picture import Picture
+from app.store.schema import DocumentRow, StepRow
 from app.store.storage_error import StorageError
-from planner.task.world_state import WorldState
+from planner.json_form import STRICT
+
+
+@dataclass(frozen=True, slots=True)
+class DocumentEntry:
+    """A document as listed.
+
+    Attributes:
+        id: its id.
+        title: the garment's title; empty if the document cannot be read.
+        name: the garment's name; empty if the document cannot be read.
+        changed_at: the time of the last change, UTC, as in RFC 3339; empty if it is not known.
+        problem: why it cannot be opened, or None.
+        picture: what it looks like; None where it cannot be read.
+    """
+
+    __pydantic_config__ = STRICT
+
+    id: str
+    title: str = ""
+    name: str = ""
+    changed_at: str = ""
+    problem: str | None = None
+    picture: Picture | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class DocumentPage:
+    """A page of the list.
+
+    Attributes:
+        entries: the documents.
+        end: the place of the last of them; None on the last page.
+    """
+
+    entries: tuple[DocumentEntry, ...]
+    end: tuple[str, str] | None
+
+
+def read_page(session: Session, after: tuple[str, str] | None, count: int) -> DocumentPage:
+    """Return the documents after a place, the latest changed first, those that were never readable last."""
+    is_current = and_(StepRow.document_id == DocumentRow.id, StepRow.number == DocumentRow.now)
+    wanted = select(DocumentRow, StepRow.drawing).outerjoin(StepRow, is_current)
+    if after is not None:
+        wanted = wanted.where(tuple_(DocumentRow.changed_at, DocumentRow.id) < after)
+    order = DocumentRow.changed_at.desc(), DocumentRow.id.desc()
+    rows = session.execute(wanted.order_by(*order).limit(count + 1)).all()
+    entries = tuple(_entry(row, drawing) for row, drawing in rows[:count])
+    last = rows[:count][-1][0] if len(rows) > count else None
+    return DocumentPage(entries, None if last is None else (last.changed_at, last.id))
+
+
+def _entry(row: DocumentRow, drawing: str | None) -> DocumentEntry:
+    """Return what is listed of a row; whatever is wrong with it is its problem and no other document's."""
+    texts: tuple[object, ...] = (row.title, row.name, row.changed_at)  # whatever the database holds
+    changed_at = row.changed_at if isinstance(texts[-1], str) else ""
+    try:
+        if row.format > FORMAT or (row.problem is not None and row.format):
+            return DocumentEntry(row.id, changed_at=changed_at, problem=str(NewerDocumentError(row.id, row.format)))
+        if row.problem is not None or drawing is None:
+            raise ValueError(row.problem or "its drawing is missing")
+        if not all(isinstance(text, str) for text in texts):
+            raise ValueError("its row is damaged")
+        picture = Picture.of(from_json(drawing))
+    except DAMAGES as error:
+        problem = str(BrokenDocumentError(row.id, in_short(error)))
+        return DocumentEntry(row.id, changed_at=changed_at, problem=problem)
+    return DocumentEntry(row.id, row.title, row.name, changed_at, picture=picture)
+
 
 ID_PATTERN = re.compile(r"[a-z0-9]{8}")
 
 _LETTERS = "23456789abcdefghjkmnpqrstuvwxyz"
 """Characters of ids, without those that look alike (0, 1, i, l, o)."""
-
-
-@dataclass(frozen=True, slots=True)
-class KeptDocument:
-    """A document as saved; a gesture in progress counts as a step.
-
-    Attributes:
-        version: its version.
-        draft: its drawing and history.
-        keeper: saves its further changes.
-        start: the world state from which it is planned; None for the drawing's own.
-    """
-
-    version: int
-    draft: Draft
-    keeper: DocumentKeeper
-    start: WorldState | None = None
 
 
 class DocumentRepository:
@@ -76,17 +128,12 @@ class DocumentRepository:
             StorageError: the database refuses.
         """
         require_id(document_id)
-        with self._database.reading(f"document {document_id!r} could not be read") as session:
-            found = read_document(session, document_id)
-        keeper = DocumentKeeper(self._database, document_id, found.kept)
-        return KeptDocument(found.version, found.draft, keeper, found.start)
+        return self.reread(self.keeper(document_id))
 
     def reread(self, keeper: DocumentKeeper) -> KeptDocument:
         """Return a document as another server has left it; its keeper goes on from there. Raise as `kept` does."""
         with self._database.reading(f"document {keeper.id!r} could not be read") as session:
-            found = read_document(session, keeper.id)
-        keeper.kept = found.kept
-        return KeptDocument(found.version, found.draft, keeper, found.start)
+            return read_document(session, keeper)
 
     def versions(self, document_id: str) -> tuple[KeptVersion, ...]:
         """Return the drawings that a document can go back to, the latest first; raise as `kept` does."""

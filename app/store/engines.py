@@ -36,10 +36,7 @@ def sqlite_engine(path: Path) -> Engine:
     with suppress(OSError):  # it is another user's
         path.chmod(_PRIVATE)
     engine = create_engine(
-        f"sqlite:///{path}",
-        connect_args={"timeout": _BUSY_S},
-        pool_size=_CONNECTIONS,
-        max_overflow=_MORE_CONNECTIONS,
+        f"sqlite:///{path}", connect_args={"timeout": _BUSY_S}, pool_size=_CONNECTIONS, max_overflow=_MORE_CONNECTIONS
     )
     return _set_up_for_sqlite(engine, "journal_mode=WAL", "foreign_keys=ON")
 

@@ -13,7 +13,7 @@ from planner.errors import FieldError, GarmentFileError, ReadOnlyGarmentError, U
 
 
 @dataclass(frozen=True, slots=True)
-class ListedGarment:
+class GarmentEntry:
     """A garment as listed."""
 
     name: str
@@ -28,15 +28,15 @@ class GarmentRepository:
         """Use a database; read nothing yet."""
         self._database = database
 
-    def entries(self) -> list[ListedGarment]:
+    def entries(self) -> list[GarmentEntry]:
         """Return all garments, shipped ones first; skip what is no valid garment."""
-        shipped = [ListedGarment(name, load_garment(name).title, True) for name in shipped_garment_names()]
+        shipped = [GarmentEntry(name, load_garment(name).title, True) for name in shipped_garment_names()]
         with self._database.reading("the garments could not be listed") as session:
             rows = session.execute(select(GarmentRow.name, GarmentRow.content).order_by(GarmentRow.name)).all()
         own = []
         for name, content in rows:
             try:
-                own.append(ListedGarment(name, read_garment(name, content).title, False))
+                own.append(GarmentEntry(name, read_garment(name, content).title, False))
             except GarmentFileError:
                 continue
         return shipped + own

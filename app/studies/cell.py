@@ -101,10 +101,7 @@ def _beside(pose: Pose2, before: Table, table: Table) -> Pose2:
     def out(at_m: float, side_m: float, other_m: float) -> float:
         return 0.0 if abs(at_m) <= side_m / 2 else math.copysign(1.0, at_m) * (other_m - side_m) / 2
 
-    return pose.moved(
-        out(pose.x_m, before.depth_m, table.depth_m),
-        out(pose.y_m, before.width_m, table.width_m),
-    )
+    return pose.moved(out(pose.x_m, before.depth_m, table.depth_m), out(pose.y_m, before.width_m, table.width_m))
 
 
 def _placement(

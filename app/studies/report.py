@@ -6,10 +6,9 @@ from collections.abc import Iterable, Iterator, Sequence
 from html import escape
 from itertools import islice
 
+from app.studies.axis import Value
 from app.studies.findings import STATUSES, Findings
 from app.studies.rehearsed import NOISE_AXIS
-from app.studies.report_style import STYLE
-from app.studies.report_tables import plain_table, share_cell, shown, values_of
 from app.studies.results import Results
 from app.studies.study import Study
 
@@ -202,3 +201,67 @@ def _reasons(findings: Findings) -> Iterator[str]:
 
 def _text(value: float | int | str) -> str:
     return f'<td class="text">{escape(shown(value))}</td>'
+
+
+EMPTY = "<td>-</td>"
+
+
+def plain_table(caption: str, corner: str, heads: Sequence[str], rows: Iterable[tuple[str, Sequence[str]]]) -> str:
+    """Return a table that scrolls sideways where the page is narrow.
+
+    Args:
+        caption: what it shows; "" for none.
+        corner: the heading of the first column.
+        heads: the headings of the others.
+        rows: the first column's text, and the other cells as HTML.
+    """
+    told = f"<caption>{escape(caption)}</caption>" if caption else ""
+    top = "".join(f'<th scope="col">{escape(head)}</th>' for head in (corner, *heads))
+    body = "".join(f'<tr><th scope="row">{escape(name)}</th>{"".join(cells)}</tr>' for name, cells in rows)
+    return f'<div class="wide"><table>{told}<thead><tr>{top}</tr></thead><tbody>{body}</tbody></table></div>'
+
+
+def share_cell(solved: int, cells: int, cost_s: float, what: str = "cells") -> str:
+    """Return a field coloured by the share of cells that are solved, with their mean time; or of something else."""
+    if not cells:
+        return EMPTY
+    share = round(100 * solved / cells)
+    time = f"<small>{cost_s:.1f} s</small>" if math.isfinite(cost_s) else ""
+    return f'<td class="share" style="--share:{share}%" title="{solved} of {cells} {what}">{share}%{time}</td>'
+
+
+def shown(value: Value) -> str:
+    """Return a value as text."""
+    return f"{value:g}" if isinstance(value, float) else str(value)
+
+
+def values_of(findings: Findings, cell: int) -> Sequence[Value]:
+    """Return a cell's values on the findings' axes."""
+    by_axis = dict(zip((axis.name for axis in findings.study.all_axes), findings.study.digits(cell), strict=True))
+    return [axis.values[by_axis[axis.name]] for axis in findings.axes]
+
+
+STYLE = """
+:root { color-scheme: light dark; --paper: #fbfaf7; --ink: #23262b; --faint: #6a6f78; --line: #d9d6cd;
+  --yes: #79c39a; --no: #efe4dc; --part: #e9c46a; }
+@media (prefers-color-scheme: dark) { :root { --paper: #16181c; --ink: #e7e6e2; --faint: #9aa0aa; --line: #363a42;
+  --yes: #2d7a55; --no: #33292a; --part: #8a6d1f; } }
+* { box-sizing: border-box; }
+body { margin: 0 auto; max-width: 72rem; padding: 1rem; background: var(--paper); color: var(--ink);
+  font: 15px/1.5 system-ui, sans-serif; }
+h1 { font-size: 1.5rem; margin: .5rem 0; } h2 { font-size: 1.15rem; margin: 2rem 0 .5rem; }
+p { margin: .4rem 0; max-width: 60rem; } .faint { color: var(--faint); }
+.wide { overflow-x: auto; margin: .5rem 0 1rem; }
+table { border-collapse: collapse; font-variant-numeric: tabular-nums; }
+caption { text-align: left; color: var(--faint); padding: .25rem 0; }
+th, td { padding: .25rem .6rem; text-align: right; border: 1px solid var(--line); white-space: nowrap; }
+th { font-weight: 600; } th:first-child, td.text { text-align: left; }
+td small { display: block; color: var(--faint); }
+td.share { background: color-mix(in oklab, var(--yes) var(--share), var(--no)); min-width: 3.6rem; }
+td.share small { color: inherit; opacity: .75; }
+ul.counts { display: flex; flex-wrap: wrap; gap: .5rem; list-style: none; padding: 0; margin: 1rem 0; }
+ul.counts li { border: 1px solid var(--line); border-radius: .5rem; padding: .4rem .8rem; }
+ul.counts b { display: block; font-size: 1.3rem; }
+details { border-top: 1px solid var(--line); padding: .4rem 0; } summary { cursor: pointer; }
+code { background: var(--no); padding: .1rem .3rem; border-radius: .25rem; overflow-wrap: anywhere; }
+"""

@@ -236,8 +236,5 @@ def _numbers_of(kind: type, but: tuple[str, ...] = ()) -> tuple[str, ...]:
 _TABLE = _Numbers(TABLE, _numbers_of(Table), lambda name, number: Table(**{name: number}))
 _SCENE = _Numbers(SCENE, _numbers_of(Scene, ("table", _STATIONS)), lambda name, number: Scene.from_dict({name: number}))
 _LIMITS = _Numbers(
-    LIMITS,
-    _numbers_of(Limits, ("heuristic",)),
-    lambda name, number: Limits(**{name: number}),
-    whole=("max_expanded",),
+    LIMITS, _numbers_of(Limits, ("heuristic",)), lambda name, number: Limits(**{name: number}), whole=("max_expanded",)
 )

@@ -20,10 +20,7 @@ def cut(given: Measures) -> Cut:
     radius = given["diameter_m"] / 2
     turns = [math.tau * number / CORNERS for number in range(CORNERS)]
     outline = tuple((radius * math.cos(turn), radius * math.sin(turn)) for turn in turns)
-    folds = (
-        fold("half", (radius, 0.0), (-radius, 0.0)),
-        fold("quarter", (0.0, 0.0), (0.0, radius)),
-    )
+    folds = (fold("half", (radius, 0.0), (-radius, 0.0)), fold("quarter", (0.0, 0.0), (0.0, radius)))
     return Cut(outline, folds, lying_away(outline))
 
 

@@ -6,10 +6,7 @@ from app.templates.template import Cut, Template, fold, lying_away
 INSIDE_M, BESIDE_M = 0.03, 0.2
 """Placement of a strip (m): left of the table's middle, where neither arm has to reach across the other."""
 
-MEASURES = (
-    Measure("width_m", "Width", "across", 0.254),
-    Measure("length_m", "Length", "from end to end", 1.524),
-)
+MEASURES = (Measure("width_m", "Width", "across", 0.254), Measure("length_m", "Length", "from end to end", 1.524))
 
 
 def cut(given: Measures) -> Cut:

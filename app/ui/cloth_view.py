@@ -36,11 +36,7 @@ class ClothView:
         )
         self._pattern = add_mesh(f"{root}/pattern", _NO_POINTS, _NO_TRIANGLES, visible=False)
         self._edges = scene.add_line_segments(
-            f"{root}/edges",
-            np.zeros((1, 2, 3)),
-            (0, 0, 0),
-            thickness=_EDGE_PX,
-            thickness_units="screen",
+            f"{root}/edges", np.zeros((1, 2, 3)), (0, 0, 0), thickness=_EDGE_PX, thickness_units="screen"
         )
         self._shown: ClothSurface | None = None
 

@@ -72,12 +72,7 @@ class _HandMarks:
         self._place = _point(server, f"{node}/place")
         self._path = _polyline(server, f"{node}/path", _PATH_PX)
         self._name = server.scene.add_label(
-            f"{hand}/name",
-            arm[:1].upper(),
-            position=_NAME_AT,
-            depth_test=True,
-            anchor="center-center",
-            visible=False,
+            f"{hand}/name", arm[:1].upper(), position=_NAME_AT, depth_test=True, anchor="center-center", visible=False
         )
 
     def remove(self) -> None:

@@ -23,10 +23,7 @@ SKY = "/sky"
 
 _SKY_INTENSITY = 2.6
 _GROUND_COLOUR = (120, 120, 122)
-_LAMPS: tuple[tuple[str, Point3, float], ...] = (
-    ("/key", (2.0, 2.6, 2.2), 1.5),
-    ("/rim", (-2.6, -1.6, 1.3), 1.9),
-)
+_LAMPS: tuple[tuple[str, Point3, float], ...] = (("/key", (2.0, 2.6, 2.2), 1.5), ("/rim", (-2.6, -1.6, 1.3), 1.9))
 """Lights that cast no shadows: name, direction they shine from (table frame), intensity."""
 _SUN_INTENSITY = 3.0  # of viser's default light, which is nearly overhead and casts the shadows
 _SUN_COSINE = 1.0 / math.hypot(1.0, 0.2, 0.2)

@@ -30,13 +30,7 @@ _ARMS_M = (((-0.1, 0.39), (-0.64, 0.64), (0.8, 1.4)),)
 """Box of the arms at home; after driving back the robot has them in front, over the table."""
 
 
-def opening(
-    scene: Scene,
-    aspect: float,
-    base: Pose2 | None = None,
-    *,
-    card: RobotCard | None = None,
-) -> Viewpoint:
+def opening(scene: Scene, aspect: float, base: Pose2 | None = None, *, card: RobotCard | None = None) -> Viewpoint:
     """Return a viewpoint that shows the table and the robot whole, also while the robot stands back from the table.
 
     Args:

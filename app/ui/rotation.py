@@ -4,6 +4,7 @@ import math
 from typing import TypeAlias
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from planner.geometry.pose import FloatArray, Point3
 
@@ -49,15 +50,5 @@ def to_matrix(rotation: Quaternion) -> FloatArray:
 
 def from_matrix(matrix: FloatArray) -> Quaternion:
     """Return the rotation in the upper left of a matrix, shape (3, 3) or (4, 4)."""
-    r = matrix[:3, :3]
-    outer = np.array(
-        [
-            [r[0, 0] - r[1, 1] - r[2, 2], 0.0, 0.0, 0.0],
-            [r[0, 1] + r[1, 0], r[1, 1] - r[0, 0] - r[2, 2], 0.0, 0.0],
-            [r[0, 2] + r[2, 0], r[1, 2] + r[2, 1], r[2, 2] - r[0, 0] - r[1, 1], 0.0],
-            [r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1], r[0, 0] + r[1, 1] + r[2, 2]],
-        ]
-    )
-    _, vectors = np.linalg.eigh(outer)  # the eigenvector of the largest eigenvalue; reads the lower triangle
-    x, y, z, w = (float(part) for part in vectors[:, -1])
-    return (w, x, y, z) if w >= 0.0 else (-w, -x, -y, -z)
+    w, x, y, z = Rotation.from_matrix(matrix[:3, :3]).as_quat(canonical=True, scalar_first=True).tolist()
+    return (w, x, y, z)

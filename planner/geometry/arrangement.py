@@ -82,6 +82,28 @@ def are_alike(one: FloatArray, other: FloatArray, within_m: float) -> bool:
     return bool(shapely.hausdorff_distance(*strings) <= within_m)
 
 
+def signed_area(ring: FloatArray) -> float:
+    """Return the area in a ring of points, shape (n, 2): positive if it is counter-clockwise (m2)."""
+    x, y = (ring - ring[0]).T
+    return float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))) / 2.0
+
+
+def perimeter(ring: FloatArray) -> float:
+    """Return the length of a ring of points, shape (n, 2), m."""
+    return float(shapely.LinearRing(ring).length)
+
+
+def away_from(points: FloatArray, ring: FloatArray) -> FloatArray:
+    """Return how far points, shape (n, 2), are from a ring's edges, shape (n,), m."""
+    return np.asarray(shapely.distance(shapely.LinearRing(ring), shapely.points(points)))
+
+
+def simplified(ring: FloatArray, tolerance_m: float) -> FloatArray:
+    """Return a ring of points, shape (n, 2), with fewer of them that deviates by at most a tolerance (m)."""
+    closed = shapely.LineString(np.concatenate([ring, ring[:1]]))
+    return np.asarray(shapely.get_coordinates(closed.simplify(tolerance_m, preserve_topology=False))[:-1])
+
+
 def is_within(ring: FloatArray, around: FloatArray) -> bool:
     """Return whether a closed line, shape (n, 2), lies in another: a point within it does."""
     low, high = around.min(axis=0), around.max(axis=0)

@@ -1,21 +1,13 @@
 /** Small things for building elements and telling errors. */
 
-/**
- * @param {string} id of an element that is there
- * @returns {HTMLElement}
- */
+/** @param {string} id of an element that is there @returns {HTMLElement} */
 export function byId(id) {
   const found = document.getElementById(id);
   if (!found) throw new Error(`no element #${id}`);
   return found;
 }
 
-/**
- * @param {string} tag
- * @param {string} className
- * @param {...(Node|string)} children
- * @returns {HTMLElement}
- */
+/** @param {string} tag @param {string} className @param {...(Node|string)} children @returns {HTMLElement} */
 export function element(tag, className, ...children) {
   const made = document.createElement(tag);
   if (className) made.className = className;

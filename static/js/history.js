@@ -4,10 +4,7 @@ import { byId } from "./dom.js";
 import { icon } from "./icons.js";
 import { say, translated } from "./language/say.js";
 
-/**
- * @param {import("./store.js").Store} store
- * @param {{undo: () => void, redo: () => void}} verbs what they do
- */
+/** @param {import("./store.js").Store} store @param {{undo: () => void, redo: () => void}} verbs what they do */
 export function mountHistory(store, verbs) {
   const undo = /** @type {HTMLButtonElement} */ (byId("undo"));
   const redo = /** @type {HTMLButtonElement} */ (byId("redo"));

@@ -35,10 +35,7 @@ const PATHS = {
   trash: "M4 6h12 M8 6V4h4v2 M6 6l.7 11h6.6L14 6",
 };
 
-/**
- * @param {keyof typeof PATHS} name
- * @returns {SVGElement}
- */
+/** @param {keyof typeof PATHS} name @returns {SVGElement} */
 export function icon(name) {
   const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
   svg.setAttribute("viewBox", "0 0 20 20");

@@ -2,10 +2,7 @@
 
 const TEXT_TYPES = new Set(["text", "search", "number", "file", "url", "email"]);
 
-/**
- * Whether keys belong to the text that is being written there.
- * @param {EventTarget|null} target
- */
+/** Whether keys belong to the text that is being written there. @param {EventTarget|null} target */
 export function isTyping(target) {
   const part = /** @type {HTMLInputElement} */ (target);
   return part?.tagName === "TEXTAREA" || (part?.tagName === "INPUT" && TEXT_TYPES.has(part.type));

@@ -95,10 +95,7 @@ export class Live extends EventTarget {
     this.waitMs = Math.min(2 * this.waitMs, LONGEST_WAIT_MS);
   }
 
-  /**
-   * Send a command; without a connection it is dropped.
-   * @param {Command & {ask?: number}} command
-   */
+  /** Send a command; without a connection it is dropped. @param {Command & {ask?: number}} command */
   send(command) {
     if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(command));
   }

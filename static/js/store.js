@@ -126,10 +126,7 @@ export class Store extends EventTarget {
     this.tell("step");
   }
 
-  /**
-   * @param {string} name
-   * @param {boolean} on
-   */
+  /** @param {string} name @param {boolean} on */
   setOverlay(name, on) {
     if (this.overlays.has(name) === on) return;
     if (on) this.overlays.add(name);

@@ -7,11 +7,10 @@ import httpx
 import pytest
 from pydantic import TypeAdapter
 
-from app.api.answers import GarmentAnswer, GarmentEntry, PlanAnswer, RobotEntry
+from app.api.answers import GarmentAnswer, PlanAnswer, RobotEntry
 from app.api.document_answers import (
     CreaseAnswer,
     DocumentAnswer,
-    DocumentEntryAnswer,
     OverlaysAnswer,
     PlaybackAnswer,
     QuickFixesAnswer,
@@ -22,6 +21,8 @@ from app.api.live_answers import LiveMessage
 from app.api.problems import Problem
 from app.api.suggestion_routes import DoneEvent, SuggestionEvent, TryingEvent
 from app.api.template_routes import MadeAnswer, TemplateAnswer
+from app.store.document_repository import DocumentEntry
+from app.store.garment_repository import GarmentEntry
 from planner.robots.card_file import CardFile
 from planner.task.scene import Scene
 from tests.app.document_requests import created, put
@@ -82,7 +83,7 @@ async def test_what_belongs_to_a_document_is_as_described(client: httpx.AsyncCli
 
 async def test_the_list_the_clock_and_a_crease_are_as_described(client: httpx.AsyncClient) -> None:
     path = f"/api/documents/{(await created(client))['id']}"
-    assert_described((await client.get("/api/documents")).json(), list[DocumentEntryAnswer])
+    assert_described((await client.get("/api/documents")).json(), list[DocumentEntry])
     assert_described((await client.post(f"{path}/playback", json={"do": "pause"})).json(), PlaybackAnswer)
     line = {"start": [0.1, 0.0], "end": [0.1, 0.3]}
     assert_described((await client.post(f"{path}/crease", json={"line": line})).json(), CreaseAnswer)

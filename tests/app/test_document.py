@@ -10,7 +10,7 @@ from app.drawing.drawing import Drawing
 from app.drawing.edit import Edit, Phase, StaleVersionError
 from app.drawing.garment_drawing import drawing_of
 from app.drawing.solve import solve
-from app.held_folds import Checks
+from app.held_folds import FoldChecks
 from planner import Plan, load_garment, make_plan
 from planner.cloth.garment import Garment
 from tests.app.drawing.drawings import outlined, pulled
@@ -167,7 +167,7 @@ def test_checks_of_another_drawing_are_dropped() -> None:
     changed.put_checks(moved(1), ())
     assert changed.state.checks is None
     changed.put_checks(TOWEL.drawing, ())
-    assert changed.state.checks == Checks(1, ())
+    assert changed.state.checks == FoldChecks(1, ())
 
 
 def test_checks_of_a_preview_are_those_of_its_commit() -> None:
@@ -175,7 +175,7 @@ def test_checks_of_a_preview_are_those_of_its_commit() -> None:
     changed.edit(Edit("Move", moved(1), Phase.PREVIEW))
     changed.edit(Edit("Move", moved(1), Phase.COMMIT))
     changed.put_checks(moved(1), ())
-    assert changed.state.checks == Checks(3, ())
+    assert changed.state.checks == FoldChecks(3, ())
 
 
 def test_with_an_answer_comes_its_film_and_with_one_that_is_no_plan_it_goes(plan: Plan, no_plan: Plan) -> None:

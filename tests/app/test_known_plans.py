@@ -2,7 +2,7 @@
 
 import pytest
 
-from app.known_plans import KnownPlans
+from app.live_planning import KnownPlans
 from planner import load_garment
 from tests.planning.found import found_plan
 from tests.replay.planned import planned

@@ -7,8 +7,8 @@ from typing import Any
 import pytest
 from playwright.sync_api import Page
 
-from app.drawing.blank import blank_drawing
 from app.drawing.curve import CURVE_MAX, CURVE_TOLERANCE_M, Curve
+from app.drawing.garment_drawing import blank_drawing
 from app.drawing.place_crease import NO_CLOTH
 from planner import load_garment
 from planner.cloth.garment import FIRST_IS_RED

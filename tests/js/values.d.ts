@@ -9,11 +9,11 @@ export type Point = [number, number];
 export type Point3 = Schemas["Grip"]["pick"];
 export type Pose = Schemas["Pose2"];
 
-export type Drawing = Schemas["DrawingAnswer"];
-export type Corner = Schemas["CornerAnswer"];
-export type Curve = Schemas["CurveAnswer"];
-export type Fold = Schemas["FoldAnswer"];
-export type FoldEnd = Schemas["EndAnswer"];
+export type Drawing = Schemas["Drawing"];
+export type Corner = Schemas["Corner"];
+export type Curve = Schemas["Curve"];
+export type Fold = Schemas["Crease"];
+export type FoldEnd = Schemas["End"];
 export type FoldKind = Fold["kind"];
 export type Garment = Schemas["GarmentAnswer"];
 export type GarmentEntry = Schemas["GarmentEntry"];
@@ -24,7 +24,7 @@ export type Scene = Schemas["Scene"];
 export type Table = Schemas["Table"];
 
 export type DocumentState = Schemas["DocumentAnswer"];
-export type DocumentEntry = Schemas["DocumentEntryAnswer"];
+export type DocumentEntry = Schemas["DocumentEntry"];
 export type DocumentVersion = Schemas["VersionAnswer"];
 export type DrawingProblem = Schemas["DrawingProblem"];
 export type Step = Schemas["StepAnswer"];

@@ -58,11 +58,7 @@ export function drawProblems({ state, view, draft }) {
   ]);
 }
 
-/**
- * Two thin lines, three pixels in all.
- * @param {string} key
- * @param {Point[]} line its two ends (px)
- */
+/** Two thin lines, three pixels in all. @param {string} key @param {Point[]} line its two ends (px) */
 export function double(key, [a, b]) {
   const aside = times(left(direction(minus(b, a))), 1.6);
   const d = path([plus(a, aside), plus(b, aside)], false) + path([minus(a, aside), minus(b, aside)], false);
@@ -72,12 +68,7 @@ export function double(key, [a, b]) {
   ];
 }
 
-/**
- * What cannot be.
- * @param {string} key
- * @param {Point} at px
- * @param {number} r half as wide as it is (px)
- */
+/** What cannot be. @param {string} key @param {Point} at px @param {number} r half as wide as it is (px) */
 export function crossAt(key, [x, y], r = CROSS_PX) {
   const d = `M${x - r} ${y - r}l${2 * r} ${2 * r}M${x - r} ${y + r}l${2 * r} ${-2 * r}`;
   return { key, tag: "path", class: "problem-cross", d };

@@ -36,9 +36,7 @@ function statesNow({ store, drawing }) {
   return plan && isOfThis ? foldStates(plan, store.hoverTime ?? store.playback?.t_s ?? 0) : [];
 }
 
-/**
- * @param {{key: string, kind: FoldKind, ends: [Point, Point], state: string, number: number|null}} fold ends in px
- */
+/** @param {{key: string, kind: FoldKind, ends: [Point, Point], state: string, number: number|null}} fold ends in px */
 export function foldItems({ key, kind, ends, state, number }) {
   const [a, b] = ends;
   const along = direction(minus(b, a));

@@ -22,9 +22,7 @@ export class Gesture {
     this.timer = undefined;
   }
 
-  /**
-   * @param {Change} change may be made again and again: it says where things shall be, not by how much
-   */
+  /** @param {Change} change may be made again and again: it says where things shall be, not by how much */
   show(change) {
     this.change = change;
     this.board.showDraft(change);

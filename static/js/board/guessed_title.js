@@ -12,10 +12,7 @@ const ROUND = 10;
 const MIDDLE = 0.1;
 const DEEP = 0.35;
 
-/**
- * A title in English, as titles are stored; empty where it looks like nothing known.
- * @param {Point[]} ring
- */
+/** A title in English, as titles are stored; empty where it looks like nothing known. @param {Point[]} ring */
 export function guessedTitle(ring) {
   const box = boxOf(ring);
   if (!box) return "";

@@ -22,11 +22,7 @@ const ENDS = /** @type {const} */ (["start", "end"]);
  * @typedef {[found: Hit, at: Point, bias: number]} Handle
  */
 
-/**
- * @param {import("./board.js").Board} board
- * @param {import("./pointer.js").Pointer} pointer
- * @returns {Hit|null}
- */
+/** @param {import("./board.js").Board} board @param {import("./pointer.js").Pointer} pointer @returns {Hit|null} */
 export function hit(board, pointer) {
   const reach = pointer.isTouch ? FINGER_PX : HANDLE_PX;
   const line = pointer.isTouch ? FINGER_PX / 2 : LINE_PX;

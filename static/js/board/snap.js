@@ -60,12 +60,7 @@ export class Snapper {
     localStorage.setItem("pleat-snap", on ? "on" : "off");
   }
 
-  /**
-   * @param {View} view
-   * @param {Pointed} pointer
-   * @param {Targets} targets
-   * @returns {Snapped}
-   */
+  /** @param {View} view @param {Pointed} pointer @param {Targets} targets @returns {Snapped} */
   snap(view, pointer, targets) {
     const wanted = pointer.shift && targets.from ? straightened(pointer.at, targets.from) : null;
     const free = { at: wanted ?? pointer.at, name: wanted ? "15\u00B0" : "", key: "", isOnCloth: false };

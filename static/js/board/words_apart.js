@@ -14,11 +14,7 @@ const FOOT_PX = 36;
 
 /** @typedef {{x0: number, x1: number, y: number}} Place */
 
-/**
- * @param {Items} items
- * @param {number} height of the board (px)
- * @returns {Items}
- */
+/** @param {Items} items @param {number} height of the board (px) @returns {Items} */
 export function wordsApart(items, height) {
   /** @type {Map<Item, number>} */
   const moved = new Map();

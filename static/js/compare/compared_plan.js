@@ -32,12 +32,7 @@ export async function comparedPlan(drawing, known, signal) {
   return storedPlan(drawing, plan, signal);
 }
 
-/**
- * @param {Folded} drawing
- * @param {Plan} plan
- * @param {AbortSignal} signal
- * @returns {Promise<Compared>}
- */
+/** @param {Folded} drawing @param {Plan} plan @param {AbortSignal} signal @returns {Promise<Compared>} */
 export async function storedPlan(drawing, plan, signal) {
   if (plan.status !== "solved") return { drawing, plan: null, pictures: [], problem: say("compare.no_plan") };
   const pictures = (await told(`../api/plans/${plan.id}/pictures`, signal)) ?? [];

@@ -8,11 +8,7 @@ import { path, svg } from "../board/sheet.js";
 const SIZE = 100;
 const MARGIN = 8;
 
-/**
- * @param {Point[]} outline
- * @param {{kind: string, start: Point, end: Point}[]} folds
- * @returns {SVGElement}
- */
+/** @param {Point[]} outline @param {{kind: string, start: Point, end: Point}[]} folds @returns {SVGElement} */
 export function picture(outline, folds) {
   const made = svg("svg", { class: "picture", viewBox: `0 0 ${SIZE} ${SIZE}`, "aria-hidden": "true" });
   const box = boxOf(outline);

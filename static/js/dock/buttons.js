@@ -16,10 +16,7 @@ export function iconButton(name, label, onClick) {
   return made;
 }
 
-/**
- * @param {HTMLElement} made
- * @param {string} label
- */
+/** @param {HTMLElement} made @param {string} label */
 export function relabel(made, label) {
   if (made.getAttribute("aria-label") === label) return;
   made.setAttribute("aria-label", label);

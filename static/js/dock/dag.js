@@ -48,10 +48,7 @@ export class Dag {
     new ResizeObserver(() => this.draw()).observe(this.root);
   }
 
-  /**
-   * @param {Fold[]} folds of the drawing
-   * @param {Plan|null} plan
-   */
+  /** @param {Fold[]} folds of the drawing @param {Plan|null} plan */
   show(folds, plan) {
     const wanted = JSON.stringify([folds.map(({ id, name, kind }) => [id, name, kind]), plan?.dag]);
     if (wanted === this.shown) return;

@@ -53,10 +53,7 @@ const SWITCHES = [
 /** What takes less time than this needs no word (ms). */
 const NOTICED_MS = 200;
 
-/**
- * @param {import("../store.js").Store} store
- * @returns {HTMLElement}
- */
+/** @param {import("../store.js").Store} store @returns {HTMLElement} */
 function seeWhy(store) {
   const switches = SWITCHES.map(([name, text, about]) => {
     const made = toggle(text, (isOn) => store.setOverlay(name, isOn));

@@ -14,10 +14,7 @@ import { movedBy } from "./words.js";
 const LEAST_GRIP_M = 0.001;
 
 export class FoldFields {
-  /**
-   * @param {import("./fold_row.js").Verbs} verbs
-   * @param {() => void} onRename
-   */
+  /** @param {import("./fold_row.js").Verbs} verbs @param {() => void} onRename */
   constructor(verbs, onRename) {
     this.verbs = verbs;
     this.colours = KIND_NAMES.map((kind) => this.colour(kind));

@@ -45,10 +45,7 @@ const DONE_BEFORE = say("fold_state.before");
  */
 
 export class FoldRow {
-  /**
-   * @param {string} id of the fold
-   * @param {Verbs} verbs
-   */
+  /** @param {string} id of the fold @param {Verbs} verbs */
   constructor(id, verbs) {
     this.verbs = verbs;
     this.mark = element("span", "fold-number");
@@ -77,10 +74,7 @@ export class FoldRow {
     this.field = null;
   }
 
-  /**
-   * @param {Fold} fold of the drawing
-   * @param {Now} now
-   */
+  /** @param {Fold} fold of the drawing @param {Now} now */
   show(fold, { index, count, articleRadius, isDoneBefore, isAssumed, waits, problem }) {
     this.fold = fold;
     this.index = index;
@@ -107,10 +101,7 @@ export class FoldRow {
     this.showState(this.state, true);
   }
 
-  /**
-   * @param {keyof typeof STATES} state
-   * @param {boolean} always
-   */
+  /** @param {keyof typeof STATES} state @param {boolean} always */
   showState(state, always = false) {
     if (state === this.state && !always) return;
     this.state = state;

@@ -32,20 +32,12 @@ export function foldStates(plan, t_s, before = []) {
   });
 }
 
-/**
- * @param {Plan|null} plan
- * @param {number} fold
- * @returns {number[]} the folds that come right before it
- */
+/** @param {Plan|null} plan @param {number} fold @returns {number[]} the folds that come right before it */
 export function waitsFor(plan, fold) {
   return edges(plan).flatMap(([from, to]) => (to === fold ? [from] : []));
 }
 
-/**
- * @param {Plan|null} plan
- * @param {number} fold
- * @returns {number[]} the folds that come right after it
- */
+/** @param {Plan|null} plan @param {number} fold @returns {number[]} the folds that come right after it */
 export function before(plan, fold) {
   return edges(plan).flatMap(([from, to]) => (from === fold ? [to] : []));
 }

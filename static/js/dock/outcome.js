@@ -140,10 +140,7 @@ class NoPlan {
     this.root = element("div", "no-plan", this.brief, this.all);
   }
 
-  /**
-   * @param {PlanMessage} message without a plan
-   * @param {DocumentState} state
-   */
+  /** @param {PlanMessage} message without a plan @param {DocumentState} state */
   show(message, state) {
     const all = details(message, state);
     this.all.replaceChildren(...all.map((text) => element("li", "", text)));
@@ -154,10 +151,7 @@ class NoPlan {
 
 /** A line over the plan while it is planned from the middle: from what state, and the way back to the beginning. */
 class StartLine {
-  /**
-   * @param {import("../store.js").Store} store
-   * @param {() => void} onBack after the way back was taken
-   */
+  /** @param {import("../store.js").Store} store @param {() => void} onBack after the way back was taken */
   constructor(store, onBack) {
     this.store = store;
     /** Whether it takes over the focus from a step that is to go away. */

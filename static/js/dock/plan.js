@@ -39,10 +39,7 @@ export class PlanList {
     pictures.addEventListener("change", () => this.illustrate());
   }
 
-  /**
-   * @param {Plan|null} plan
-   * @param {Fold[]} folds of the drawing
-   */
+  /** @param {Plan|null} plan @param {Fold[]} folds of the drawing */
   show(plan, folds) {
     const wanted = JSON.stringify([unit.name, plan?.id, folds.map(({ name, kind }) => [name, kind])]);
     if (wanted === this.shown) return;

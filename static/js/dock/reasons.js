@@ -48,11 +48,7 @@ export function sentence(reason, folds) {
   return `${reason.fold === null ? capital(told) : `${capital(foldName(folds[reason.fold], reason.fold))}: ${told}`}.`;
 }
 
-/**
- * What stands in the way first, in words.
- * @param {PlanMessage} message
- * @param {DocumentState} state
- */
+/** What stands in the way first, in words. @param {PlanMessage} message @param {DocumentState} state */
 export function headline(message, state) {
   if (message.status === "illegal") return problemSentence(state.problems[0], state.drawing);
   if (message.status === "budget_exceeded") return say("why.searched", { ways: ways(message) });

@@ -22,11 +22,7 @@ import { place } from "../messages/names.js";
  * @property {(step: P, folds: Folds) => string} lane the same on the lane of what makes it
  */
 
-/**
- * What a fold is called.
- * @param {{name?: string}|undefined} fold
- * @param {number} index
- */
+/** What a fold is called. @param {{name?: string}|undefined} fold @param {number} index */
 export const foldName = (fold, index) => translated(fold?.name ?? "") || say("fold.numbered", { number: index + 1 });
 
 /** @param {{fold: number}} step @param {Folds} folds */

@@ -19,12 +19,7 @@ import { capital, seconds } from "./words.js";
 
 const LONGEST = 200;
 
-/**
- * @param {Store} store
- * @param {Suggestion} suggestion
- * @param {string} className
- * @returns {HTMLButtonElement}
- */
+/** @param {Store} store @param {Suggestion} suggestion @param {string} className @returns {HTMLButtonElement} */
 export function suggestionButton(store, suggestion, className) {
   const { cost_s: cost, is_assumption: isAssumed } = suggestion;
   const parts = [element("span", "suggestion-what", suggestionWords(store, suggestion))];
@@ -107,11 +102,7 @@ function resize(drawing, outline) {
   for (const end of drawing.folds.flatMap((fold) => [fold.start, fold.end])) end.point = times(end.point, share);
 }
 
-/**
- * A fold whose line is told with the others.
- * @param {Drawing} drawing
- * @param {string} name
- */
+/** A fold whose line is told with the others. @param {Drawing} drawing @param {string} name */
 const newFold = ({ folds }, name) => {
   const nowhere = { point: /** @type {Point} */ ([0, 0]), on: null };
   return { id: freshId("f", folds), name, kind: /** @type {const} */ ("blue"), start: nowhere, end: nowhere };

@@ -107,10 +107,7 @@ const OWN_TIME_MS = 400;
 
 /** The slider `Time`. It follows the hand at once and the server otherwise. */
 export class TimeSlider {
-  /**
-   * @param {import("../store.js").Store} store
-   * @param {import("./clock.js").Clock} clock
-   */
+  /** @param {import("../store.js").Store} store @param {import("./clock.js").Clock} clock */
   constructor(store, clock) {
     this.store = store;
     this.clock = clock;

@@ -20,11 +20,7 @@ export const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
 /** What moves in a kind of fold. @param {FoldKind} kind */
 export const movedBy = (kind) => say(`colour.${kind}.moves`);
 
-/**
- * What a step does where space is scarce.
- * @param {Primitive} step
- * @param {{name?: string}[]} folds the garment's
- */
+/** What a step does where space is scarce. @param {Primitive} step @param {{name?: string}[]} folds the garment's */
 export const briefly = (step, folds) => kindOf(step).briefly(step, folds);
 
 /**
@@ -34,20 +30,14 @@ export const briefly = (step, folds) => kindOf(step).briefly(step, folds);
  */
 export const whole = (step, folds) => `${say(`kind.${step.kind}`)}: ${kindOf(step).what(step, folds)}`;
 
-/**
- * By which hands, as in `L + R`.
- * @param {Primitive} primitive
- */
+/** By which hands, as in `L + R`. @param {Primitive} primitive */
 export const hands = (primitive) =>
   primitive.grips
     .map((grip) => armLetter(grip.arm))
     .sort()
     .join(" + ");
 
-/**
- * Where the base ends up.
- * @param {Primitive} primitive
- */
+/** Where the base ends up. @param {Primitive} primitive */
 export function where(primitive) {
   const { station, back_off_m: backOff } = primitive.base;
   const back = backOff > BACKED_OFF_M ? say("place.back", { length: length(backOff) }) : "";

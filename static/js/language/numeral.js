@@ -5,11 +5,7 @@ import { language } from "./language.js";
 /** @type {Map<string, Intl.NumberFormat>} */
 const formats = new Map();
 
-/**
- * @param {number} value
- * @param {number} most digits behind the mark
- * @param {number} [least] digits behind the mark
- */
+/** @param {number} value @param {number} most digits behind the mark @param {number} [least] digits behind the mark */
 export function numeral(value, most, least = most) {
   const key = `${least} ${most}`;
   const options = /** @type {const} */ ({

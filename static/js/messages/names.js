@@ -4,10 +4,7 @@ import { isSaid, say, translated } from "../language/say.js";
 
 /** @typedef {{name?: string}} Named a fold, as far as it has a name */
 
-/**
- * @param {Named[]} folds
- * @param {number} index
- */
+/** @param {Named[]} folds @param {number} index */
 export const called = (folds, index) =>
   folds[index]?.name
     ? say("quoted", { name: translated(folds[index].name) })

@@ -19,10 +19,7 @@ const MOMENT_MS = 550;
 const HELD = ":hover, :focus-within";
 
 export class ProposalCards {
-  /**
-   * @param {Store} store
-   * @param {(proposal: Proposal) => void} onChosen
-   */
+  /** @param {Store} store @param {(proposal: Proposal) => void} onChosen */
   constructor(store, onChosen) {
     this.store = store;
     this.onChosen = onChosen;

@@ -94,11 +94,7 @@ export class Rehearsal extends EventTarget {
     });
   }
 
-  /**
-   * Follow a job to its end.
-   * @param {string} plan
-   * @param {() => Promise<string>} begun the job's id
-   */
+  /** Follow a job to its end. @param {string} plan @param {() => Promise<string>} begun the job's id */
   async perform(plan, begun) {
     this.plan = plan;
     this.isRunning = true;

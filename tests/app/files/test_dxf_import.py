@@ -6,7 +6,8 @@ from ezdxf import filemanagement, options
 from ezdxf.document import Drawing
 
 from app.files.import_errors import ImportedFileError, UnitsNeededError
-from app.files.import_file import Imported, import_file
+from app.files.import_file import import_file
+from app.files.sketch_garment import Imported
 
 SQUARE = [(0, 0), (600, 0), (600, 400), (0, 400)]
 MM, NO_UNIT = 4, 0

@@ -8,8 +8,9 @@ from ezdxf import filemanagement
 from ezdxf.document import Drawing
 
 from app.files.import_errors import ImportedFileError
-from app.files.import_file import Imported, import_file
+from app.files.import_file import import_file
 from app.files.piece_labels import in_order, size_in
+from app.files.sketch_garment import Imported
 
 GROWTH_MM: dict[str, float] = {"S": -10, "M": 0, "L": 10}
 

@@ -9,7 +9,8 @@ from ezdxf import filemanagement
 from ezdxf.document import Drawing
 
 from app.files.halves import mirrored_line, whole_line
-from app.files.import_file import Imported, import_file
+from app.files.import_file import import_file
+from app.files.sketch_garment import Imported
 from planner.geometry.arrangement import reflected
 from planner.geometry.segment import Segment
 

@@ -11,7 +11,8 @@ from app.drawing.garment_drawing import drawing_of
 from app.drawing.solve import solve
 from app.files.fold_format import fold_format
 from app.files.import_errors import ImportedFileError, UnitsNeededError
-from app.files.import_file import Imported, import_file
+from app.files.import_file import import_file
+from app.files.sketch_garment import Imported
 from planner import load_garment
 
 Corners: TypeAlias = Sequence[Sequence[float]]

@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 from app.files.import_errors import ImportedFileError, UnitsNeededError
-from app.files.import_file import Imported, import_file
+from app.files.import_file import import_file
 from app.files.seam_allowance import Line
+from app.files.sketch_garment import Imported
 
 # A square of 60 by 40 in a drawing whose unit is a centimetre, and whose y goes down.
 SQUARE = '<path d="M 0 0 H 60 V 40 H 0 Z"/>'

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from app.files.import_errors import ImportedFileError
-from app.files.import_file import Imported, import_file
+from app.files.import_file import import_file
+from app.files.sketch_garment import Imported
 
 PIECE = '<polygon points="5,5 45,5 45,35 5,35" fill="none" stroke="#222222"/>'
 FOLD = '<line x1="25" y1="5" x2="25" y2="35" stroke="#0000ff"/>'

@@ -2,8 +2,7 @@
 
 from app.document import Document
 from app.drawing.draft import Draft
-from app.store.document_list import DocumentEntry
-from app.store.document_repository import DocumentRepository
+from app.store.document_repository import DocumentEntry, DocumentRepository
 from tests.app.store.drafts import TOWEL
 
 

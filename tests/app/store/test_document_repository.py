@@ -15,8 +15,7 @@ from app.drawing.edit import Edit, Phase, StaleVersionError
 from app.store.database import Database
 from app.store.document_errors import BrokenDocumentError, NewerDocumentError, UnknownDocumentError
 from app.store.document_keeper import FORMAT
-from app.store.document_list import DocumentEntry
-from app.store.document_repository import DocumentRepository
+from app.store.document_repository import DocumentEntry, DocumentRepository
 from app.store.schema import DocumentRow, StepRow
 from app.store.storage_error import StorageError
 from tests.app.drawing.drawings import outlined

@@ -9,8 +9,8 @@ from typing import Any
 import pytest
 import uvicorn
 
-from app.server import timed_protocol
-from app.server.timed_protocol import TimedProtocol
+from app.server import protocols
+from app.server.protocols import TimedProtocol
 from tests.patience import PATIENCE_S
 
 LIMIT_S = 0.3
@@ -36,8 +36,8 @@ async def reads_and_answers_slowly(scope: Any, receive: Any, send: Any) -> None:
 
 @pytest.fixture
 def port(monkeypatch: pytest.MonkeyPatch) -> Iterator[int]:
-    monkeypatch.setattr(timed_protocol, "HEAD_S", LIMIT_S)
-    monkeypatch.setattr(timed_protocol, "BODY_S", LIMIT_S)
+    monkeypatch.setattr(protocols, "HEAD_S", LIMIT_S)
+    monkeypatch.setattr(protocols, "BODY_S", LIMIT_S)
     listener = socket.create_server(("127.0.0.1", 0))
     config = uvicorn.Config(reads_and_answers_slowly, http=TimedProtocol, log_config=None, lifespan="off")
     server = uvicorn.Server(config)

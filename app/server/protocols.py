@@ -1,4 +1,4 @@
-"""HTTP with a time limit for each part of a request.
+"""HTTP with a time limit for each part of a request, and websockets that are refused with an answer of their own.
 
 uvicorn only limits the idle time between two requests. It keeps a connection that opens and sends nothing, or half a
 head, or half a body. Here each part has a time limit, counted from the part's beginning, so that sending a byte now and
@@ -11,6 +11,7 @@ from typing import Any
 
 import h11
 from uvicorn.protocols.http.h11_impl import H11Protocol
+from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
 
 HEAD_S = 10.0
 """Time limit for the head of a request, from the connection or the first byte (s)."""
@@ -77,3 +78,13 @@ class TimedProtocol(H11Protocol):
             ):
                 self.transport.write(self.conn.send(event) or b"")
         self.transport.close()
+
+
+class WebSocketProtocol(WebSocketsSansIOProtocol):
+    """A websocket that is done with its handshake once it was refused."""
+
+    async def send(self, message: Any) -> None:  # noqa: ANN401
+        """Send a message; the last part of a refusal ends the handshake."""
+        await super().send(message)
+        if message["type"] == "websocket.http.response.body" and not message.get("more_body", False):
+            self.handshake_complete = True
