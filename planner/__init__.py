@@ -24,8 +24,7 @@ if TYPE_CHECKING:
     from planner.motion.timeline import Timeline
     from planner.plans import find_plan, make_plan, quick_plan
     from planner.proposals.proposals import Proposal, propose_folds
-    from planner.task.plan import Plan
-    from planner.task.plan_step import PlanStep
+    from planner.task.plan import Plan, PlanStep
     from planner.task.reason import Reason
     from planner.task.scene import Scene
     from planner.task.task import Limits, Task, TaskOptions
@@ -69,8 +68,7 @@ _HOMES = {
     "planner.explain.suggestions": ("suggestions",),
     "planner.motion.sample": ("Sample",),
     "planner.motion.timeline": ("Timeline",),
-    "planner.task.plan": ("Plan",),
-    "planner.task.plan_step": ("PlanStep",),
+    "planner.task.plan": ("Plan", "PlanStep"),
     "planner.task.reason": ("Reason",),
     "planner.task.scene": ("Scene",),
     "planner.task.task": ("Limits", "Task", "TaskOptions"),

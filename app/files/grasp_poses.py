@@ -22,8 +22,7 @@ from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import DECIMALS, TIME_S
 from planner.motion.robot_port import RobotPort
 from planner.robots.load_robot import load_robot
-from planner.task.plan import Plan
-from planner.task.plan_step import PlanStep
+from planner.task.plan import Plan, PlanStep
 from planner.task.trajectory import Trajectory
 
 VERSION = 1

@@ -31,8 +31,7 @@ from planner.geometry.table_top import TableTop
 from planner.geometry.tolerance import TIME_S
 from planner.motion.sample import ClothSurface, Sample
 from planner.robots.card import RobotCard
-from planner.task.plan import Plan
-from planner.task.plan_step import PlanStep
+from planner.task.plan import Plan, PlanStep
 from planner.task.scene import Scene
 
 _SQUARE = 1.0

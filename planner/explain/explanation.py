@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from planner.explain.reasons import reasons_met
 from planner.explain.relaxation_sets import confirmed_reasons
-from planner.explain.relaxed_problem import RelaxedProblem
+from planner.explain.relaxation_trials import RelaxedProblem
 from planner.planning.events import Obstacles
 from planner.planning.problem import Problem
 from planner.planning.trial import Trial, try_folds

@@ -18,9 +18,8 @@ from planner.explain.change import SpentError
 from planner.explain.changes import COLLISIONS_IGNORED
 from planner.explain.reason_obstacle import lacking
 from planner.explain.reason_out_of_reach import enough_with_others, removed_by
-from planner.explain.relaxation_trials import Relaxation, Trials, changed_or_none
+from planner.explain.relaxation_trials import Ask, Relaxation, RelaxedProblem, Trials, changed_or_none
 from planner.explain.relaxations import candidates
-from planner.explain.relaxed_problem import Ask, RelaxedProblem
 from planner.planning.trial import Trial
 from planner.task.reason import Code, Reason
 

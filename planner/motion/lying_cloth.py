@@ -6,8 +6,8 @@ from functools import lru_cache
 
 import numpy as np
 
-from planner.geometry.convex_pieces import convex_pieces
 from planner.geometry.pose import BoolArray, FloatArray, Pose2
+from planner.geometry.region import convex_pieces
 from planner.geometry.tolerance import grid_key
 from planner.motion.opened_collisions import OpenedCollisions
 from planner.motion.robot_port import Clearance, Collisions

@@ -6,10 +6,9 @@ from dataclasses import dataclass
 from planner.geometry.tolerance import TIME_S
 from planner.motion.line import Keyframes
 from planner.motion.lying_cloth import LyingCloth
-from planner.motion.timed_phase import TimedPhase
+from planner.motion.timed_phase import TimedPhase, TransitTime
 from planner.motion.transfer import Transfer
 from planner.motion.transit_planner import TransitPlanner
-from planner.motion.transit_time import TransitTime
 from planner.primitives.drive_time import DriveTime
 from planner.primitives.primitive import Step
 

@@ -12,14 +12,13 @@ from planner.folds.fold_sequence import FoldSequence, replayed
 from planner.geometry.driving import STANDOFFS_PER_M
 from planner.geometry.pose import Pose2
 from planner.geometry.tolerance import LENGTH_M, nearest_whole
-from planner.motion.known_transfers import KnownTransfers
 from planner.motion.robot_port import RobotPort
+from planner.motion.transfer_candidate import KnownTransfers
 from planner.motion.transfer_planner import TransferPlanner
 from planner.primitives.cloth_memory import cloth_memory
 from planner.primitives.context import DRAGS_PER_M, Context
-from planner.primitives.reach import Reach
+from planner.primitives.reach import Reach, UnlimitedReach
 from planner.primitives.state import Held, State
-from planner.primitives.unlimited_reach import UnlimitedReach
 from planner.robots.load_robot import load_robot
 from planner.task.scene import Scene
 from planner.task.task import Task

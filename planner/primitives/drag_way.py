@@ -17,7 +17,7 @@ from planner.primitives.drag_grips import along, drag_covers, hangs_ahead, towar
 from planner.primitives.grasping import approaches_from_outside, assignments, hand_keys, nearest_pair_m
 from planner.primitives.primitive import HeldTools, is_taken_alike
 from planner.primitives.state import State
-from planner.task.plan_step import PlanStep
+from planner.task.plan import PlanStep
 from planner.task.trajectory import Segment
 
 _STILL: Point2 = (0.0, 0.0)

@@ -11,7 +11,7 @@ from planner.primitives.context import Context
 from planner.primitives.state import State
 from planner.task.grip import Grip, Holding
 from planner.task.phase import Phase
-from planner.task.plan_step import PlanStep
+from planner.task.plan import PlanStep
 from planner.task.trajectory import Segment
 
 

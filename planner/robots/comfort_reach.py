@@ -15,8 +15,7 @@ from numpy.typing import NDArray
 
 from planner.deadline import ENDLESS, Deadline
 from planner.geometry.pose import Approach, BoolArray, FloatArray, Point3
-from planner.geometry.reach_query import ReachQuery
-from planner.geometry.shortfall import Shortfall
+from planner.geometry.reach_query import ReachQuery, Shortfall
 from planner.geometry.tolerance import grid_keys
 from planner.robots.arm_query import ArmNumbers
 from planner.robots.comfort import ROW_CELLS

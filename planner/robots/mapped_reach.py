@@ -10,8 +10,7 @@ import numpy as np
 from planner.deadline import Deadline
 from planner.geometry.driving import STANDOFF_STEP_M
 from planner.geometry.pose import FloatArray
-from planner.geometry.reach_query import ReachQuery
-from planner.geometry.shortfall import Cause, Shortfall
+from planner.geometry.reach_query import Cause, ReachQuery, Shortfall
 from planner.robots.arm_query import ArmNumbers
 from planner.robots.comfort_memories import Memories
 from planner.robots.comfort_reach import ComfortReach

@@ -3,7 +3,7 @@ import pytest
 
 from planner import Scene, load_garment
 from planner.folds.fold_sequence import FoldSequence
-from planner.motion.cloth_alone import ClothAlone, spread_cloth
+from planner.motion.cloth_surface import ClothAlone, spread_cloth
 from planner.motion.sample import ClothSurface
 
 

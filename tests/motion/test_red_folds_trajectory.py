@@ -11,7 +11,7 @@ from planner.geometry.pose import FloatArray
 from planner.motion.joint_trajectory import CLOSED_M, OPEN_M
 from planner.motion.sample import ClothSurface
 from planner.motion.timeline import Timeline
-from planner.task.plan_step import PlanStep
+from planner.task.plan import PlanStep
 from tests.planning.red_towels import BACK, CORNER, OUT, OVER, TWO_SIDES, towel
 from tests.replay.checker import check
 from tests.required import required

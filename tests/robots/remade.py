@@ -14,8 +14,7 @@ import numpy as np
 
 from planner.deadline import Deadline
 from planner.geometry.pose import BoolArray, FloatArray, Point3, Pose2
-from planner.geometry.reach_query import ReachQuery
-from planner.geometry.shortfall import Shortfall
+from planner.geometry.reach_query import ReachQuery, Shortfall
 from planner.geometry.table import Table
 from planner.robots.arm_paths import Together, arm_paths, arm_searches
 from planner.robots.card import ArmCard, ParallelogramGripper, RobotCard

@@ -8,8 +8,7 @@ import pytest
 from numpy.typing import NDArray
 
 from planner.deadline import ENDLESS, Deadline
-from planner.geometry.reach_query import ReachQuery
-from planner.geometry.shortfall import Shortfall
+from planner.geometry.reach_query import ReachQuery, Shortfall
 from planner.robots.displacements import DIRECTIONS, FURTHEST_M
 from planner.robots.pr2 import reach as reach_module
 from planner.robots.pr2 import shortfall

@@ -16,8 +16,7 @@ import coal
 import numpy as np
 
 from planner.geometry.pose import BoolArray, FloatArray, Pose2
-from planner.geometry.table import Table
-from planner.geometry.table_parts import table_parts
+from planner.geometry.table import Table, table_parts
 from planner.robots.collision.bodies import Bodies, Pairs, rows
 from planner.robots.collision.clearance import Clearance
 from planner.robots.collision.contact import Contact

@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 from planner.deadline import ENDLESS, Deadline
 from planner.geometry.driving import STANDOFF_STEP_M
 from planner.geometry.pose import FloatArray
-from planner.geometry.reach_query import ReachQuery
-from planner.geometry.shortfall import Shortfall
+from planner.geometry.reach_query import ReachQuery, Shortfall
 from planner.geometry.tolerance import LENGTH_M, grid_keys
 from planner.robots.comfort_memories import Memories
 from planner.robots.comfort_reach import ComfortReach

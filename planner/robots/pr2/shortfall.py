@@ -8,7 +8,7 @@ import numpy as np
 
 from planner.deadline import Deadline
 from planner.geometry.pose import FloatArray
-from planner.geometry.shortfall import Cause, Shortfall
+from planner.geometry.reach_query import Cause, Shortfall
 from planner.robots.displacements import DIRECTIONS, FURTHEST_M, SIDEWAYS, STRAIGHT, as_point, homewards
 from planner.robots.pr2.arm import ArmShape
 from planner.robots.pr2.kernel import reachable_batch

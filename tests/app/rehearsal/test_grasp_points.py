@@ -19,7 +19,7 @@ from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Point2
 from planner.geometry.ring import evenly_along
 from planner.task.grip import Holding
-from planner.task.plan_step import PlanStep
+from planner.task.plan import PlanStep
 from tests.replay.planned import shipped_plan
 
 
