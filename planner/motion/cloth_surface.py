@@ -26,8 +26,28 @@ from planner.geometry.table import Table
 from planner.geometry.table_top import TableTop
 from planner.geometry.triangles import creased, parted
 from planner.motion.lifted_cloth import LiftedCloth
-from planner.motion.sample import ClothSurface
 from planner.task.phase import ClothMotion
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ClothSurface:
+    """The cloth as a triangle mesh in the table frame.
+
+    Attributes:
+        vertices: shape (n, 3), m; the layers of a stack lie a little apart.
+        triangles: shape (m, 3), indices into `vertices`; seen from the front face of the cloth they run
+            counter-clockwise.
+        layers: shape (m,), each triangle's layer, 0 at the bottom.
+        unrolled: for cloth on the table or hanging over its edges, each vertex's position in the unrolled plane and its
+            layer's height above it, shape (n, 3), m; nan for all other cloth.
+        pattern: each vertex's position in the pattern, shape (n, 2), m: the same on both sides of a crease.
+    """
+
+    vertices: FloatArray
+    triangles: NDArray[np.int64]
+    layers: NDArray[np.int64]
+    unrolled: FloatArray
+    pattern: FloatArray
 
 
 class ClothMoment(NamedTuple):

@@ -17,7 +17,6 @@ from planner.motion.joint_trajectory import finger_run_s
 from planner.motion.line import Line
 from planner.motion.lying_cloth import LyingCloth, LyingCloths
 from planner.motion.opened_collisions import OpenedCollisions
-from planner.motion.robot_port import RobotPort
 from planner.motion.search_limits import QUICK, SearchLimits
 from planner.motion.transfer import Transfer, is_carrying
 from planner.motion.transfer_candidate import BlockedWaypoints, Candidate, KnownTransfers, motion_of, ways_of
@@ -31,6 +30,7 @@ from planner.motion.waypoints import Waypoints, forget_waypoints, waypoints_of
 from planner.primitives.context import Context
 from planner.primitives.obstacle import BlockingContact
 from planner.primitives.primitive import Step
+from planner.robots.armed_robot import ArmedRobot
 from planner.robots.joint_layout import JointLayout
 from planner.robots.tool_path import NoPath
 from planner.task.phase import Phase
@@ -50,7 +50,7 @@ class TransferPlanner:
         transits_planned: how many transits were planned.
     """
 
-    def __init__(self, context: Context, machine: RobotPort, known: KnownTransfers | None = None) -> None:
+    def __init__(self, context: Context, machine: ArmedRobot, known: KnownTransfers | None = None) -> None:
         """Set up the planner for one context and robot.
 
         Args:
@@ -290,7 +290,7 @@ class TransferPlanner:
 
 @lru_cache(maxsize=4)
 def _transfer_path_finder(
-    machine: RobotPort, table: Table, torso_m: float
+    machine: ArmedRobot, table: Table, torso_m: float
 ) -> tuple[TransferPathFinder, TransitPaths, OpenedCollisions]:
     """Return the searches for joint paths at a table and the collisions there; all are kept from plan to plan."""
     collisions = OpenedCollisions(machine, table, torso_m, MARGIN_M)

@@ -21,8 +21,9 @@ from planner.motion.opened_collisions import OpenedCollisions
 from planner.motion.pacing import needed_s
 from planner.motion.path_timing import quickest
 from planner.motion.polylines import lengths_on_table
-from planner.motion.robot_port import Collisions, RobotPort
 from planner.motion.sampled_paths import SampledPaths, sampled
+from planner.robots.armed_robot import ArmedRobot
+from planner.robots.collision.collisions import Collisions
 from planner.robots.joint_layout import JointLayout
 from planner.robots.openings import OPENING_M
 
@@ -69,7 +70,7 @@ class TransitPaths:
     May be shared between threads.
     """
 
-    def __init__(self, machine: RobotPort, collisions: OpenedCollisions, torso_m: float) -> None:
+    def __init__(self, machine: ArmedRobot, collisions: OpenedCollisions, torso_m: float) -> None:
         """Keep the robot, its collisions and the height of its lift (m)."""
         self._machine, self._torso_m = machine, torso_m
         self._opened, self._collisions = collisions, collisions.wide

@@ -17,8 +17,7 @@ from planner.geometry.pose import BoolArray, FloatArray
 from planner.robots.arm_path import ArmSearch, links_beside, links_inside
 from planner.robots.card import RobotCard
 from planner.robots.joint_chain_pair import cheapest_chain_pair
-from planner.robots.path_arm import PathArm
-from planner.robots.tool_path import IsFree, NoPath, ToolPath
+from planner.robots.tool_path import IsFree, NoPath, PathArm, ToolPath
 
 _TRIES_MAX = 24
 """Pairs of chains tried before the search gives up."""

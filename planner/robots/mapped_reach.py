@@ -13,11 +13,10 @@ from planner.geometry.pose import FloatArray
 from planner.geometry.reach_query import Cause, ReachQuery, Shortfall
 from planner.robots.arm_query import ArmNumbers
 from planner.robots.comfort_memories import Memories
-from planner.robots.comfort_reach import ComfortReach
+from planner.robots.comfort_reach import ComfortReach, QueriedArms
 from planner.robots.displacements import DIRECTIONS, FURTHEST_M, SIDEWAYS, as_point, homewards
 from planner.robots.mapped_comfort import MappedArms
 from planner.robots.mapped_shortfall import joint_at_limit, nearest_place, widest_circle
-from planner.robots.queried_arms import QueriedArms
 
 Heights: TypeAlias = tuple[tuple[float, float], ...]
 """The lowest and the highest point of each arm's map, seen from its root (m)."""
@@ -90,7 +89,7 @@ class MappedReach(ComfortReach):
         """Return how far each way's points are beyond the arm's length from the best standoff (see `Reach`)."""
         ahead = np.arange(ways.count)[:, None] * np.array([STANDOFF_STEP_M, 0.0, 0.0])
         seen = (ways.points - self._shoulders[ways.arm])[:, :, None] + ahead
-        away = np.linalg.norm(seen, axis=-1) - self._lengths_m[ways.arm] + self._comfort_m
+        away = np.linalg.norm(seen, axis=-1) - self._lengths_m[ways.arm] + self.comfort_m
         return np.asarray(np.maximum(away.min(axis=2).max(axis=1), 0.0))
 
     def _least_shortfall(self, place: ReachQuery, at_most_m: float, deadline: Deadline) -> tuple[Shortfall, int]:
@@ -99,7 +98,7 @@ class MappedReach(ComfortReach):
         furthest = min(at_most_m, FURTHEST_M)
         most = _QUERIES_LATE_MAX if deadline.is_long_over else _QUERIES_MAX
         short_by_m, seen_from, approach, direction, queries = nearest_place(
-            self._arms(), labels, seen, DIRECTIONS, self._comfort_m, furthest, most
+            self._arms(), labels, seen, DIRECTIONS, self.comfort_m, furthest, most
         )
         is_at_least = seen_from < 0
         if is_at_least:
@@ -110,7 +109,7 @@ class MappedReach(ComfortReach):
         point = seen[seen_from]
         towards = homewards(point) if is_at_least else DIRECTIONS[direction]
         cause, comfort_m = "too_far" if is_at_least else _cause(point, towards, short_by_m), None
-        widest_m, widest_from, _ = widest_circle(self._arms(), labels, seen, self._comfort_m)
+        widest_m, widest_from, _ = widest_circle(self._arms(), labels, seen, self.comfort_m)
         if widest_from >= 0:
             cause, comfort_m = "comfort_only", widest_m
         joint = joint_at_limit(self._arms(), int(labels[approach]), point)

@@ -12,9 +12,8 @@ from planner.robots import reach_maps
 from planner.robots.chain import tool_poses
 from planner.robots.described_robot import DescribedArm, read_robot
 from planner.robots.mapped_arm import ALL_ROUND, MappedArm, heights, mapped_arm
-from planner.robots.posture_layers import covered_heights, covering
 from planner.robots.reach_map import ReachMap
-from planner.robots.reach_maps import Progress, grid_of, reach_map
+from planner.robots.reach_maps import Progress, covered_heights, covering, grid_of, reach_map
 from planner.user_cache import CACHES, Cache
 from tests.robots.model import pin_pose, the_pr2
 

@@ -20,7 +20,7 @@ from app.ui import robot_mesh, robot_model
 from app.ui.robot_model import Link, Pose3, Visual, load_robot_model
 from planner.geometry.pose import FloatArray
 from planner.robots import mesh_file
-from planner.robots.collision.shape_files import write_arrays
+from planner.robots.collision.rounded_hull import write_arrays
 from planner.user_cache import cache_folder, use
 
 _POINTS = 400

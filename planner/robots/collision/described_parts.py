@@ -22,7 +22,7 @@ from planner.robots.collision.part_poses import Index
 from planner.robots.collision.part_source import Part, make_parts, openings_m
 from planner.robots.collision.rigid_groups import BODY, Carrier
 from planner.robots.collision.robot_parts import RobotParts
-from planner.robots.collision.shape_files import Arrays, hull_arrays, hull_from, write_arrays
+from planner.robots.collision.rounded_hull import Arrays, hull_arrays, hull_from, write_arrays
 from planner.robots.described_robot import DescribedRobot
 from planner.robots.urdf_reader import parsed
 from planner.user_cache import cache_folder, use

@@ -6,10 +6,13 @@ one left out: the points within that radius of the reduced hull contain the mesh
 hulls are further apart than the sum of both radii.
 """
 
-from collections.abc import Iterator
+import os
+import tempfile
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from itertools import product
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import coal
 import numpy as np
@@ -177,3 +180,33 @@ def _strip(count: int) -> Iterator[tuple[int, int, int]]:
         if high - low > 1:
             yield (low, high - 1, high)
             high -= 1
+
+
+Arrays = Mapping[str, NDArray[Any]]
+
+
+def hull_from(arrays: Arrays, name: str) -> RoundedHull:
+    """Return the hull of a name; raise one of several errors where it is missing or malformed."""
+    return RoundedHull(arrays[f"{name}/corners"], arrays[f"{name}/faces"], float(arrays[f"{name}/radius"]))
+
+
+def hull_arrays(name: str, hull: RoundedHull) -> dict[str, NDArray[Any]]:
+    """Return the arrays by which a hull is kept."""
+    return {
+        f"{name}/corners": hull.corners,
+        f"{name}/faces": hull.faces,
+        f"{name}/radius": np.array(hull.radius_m),
+    }
+
+
+def write_arrays(path: Path, arrays: Arrays) -> None:
+    """Write arrays to a file atomically."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    handle, temporary = tempfile.mkstemp(dir=path.parent, suffix=".npz")
+    try:
+        with os.fdopen(handle, "wb") as file:
+            np.savez(file, allow_pickle=False, **arrays)
+        Path(temporary).replace(path)
+    except BaseException:
+        Path(temporary).unlink(missing_ok=True)
+        raise

@@ -15,6 +15,7 @@ import pinocchio as pin
 from planner.errors import RobotError
 from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.table import Table
+from planner.robots.card_doubts import stations_in_table
 from planner.robots.card_file import VERSION, ArmFile, BaseFile, CardFile, SuitableScene
 from planner.robots.card_parts import GripperFile, LinearDrive, Mount, ToolFile, UrdfFile
 from planner.robots.card_robot import CardRobot
@@ -25,7 +26,6 @@ from planner.robots.described_robot import DescribedRobot
 from planner.robots.drafting.hands import Hand, hands_of
 from planner.robots.drafting.jaws import Jaws, read_jaws
 from planner.robots.soft_limits import limits_of
-from planner.robots.station_room import stations_in_table
 from planner.robots.tool_point import tool_points
 from planner.robots.urdf_reader import read_urdf
 from planner.robots.urdf_shapes import Source
