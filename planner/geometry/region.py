@@ -15,7 +15,7 @@ import shapely
 from shapely.geometry.base import BaseGeometry
 
 from planner.geometry.isometry import Isometry
-from planner.geometry.pose import BoolArray, FloatArray, Point2
+from planner.geometry.pose import BoolArray, FloatArray, Point2, point2
 from planner.geometry.ring import corners, counter_clockwise, feet, hull_of, inward_bisector
 from planner.geometry.segment import Segment
 from planner.geometry.tolerance import AREA_M2, CUT_GRID_M, GRID_M, LENGTH_M
@@ -283,7 +283,7 @@ class Region:
         line = shapely.LineString([segment.start, segment.end])
         inside = shapely.intersection(line, self.shape.buffer(LENGTH_M))
         parts = [shapely.get_coordinates(p) for p in shapely.get_parts(inside)]
-        return tuple((_point(p[0]), _point(p[-1])) for p in parts if len(p))
+        return tuple((point2(p[0]), point2(p[-1])) for p in parts if len(p))
 
     def touches(self, segments: FloatArray) -> BoolArray:
         """Return which segments, shape (n, 2, 2), have a point of the region, to the tolerance; shape (n,)."""
@@ -346,10 +346,6 @@ class Region:
     def difference(self, other: "Region") -> "Region":
         """Return what this region covers and the other does not."""
         return Region(shapely.difference(self.shape, other.shape, grid_size=GRID_M))
-
-
-def _point(row: FloatArray) -> Point2:
-    return (float(row[0]), float(row[1]))
 
 
 _SIMPLER_M = 0.01

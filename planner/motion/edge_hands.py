@@ -32,7 +32,6 @@ class EdgeHands:
     """Finds segments in which more hands hold edges than in those given."""
 
     def __init__(self, context: Context, machine: ArmedRobot, maker: TransferPlanner) -> None:
-        """Keep the planning context, the robot, and the planner of the transfers."""
         self._context, self._machine, self._maker = context, machine, maker
         self._known: dict[tuple[object, ...], list[Step]] = {}
 

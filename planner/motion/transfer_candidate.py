@@ -8,9 +8,8 @@ from dataclasses import dataclass, field
 from itertools import chain, islice, product
 
 from planner.motion.search_limits import SearchLimits
-from planner.motion.transfer import Transfer
+from planner.motion.transfer import Transfer, Transit
 from planner.motion.transfer_tool_paths import Cloths
-from planner.motion.transit import Transit
 from planner.motion.waypoints import Waypoints
 from planner.primitives.primitive import Step
 from planner.robots.tool_path import NoPath

@@ -13,17 +13,15 @@ from planner.geometry.table import Table
 from planner.geometry.tolerance import TIME_S
 from planner.motion.blocking_contacts import BlockingContacts
 from planner.motion.hand_holds import edge_holds, opening_of, settling_s
-from planner.motion.joint_trajectory import finger_run_s
-from planner.motion.line import Line
+from planner.motion.joint_trajectory import Line, finger_run_s
 from planner.motion.lying_cloth import LyingCloth, LyingCloths
 from planner.motion.opened_collisions import OpenedCollisions
 from planner.motion.search_limits import QUICK, SearchLimits
-from planner.motion.transfer import Transfer, is_carrying
+from planner.motion.transfer import Transfer, Transit, is_carrying, transit_between
 from planner.motion.transfer_candidate import BlockedWaypoints, Candidate, KnownTransfers, motion_of, ways_of
 from planner.motion.transfer_path import TransferPath
 from planner.motion.transfer_path_finder import TransferPathFinder
 from planner.motion.transfer_timing import TransferLimits, TransferTiming
-from planner.motion.transit import Transit, transit_between
 from planner.motion.transit_paths import Spared, TransitPaths
 from planner.motion.transit_planner import TransitPlanner
 from planner.motion.waypoints import Waypoints, forget_waypoints, waypoints_of

@@ -15,7 +15,7 @@ from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.ramps import ramps
 from planner.geometry.tolerance import EDGE_RAD
 from planner.motion.answer_memory import AnswerMemory, RecentAnswers
-from planner.motion.line import Keyframes, Line
+from planner.motion.joint_trajectory import Keyframes, Line
 from planner.motion.lying_cloth import NEAR_GRIP_M, LyingCloth
 from planner.motion.opened_collisions import OpenedCollisions
 from planner.motion.pacing import needed_s
@@ -75,14 +75,10 @@ class TransitPaths:
         self._machine, self._torso_m = machine, torso_m
         self._opened, self._collisions = collisions, collisions.wide
         self.layout = JointLayout.of(machine.card)
+        self.home = self.layout.home
         self._searched = RecentAnswers[_WayKey, FloatArray | None](_WAYS_KEPT)
         self._tested = AnswerMemory[bool](_ANSWERS_KEPT)
         self._lengths_m = AnswerMemory[float](_ANSWERS_KEPT)
-
-    @property
-    def home(self) -> FloatArray:
-        """All arms out of the way (rad), shape (joints,)."""
-        return self.layout.home
 
     @property
     def at_grips(self) -> Spared:
@@ -321,7 +317,6 @@ class _Lines:
     """Straight lines between configurations while the base stands, cached because many detours share them."""
 
     def __init__(self, base: Pose2, collisions: Collisions) -> None:
-        """Begin with an empty cache."""
         self.base = base
         self._collisions = collisions
         self._known: dict[tuple[bytes, bytes], bool] = {}

@@ -17,8 +17,7 @@ import numpy as np
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.geometry.tolerance import TIME_S
 from planner.motion.hand_holds import settling_s
-from planner.motion.joint_trajectory import JointTrajectory
-from planner.motion.line import Keyframes, Line
+from planner.motion.joint_trajectory import JointTrajectory, Keyframes, Line
 from planner.motion.path_shortcuts import PARTS, places, shortcuts
 from planner.motion.smoothing import smoothed
 from planner.motion.timed_phase import TransitTime

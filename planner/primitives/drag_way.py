@@ -69,7 +69,6 @@ class DragWays:
     """The ways to drag in each state; states with the same cloth in the same place share them."""
 
     def __init__(self, context: Context) -> None:
-        """Start without results; they are computed on request."""
         self._context = context
         self._found: dict[tuple[object, ...], tuple[DragWay, ...]] = {}
 

@@ -25,7 +25,6 @@ class FoldStands:
     """The least driving that each fold takes, by the article's place and the base's station."""
 
     def __init__(self, context: Context) -> None:
-        """Start without results; they are computed on request."""
         self._context = context
         self._known: dict[tuple[int, int, int, int], NDArray[np.int64]] = {}
         self._places = np.arange(context.standoffs)

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from planner.cloth.grips import Cover
 from planner.folds.fold_path import FoldPath
 from planner.geometry.isometry import Isometry
-from planner.geometry.pose import FloatArray, Point2
+from planner.geometry.pose import FloatArray, Point2, point2
 from planner.geometry.reach_query import ReachQuery
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
@@ -227,7 +227,7 @@ def _line(context: Context, offset: Point2, fold: int) -> Segment:
     """Return a fold's line after drags by an offset (m), table frame."""
     line = context.sequence.folds[fold].line
     ends = context.placed(offset).to_outer(np.array([line.start, line.end]))
-    return Segment(_plain(ends[0]), _plain(ends[1]))
+    return Segment(point2(ends[0]), point2(ends[1]))
 
 
 def _grips(context: Context, state: State, fold: int) -> Iterator[tuple[Cover, tuple[int, ...]]]:
@@ -262,10 +262,6 @@ def _approaches(context: Context, state: State, fold: int, grip: Point2, arm: in
     turn = context.placement.yaw_rad - context.station_pose(state.station).yaw_rad
     done = (1 << fold) - 1 if context.kept(Surroundings).are_same(fold, grip) else state.done
     return approaches_from_outside(context, done, turn, grip, arm)
-
-
-def _plain(row: FloatArray) -> Point2:
-    return (float(row[0]), float(row[1]))
 
 
 _BESIDE_M = 5e-3

@@ -47,7 +47,6 @@ class ArmedRobot(ABC):
     """Whether `reach` differs where the other arm is minded."""
 
     def __init__(self, card: RobotCard) -> None:
-        """Take the robot's card."""
         self.card = card
         self._edges: dict[tuple[int, float, float], float | None] = {}
         self._memories = lru_cache(_MEMORIES_KEPT)(lambda torso_m, comfort_m, minds_arms: Memories())

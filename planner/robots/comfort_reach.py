@@ -22,9 +22,7 @@ from planner.geometry.tolerance import grid_keys
 from planner.robots.arm_query import ArmNumbers
 from planner.robots.comfort import ROW_CELLS
 from planner.robots.comfort_memories import Memories, PlanMemory
-from planner.robots.driving import least_driving
-from planner.robots.driving_incumbents import ANY, EVERY, UNBEATEN
-from planner.robots.driving_task import UNSEEN, DrivingTask
+from planner.robots.driving import ANY, EVERY, UNBEATEN, UNSEEN, DrivingTask, least_driving
 from planner.robots.place import STANDOFF_STEP
 from planner.robots.standoffs import anywhere, standoff_masks
 

@@ -20,7 +20,7 @@ from planner.robots.chain_reader import read_chain
 from planner.robots.known_robots import read_card, shipped_path, shipped_robots
 from planner.robots.own_robots import own_card, own_robots
 from planner.robots.soft_limits import keep_soft_limits
-from planner.robots.urdf_reader import locate, parsed, read_urdf
+from planner.robots.urdf_reader import locate, mimics_of, parsed, read_urdf
 
 REACH_MAX_M = 10.0
 """Arms that are longer, sliding joints included, are refused: their maps would be coarse."""
@@ -88,7 +88,7 @@ class DescribedRobot:
         if card.camera is not None and card.camera.link is not None and not model.existFrame(card.camera.link):
             raise RobotError("camera.link", f"{card.camera.link!r} is no link of the URDF")
         limits = lift_limits(model, card)
-        check_joints(model, card, mimicking(tree))
+        check_joints(model, card, mimics_of(tree.iterfind("joint")))
         if not limits[0] <= card.scene.torso_m <= limits[1]:
             said = "without a lift" if card.lift is None else f"the lift goes from {limits[0]:g} to {limits[1]:g}"
             raise RobotError("scene.torso_m", f"is {card.scene.torso_m}, {said}")
@@ -191,12 +191,6 @@ _ROUNDED = 1e-3
 """A card's numbers may be rounded (m, rad)."""
 
 
-def mimicking(urdf: Element) -> dict[str, str]:
-    """Return the joints of a URDF that mimic another, and which."""
-    found = ((joint.get("name", ""), joint.find("mimic")) for joint in urdf.iterfind("joint"))
-    return {name: mimic.get("joint", "") for name, mimic in found if mimic is not None}
-
-
 def moving_joint(model: pin.Model, name: str, field: str) -> pin.JointModel:
     """Return a joint that moves in one direction, by name; raise `RobotError` if there is none."""
     if not model.existJointName(name):
@@ -207,13 +201,13 @@ def moving_joint(model: pin.Model, name: str, field: str) -> pin.JointModel:
     return joint
 
 
-def check_joints(model: pin.Model, card: CardFile, mimics: Mapping[str, str]) -> None:
+def check_joints(model: pin.Model, card: CardFile, mimics: Mapping[str, tuple[str, float, float]]) -> None:
     """Refuse joints that would be moved twice, that others drive, or that would be outside of their limits.
 
     Args:
         model: the robot's kinematic tree.
         card: the card.
-        mimics: the joints that mimic another, and which.
+        mimics: the joints that mimic another, see `mimics_of`.
 
     Raises:
         RobotError: names the card's field and the joint.
@@ -225,7 +219,7 @@ def check_joints(model: pin.Model, card: CardFile, mimics: Mapping[str, str]) ->
         moved[name] = field
         moving_joint(model, name, field)
         if name in mimics:
-            raise RobotError(field, f"{name!r} mimics {mimics[name]!r}, so it cannot be moved by itself")
+            raise RobotError(field, f"{name!r} mimics {mimics[name][0]!r}, so it cannot be moved by itself")
     for number, arm in enumerate(card.arms):
         _check_drive(model, arm, f"arms[{number}].gripper")
     for name, value in card.resting:

@@ -9,15 +9,13 @@ from threading import Lock
 import numpy as np
 
 from planner.geometry.pose import Approach, BoolArray, FloatArray
-from planner.robots.chain import PITCH, WHOLE, length_of, tool_poses
+from planner.robots.chain import length_of, tool_poses
 from planner.robots.described_robot import DescribedArm, DescribedRobot
 from planner.robots.hand_roll import gives_roll
-from planner.robots.newton import solve_from
-from planner.robots.posture_following import followed
-from planner.robots.posture_samples import axis_samples, posture_samples
+from planner.robots.newton import followed
+from planner.robots.posture_samples import axis_samples, gives_roll_alone, posture_samples, rolled_samples, unrolled
 from planner.robots.reach_map import ReachMap, reachable_poses
 from planner.robots.reach_maps import Progress, covered_heights, covering, reach_map
-from planner.robots.rolled_samples import gives_roll_alone, rolled_samples, unrolled
 
 _POSES_KEPT = 4096
 """Poses whose samples are kept, those asked last: some ten MB."""
@@ -114,7 +112,6 @@ class MappedArm:
     """
 
     def __init__(self, arm: DescribedArm, known: ReachMap) -> None:
-        """Take the arm and its map."""
         self.chain = arm.chain
         self._root = arm.root
         self._is_endless = arm.is_endless
@@ -162,11 +159,6 @@ class MappedArm:
         return min(max(int(self.length_m / _LENGTH_OF_STRIDE_M), 1), _STRIDE_MAX)
 
     @property
-    def asks_pitch_only(self) -> bool:
-        """Whether the arm has too few joints to choose the heading of an approach, so that only its pitch counts."""
-        return self.chain.rows == PITCH
-
-    @property
     def size_mb(self) -> float:
         """The memory that the map takes (MB)."""
         return (self.known.starts.nbytes + self.known.postures.nbytes) / 1e6
@@ -189,15 +181,6 @@ class MappedArm:
         points = np.ascontiguousarray(positions - self.shoulder(torso_m))
         self.cover(points, torso_m)
         return reachable_poses(self.chain, self.known, points, np.ascontiguousarray(rotations))
-
-    def joints_near(
-        self, position: FloatArray, rotation: FloatArray, near: FloatArray, torso_m: float = 0.0
-    ) -> FloatArray | None:
-        """Return joints that bring the tool to a pose, roll included, found from nearby joints; else None."""
-        rows = self.chain.rows if self.asks_pitch_only else WHOLE
-        point = np.ascontiguousarray(position - self.shoulder(torso_m))
-        found, joints = solve_from(self.chain, point[None], np.ascontiguousarray(rotation)[None], rows, near[None])
-        return joints[0] if found[0] else None
 
     def tool_poses(self, joints: FloatArray, torso_m: float = 0.0) -> tuple[FloatArray, FloatArray]:
         """Return the tool's positions, shape (n, 3), and rotations, shape (n, 3, 3), at rows of joints."""

@@ -6,11 +6,9 @@ above or below them is asked. Each layer is a map of its own, grown and cached a
 whole: the postures that the map had stay as they are, so an answer does not depend on what was asked before it.
 """
 
-import contextlib
 from collections.abc import Callable, Sequence
 from hashlib import blake2b
 from pathlib import Path
-from zipfile import BadZipFile
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,10 +17,10 @@ from planner.deadline import left_out
 from planner.geometry.pose import Approach
 from planner.geometry.tolerance import LENGTH_M
 from planner.robots.chain import Chain
-from planner.robots.collision.rounded_hull import write_arrays
+from planner.robots.kept_arrays import kept
 from planner.robots.reach_map import Grid, ReachMap
 from planner.robots.reach_map_building import APART, FEW, FRINGE, OUTER, ReachMapBuilding, finished, grow, sow
-from planner.user_cache import cache_folder, use
+from planner.user_cache import cache_folder
 
 CELL_M = 0.075
 """The largest edge of a cell (m), but for arms that are longer than any person's."""
@@ -77,17 +75,17 @@ def reach_map(
 def kept_map(chain: Chain, grid: Grid, progress: Progress | None = None, directory: Path | None = None) -> ReachMap:
     """Return an arm's map of some cells, read from the cache or built and kept; see `reach_map`."""
     path = (directory or cache_folder()) / "postures" / f"{_digest(chain, grid)}.npz"
-    try:
-        with path.open("rb") as file, np.load(file, allow_pickle=False) as arrays:
-            found = ReachMap(grid, arrays["starts"], arrays["postures"])
-    except (OSError, ValueError, KeyError, EOFError, BadZipFile):
+
+    def made() -> ReachMap:
         with left_out():  # a map is built once
-            found = build_map(chain, grid, progress)
-        with contextlib.suppress(OSError):
-            write_arrays(path, {"starts": found.starts, "postures": found.postures})
-    with contextlib.suppress(OSError):
-        use(path)
-    return found
+            return build_map(chain, grid, progress)
+
+    return kept(
+        path,
+        lambda arrays: ReachMap(grid, arrays["starts"], arrays["postures"]),
+        made,
+        lambda known: {"starts": known.starts, "postures": known.postures},
+    )
 
 
 def build_map(chain: Chain, grid: Grid, progress: Progress | None = None) -> ReachMap:

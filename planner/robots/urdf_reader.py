@@ -7,7 +7,7 @@ links have neither masses nor colours.
 """
 
 import math
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from importlib.metadata import PackageNotFoundError, distribution
 from pathlib import Path
 from xml.etree.ElementTree import Element, SubElement, TreeBuilder
@@ -109,6 +109,16 @@ def _unexpanded(robot: Element) -> str | None:
 
 class _RefusedError(Exception):
     """A document that is not read."""
+
+
+def mimics_of(joints: Iterable[Element]) -> dict[str, tuple[str, float, float]]:
+    """Return which of a URDF's joints mimic another, by name: the name of that one, the factor and the offset."""
+    found = ((joint.get("name", ""), joint.find("mimic")) for joint in joints)
+    return {
+        name: (mimic.get("joint", ""), float(mimic.get("multiplier", "1")), float(mimic.get("offset", "0")))
+        for name, mimic in found
+        if mimic is not None
+    }
 
 
 def parsed(data: bytes) -> Element:

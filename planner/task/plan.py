@@ -1,7 +1,7 @@
 """A plan: the answer to a task, as data alone."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from typing import Any, Literal
 
@@ -102,17 +102,8 @@ class Statistics:
 
     def after(self, before: "Statistics") -> "Statistics":
         """Return the sum of these and another search's figures, from which this one went on, with this one's bound."""
-        return Statistics(
-            before.expanded + self.expanded,
-            before.explored + self.explored,
-            before.ik_queries + self.ik_queries,
-            before.ik_time_s + self.ik_time_s,
-            before.search_time_s + self.search_time_s,
-            before.joint_time_s + self.joint_time_s,
-            self.bound_s,
-            before.ways + self.ways,
-            self.is_cut_short,
-        )
+        summed = ("expanded", "explored", "ik_queries", "ik_time_s", "search_time_s", "joint_time_s", "ways")
+        return replace(self, **{name: getattr(before, name) + getattr(self, name) for name in summed})
 
     def to_dict(self) -> dict[str, Any]:
         """Return the statistics as JSON."""

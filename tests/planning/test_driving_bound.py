@@ -22,7 +22,7 @@ from planner.primitives.fold_stands import FoldStands
 from planner.primitives.g_drag import GDrag
 from planner.primitives.g_fold import GFold
 from planner.primitives.primitive import Primitive, Step
-from planner.primitives.site_map import Service
+from planner.primitives.relaxed_sites import Service
 from planner.primitives.state import State
 from planner.robots.load_robot import load_robot
 from planner.search.a_star import Edge, Outcome, a_star

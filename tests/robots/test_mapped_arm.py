@@ -66,16 +66,6 @@ def test_every_yes_has_joints_within_limits_that_take_the_pose(cache: Path, pose
         np.testing.assert_allclose(rotation[:, 0], poses[1][number][:, 0], atol=1e-4)
 
 
-def test_joints_nearby_lead_to_the_whole_pose(cache: Path, poses: Poses) -> None:
-    arm = mapped(cache)
-    found, joints = arm.joints(*poses, TORSO_M)
-    for row in joints[found][:40]:
-        points, rotations = arm.tool_poses(row[None], TORSO_M)
-        near = arm.joints_near(points[0], rotations[0], row, TORSO_M)
-        assert near is not None
-        np.testing.assert_allclose(near, row, atol=1e-4)
-
-
 def test_a_map_is_built_once_and_then_read(tmp_path: Path, poses: Poses) -> None:
     told: list[float] = []
     built = mapped(tmp_path, told.append)

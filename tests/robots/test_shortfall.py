@@ -15,9 +15,9 @@ from planner.robots.pr2 import shortfall
 from planner.robots.pr2.aim import ToolPose
 from planner.robots.pr2.arm import read_arm
 from planner.robots.pr2.joint_slack import slacks
-from planner.robots.pr2.limiting_joint import JOINT_NAMES, joint_slacks
 from planner.robots.pr2.mirrored_arm import MirroredArm
 from planner.robots.pr2.reach import APPROACHES, Pr2Reach
+from planner.robots.pr2.shortfall import JOINT_NAMES, joint_slacks
 from tests.required import required
 from tests.robots.model import MODEL, the_pr2
 

@@ -6,12 +6,9 @@ one left out: the points within that radius of the reduced hull contain the mesh
 hulls are further apart than the sum of both radii.
 """
 
-import os
-import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import product
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import coal
@@ -20,6 +17,7 @@ from numpy.typing import NDArray
 
 from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import GRID_M
+from planner.robots.kept_arrays import Arrays
 
 if TYPE_CHECKING:
     from scipy.spatial import ConvexHull
@@ -182,9 +180,6 @@ def _strip(count: int) -> Iterator[tuple[int, int, int]]:
             high -= 1
 
 
-Arrays = Mapping[str, NDArray[Any]]
-
-
 def hull_from(arrays: Arrays, name: str) -> RoundedHull:
     """Return the hull of a name; raise one of several errors where it is missing or malformed."""
     return RoundedHull(arrays[f"{name}/corners"], arrays[f"{name}/faces"], float(arrays[f"{name}/radius"]))
@@ -197,16 +192,3 @@ def hull_arrays(name: str, hull: RoundedHull) -> dict[str, NDArray[Any]]:
         f"{name}/faces": hull.faces,
         f"{name}/radius": np.array(hull.radius_m),
     }
-
-
-def write_arrays(path: Path, arrays: Arrays) -> None:
-    """Write arrays to a file atomically."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    handle, temporary = tempfile.mkstemp(dir=path.parent, suffix=".npz")
-    try:
-        with os.fdopen(handle, "wb") as file:
-            np.savez(file, allow_pickle=False, **arrays)
-        Path(temporary).replace(path)
-    except BaseException:
-        Path(temporary).unlink(missing_ok=True)
-        raise

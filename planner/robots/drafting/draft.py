@@ -1,6 +1,5 @@
 """A robot's card drafted from its URDF: what a URDF says, what its shapes let guess, and what neither can tell."""
 
-import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import count
@@ -20,6 +19,7 @@ from planner.robots.card_file import VERSION, ArmFile, BaseFile, CardFile, Suita
 from planner.robots.card_parts import GripperFile, LinearDrive, Mount, ToolFile, UrdfFile
 from planner.robots.card_robot import CardRobot
 from planner.robots.chain import length_of, tool_poses
+from planner.robots.chain_reader import set_joint
 from planner.robots.collision.link_shapes import link_shapes
 from planner.robots.collision.rigid_groups import BODY, Skeleton
 from planner.robots.described_robot import DescribedRobot
@@ -333,10 +333,7 @@ class _Drafting:
         data, q = self._model.createData(), pin.neutral(self._model)
         for arm in card.arms:
             for name, value in zip(arm.joints, arm.home, strict=True):
-                joint = self._model.joints[self._model.getJointId(name)]
-                q[joint.idx_q : joint.idx_q + joint.nq] = (
-                    [value] if joint.nq == 1 else [math.cos(value), math.sin(value)]
-                )
+                set_joint(self._model, q, name, value)
         pin.computeJointJacobians(self._model, data, q)
 
         def lifts(name: str) -> bool:

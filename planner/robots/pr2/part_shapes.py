@@ -1,27 +1,24 @@
 """The convex shape of every part of the PR2, made once from the meshes and kept in the user's cache directory."""
 
-import contextlib
 import math
 from collections.abc import Mapping
 from hashlib import blake2b
 from importlib.metadata import version
 from itertools import product
 from pathlib import Path
-from typing import Any
-from zipfile import BadZipFile
 
 import coal
 import numpy as np
 import pinocchio as pin
-from numpy.typing import NDArray
 
 from planner.geometry.pose import FloatArray
 from planner.robots.card import GripperCard
-from planner.robots.collision.rounded_hull import RoundedHull, hull_arrays, hull_from, rounded_hull, write_arrays
+from planner.robots.collision.rounded_hull import RoundedHull, hull_arrays, hull_from, rounded_hull
+from planner.robots.kept_arrays import Arrays, kept
 from planner.robots.openings import EDGE_OPEN_M, HELD_M
 from planner.robots.pr2.description import package_directory, urdf_path
 from planner.robots.pr2.parts import ARM_PARTS, BODY_PARTS, FINGERS, FINGERTIPS
-from planner.user_cache import cache_folder, use
+from planner.user_cache import cache_folder
 
 _MIRROR = np.array([1.0, -1.0, 1.0])
 
@@ -132,15 +129,7 @@ def part_shapes(model: pin.Model, gripper: GripperCard, directory: Path | None =
         directory: the cache directory; None: the platform's own.
     """
     path = (directory or cache_folder()) / "shapes" / f"pr2-{_digest()}.npz"
-    try:
-        found = _read(path)
-    except (OSError, ValueError, KeyError, EOFError, BadZipFile):
-        found = make_shapes(model, gripper)
-        with contextlib.suppress(OSError):
-            _write(path, found)
-    with contextlib.suppress(OSError):
-        use(path)
-    return found
+    return kept(path, _read, lambda: make_shapes(model, gripper), _arrays)
 
 
 def make_shapes(model: pin.Model, gripper: GripperCard) -> PartShapes:
@@ -177,14 +166,9 @@ def _names() -> list[str]:
     return [part.name for part in (*BODY_PARTS, *ARM_PARTS[:FINGERS])] + fingers
 
 
-def _read(path: Path) -> PartShapes:
-    """Return the shapes in a file; raise one of several errors where they are missing or malformed."""
-    with path.open("rb") as file, np.load(file, allow_pickle=False) as arrays:
-        return {name: hull_from(arrays, name) for name in _names()}
+def _read(arrays: Arrays) -> PartShapes:
+    return {name: hull_from(arrays, name) for name in _names()}
 
 
-def _write(path: Path, shapes: PartShapes) -> None:
-    arrays: dict[str, NDArray[Any]] = {}
-    for name, shape in shapes.items():
-        arrays |= hull_arrays(name, shape)
-    write_arrays(path, arrays)
+def _arrays(shapes: PartShapes) -> Arrays:
+    return {key: array for name, shape in shapes.items() for key, array in hull_arrays(name, shape).items()}

@@ -121,7 +121,3 @@ class Pr2(ArmedRobot):
             where the pose is out of reach.
         """
         return self._arms[arm].joints_near(position, rotation, float(torso_m), near)
-
-    def elbow_height(self, arm: int, joints: FloatArray, torso_m: float) -> float:
-        """Return how high an arm's elbow is above the floor (m) at seven joint angles."""
-        return self._arms[arm].elbow_height(joints, float(torso_m))
