@@ -14,7 +14,7 @@ from app.playback import Playback
 from app.rehearsal.trace import RunTrace
 from planner.errors import FieldError, RequestError
 from planner.geometry.pose import Pose2
-from planner.motion.cloth_alone import ClothAlone
+from planner.motion.cloth_surface import ClothAlone
 from planner.motion.timeline import Timeline
 from planner.robots.card import RobotCard
 from planner.robots.load_robot import load_robot

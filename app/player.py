@@ -12,7 +12,7 @@ from app.ui.withdrawal import LASTS_S, withdrawn
 from app.visitors_view import VisitorsView
 from planner.cloth.garment import Garment
 from planner.geometry.pose import Pose2
-from planner.motion.cloth_alone import ClothAlone, spread_cloth
+from planner.motion.cloth_surface import ClothAlone, spread_cloth
 from planner.task.plan import Plan
 from planner.task.scene import Scene
 

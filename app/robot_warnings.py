@@ -4,10 +4,18 @@ import math
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-from planner.robots.card_doubts import ArmsCrossed, ArmsTogether, Doubt, OddPart, StationFacesAway, card_doubts
+from planner.robots.card_doubts import (
+    ArmsCrossed,
+    ArmsTogether,
+    Doubt,
+    OddPart,
+    StationFacesAway,
+    StationInTable,
+    card_doubts,
+    stations_in_table,
+)
 from planner.robots.card_robot import CardRobot
 from planner.robots.described_robot import DescribedRobot
-from planner.robots.station_room import StationInTable, stations_in_table
 from planner.robots.tool_point import BEFORE_OFF_M, BESIDE_OFF_M, BEYOND_OFF_M, ToolPoint, tool_points
 
 

@@ -6,7 +6,7 @@ from typing import Any, Literal
 
 from app.language import Language, named, numeral, say, translated
 from planner.cloth.garment import Garment
-from planner.task.plan_step import PlanStep
+from planner.task.plan import PlanStep
 
 
 @dataclass(frozen=True, slots=True)

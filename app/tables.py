@@ -19,8 +19,7 @@ if TYPE_CHECKING:  # the tables of a command need not import what the others sho
     from planner.proposals.proposals import Proposals
     from planner.robots.card_file import CardFile
     from planner.robots.table_reach import TableReach
-    from planner.task.plan import Plan
-    from planner.task.plan_step import PlanStep
+    from planner.task.plan import Plan, PlanStep
 
 _POINTS_SHOWN = 4
 """Number of points printed before the rest is only counted."""

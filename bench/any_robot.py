@@ -14,7 +14,7 @@ import numpy as np
 
 from bench.report import Report, Row, count
 from planner.geometry.pose import BoolArray, FloatArray
-from planner.robots.chain import Chain, tool_poses
+from planner.robots.chain import PITCH, Chain, tool_poses
 from planner.robots.described_robot import DescribedArm, read_robot
 from planner.robots.known_robots import shipped_robots
 from planner.robots.mapped_arm import ALL_ROUND, MappedArm, heights
@@ -99,7 +99,7 @@ def _random_recall(
     points, rotations = tool_poses(chain, rng.uniform(low, high, (POSTURES, len(low))))
     ahead = rotations[:, :, 0]
     is_asked = (points[:, 2] > heights_m[0]) & (points[:, 2] < heights_m[1]) & (ahead[:, 2] < -STEEP)
-    if arm.asks_pitch_only:  # a pitch past straight down is none that is asked
+    if chain.rows == PITCH:  # a pitch past straight down is none that is asked
         is_asked &= (ahead[:, :2] * points[:, :2]).sum(axis=1) > 0.0
     return float(arm.can_reach(points[is_asked] + described.root, rotations[is_asked]).mean())
 

@@ -7,8 +7,8 @@ import pinocchio as pin
 
 from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import ANGLE_RAD
-from planner.robots.pr2.card import pr2_card
 from planner.robots.pr2.description import read_model
+from planner.robots.pr2.robot import pr2_card
 
 TORSO_M = 0.29
 """The torso's height in all queries about reach (m)."""

@@ -9,12 +9,11 @@ from bench.reach_method import Answering, Joints, Method
 from bench.reach_queries import Queries
 from planner.geometry.pose import BoolArray
 from planner.geometry.reach_query import ReachQuery
-from planner.robots.pr2.approaches import APPROACHES
 from planner.robots.pr2.arm import read_arm
 from planner.robots.pr2.description import read_model
 from planner.robots.pr2.kernel import reachable_batch
 from planner.robots.pr2.mirrored_arm import MirroredArm
-from planner.robots.pr2.reach import Pr2Reach
+from planner.robots.pr2.reach import APPROACHES, Pr2Reach
 from planner.robots.pr2.robot import Pr2
 
 BATCHES = (1, 10, 100, 1000)

@@ -7,7 +7,7 @@ import numpy as np
 from bench.pin_arm import pin_arm
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.geometry.tolerance import LENGTH_M
-from planner.robots.pr2.approaches import APPROACHES
+from planner.robots.pr2.reach import APPROACHES
 
 SEED = 2012
 FURTHEST_M = 0.5

@@ -20,12 +20,10 @@ if TYPE_CHECKING:
     from planner.explain.suggestion import Suggestion
     from planner.explain.suggestions import suggestions
     from planner.folds.fold_sequence import FoldSequence, fold_dag
-    from planner.motion.sample import Sample
-    from planner.motion.timeline import Timeline
+    from planner.motion.timeline import Sample, Timeline
     from planner.plans import find_plan, make_plan, quick_plan
     from planner.proposals.proposals import Proposal, propose_folds
-    from planner.task.plan import Plan
-    from planner.task.plan_step import PlanStep
+    from planner.task.plan import Plan, PlanStep
     from planner.task.reason import Reason
     from planner.task.scene import Scene
     from planner.task.task import Limits, Task, TaskOptions
@@ -67,10 +65,8 @@ _HOMES = {
     "planner.proposals.proposals": ("Proposal", "propose_folds"),
     "planner.explain.suggestion": ("Suggestion",),
     "planner.explain.suggestions": ("suggestions",),
-    "planner.motion.sample": ("Sample",),
-    "planner.motion.timeline": ("Timeline",),
-    "planner.task.plan": ("Plan",),
-    "planner.task.plan_step": ("PlanStep",),
+    "planner.motion.timeline": ("Sample", "Timeline"),
+    "planner.task.plan": ("Plan", "PlanStep"),
     "planner.task.reason": ("Reason",),
     "planner.task.scene": ("Scene",),
     "planner.task.task": ("Limits", "Task", "TaskOptions"),

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from planner.geometry.pose import FloatArray
-from planner.motion.sample import ClothSurface
+from planner.motion.cloth_surface import ClothSurface
 
 
 def require_drawn_whole(cloth: ClothSurface, area_m2: float) -> None:

@@ -107,3 +107,12 @@ def is_same_region(one: Region, other: Region, area_m2: float = 2e-5) -> bool:
 def context(cloth: Garment, scene: Scene | None = None, reach: WideReach | None = None) -> Context:
     """Return a planning context for a robot that reaches everything by default."""
     return Context(FoldSequence.of(cloth), scene or Scene(), reach or WideReach(), cloth.placement, CIRCLE_M)
+
+
+def evenly_along(ring: FloatArray, spacing_m: float) -> FloatArray:
+    """Return points along a closed ring, shape (n, 2), at most a distance apart, its corners among them (m)."""
+    parts = []
+    for start, end in zip(ring, np.roll(ring, -1, axis=0), strict=True):
+        count = max(1, math.ceil(float(np.hypot(*(end - start))) / spacing_m))
+        parts.append(start + np.arange(count)[:, None] / count * (end - start))
+    return np.concatenate(parts)

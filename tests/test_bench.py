@@ -53,9 +53,9 @@ from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Pose2
 from planner.planning.robot_task import default_scene
 from planner.robots.load_robot import load_robot
-from planner.robots.pr2.approaches import APPROACHES
 from planner.robots.pr2.arm import read_arm
 from planner.robots.pr2.description import read_model
+from planner.robots.pr2.reach import APPROACHES
 
 MEASURED = {
     "garment",

@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 from planner.deadline import ENDLESS, Deadline
 from planner.geometry.driving import IMPOSSIBLE, STANDOFF_STEP_M, Driving, Wanted
 from planner.geometry.pose import Approach, BoolArray, FloatArray, Point3
-from planner.geometry.reach_query import ReachQuery
-from planner.geometry.shortfall import Shortfall
+from planner.geometry.reach_query import ReachQuery, Shortfall
 from planner.primitives.reach import ReachMemory
 
 Band = tuple[float, float]

@@ -15,7 +15,7 @@ from app.visitors_view import VisitorsView
 from planner.geometry.pose import Point2
 from planner.robots.load_robot import robot_card_file
 from planner.robots.varied_card import split_changes
-from planner.task.statistics import Statistics
+from planner.task.plan import Statistics
 
 
 def document_text(opened: OpenDocument, state: DocumentState) -> str:

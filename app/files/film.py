@@ -22,8 +22,7 @@ from app.ui.viewpoints.following import Following, work_of
 from app.ui.viewpoints.presets import Lens
 from app.ui.withdrawal import withdrawn
 from planner.errors import UnsolvedPlanError
-from planner.motion.sample import Sample
-from planner.motion.timeline import Timeline
+from planner.motion.timeline import Sample, Timeline
 from planner.robots.load_robot import load_robot
 from planner.task.plan import Plan
 

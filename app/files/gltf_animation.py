@@ -13,7 +13,7 @@ from app.files.scene_animation import add_table_and_robot
 from app.jobs.job_pool import ShouldStop
 from app.ui.colours import LIGHT
 from app.ui.thick_cloth import ThickCloth
-from planner.motion.sample import ClothSurface
+from planner.motion.cloth_surface import ClothSurface
 from planner.motion.timeline import Timeline
 from planner.task.plan import Plan
 

@@ -20,10 +20,9 @@ from app.ui.rotation import from_matrix
 from planner.errors import UnsolvedPlanError
 from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import DECIMALS, TIME_S
-from planner.motion.robot_port import RobotPort
+from planner.robots.armed_robot import ArmedRobot
 from planner.robots.load_robot import load_robot
-from planner.task.plan import Plan
-from planner.task.plan_step import PlanStep
+from planner.task.plan import Plan, PlanStep
 from planner.task.trajectory import Trajectory
 
 VERSION = 1
@@ -92,7 +91,7 @@ class _Hold:
 class _Hands:
     """The hands of a plan's robot."""
 
-    def __init__(self, plan: Plan, path: Trajectory, robot: RobotPort) -> None:
+    def __init__(self, plan: Plan, path: Trajectory, robot: ArmedRobot) -> None:
         self._plan, self._path, self._robot = plan, path, robot
         counts = [len(arm.joint_names) for arm in robot.card.arms]
         self._spans = [slice(end - n, end) for n, end in zip(counts, np.cumsum(counts).tolist(), strict=True)]

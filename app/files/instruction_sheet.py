@@ -15,8 +15,7 @@ from app.language import ENGLISH, Language, named, numeral, say, translated
 from app.step_kinds import step_kind
 from planner.errors import UnsolvedPlanError
 from planner.geometry.pose import FloatArray, Pose2
-from planner.task.plan import Plan
-from planner.task.plan_step import PlanStep
+from planner.task.plan import Plan, PlanStep
 from planner.task.world_state import WorldState
 
 WIDTH, HEIGHT = 595.0, 842.0

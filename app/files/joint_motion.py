@@ -9,11 +9,10 @@ import numpy as np
 from planner.geometry.keyframes import acceleration_at, rate_at, value_at
 from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import TIME_S
-from planner.motion.line import Keyframes
-from planner.motion.motion_limits import MotionLimits
-from planner.motion.motion_values import accelerations_at, positions_at, velocities_at
+from planner.motion.joint_trajectory import Keyframes
+from planner.motion.motion_values import MotionLimits, accelerations_at, positions_at, velocities_at
 from planner.robots.card import RobotCard
-from planner.task.plan_step import PlanStep
+from planner.task.plan import PlanStep
 from planner.task.scene import Scene
 from planner.task.trajectory import Trajectory
 

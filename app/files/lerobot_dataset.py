@@ -24,8 +24,7 @@ from app.files.video import CODEC, PIXELS, mp4_video
 from planner.errors import UnsolvedPlanError
 from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import TIME_S
-from planner.motion.motion_limits import MotionLimits
-from planner.motion.motion_values import positions_at
+from planner.motion.motion_values import MotionLimits, positions_at
 from planner.robots.card import RobotCard
 from planner.robots.load_robot import load_robot
 from planner.task.plan import Plan

@@ -9,7 +9,7 @@ import math
 from dataclasses import dataclass
 
 from app.files.markup import read_markup
-from planner.motion.motion_limits import BASE_NAMES
+from planner.motion.motion_values import BASE_NAMES
 from planner.robots.card import ArmCard, LinearGripper, RobotCard
 
 _SO_JOINTS = ("shoulder_pan", "shoulder_lift", "elbow_flex", "wrist_flex", "wrist_roll")

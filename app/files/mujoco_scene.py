@@ -27,12 +27,11 @@ from app.ui.robot_view import link_colour
 from app.ui.rotation import yaw
 from planner.errors import UnsolvedPlanError
 from planner.geometry.pose import FloatArray
-from planner.geometry.table_parts import table_parts
+from planner.geometry.table import table_parts
 from planner.geometry.table_top import TableTop
 from planner.geometry.tolerance import TIME_S
 from planner.geometry.woven_mesh import woven_mesh
-from planner.motion.motion_limits import BASE_NAMES, MotionLimits
-from planner.motion.motion_values import positions_at
+from planner.motion.motion_values import BASE_NAMES, MotionLimits, positions_at
 from planner.robots.card import RobotCard
 from planner.robots.load_robot import load_robot
 from planner.task.plan import Plan

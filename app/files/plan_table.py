@@ -21,8 +21,7 @@ from planner.geometry.pose import Point3, Pose2
 from planner.geometry.tolerance import ANGLE_RAD, DECIMALS
 from planner.task.grip import Grip
 from planner.task.phase import Phase
-from planner.task.plan import Plan
-from planner.task.plan_step import PlanStep
+from planner.task.plan import Plan, PlanStep
 from planner.task.trajectory import Segment
 
 MOMENTS = ("pick", "apex", "place")

@@ -19,10 +19,9 @@ from app.files.joint_motion import JointMotion, controller_name, controllers
 from app.step_kinds import step_words
 from planner.errors import UnsolvedPlanError
 from planner.geometry.pose import FloatArray
-from planner.motion.motion_limits import BASE_NAMES, MotionLimits
+from planner.motion.motion_values import BASE_NAMES, MotionLimits
 from planner.robots.card import RobotCard
-from planner.task.plan import Plan
-from planner.task.plan_step import PlanStep
+from planner.task.plan import Plan, PlanStep
 from planner.task.trajectory import Trajectory
 
 TABLE_FRAME = "table"

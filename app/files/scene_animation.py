@@ -16,7 +16,7 @@ from app.ui.robot_model import Link, Visual, load_robot_model
 from app.ui.robot_view import link_colour
 from app.ui.rotation import yaw
 from planner.geometry.pose import FloatArray
-from planner.geometry.table_parts import table_parts
+from planner.geometry.table import table_parts
 from planner.robots.card import RobotCard
 from planner.robots.load_robot import load_robot
 from planner.task.plan import Plan

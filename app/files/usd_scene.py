@@ -19,7 +19,7 @@ from app.rehearsal.physics.fabric import Resolution
 from app.ui.colours import LIGHT, Rgb, linear
 from planner.geometry.pose import FloatArray
 from planner.geometry.woven_mesh import woven_mesh
-from planner.motion.cloth_points import ClothPoints
+from planner.motion.cloth_surface import ClothPoints
 from planner.motion.timeline import Timeline
 from planner.task.plan import Plan
 

@@ -11,7 +11,7 @@ from planner.cloth.g_state import TableInArticle
 from planner.errors import FoldingError, RequestError
 from planner.geometry.pose import FloatArray, Pose2, wrapped_angle
 from planner.geometry.tolerance import EDGE_RAD, LENGTH_M, TIME_S
-from planner.motion.sample import Sample
+from planner.motion.timeline import Sample
 from planner.task.plan import Plan
 from planner.task.reason import Reason
 from planner.task.scene import Scene

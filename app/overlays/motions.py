@@ -11,8 +11,7 @@ from planner.geometry.pose import FloatArray, wrapped_angle
 from planner.geometry.segment import Segment
 from planner.geometry.tolerance import LENGTH_M
 from planner.task.phase import Phase
-from planner.task.plan import Plan
-from planner.task.plan_step import PlanStep
+from planner.task.plan import Plan, PlanStep
 
 
 def base_overlay(moment: Moment) -> dict[str, Any] | None:

@@ -20,8 +20,8 @@ from planner.folds.fold_path import REST_HEIGHT_M
 from planner.geometry.pose import BoolArray, FloatArray, Point2
 from planner.geometry.reach_query import ReachQuery
 from planner.geometry.region import Region
-from planner.motion.robot_port import RobotPort
 from planner.primitives.reach import Reach
+from planner.robots.armed_robot import ArmedRobot
 
 _STEP_M, _LONGEST_M = 0.02, 1.3
 """The spacing of the points tried, and how far from its shoulder any arm reaches at most (m)."""
@@ -72,7 +72,7 @@ CanTake: TypeAlias = Callable[[FloatArray], BoolArray]
 
 
 @lru_cache(maxsize=16)
-def reach_regions(robot: RobotPort, torso_m: float, comfort_m: float, table_height_m: float) -> tuple[Region, ...]:
+def reach_regions(robot: ArmedRobot, torso_m: float, comfort_m: float, table_height_m: float) -> tuple[Region, ...]:
     """Return for each arm, from left to right, where it can take cloth that lies flat on a table, base frame.
 
     Args:

@@ -23,7 +23,7 @@ from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Approach, FloatArray, Point2, Point3, Pose2
 from planner.geometry.region import Region
 from planner.geometry.tolerance import LENGTH_M
-from planner.motion.robot_port import RobotPort
+from planner.robots.armed_robot import ArmedRobot
 from planner.robots.load_robot import load_robot
 from planner.task.reason import Reason
 
@@ -97,7 +97,7 @@ def shortfall_overlay(moment: Moment) -> dict[str, Any] | None:
 
 
 @lru_cache(maxsize=16)
-def near_reach(robot: RobotPort, torso_m: float, comfort_m: float, lack: Lack) -> NearReach:
+def near_reach(robot: ArmedRobot, torso_m: float, comfort_m: float, lack: Lack) -> NearReach:
     """Return the reach near a point with a fixed orientation of the hand.
 
     Args:

@@ -34,8 +34,7 @@ from app.rehearsal.world import WITHDRAW, Performed, StepMotion, World
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Point2
 from planner.robots.load_robot import robot_card_file
-from planner.task.plan import Plan
-from planner.task.plan_step import PlanStep
+from planner.task.plan import Plan, PlanStep
 from planner.task.task import TIME_LIMIT_S, Task
 from planner.task.world_state import WorldState
 

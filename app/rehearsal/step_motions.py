@@ -11,8 +11,7 @@ from app.rehearsal.world import GripMotion, StepMotion
 from planner.errors import UnsolvedPlanError
 from planner.geometry.pose import Point3, Pose2
 from planner.task.phase import Hand
-from planner.task.plan import Plan
-from planner.task.plan_step import PlanStep
+from planner.task.plan import Plan, PlanStep
 from planner.task.trajectory import Segment, Trajectory
 
 _SIDE_BY_SIDE_RAD = math.radians(59.0)

@@ -11,8 +11,7 @@ from app.rehearsal.world import StepMotion
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Point2
-from planner.task.plan import Plan
-from planner.task.plan_step import PlanStep
+from planner.task.plan import Plan, PlanStep
 
 
 @dataclass(frozen=True)

@@ -16,8 +16,7 @@ from app.rehearsal.judge import GAP_M, silhouette
 from app.rehearsal.planned_cloth import planned_positions
 from app.rehearsal.world import Truth
 from planner.geometry.pose import FloatArray
-from planner.task.plan import Plan
-from planner.task.plan_step import PlanStep
+from planner.task.plan import Plan, PlanStep
 from planner.task.world_state import WorldState
 
 UNIT_M = 1e-4

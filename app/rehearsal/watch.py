@@ -23,8 +23,7 @@ from app.rehearsal.vision.look_at_stack import Sight
 from app.rehearsal.vision.seen_stack import SeenStack
 from app.rehearsal.world import REACH, WITHDRAW, StepMotion, World
 from planner.geometry.pose import Point2, Pose2
-from planner.task.plan import Plan
-from planner.task.plan_step import PlanStep
+from planner.task.plan import Plan, PlanStep
 from planner.task.task import Task
 from planner.task.world_state import WorldState
 

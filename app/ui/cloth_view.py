@@ -11,7 +11,7 @@ import viser
 from app.ui.colours import Palette
 from app.ui.lighting import ink, paint
 from app.ui.thick_cloth import ThickCloth
-from planner.motion.sample import ClothSurface
+from planner.motion.cloth_surface import ClothSurface
 
 ROOT = "/cloth"
 

@@ -15,7 +15,7 @@ from planner.cloth.garment import DrawnFold, Garment
 from planner.geometry.drape import bent_at, draped
 from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.table_top import TableTop
-from planner.motion.sample import ClothSurface
+from planner.motion.cloth_surface import ClothSurface
 
 ROOT = "/folds"
 

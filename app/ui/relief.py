@@ -10,7 +10,7 @@ import numpy as np
 
 from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import LENGTH_M
-from planner.motion.sample import ClothSurface
+from planner.motion.cloth_surface import ClothSurface
 
 _ROUND_M = 1e-3  # cloth counts up to this far beyond its edge, as fold lines run along edges of folded cloth
 

@@ -20,8 +20,9 @@ from app.ui.rotation import to_matrix, yaw
 from app.ui.thick_cloth import ThickCloth, blended_normals
 from app.ui.viewpoint import Viewpoint
 from planner.geometry.pose import FloatArray, Pose2
-from planner.geometry.table_parts import table_parts
-from planner.motion.sample import ClothSurface, Sample
+from planner.geometry.table import table_parts
+from planner.motion.cloth_surface import ClothSurface
+from planner.motion.timeline import Sample
 from planner.robots.card import RobotCard
 from planner.task.scene import Scene
 

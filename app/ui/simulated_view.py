@@ -10,7 +10,7 @@ from app.ui.colours import Palette
 from app.ui.lighting import paint
 from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import TIME_S
-from planner.task.plan_step import PlanStep
+from planner.task.plan import PlanStep
 
 ROOT = "/simulated"
 

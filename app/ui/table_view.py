@@ -4,7 +4,7 @@ import viser
 
 from app.ui.colours import Palette
 from app.ui.lighting import paint
-from planner.geometry.table_parts import table_parts
+from planner.geometry.table import table_parts
 from planner.task.scene import Scene
 
 

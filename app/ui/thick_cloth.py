@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import LENGTH_M, SORTING_M
-from planner.motion.sample import ClothSurface
+from planner.motion.cloth_surface import ClothSurface
 
 _SIDES = np.array([[0, 1], [1, 2], [2, 0]])
 _FULL = 0.8

@@ -29,10 +29,10 @@ from planner.cloth.garment import Garment
 from planner.geometry.pose import Pose2
 from planner.geometry.table_top import TableTop
 from planner.geometry.tolerance import TIME_S
-from planner.motion.sample import ClothSurface, Sample
+from planner.motion.cloth_surface import ClothSurface
+from planner.motion.timeline import Sample
 from planner.robots.card import RobotCard
-from planner.task.plan import Plan
-from planner.task.plan_step import PlanStep
+from planner.task.plan import Plan, PlanStep
 from planner.task.scene import Scene
 
 _SQUARE = 1.0

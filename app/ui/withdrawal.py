@@ -7,7 +7,7 @@ a way, as only the planner could tell: they stay.
 from dataclasses import replace
 
 from planner.geometry.pose import wrapped_angle
-from planner.motion.sample import Sample
+from planner.motion.timeline import Sample
 from planner.robots.card import RobotCard
 
 LASTS_S = 1.4

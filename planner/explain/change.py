@@ -36,18 +36,6 @@ class Liberties:
 NO_LIBERTIES = Liberties()
 
 
-def _unchanged(task: Task, _: float) -> Task:
-    return task
-
-
-def _no_more(liberties: Liberties, _: float) -> Liberties:
-    return liberties
-
-
-def _unsaid(_: Task, __: Task) -> Message:
-    return Message.plain("")
-
-
 @dataclass(frozen=True, slots=True, eq=False)
 class Change:
     """A kind of change, made by an amount.
@@ -62,9 +50,9 @@ class Change:
     """
 
     kind: str
-    applied: Callable[[Task, float], Task] = _unchanged
-    frees: Callable[[Liberties, float], Liberties] = _no_more
-    says: Callable[[Task, Task], Message] = _unsaid
+    applied: Callable[[Task, float], Task] = lambda task, _: task
+    frees: Callable[[Liberties, float], Liberties] = lambda liberties, _: liberties
+    says: Callable[[Task, Task], Message] = lambda _, __: Message.plain("")
     step: float = 0.001
     is_hypothetical: bool = False
 

@@ -28,8 +28,7 @@ from numpy.typing import NDArray
 from planner.explain.change import Bisection
 from planner.geometry.driving import STANDOFF_STEP_M
 from planner.geometry.pose import FloatArray, Point3
-from planner.geometry.reach_query import ReachQuery
-from planner.geometry.shortfall import Shortfall
+from planner.geometry.reach_query import ReachQuery, Shortfall
 from planner.primitives.context import Context
 from planner.primitives.fold_trial import FoldTrial
 from planner.primitives.fold_way import can_follow

@@ -14,7 +14,7 @@ import numpy as np
 from planner.explain.reason_grips import farthest_from, held_radius, radius_for
 from planner.explain.reason_out_of_reach import dragged
 from planner.explain.reason_reach import from_every_station
-from planner.geometry.pose import Point2, Point3
+from planner.geometry.pose import Point2, Point3, point2
 from planner.geometry.tolerance import LENGTH_M
 from planner.message import plain_points
 from planner.primitives.context import Context
@@ -221,16 +221,14 @@ def _offset_then(context: Context, obstacle: Obstacle, state: State) -> Point2:
     """
     if obstacle.contact is None or obstacle.dragged_to is None or obstacle.point is None:
         return state.offset
-    x, y = np.array(obstacle.contact.point[:2]) - context.placed(_START).to_outer(np.array(obstacle.point))
-    return (float(x), float(y))
+    return point2(np.array(obstacle.contact.point[:2]) - context.placed(_START).to_outer(np.array(obstacle.point)))
 
 
 def _held_by(context: Context, step: Step, contact: BlockingContact | None) -> Point2 | None:
     """Return the point that the colliding hand holds, article frame (m)."""
     for grip in step.grips:
         if contact is not None and grip.arm == contact.arm:
-            x, y = context.placed(step.before.offset).to_inner(np.array(grip.pick[:2]))
-            return (float(x), float(y))
+            return point2(context.placed(step.before.offset).to_inner(np.array(grip.pick[:2])))
     return None
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from planner.explain.reason_attempt import FURTHEST_M, Miss, explained, least_shift
 from planner.geometry.driving import STANDOFFS_PER_M
-from planner.geometry.pose import FloatArray, Point3, Pose2
+from planner.geometry.pose import Point3, Pose2, point3
 from planner.geometry.tolerance import ANGLE_RAD
 from planner.primitives.context import Context
 from planner.primitives.state import State
@@ -23,7 +23,7 @@ def out_of_reach(context: Context, fold: int, miss: Miss) -> Reason:
     found, trial = miss.shortfall, miss.trial
     station, pose = context.scene.stations[miss.state.station]
     arm = context.reach.arm_names[trial.arms[miss.grip]]
-    point = _point(trial.tools[miss.grip, miss.waypoint])
+    point = point3(trial.tools[miss.grip, miss.waypoint])
     shift_m, shift_towards = (None if found.is_at_least else least_shift(context, miss)) or (None, None)
     same: dict[str, Any] = {
         "arm": arm,
@@ -99,7 +99,7 @@ def removed_by(reason: Reason, context: Context, kinds: tuple[str, ...]) -> Reas
     pose = dict(context.scene.stations).get(reason.station or "")
     if not kinds or shift is None or towards is None or pose is None:
         return _advised(reason, context, {"movable": []}, shift_m=None)
-    in_base = _point(pose.to_inner(np.array(towards) + np.array([pose.x_m, pose.y_m, 0.0])))
+    in_base = point3(pose.to_inner(np.array(towards) + np.array([pose.x_m, pose.y_m, 0.0])))
     return _advised(reason, context, {"movable": list(kinds), "shift_towards": list(in_base)}, shift_m=shift)
 
 
@@ -137,8 +137,4 @@ def dragged(state: State) -> dict[str, Any]:
 
 def _turned(pose: Pose2, direction: Point3) -> Point3:
     """Rotate a direction from a base's frame to the table frame."""
-    return _point(pose.to_outer(np.array(direction)) - pose.to_outer(np.zeros(3)))
-
-
-def _point(row: FloatArray) -> Point3:
-    return (float(row[0]), float(row[1]), float(row[2]))
+    return point3(pose.to_outer(np.array(direction)) - pose.to_outer(np.zeros(3)))

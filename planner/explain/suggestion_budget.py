@@ -35,7 +35,6 @@ class TrialBudget:
     """
 
     def __init__(self, whole: Budget) -> None:
-        """Begin with nothing spent of the whole."""
         self._whole = whole
         self.spent_s = 0.0
         self.has_unknown = False

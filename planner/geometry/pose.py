@@ -16,6 +16,16 @@ FloatArray: TypeAlias = NDArray[np.float64]
 BoolArray: TypeAlias = NDArray[np.bool_]
 
 
+def point2(row: FloatArray) -> Point2:
+    """Return the first two numbers of an array as plain ones."""
+    return (float(row[0]), float(row[1]))
+
+
+def point3(row: FloatArray) -> Point3:
+    """Return the first three numbers of an array as plain ones."""
+    return (float(row[0]), float(row[1]), float(row[2]))
+
+
 def wrapped_angle(angle_rad: float) -> float:
     """Return an angle wrapped to (-pi, pi]."""
     wrapped = math.remainder(angle_rad, math.tau)

@@ -8,18 +8,64 @@ add up to the whole and share their border to the last digit.
 
 from collections.abc import Iterable, Sequence
 from functools import cached_property
+from itertools import combinations
 
 import numpy as np
 import shapely
 from shapely.geometry.base import BaseGeometry
 
 from planner.geometry.isometry import Isometry
-from planner.geometry.pose import BoolArray, FloatArray, Point2
+from planner.geometry.pose import BoolArray, FloatArray, Point2, point2
 from planner.geometry.ring import corners, counter_clockwise, feet, hull_of, inward_bisector
 from planner.geometry.segment import Segment
-from planner.geometry.shape import half_plane, polygonal, united, without_cracks
 from planner.geometry.tolerance import AREA_M2, CUT_GRID_M, GRID_M, LENGTH_M
 from planner.geometry.traced import TRACED_M, traced
+
+_FAR_M = 100.0
+"""Distance beyond which nothing lies (m)."""
+
+_TOUCH_M = 10 * LENGTH_M
+"""Length of the contact below which two parts near to each other only touch (m)."""
+
+
+def polygonal(shape: BaseGeometry) -> BaseGeometry:
+    """Return the polygons of a shape; the intersection of polygons that only touch also has lines and points."""
+    if isinstance(shape, shapely.Polygon | shapely.MultiPolygon):
+        return shape
+    parts = shapely.get_parts(shape)
+    return shapely.union_all(parts[shapely.get_dimensions(parts) == 2])
+
+
+def united(shapes: Iterable[BaseGeometry]) -> BaseGeometry:
+    """Return what at least one of the shapes covers, on the grid."""
+    return polygonal(shapely.union_all(list(shapes), grid_size=GRID_M))
+
+
+def without_cracks(shape: BaseGeometry) -> BaseGeometry:
+    """Return the shape without cracks narrower than `LENGTH_M` between its parts, and without holes as narrow.
+
+    Everything else stays in place. Growing and shrinking the whole shape would do the same, but then GEOS loses holes.
+    """
+    seams = [_seam(a, b) for a, b in combinations(shapely.get_parts(shape), 2) if shapely.dwithin(a, b, LENGTH_M)]
+    joined = united([shape, *(seam for seam in seams if seam.area > _TOUCH_M * LENGTH_M)])
+    rings = (ring for part in shapely.get_parts(joined) for ring in part.interiors)
+    holes = (shapely.Polygon(ring) for ring in rings)
+    narrow = [hole for hole in holes if 2.0 * hole.area <= LENGTH_M * hole.length]
+    return united([joined, *narrow])
+
+
+def _seam(one: BaseGeometry, other: BaseGeometry) -> BaseGeometry:
+    """Return what is near to both of two parts: a strip along the crack between them."""
+    return shapely.intersection(shapely.buffer(one, LENGTH_M / 2), shapely.buffer(other, LENGTH_M / 2))
+
+
+def half_plane(line: Segment) -> BaseGeometry:
+    """Return what lies to the left of the line through a segment, as far as anything may lie."""
+    nx, ny = line.left
+    (ax, ay), (bx, by) = line.at(-_FAR_M), line.at(line.length + _FAR_M)
+    (cx, cy), (dx, dy) = (bx + _FAR_M * nx, by + _FAR_M * ny), (ax + _FAR_M * nx, ay + _FAR_M * ny)
+    return shapely.polygons([(ax, ay), (bx, by), (cx, cy), (dx, dy)])
+
 
 _EVENED_M = 5e-4
 """The largest deviation of an evened boundary, so that its curves have few corners (m)."""
@@ -237,7 +283,7 @@ class Region:
         line = shapely.LineString([segment.start, segment.end])
         inside = shapely.intersection(line, self.shape.buffer(LENGTH_M))
         parts = [shapely.get_coordinates(p) for p in shapely.get_parts(inside)]
-        return tuple((_point(p[0]), _point(p[-1])) for p in parts if len(p))
+        return tuple((point2(p[0]), point2(p[-1])) for p in parts if len(p))
 
     def touches(self, segments: FloatArray) -> BoolArray:
         """Return which segments, shape (n, 2, 2), have a point of the region, to the tolerance; shape (n,)."""
@@ -302,5 +348,23 @@ class Region:
         return Region(shapely.difference(self.shape, other.shape, grid_size=GRID_M))
 
 
-def _point(row: FloatArray) -> Point2:
-    return (float(row[0]), float(row[1]))
+_SIMPLER_M = 0.01
+"""The largest outward simplification of an outline that would give too many triangles (m)."""
+
+_TRIANGLES_MAX = 24
+"""Triangles of a part above which its outline is simplified."""
+
+
+def convex_pieces(region: Region) -> tuple[FloatArray, ...]:
+    """Return convex polygons, counter-clockwise, shape (n, 2), that cover a region and little or nothing more."""
+    return tuple(piece for part in region.pieces for piece in _pieces_of(part))
+
+
+def _pieces_of(part: Region) -> tuple[FloatArray, ...]:
+    hull = Region.polygon(part.hull)
+    if hull.area - part.area <= AREA_M2:
+        return (part.hull,)
+    if len(part.triangles) > _TRIANGLES_MAX:
+        grown = part.shape.buffer(_SIMPLER_M).simplify(0.8 * _SIMPLER_M)
+        part = Region(shapely.intersection(grown, hull.shape))
+    return tuple(part.triangles)

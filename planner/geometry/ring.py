@@ -5,7 +5,7 @@ import math
 import numpy as np
 import shapely
 
-from planner.geometry.pose import FloatArray, Point2
+from planner.geometry.pose import FloatArray, Point2, point2
 from planner.geometry.segment import Segment
 from planner.geometry.tolerance import GRID_M, LENGTH_M
 
@@ -51,10 +51,10 @@ def inward_bisector(ring: FloatArray, point: Point2, within_m: float = LENGTH_M)
     from_sides_m = np.hypot(*(feet(at[None], ring, ends)[0] - at).T)
     number, side_number = int(from_corners_m.argmin()), int(from_sides_m.argmin())
     if from_corners_m[number] <= within_m:
-        here = _point(ring[number])
-        return _halving(Segment(_point(ring[number - 1]), here), Segment(here, _point(ends[number])))
+        here = point2(ring[number])
+        return _halving(Segment(point2(ring[number - 1]), here), Segment(here, point2(ends[number])))
     if from_sides_m[side_number] <= within_m:
-        return Segment(_point(ring[side_number]), _point(ends[side_number])).left
+        return Segment(point2(ring[side_number]), point2(ends[side_number])).left
     return None
 
 
@@ -79,19 +79,6 @@ def _halving(arriving: Segment, leaving: Segment) -> Point2:
     return (math.cos(heading), math.sin(heading))
 
 
-def _point(row: FloatArray) -> Point2:
-    return (float(row[0]), float(row[1]))
-
-
 def hull_of(points: FloatArray) -> FloatArray:
     """Return the corners of the convex hull of points, counter-clockwise, shape (n, 2), m."""
     return corners(np.asarray(shapely.get_coordinates(shapely.convex_hull(shapely.multipoints(points))))[:-1])
-
-
-def evenly_along(ring: FloatArray, spacing_m: float) -> FloatArray:
-    """Return points along a closed ring, shape (n, 2), at most a distance apart, its corners among them (m)."""
-    parts = []
-    for start, end in zip(ring, np.roll(ring, -1, axis=0), strict=True):
-        count = max(1, math.ceil(float(np.hypot(*(end - start))) / spacing_m))
-        parts.append(start + np.arange(count)[:, None] / count * (end - start))
-    return np.concatenate(parts)

@@ -12,10 +12,10 @@ from itertools import product
 import numpy as np
 
 from planner.geometry.pose import FloatArray, Point3, Pose2
-from planner.motion.robot_port import Collisions, RobotPort
 from planner.motion.waypoints import Waypoints
 from planner.primitives.obstacle import BlockingContact
-from planner.robots.collision.contact import Contact
+from planner.robots.armed_robot import ArmedRobot
+from planner.robots.collision.collisions import Collisions, Contact
 from planner.robots.joint_layout import JointLayout
 
 _MOMENTS = 16
@@ -28,7 +28,7 @@ _POSTURES, _POSTURES_TOGETHER = 16, 5
 class BlockingContacts:
     """The search for contacts that block motions of one robot at one table."""
 
-    def __init__(self, machine: RobotPort, collisions: Collisions, torso_m: float, height_m: float) -> None:
+    def __init__(self, machine: ArmedRobot, collisions: Collisions, torso_m: float, height_m: float) -> None:
         """Keep the robot, the height of its lift and that of the table (m)."""
         self._machine = machine
         self._collisions = collisions

@@ -7,13 +7,14 @@ the table's edges, beyond which they hang. Layers are drawn as high above each o
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from planner.cloth.layer import Layer
+from planner.cloth.garment import Garment
+from planner.cloth.layer import Layer, nearest_layers
 from planner.cloth.must_hold import must_hold
 from planner.folds.fold_path import FoldPath
 from planner.folds.fold_sequence import FoldSequence
@@ -21,11 +22,32 @@ from planner.geometry.drape import bends, draped
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import BoolArray, FloatArray, Pose2
 from planner.geometry.segment import Segment
+from planner.geometry.table import Table
 from planner.geometry.table_top import TableTop
 from planner.geometry.triangles import creased, parted
 from planner.motion.lifted_cloth import LiftedCloth
-from planner.motion.sample import ClothSurface
 from planner.task.phase import ClothMotion
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ClothSurface:
+    """The cloth as a triangle mesh in the table frame.
+
+    Attributes:
+        vertices: shape (n, 3), m; the layers of a stack lie a little apart.
+        triangles: shape (m, 3), indices into `vertices`; seen from the front face of the cloth they run
+            counter-clockwise.
+        layers: shape (m,), each triangle's layer, 0 at the bottom.
+        unrolled: for cloth on the table or hanging over its edges, each vertex's position in the unrolled plane and its
+            layer's height above it, shape (n, 3), m; nan for all other cloth.
+        pattern: each vertex's position in the pattern, shape (n, 2), m: the same on both sides of a crease.
+    """
+
+    vertices: FloatArray
+    triangles: NDArray[np.int64]
+    layers: NDArray[np.int64]
+    unrolled: FloatArray
+    pattern: FloatArray
 
 
 class ClothMoment(NamedTuple):
@@ -221,3 +243,73 @@ def placed(line: Segment, placement: Pose2) -> Segment:
     """Return a segment of the article frame in the table frame."""
     start, end = placement.to_outer(np.array([line.start, line.end])).tolist()
     return Segment(tuple(start), tuple(end))
+
+
+class ClothPoints:
+    """Points of a garment's pattern, at any moment of a plan."""
+
+    def __init__(self, sequence: FoldSequence, pattern: FloatArray) -> None:
+        """Take points of the pattern, shape (n, 2), m."""
+        self._sequence, self._pattern = sequence, pattern
+        self._numbers: dict[tuple[int, int | None], NDArray[np.int64]] = {}
+
+    def at(self, moment: ClothMoment) -> FloatArray:
+        """Return where the points are, table frame, shape (n, 3), m; they lie in their layers as the surface does."""
+        done, fold, sweep, placement, top, droop = moment
+        layers: Sequence[Layer] = self._sequence.cloth(done).layers
+        staying = len(layers)
+        if fold is not None:
+            folded = self._sequence.folded(done, fold)
+            staying = len(folded.cloth.layers) - folded.cloth.moved
+            layers = [*folded.cloth.layers[:staying], *folded.layers]
+        if (numbers := self._numbers.get((done, fold))) is None:
+            numbers = self._numbers[done, fold] = nearest_layers(layers, self._pattern)
+        article = np.empty_like(self._pattern)
+        for number, layer in enumerate(layers):
+            article[numbers == number] = layer.isometry.apply(self._pattern[numbers == number])
+        unrolled = np.column_stack([placement.to_outer(article), np.zeros(len(article))])
+        heights = np.arange(len(layers))
+        if fold is not None:
+            line, moves = self._sequence.folds[fold].line, numbers >= staying
+            path = FoldPath(
+                placed(line, placement), float(line.left_distances(folded.moving.coordinates).max()), top, top
+            )
+            unrolled[moves] = path.swept(unrolled[moves, :2], sweep)
+            heights[staying:] = heights[staying:][:: -1 if sweep > 1.0 else 1]
+        return draped(
+            top, unrolled, np.asarray((heights[numbers] + 1) * self._sequence.garment.layer_m, dtype=np.float64), droop
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class ClothAlone:
+    """A garment that is folded where it lies, each fold in the same time.
+
+    Attributes:
+        sequence: the garment and its folds.
+        table: the table over whose edges it hangs.
+    """
+
+    sequence: FoldSequence
+    table: Table
+    _surfaces: ClothSurfaces
+
+    @staticmethod
+    def of(sequence: FoldSequence, table: Table) -> "ClothAlone":
+        """Return a garment at its placement on a table."""
+        return ClothAlone(sequence, table, ClothSurfaces(sequence))
+
+    def at(self, share: float) -> tuple[ClothSurface, frozenset[int]]:
+        """Return the cloth after a share of all folds, 0 to 1, and the folds that are done by then."""
+        count = len(self.sequence.folds)
+        done = min(int(share * count), count)
+        placement = self.sequence.garment.placement
+        fold = done if done < count else None
+        motion = ClothMotion((1 << done) - 1, placement, placement, TableTop.of(self.table), fold, (0.0, 2.0))
+        moment = ClothMoment.of(motion, share * count - done, 1.0)
+        return self._surfaces.at(moment), frozenset(range(done))
+
+
+def spread_cloth(garment: Garment, table: Table) -> ClothSurface:
+    """Return a garment at its placement before any fold, hanging where it extends beyond the table."""
+    return ClothAlone.of(FoldSequence.of(replace(garment, folds=())), table).at(0.0)[0]

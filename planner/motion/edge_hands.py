@@ -12,11 +12,11 @@ from planner.deadline import Deadline
 from planner.folds.fold_path import REST_HEIGHT_M
 from planner.geometry.tolerance import TIME_S
 from planner.motion.plan_segment import PlanSegment, duration_s, linked
-from planner.motion.robot_port import RobotPort
 from planner.motion.transfer import Transfer
 from planner.motion.transfer_planner import TransferPlanner
 from planner.primitives.context import Context
 from planner.primitives.primitive import Step
+from planner.robots.armed_robot import ArmedRobot
 
 _LOOKED_AT = 120
 """Ways to do a step that are looked at for hands that may hold edges."""
@@ -31,8 +31,7 @@ TRIED = 4
 class EdgeHands:
     """Finds segments in which more hands hold edges than in those given."""
 
-    def __init__(self, context: Context, machine: RobotPort, maker: TransferPlanner) -> None:
-        """Keep the planning context, the robot, and the planner of the transfers."""
+    def __init__(self, context: Context, machine: ArmedRobot, maker: TransferPlanner) -> None:
         self._context, self._machine, self._maker = context, machine, maker
         self._known: dict[tuple[object, ...], list[Step]] = {}
 

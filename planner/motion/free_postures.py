@@ -11,9 +11,10 @@ from planner.motion.answer_memory import RecentAnswers
 from planner.motion.hand_holds import HandHold, Holds, opening_of, wide_holds
 from planner.motion.lying_cloth import LyingCloth
 from planner.motion.opened_collisions import OpenedCollisions
-from planner.motion.robot_port import Collisions, RobotPort
 from planner.motion.transfer_tool_paths import rolled
 from planner.motion.waypoints import Waypoints
+from planner.robots.armed_robot import ArmedRobot
+from planner.robots.collision.collisions import Collisions
 from planner.robots.joint_layout import JointLayout
 
 _LOOKED_AT = 5
@@ -33,7 +34,7 @@ def _pose(collisions: Collisions, base: FloatArray, position: FloatArray, rotati
 class FreePostures:
     """Finds and caches the arms' collision-free postures at tool poses. May be shared between threads."""
 
-    def __init__(self, machine: RobotPort, collisions: OpenedCollisions, torso_m: float) -> None:
+    def __init__(self, machine: ArmedRobot, collisions: OpenedCollisions, torso_m: float) -> None:
         """Keep a robot and the height of its lift (m), and empty caches."""
         self._machine = machine
         self._collisions = collisions

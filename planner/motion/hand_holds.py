@@ -14,8 +14,8 @@ import numpy as np
 from planner.folds.fold_path import REST_HEIGHT_M
 from planner.geometry.tolerance import ANGLE_RAD
 from planner.motion.joint_trajectory import CLOSED_M, OPEN_M
-from planner.motion.robot_port import RobotPort
 from planner.motion.waypoints import Waypoints
+from planner.robots.armed_robot import ArmedRobot
 from planner.robots.openings import EDGE_OPEN_M, HELD_M, OPENING_M
 from planner.task.grip import GripKind
 
@@ -81,7 +81,7 @@ def wide_holds(waypoints: Waypoints) -> tuple[Holds, ...]:
     return tuple(HandHold(OVER, kind) for kind in kinds), beside
 
 
-def edge_holds(machine: RobotPort, waypoints: Waypoints) -> Holds | None:
+def edge_holds(machine: ArmedRobot, waypoints: Waypoints) -> Holds | None:
     """Return how hands hold in a transfer if all that can have one finger under the cloth, where some can.
 
     A hand that opens before others let go has no time of its own to go where it has room for that.
@@ -95,7 +95,7 @@ def edge_holds(machine: RobotPort, waypoints: Waypoints) -> Holds | None:
     return found if any(hold.is_narrow for hold in found) else None
 
 
-def _edge_hold(machine: RobotPort, arm: int, waypoints: Waypoints) -> HandHold:
+def _edge_hold(machine: ArmedRobot, arm: int, waypoints: Waypoints) -> HandHold:
     pitch_rad = _pitch_rad(waypoints, arm)
     raised_m = None if pitch_rad >= _VERTICAL else machine.edge_raised_m(arm, REST_HEIGHT_M, round(pitch_rad, _DIGITS))
     return _BESIDE if raised_m is None else HandHold(OVER, "edge", EDGE_OPEN_M, raised_m)

@@ -6,13 +6,13 @@ from functools import lru_cache
 
 import numpy as np
 
-from planner.geometry.convex_pieces import convex_pieces
 from planner.geometry.pose import BoolArray, FloatArray, Pose2
+from planner.geometry.region import convex_pieces
 from planner.geometry.tolerance import grid_key
 from planner.motion.opened_collisions import OpenedCollisions
-from planner.motion.robot_port import Clearance, Collisions
 from planner.primitives.context import Context
 from planner.primitives.state import State
+from planner.robots.collision.collisions import Clearance, Collisions
 from planner.robots.openings import OPENING_M
 
 OVER_CLOTH_M = 0.032

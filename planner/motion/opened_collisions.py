@@ -6,7 +6,8 @@ from planner.geometry.pose import FloatArray
 from planner.geometry.table import Table
 from planner.geometry.tolerance import LENGTH_M
 from planner.motion.hand_holds import HandHold
-from planner.motion.robot_port import Collisions, RobotPort
+from planner.robots.armed_robot import ArmedRobot
+from planner.robots.collision.collisions import Collisions
 from planner.robots.joint_layout import JointLayout
 from planner.robots.openings import EDGE_OPEN_M, HELD_M, OPENING_M
 
@@ -21,7 +22,7 @@ class OpenedCollisions:
         wide: those with fingers open as far as they ever are.
     """
 
-    def __init__(self, machine: RobotPort, table: Table, torso_m: float, margin_m: float = 0.0) -> None:
+    def __init__(self, machine: ArmedRobot, table: Table, torso_m: float, margin_m: float = 0.0) -> None:
         """Put the robot at a table with its lift raised (m); what is nearer than a margin (m) counts as touching."""
         self._layout = JointLayout.of(machine.card)
         self._up_to = tuple(

@@ -26,8 +26,207 @@ from numpy.typing import NDArray
 
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.kernels import kernel
-from planner.motion.path_intervals import EXCESS, excess, gap_s, shorten
-from planner.motion.path_paces import quickest_paces, slopes
+
+EXCESS = 1.02
+"""The greatest acceleration as a share of its limit: the planned time of a drive is that of an exact ramp."""
+
+_ROUNDING = 1.0 + 1e-9
+"""The greatest speed as a share of its limit."""
+
+_SHORTER_HALVINGS = 24
+"""Halvings of an interval's time in which the least is sought."""
+
+
+@kernel
+def gap_s(
+    at: FloatArray,
+    values: FloatArray,
+    speeds: FloatArray,
+    accelerations: FloatArray,
+    paces: FloatArray,
+    i: int,
+    most: float,
+) -> float:
+    """Return the time over an interval with paces cut at `most`; between two rests the least time of a cubic (s)."""
+    total = min(paces[i], most) + min(paces[i + 1], most)
+    if total > 0.0:
+        return float(2.0 * (at[i + 1] - at[i]) / total)
+    least_s = 0.0
+    for j in range(values.shape[1]):
+        way = abs(values[i + 1, j] - values[i, j])
+        least_s = max(least_s, 1.5 * way / speeds[j], np.sqrt(6.0 * way / accelerations[j]))
+    return float(least_s)
+
+
+@kernel
+def excess(
+    start: FloatArray,
+    end: FloatArray,
+    starts: FloatArray,
+    ends: FloatArray,
+    paces: FloatArray,
+    i: int,
+    gap_s: float,
+    speeds: FloatArray,
+    accelerations: FloatArray,
+) -> float:
+    """Return the factor by which time over an interval must be stretched to keep the limits; 1 where they are kept."""
+    worst = 1.0
+    if gap_s <= 0.0:
+        return worst
+    for j in range(len(start)):
+        before, after = starts[i, j] * paces[i], ends[i, j] * paces[i + 1]
+        mean = (end[j] - start[j]) / gap_s
+        first, last, fast = _bends(mean, before, after, gap_s)
+        worst = max(worst, fast / (_ROUNDING * speeds[j]))
+        worst = max(worst, np.sqrt(max(abs(first), abs(last)) / accelerations[j]))
+    return float(worst)
+
+
+@kernel
+def shorten(
+    values: FloatArray,
+    velocities: FloatArray,
+    groups: NDArray[np.int64],
+    planned_s: FloatArray,
+    speeds: FloatArray,
+    accelerations: FloatArray,
+    gaps: FloatArray,
+) -> None:
+    """Shorten the time between keyframes in groups that take longer than planned, down to that where it is enough.
+
+    The velocities stay. As means grow, no cubic comes to leave the range of its values at both ends.
+    """
+    paces = np.ones(len(values))
+    for group in range(len(planned_s)):
+        late_s, spare_s, spare = -planned_s[group], 0.0, np.zeros(len(gaps))
+        for i in range(len(gaps)):
+            if groups[i + 1] == group:
+                late_s += gaps[i]
+        for i in range(len(gaps) if late_s > 0.0 else 0):
+            if groups[i + 1] == group:
+                low, high = 0.0, gaps[i]
+                for _ in range(_SHORTER_HALVINGS):
+                    gap = 0.5 * (low + high)
+                    worse = excess(
+                        values[i], values[i + 1], velocities, velocities[1:], paces, i, gap, speeds, accelerations
+                    )
+                    low, high = (gap, high) if worse > 1.0 else (low, gap)
+                spare[i] = gaps[i] - high
+                spare_s += spare[i]
+        if spare_s > 0.0:
+            gaps -= min(late_s / spare_s, 1.0) * spare
+
+
+_LEAST = 1e-12
+"""A slope, or a bend, that is none."""
+
+
+@kernel
+def slopes(at: FloatArray, values: FloatArray, is_rest: BoolArray) -> tuple[FloatArray, FloatArray]:
+    """Return the monotone slopes of Fritsch and Carlson at both ends of each interval, as weighted harmonic means.
+
+    Where everything rests a path may turn at once, so there each interval has its own slope.
+    """
+    count, columns = values.shape
+    starts, ends = np.zeros((count - 1, columns)), np.zeros((count - 1, columns))
+    for j in range(columns):
+        before = 0.0
+        for i in range(count - 1):
+            width = at[i + 1] - at[i]
+            after = (values[i + 1, j] - values[i, j]) / width
+            if is_rest[i]:
+                starts[i, j] = after
+                if i > 0:
+                    ends[i - 1, j] = before
+            elif before * after > 0.0:
+                gap = at[i] - at[i - 1]
+                first, second = 2.0 * width + gap, width + 2.0 * gap
+                starts[i, j] = ends[i - 1, j] = (first + second) / (first / before + second / after)
+            before = after
+        ends[count - 2, j] = before
+    return starts, ends
+
+
+@kernel
+def _bends(slope: float, start: float, end: float, width: float) -> tuple[float, float, float]:
+    """Return a cubic's second derivatives at both ends, and the size of its steepest slope.
+
+    Args:
+        slope: its mean slope.
+        start: the slope at its start.
+        end: the slope at its end.
+        width: the width of the interval.
+    """
+    first, last = (6.0 * slope - 4.0 * start - 2.0 * end) / width, (2.0 * start + 4.0 * end - 6.0 * slope) / width
+    steepest = max(abs(start), abs(end))
+    if first * last < 0.0:
+        steepest = max(steepest, abs(start + 0.5 * first * first / (first - last) * width))
+    return first, last, steepest
+
+
+@kernel
+def quickest_paces(
+    at: FloatArray,
+    values: FloatArray,
+    starts: FloatArray,
+    ends: FloatArray,
+    is_rest: BoolArray,
+    caps: FloatArray,
+    speeds: FloatArray,
+    accelerations: FloatArray,
+) -> FloatArray:
+    """Return the greatest pace at each keyframe, none above its cap."""
+    count, columns = values.shape
+    squares = caps**2
+    first, last = np.empty((count - 1, columns)), np.empty((count - 1, columns))
+    for i in range(count - 1):
+        width = at[i + 1] - at[i]
+        for j in range(columns):
+            slope = (values[i + 1, j] - values[i, j]) / width
+            first[i, j], last[i, j], steepest = _bends(slope, starts[i, j], ends[i, j], width)
+            fast = (speeds[j] / max(steepest, _LEAST)) ** 2
+            squares[i] = min(squares[i], fast, accelerations[j] / max(abs(first[i, j]), _LEAST))
+            squares[i + 1] = min(squares[i + 1], fast, accelerations[j] / max(abs(last[i, j]), _LEAST))
+    squares[is_rest] = 0.0
+    for i in range(count - 1):
+        gain = _gain(squares[i], starts[i], ends[i], first[i], last[i], accelerations, at[i + 1] - at[i])
+        squares[i + 1] = min(squares[i + 1], squares[i] + gain)
+    for i in range(count - 2, -1, -1):  # backwards in time the slopes turn round, and the bends stay
+        gain = _gain(squares[i + 1], -ends[i], -starts[i], last[i], first[i], accelerations, at[i + 1] - at[i])
+        squares[i] = min(squares[i], squares[i + 1] + gain)
+    return np.sqrt(squares)
+
+
+@kernel
+def _gain(
+    square: float,
+    near: FloatArray,
+    far: FloatArray,
+    near_bends: FloatArray,
+    far_bends: FloatArray,
+    accelerations: FloatArray,
+    width: float,
+) -> float:
+    """Return by how much a pace's square may grow over an interval from its near end; no less than nothing."""
+    gain = np.inf
+    for j in range(len(near)):
+        gain = min(gain, _room(near[j], near_bends[j] * square, accelerations[j], width))
+        gain = min(gain, _room(far[j] + 2.0 * width * far_bends[j], far_bends[j] * square, accelerations[j], width))
+    return max(gain, 0.0)
+
+
+@kernel
+def _room(slope: float, bent: float, acceleration: float, width: float) -> float:
+    """Return by how much a pace's square may grow where a joint accelerates by `bent` for the path's bend already.
+
+    A joint that turns round there does not accelerate with the pace.
+    """
+    if abs(slope) <= _LEAST:
+        return np.inf
+    spare = acceleration - bent if slope > 0.0 else acceleration + bent
+    return 2.0 * width * spare / abs(slope)
+
 
 _ASKED = 1.01
 """The accelerations with which a run is sought, as a share of the limits."""

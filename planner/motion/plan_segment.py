@@ -3,9 +3,8 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from planner.motion.transfer import Transfer
+from planner.motion.transfer import Transfer, Transit
 from planner.motion.transfer_planner import TransferPlanner
-from planner.motion.transit import Transit
 from planner.primitives.primitive import Step
 
 

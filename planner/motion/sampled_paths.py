@@ -147,7 +147,6 @@ class _Tree:
     """Configurations, each with the one that it was reached from."""
 
     def __init__(self, root: FloatArray) -> None:
-        """Begin with one configuration."""
         self._rows, self._from = np.tile(root, (64, 1)), [0]
 
     @property

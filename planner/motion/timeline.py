@@ -5,12 +5,13 @@ It needs no robot and no search, so a plan read from a file plays like one just 
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from typing import Any
 
 from planner.errors import RequestError, UnsolvedPlanError
 from planner.geometry.pose import Pose2
+from planner.geometry.table_top import TableTop
 from planner.geometry.tolerance import TIME_S
-from planner.motion.cloth_surface import ClothMoment, ClothSurfaces
-from planner.motion.sample import Sample
+from planner.motion.cloth_surface import ClothMoment, ClothSurface, ClothSurfaces
 from planner.task.plan import Plan
 from planner.task.trajectory import Trajectory
 
@@ -19,6 +20,47 @@ RATE_HZ = (1.0, 200.0)
 
 _SINK_S = 0.4
 """The time over which cloth released beyond an edge is shown sinking (s); the model lets it hang at once."""
+
+
+@dataclass(frozen=True, slots=True)
+class Sample:
+    """The state of robot and cloth at one time.
+
+    Attributes:
+        t_s: the time (s).
+        primitive: index of the current primitive.
+        base: the base in the table frame.
+        torso_m: the lift (m).
+        joints: every actuated joint by its URDF name (rad, m for prismatic ones).
+        velocities: every actuated joint's velocity just after that time (rad/s, m/s for prismatic ones).
+        grippers_m: each gripper's opening by the arm's name (m).
+        placement: the article frame in the table frame.
+        cloth: the cloth.
+        top: the table top over which the cloth does not hang, open where it is held out beyond an edge.
+    """
+
+    t_s: float
+    primitive: int
+    base: Pose2
+    torso_m: float
+    joints: dict[str, float]
+    velocities: dict[str, float]
+    grippers_m: dict[str, float]
+    placement: Pose2
+    cloth: ClothSurface
+    top: TableTop
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the sample as JSON, without the cloth."""
+        return {
+            "t_s": self.t_s,
+            "primitive": self.primitive,
+            "base": self.base.to_dict(),
+            "torso_m": self.torso_m,
+            "joints": self.joints,
+            "velocities": self.velocities,
+            "grippers_m": self.grippers_m,
+        }
 
 
 @dataclass(frozen=True)

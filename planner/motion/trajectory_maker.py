@@ -16,13 +16,11 @@ from planner.geometry.ramps import ramps
 from planner.geometry.table_top import TableTop
 from planner.geometry.tolerance import TIME_S
 from planner.motion.hand_holds import settling_s
-from planner.motion.joint_trajectory import JointTrajectory, finger_limits_over
-from planner.motion.line import Keyframes
+from planner.motion.joint_trajectory import JointTrajectory, Keyframes, finger_limits_over
 from planner.motion.plan_segment import PlanSegment
 from planner.motion.timed_phase import TimedPhase
-from planner.motion.transfer import Transfer
+from planner.motion.transfer import Transfer, Transit
 from planner.motion.transfer_planner import TransferPlanner
-from planner.motion.transit import Transit
 from planner.motion.transit_paths import TransitPaths
 from planner.primitives.context import Context
 from planner.primitives.drive_time import DriveTime

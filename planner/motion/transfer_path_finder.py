@@ -14,10 +14,10 @@ from planner.motion.answer_memory import RecentAnswers
 from planner.motion.free_postures import FreePostures
 from planner.motion.hand_holds import Holds, edge_holds, opening_of, settles, wide_holds
 from planner.motion.opened_collisions import OpenedCollisions
-from planner.motion.robot_port import RobotPort
 from planner.motion.transfer_path import TransferPath
 from planner.motion.transfer_tool_paths import FAR, NEAR, UP, ApproachLines, Cloths, TransferToolPath, TransferToolPaths
 from planner.motion.waypoints import Waypoints
+from planner.robots.armed_robot import ArmedRobot
 from planner.robots.joint_layout import JointLayout
 from planner.robots.tool_path import IsFree, NoPath
 
@@ -54,7 +54,7 @@ class TransferPathFinder:
         postures: the arms' free postures at single tool poses.
     """
 
-    def __init__(self, machine: RobotPort, collisions: OpenedCollisions, torso_m: float, height_m: float) -> None:
+    def __init__(self, machine: ArmedRobot, collisions: OpenedCollisions, torso_m: float, height_m: float) -> None:
         """Keep a robot, the height of its lift and that of the table (m), and empty caches."""
         self._machine = machine
         self._collisions = collisions
@@ -229,7 +229,7 @@ class TransferPathFinder:
         return {approach.arm: partial(is_free, approach) for approach in tool_paths.each}
 
 
-def keeps_tool(machine: RobotPort, arm: int, joints: FloatArray, torso_m: float) -> bool:
+def keeps_tool(machine: ArmedRobot, arm: int, joints: FloatArray, torso_m: float) -> bool:
     """Return whether half a turn of an arm's last joint leaves its tool where it is, and pointing as it does.
 
     It does where the joint turns about the approach axis, through the tool, and not beside it.

@@ -7,31 +7,29 @@ from functools import lru_cache
 
 import numpy as np
 
+from planner.geometry.keyframes import values_at
 from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.table import Table
 from planner.geometry.tolerance import TIME_S
 from planner.motion.blocking_contacts import BlockingContacts
-from planner.motion.edge_sag import is_clear_between
 from planner.motion.hand_holds import edge_holds, opening_of, settling_s
-from planner.motion.joint_trajectory import finger_run_s
-from planner.motion.known_transfers import KnownTransfers
-from planner.motion.line import Line
+from planner.motion.joint_trajectory import Line, finger_run_s
 from planner.motion.lying_cloth import LyingCloth, LyingCloths
 from planner.motion.opened_collisions import OpenedCollisions
-from planner.motion.robot_port import RobotPort
 from planner.motion.search_limits import QUICK, SearchLimits
-from planner.motion.transfer import Transfer, is_carrying
-from planner.motion.transfer_candidate import BlockedWaypoints, Candidate, motion_of, ways_of
+from planner.motion.transfer import Transfer, Transit, is_carrying, transit_between
+from planner.motion.transfer_candidate import BlockedWaypoints, Candidate, KnownTransfers, motion_of, ways_of
 from planner.motion.transfer_path import TransferPath
 from planner.motion.transfer_path_finder import TransferPathFinder
 from planner.motion.transfer_timing import TransferLimits, TransferTiming
-from planner.motion.transit import Transit, transit_between
 from planner.motion.transit_paths import Spared, TransitPaths
 from planner.motion.transit_planner import TransitPlanner
 from planner.motion.waypoints import Waypoints, forget_waypoints, waypoints_of
 from planner.primitives.context import Context
 from planner.primitives.obstacle import BlockingContact
 from planner.primitives.primitive import Step
+from planner.robots.armed_robot import ArmedRobot
+from planner.robots.joint_layout import JointLayout
 from planner.robots.tool_path import NoPath
 from planner.task.phase import Phase
 
@@ -50,7 +48,7 @@ class TransferPlanner:
         transits_planned: how many transits were planned.
     """
 
-    def __init__(self, context: Context, machine: RobotPort, known: KnownTransfers | None = None) -> None:
+    def __init__(self, context: Context, machine: ArmedRobot, known: KnownTransfers | None = None) -> None:
         """Set up the planner for one context and robot.
 
         Args:
@@ -290,7 +288,7 @@ class TransferPlanner:
 
 @lru_cache(maxsize=4)
 def _transfer_path_finder(
-    machine: RobotPort, table: Table, torso_m: float
+    machine: ArmedRobot, table: Table, torso_m: float
 ) -> tuple[TransferPathFinder, TransitPaths, OpenedCollisions]:
     """Return the searches for joint paths at a table and the collisions there; all are kept from plan to plan."""
     collisions = OpenedCollisions(machine, table, torso_m, MARGIN_M)
@@ -302,3 +300,32 @@ def forget_paths() -> None:
     """Clear the cache of joint paths and transits, so that benchmarks measure their computation."""
     _transfer_path_finder.cache_clear()
     forget_waypoints()
+
+
+_SHARES = np.array([0.25, 0.5, 0.75])
+"""Where between two waypoints hands are tested."""
+
+
+def is_clear_between(
+    transfer_path: TransferPath, timing: TransferTiming, layout: JointLayout, collisions: OpenedCollisions
+) -> bool:
+    """Return whether arms whose hands hold edges touch neither body nor table between the waypoints of a transfer.
+
+    Joints sag a little there. Fingers side by side are well above the table while they hold cloth; the lower one of a
+    hand at an edge has some tenths of a millimetre.
+    """
+    arms = [arm for arm, hold in enumerate(transfer_path.lines.holds) if hold.is_narrow]
+    if not arms:
+        return True
+    gaps = np.diff(timing.times_s)
+    starts = np.flatnonzero(gaps > TIME_S)
+    times = (timing.times_s[starts, None] + gaps[starts, None] * _SHARES).ravel()
+    rows = transfer_path.first + timing.waypoints
+    joints = values_at(timing.times_s, transfer_path.joints[rows], timing.velocities, times)
+    bases = np.column_stack([np.interp(times, timing.times_s, column) for column in transfer_path.bases[rows].T])
+    return all(
+        collisions.of(transfer_path.lines.holds[arm], is_open=False)
+        .arm_free(arm, bases, joints[:, layout.spans[arm]])
+        .all()
+        for arm in arms
+    )

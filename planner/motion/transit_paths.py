@@ -15,14 +15,15 @@ from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.ramps import ramps
 from planner.geometry.tolerance import EDGE_RAD
 from planner.motion.answer_memory import AnswerMemory, RecentAnswers
-from planner.motion.line import Keyframes, Line
+from planner.motion.joint_trajectory import Keyframes, Line
 from planner.motion.lying_cloth import NEAR_GRIP_M, LyingCloth
 from planner.motion.opened_collisions import OpenedCollisions
 from planner.motion.pacing import needed_s
 from planner.motion.path_timing import quickest
 from planner.motion.polylines import lengths_on_table
-from planner.motion.robot_port import Collisions, RobotPort
 from planner.motion.sampled_paths import SampledPaths, sampled
+from planner.robots.armed_robot import ArmedRobot
+from planner.robots.collision.collisions import Collisions
 from planner.robots.joint_layout import JointLayout
 from planner.robots.openings import OPENING_M
 
@@ -69,19 +70,15 @@ class TransitPaths:
     May be shared between threads.
     """
 
-    def __init__(self, machine: RobotPort, collisions: OpenedCollisions, torso_m: float) -> None:
+    def __init__(self, machine: ArmedRobot, collisions: OpenedCollisions, torso_m: float) -> None:
         """Keep the robot, its collisions and the height of its lift (m)."""
         self._machine, self._torso_m = machine, torso_m
         self._opened, self._collisions = collisions, collisions.wide
         self.layout = JointLayout.of(machine.card)
+        self.home = self.layout.home
         self._searched = RecentAnswers[_WayKey, FloatArray | None](_WAYS_KEPT)
         self._tested = AnswerMemory[bool](_ANSWERS_KEPT)
         self._lengths_m = AnswerMemory[float](_ANSWERS_KEPT)
-
-    @property
-    def home(self) -> FloatArray:
-        """All arms out of the way (rad), shape (joints,)."""
-        return self.layout.home
 
     @property
     def at_grips(self) -> Spared:
@@ -320,7 +317,6 @@ class _Lines:
     """Straight lines between configurations while the base stands, cached because many detours share them."""
 
     def __init__(self, base: Pose2, collisions: Collisions) -> None:
-        """Begin with an empty cache."""
         self.base = base
         self._collisions = collisions
         self._known: dict[tuple[bytes, bytes], bool] = {}

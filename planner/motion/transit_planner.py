@@ -3,25 +3,25 @@
 The hands withdraw straight from where they let go (the *tail* of the transfer before), travel, and come straight to the
 next grips (the *lead* of the next transfer). If the straight path is not clear beside the moving base, the base waits
 until they have withdrawn, or they go home first; if that is not clear either, the base waits until they are there.
-Where hands come late nevertheless, `sooner` takes shortcuts, one arm at a time.
+Where hands come late nevertheless, their lines are smoothed, without the kinks that slow them down and without stops at
+corners, and `sooner` takes shortcuts, one arm at a time.
 """
 
 from collections.abc import Callable, Iterator
 from functools import partial
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 
-from planner.geometry.pose import FloatArray
+from planner.geometry.pose import BoolArray, FloatArray
 from planner.geometry.tolerance import TIME_S
 from planner.motion.hand_holds import settling_s
-from planner.motion.joint_trajectory import JointTrajectory
-from planner.motion.line import Keyframes, Line
+from planner.motion.joint_trajectory import JointTrajectory, Keyframes, Line
 from planner.motion.path_shortcuts import PARTS, places, shortcuts
-from planner.motion.smoothed_ends import BLENDED, blended, free_rows, joined, smoothed_ends, smoothed_line
+from planner.motion.smoothing import smoothed
+from planner.motion.timed_phase import TransitTime
 from planner.motion.transit_paths import TransitPaths
-from planner.motion.transit_time import TransitTime
-from planner.motion.travel import led_along, quickest_lines
 from planner.robots.openings import EDGE_OPEN_M, HELD_M, OPENING_M
 
 _LEAD_S, _TAIL_S = 0.8, 0.6
@@ -359,3 +359,118 @@ def _path(retreat: Line, approach: Line, keyframes: Keyframes, arrives_s: float)
     out, down = len(retreat.joints) - 1, len(rows) - len(approach.joints)
     start = np.concatenate([retreat.joints[:1], rows[:out]])
     return joined(start, np.concatenate([start[-1:], rows[out : down + 1]]), rows[down:])
+
+
+_HALVINGS = 40
+"""How often the part of a line in which hands rest is halved."""
+
+
+def led_along(
+    transits: TransitPaths, way: FloatArray, needed: FloatArray, span: tuple[float, float], borders_s: tuple[float, ...]
+) -> list[Keyframes] | None:
+    """Return keyframes along a path within a span of time, each of its lines from rest to rest.
+
+    The hands rest where one step of the plan ends and the next begins; None if there is no time for that.
+    """
+    (start, end), total = span, float(needed.sum())
+    within = [border for border in borders_s if start + TIME_S < border < end - TIME_S]
+    if any(border < start - TIME_S or border > end + TIME_S for border in borders_s):
+        return None
+    if total <= 0.0:
+        return [Keyframes.still(way[-1], end)]
+    begins = start + (end - start) * np.append(0.0, np.cumsum(needed)) / total
+    found: list[Keyframes] = []
+    for (a, b), begin, until in zip(pairwise(way), begins, begins[1:], strict=False):
+        for border in (border for border in within if begin + TIME_S < border < until - TIME_S):
+            middle = _middle(transits, a, b, border - begin, until - border)
+            if _least_s(transits, a, middle) > border - begin or _least_s(transits, middle, b) > until - border:
+                return None
+            found.append(transits.eased(a, middle, border - begin).later(begin))
+            a, begin = middle, border
+        found.append(transits.eased(a, b, until - begin).later(begin))
+    return found
+
+
+def _middle(transits: TransitPaths, start: FloatArray, end: FloatArray, before_s: float, after_s: float) -> FloatArray:
+    """Return where on a line to rest so that the ways before and after take equal shares of their times."""
+    low, high = start, end
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        if _least_s(transits, start, middle) * after_s < _least_s(transits, middle, end) * before_s:
+            low = middle
+        else:
+            high = middle
+    return np.asarray(0.5 * (low + high))
+
+
+def _least_s(transits: TransitPaths, start: FloatArray, end: FloatArray) -> float:
+    return float(transits.needed_s(np.array([start, end])).sum())
+
+
+def quickest_lines(transits: TransitPaths, way: FloatArray, needed: FloatArray, start_s: float) -> list[Keyframes]:
+    """Return keyframes along a path, each of its lines as quickly as it can be."""
+    begins = start_s + np.append(0.0, np.cumsum(needed))
+    return [
+        transits.eased(a, b, need).later(begin)
+        for (a, b), begin, need in zip(pairwise(way), begins, needed.tolist(), strict=False)
+    ]
+
+
+_SMOOTHING_PASSES = 3
+"""How often the lines of late hands are smoothed."""
+
+BLENDED = (10, 30, 60, 120)
+"""How often paths without stops at their corners are smoothed.
+
+The more often, the further from what is known to be free.
+"""
+
+_STRAIGHT = 4
+"""Steps of a centimetre at grips that stay as they are: fingers come straight to the cloth, and leave it so."""
+
+_CUT_RAD = 0.1
+"""The largest angle from one keyframe to the next on such a path (rad)."""
+
+
+def smoothed_ends(transits: TransitPaths, retreat: Line, approach: Line) -> tuple[Line, Line]:
+    """Return the lines from grips and to grips, smoothed but for some steps at the grips."""
+    return _smoothed(transits, retreat, _STRAIGHT, 0), _smoothed(transits, approach, 0, _STRAIGHT)
+
+
+def blended(transits: TransitPaths, retreat: Line, way: FloatArray, approach: Line, passes: int) -> Line:
+    """Return a line that joins a tail, a path of shape (n, joints) and a lead, smoothed so many times over."""
+    return smoothed_line(transits, joined(retreat.joints, way, approach.joints), retreat, approach, passes)
+
+
+def joined(retreat: FloatArray, way: FloatArray, approach: FloatArray) -> FloatArray:
+    """Return a tail, a path and a lead, of shape (n, joints) each, as one path with small steps."""
+    return np.concatenate([retreat, *(_cut(a, b)[1:] for a, b in pairwise(way)), approach[1:]])
+
+
+def smoothed_line(transits: TransitPaths, path: FloatArray, retreat: Line, approach: Line, passes: int) -> Line:
+    """Return a line along a path from a tail to a lead, smoothed so many times over but for some steps at the grips."""
+    first, last = free_rows(path, retreat, approach)
+    return transits.line(smoothed(path, passes, _may_move(path, first, len(path) - 1 - last)))
+
+
+def free_rows(path: FloatArray, retreat: Line, approach: Line) -> tuple[int, int]:
+    """Return the rows of a path from a tail to a lead between which it may be changed."""
+    first, last = (_STRAIGHT if len(line.joints) > 1 else 0 for line in (retreat, approach))
+    return first, len(path) - 1 - last
+
+
+def _smoothed(transits: TransitPaths, line: Line, first: int, last: int) -> Line:
+    joints = smoothed(line.joints, _SMOOTHING_PASSES, _may_move(line.joints, first, last))
+    return transits.line(joints, line.openings_m, line.at_grips)
+
+
+def _may_move(joints: FloatArray, first: int, last: int) -> BoolArray:
+    """Return which rows of a path may be moved: all but some steps at its start and at its end."""
+    numbers = np.arange(len(joints))
+    return np.asarray((numbers > first) & (numbers < len(joints) - 1 - last))
+
+
+def _cut(start: FloatArray, end: FloatArray) -> FloatArray:
+    """Return a straight line in steps, its ends included."""
+    count = max(1, int(np.ceil(np.abs(end - start).max() / _CUT_RAD)))
+    return np.asarray(start + np.linspace(0.0, 1.0, count + 1)[:, None] * (end - start))

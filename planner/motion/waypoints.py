@@ -73,7 +73,6 @@ class Waypoints:
         return np.asarray(done / max(float(done[-1]), 1.0))
 
     def __len__(self) -> int:
-        """Return the number of waypoints."""
         return len(self.phases)
 
 

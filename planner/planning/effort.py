@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 from planner.primitives.reach import ReachMemory
-from planner.task.statistics import Statistics
+from planner.task.plan import Statistics
 
 
 class Effort:

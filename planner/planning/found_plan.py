@@ -12,10 +12,8 @@ from planner.primitives.context import DRAGS_PER_M, Context
 from planner.primitives.primitive import Step
 from planner.primitives.state import State
 from planner.task.grip import Grip
-from planner.task.plan import Plan
-from planner.task.plan_step import PlanStep
+from planner.task.plan import Plan, PlanStep, Statistics
 from planner.task.reason import Reason
-from planner.task.statistics import Statistics
 from planner.task.task import Task
 from planner.task.trajectory import Trajectory
 from planner.task.world_state import HeldPoint, WorldState

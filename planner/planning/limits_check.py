@@ -10,8 +10,8 @@ from planner.errors import RequestError
 from planner.geometry.keyframes import extremes, peaks
 from planner.geometry.pose import FloatArray, wrapped_angle
 from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M
-from planner.motion.motion_limits import MotionLimits
-from planner.motion.path_intervals import EXCESS
+from planner.motion.motion_values import MotionLimits
+from planner.motion.path_timing import EXCESS
 from planner.planning.problem import Problem
 from planner.task.trajectory import Trajectory
 

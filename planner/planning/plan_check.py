@@ -23,8 +23,7 @@ from planner.primitives.primitive_set import PRIMITIVES
 from planner.primitives.state import State
 from planner.robots.joint_layout import JointLayout
 from planner.robots.openings import LOWERED_MAX_M, RAISED_MAX_M
-from planner.task.plan import Plan
-from planner.task.plan_step import PlanStep
+from planner.task.plan import Plan, PlanStep
 from planner.task.trajectory import Segment, Trajectory
 
 TOOL_M = 0.005

@@ -12,14 +12,13 @@ from planner.folds.fold_sequence import FoldSequence, replayed
 from planner.geometry.driving import STANDOFFS_PER_M
 from planner.geometry.pose import Pose2
 from planner.geometry.tolerance import LENGTH_M, nearest_whole
-from planner.motion.known_transfers import KnownTransfers
-from planner.motion.robot_port import RobotPort
+from planner.motion.transfer_candidate import KnownTransfers
 from planner.motion.transfer_planner import TransferPlanner
 from planner.primitives.cloth_memory import cloth_memory
 from planner.primitives.context import DRAGS_PER_M, Context
-from planner.primitives.reach import Reach
+from planner.primitives.reach import Reach, UnlimitedReach
 from planner.primitives.state import Held, State
-from planner.primitives.unlimited_reach import UnlimitedReach
+from planner.robots.armed_robot import ArmedRobot
 from planner.robots.load_robot import load_robot
 from planner.task.scene import Scene
 from planner.task.task import Task
@@ -41,7 +40,7 @@ class Problem:
 
     task: Task
     context: Context
-    robot: RobotPort
+    robot: ArmedRobot
     maker: TransferPlanner
 
     @property
@@ -203,7 +202,7 @@ class Problem:
         return Problem(task, context, machine, TransferPlanner(context, machine))
 
 
-def _searched(task: Task, sequence: FoldSequence, machine: RobotPort) -> tuple[Scene, State]:
+def _searched(task: Task, sequence: FoldSequence, machine: ArmedRobot) -> tuple[Scene, State]:
     """Return the scene and the start state for the search; a base at no station gets a station without a name.
 
     A base that does not move stands at no other.
@@ -241,7 +240,7 @@ def _stand(task: Task) -> tuple[int | None, int]:
     return None, 0
 
 
-def _held(start: WorldState, machine: RobotPort) -> tuple[Held, ...]:
+def _held(start: WorldState, machine: ArmedRobot) -> tuple[Held, ...]:
     names = [arm.name for arm in machine.card.arms]
     for number, held in enumerate(start.held):
         if held.arm not in names:

@@ -7,7 +7,7 @@ import numpy as np
 
 from planner.errors import RequestError, UnsolvedPlanError
 from planner.geometry.pose import FloatArray
-from planner.motion.line import Keyframes
+from planner.motion.joint_trajectory import Keyframes
 from planner.motion.lying_cloth import LyingCloths
 from planner.motion.opened_collisions import OpenedCollisions
 from planner.motion.transit_paths import TransitPaths

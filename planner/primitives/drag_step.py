@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from planner.geometry.driving import STANDOFFS_PER_M
-from planner.geometry.pose import Approach, FloatArray, Point2, Point3
+from planner.geometry.pose import Approach, FloatArray, Point2, point3
 from planner.geometry.table_top import TableTop
 from planner.primitives.context import DRAGS_PER_M, Context
 from planner.primitives.drag_grips import drag_covers, dragged, towards_robot
@@ -70,7 +70,7 @@ class DragStep:
         names = self.context.reach.arm_names
         ends = self._ends()
         found = [
-            (arm, Grip(names[arm], _point(self.way.picks[i]), None, _point(ends[i])))
+            (arm, Grip(names[arm], point3(self.way.picks[i]), None, point3(ends[i])))
             for i, arm in enumerate(self.way.arms)
         ]
         return tuple(grip for _, grip in sorted(found, key=lambda pair: pair[0]))
@@ -205,7 +205,7 @@ class DragStep:
         hands: list[Hand | None] = [None] * len(self.context.reach.arm_names)
         ends = self._ends()
         for i, arm in enumerate(self.way.arms):
-            pick, place = _point(self.way.picks[i]), _point(ends[i])
+            pick, place = point3(self.way.picks[i]), point3(ends[i])
             points = (pick,) if is_reaching else (pick, place)
             hands[arm] = Hand(self._approach(i), points, not is_reaching, is_reaching)
         return tuple(hands)
@@ -243,7 +243,3 @@ def _of_rank(able: Sequence[Sequence[int]], total: int) -> Iterator[tuple[int, .
         return
     for rank in ranks:
         yield from ((first[rank], *rest) for rest in _of_rank(others, total - rank))
-
-
-def _point(row: FloatArray) -> Point3:
-    return (float(row[0]), float(row[1]), float(row[2]))

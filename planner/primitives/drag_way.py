@@ -17,7 +17,7 @@ from planner.primitives.drag_grips import along, drag_covers, hangs_ahead, towar
 from planner.primitives.grasping import approaches_from_outside, assignments, hand_keys, nearest_pair_m
 from planner.primitives.primitive import HeldTools, is_taken_alike
 from planner.primitives.state import State
-from planner.task.plan_step import PlanStep
+from planner.task.plan import PlanStep
 from planner.task.trajectory import Segment
 
 _STILL: Point2 = (0.0, 0.0)
@@ -69,7 +69,6 @@ class DragWays:
     """The ways to drag in each state; states with the same cloth in the same place share them."""
 
     def __init__(self, context: Context) -> None:
-        """Start without results; they are computed on request."""
         self._context = context
         self._found: dict[tuple[object, ...], tuple[DragWay, ...]] = {}
 

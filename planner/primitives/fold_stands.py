@@ -16,17 +16,15 @@ from planner.geometry.pose import Point2
 from planner.geometry.tolerance import grid_key
 from planner.primitives.context import Context
 from planner.primitives.fold_obstacles import is_line_on_table
-from planner.primitives.fold_trial import FoldTrial, fold_trials, grips_obstacle
+from planner.primitives.fold_trial import FoldTrial, Surroundings, fold_trials, grips_obstacle
 from planner.primitives.grasping import all_approaches
 from planner.primitives.state import State
-from planner.primitives.surroundings import Surroundings
 
 
 class FoldStands:
     """The least driving that each fold takes, by the article's place and the base's station."""
 
     def __init__(self, context: Context) -> None:
-        """Start without results; they are computed on request."""
         self._context = context
         self._known: dict[tuple[int, int, int, int], NDArray[np.int64]] = {}
         self._places = np.arange(context.standoffs)

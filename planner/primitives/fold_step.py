@@ -7,7 +7,7 @@ from typing import Any
 
 from planner.geometry.driving import IMPOSSIBLE
 from planner.geometry.isometry import Isometry
-from planner.geometry.pose import Approach, FloatArray, Point3
+from planner.geometry.pose import Approach, FloatArray, point3
 from planner.primitives.base_legs import travel
 from planner.primitives.context import Context
 from planner.primitives.fold_motion import FoldMotion
@@ -58,7 +58,7 @@ class FoldStep:
         picks, apexes, places = (self._tools(sweep) for sweep in (0.0, 1.0, 2.0))
         names = self.context.reach.arm_names
         found = [
-            (arm, Grip(names[arm], _point(picks[i]), _point(apexes[i]), _point(places[i])))
+            (arm, Grip(names[arm], point3(picks[i]), point3(apexes[i]), point3(places[i])))
             for i, arm in enumerate(self.way.trial.arms)
         ]
         return tuple(grip for _, grip in sorted(found, key=lambda pair: pair[0]))
@@ -214,7 +214,3 @@ def _variants_like(
     for variant in sorted(trial_variants(context, state, trial), key=rank):
         if any(approach not in some for approach, some in zip(variant.way.approaches, like, strict=True)):
             yield variant
-
-
-def _point(row: FloatArray) -> Point3:
-    return (float(row[0]), float(row[1]), float(row[2]))

@@ -6,13 +6,16 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
 
+import networkx as nx
 import numpy as np
 from numpy.typing import NDArray
 
 from planner.cloth.grips import Cover
 from planner.folds.fold_path import FoldPath
-from planner.geometry.pose import FloatArray, Point2
+from planner.geometry.isometry import Isometry
+from planner.geometry.pose import FloatArray, Point2, point2
 from planner.geometry.reach_query import ReachQuery
+from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 from planner.geometry.table_top import TableTop
 from planner.geometry.tolerance import LENGTH_M, grid_keys
@@ -31,7 +34,6 @@ from planner.primitives.held_covers import held_covers
 from planner.primitives.obstacle import Obstacle
 from planner.primitives.reach import Following
 from planner.primitives.state import State
-from planner.primitives.surroundings import Surroundings
 from planner.task.reason import Code
 
 _UNDRAGGED: Point2 = (0.0, 0.0)
@@ -225,7 +227,7 @@ def _line(context: Context, offset: Point2, fold: int) -> Segment:
     """Return a fold's line after drags by an offset (m), table frame."""
     line = context.sequence.folds[fold].line
     ends = context.placed(offset).to_outer(np.array([line.start, line.end]))
-    return Segment(_plain(ends[0]), _plain(ends[1]))
+    return Segment(point2(ends[0]), point2(ends[1]))
 
 
 def _grips(context: Context, state: State, fold: int) -> Iterator[tuple[Cover, tuple[int, ...]]]:
@@ -262,5 +264,37 @@ def _approaches(context: Context, state: State, fold: int, grip: Point2, arm: in
     return approaches_from_outside(context, done, turn, grip, arm)
 
 
-def _plain(row: FloatArray) -> Point2:
-    return (float(row[0]), float(row[1]))
+_BESIDE_M = 5e-3
+"""The distance within which a part moved by another fold may change how a grip is approached (m)."""
+
+
+class Surroundings:
+    """For each grip of each fold, whether other folds change the cloth round it.
+
+    Folds that must come before a fold are done whenever it is queried, and those that must come after it never are; all
+    others may be done or not.
+    """
+
+    def __init__(self, context: Context) -> None:
+        """Collect for each fold the folds that may be done or not; query no grip yet."""
+        self._sequence = sequence = context.sequence
+        self._known: dict[tuple[int, Point2], bool] = {}
+        folds = range(len(sequence.folds))
+        waits = nx.DiGraph(sequence.dag.edges)
+        waits.add_nodes_from(folds)
+        self._free = [set(folds) - nx.ancestors(waits, f) - nx.descendants(waits, f) - {f} for f in folds]
+
+    def are_same(self, fold: int, grip: Point2) -> bool:
+        """Return whether the cloth round a fold's grip, article frame, is the same after all sets of other folds."""
+        if (fold, grip) not in self._known:
+            self._known[fold, grip] = not any(self._is_beside(other, grip) for other in self._free[fold])
+        return self._known[fold, grip]
+
+    def _is_beside(self, fold: int, point: Point2) -> bool:
+        """Return whether a point is close to the part that a fold moves, or to where that part lands."""
+        part, line = self._sequence.moving(fold), self._sequence.folds[fold].line
+        return _is_near(part, point) or _is_near(part, Isometry.reflection(line).apply_point(point))
+
+
+def _is_near(region: Region, point: Point2) -> bool:
+    return region.contains(point) or region.boundary_distance(point) <= _BESIDE_M

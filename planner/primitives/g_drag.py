@@ -9,15 +9,15 @@ from numpy.typing import NDArray
 from planner.geometry.driving import IMPOSSIBLE
 from planner.geometry.pose import Point2
 from planner.primitives.base_legs import unbeaten
+from planner.primitives.base_move import MoveTimes
 from planner.primitives.context import Context
 from planner.primitives.drag_grips import dragged, longest_drag
 from planner.primitives.drag_step import DragStep
 from planner.primitives.drag_way import DragWay, DragWays, dragged_tools
 from planner.primitives.holding_drags import STEPS_PER_DRAG, HoldingDrags
-from planner.primitives.move_times import MoveTimes
 from planner.primitives.primitive import Deferred, DeferredSteps, HeldTools
 from planner.primitives.state import State
-from planner.task.plan_step import PlanStep
+from planner.task.plan import PlanStep
 
 
 class GDrag:

@@ -9,15 +9,15 @@ import numpy as np
 from planner.errors import RequestError
 from planner.geometry.driving import IMPOSSIBLE
 from planner.geometry.pose import FloatArray, Point2
+from planner.primitives.base_move import MoveTimes
 from planner.primitives.context import Context
 from planner.primitives.fold_query import FoldQueries
 from planner.primitives.fold_stands import FoldStands
 from planner.primitives.fold_step import FoldStep, fold_step
 from planner.primitives.fold_trial import fold_trials
-from planner.primitives.move_times import MoveTimes
 from planner.primitives.primitive import Deferred, DeferredSteps, HeldTools, is_taken_alike
 from planner.primitives.state import ANYWHERE, State
-from planner.task.plan_step import PlanStep
+from planner.task.plan import PlanStep
 from planner.task.trajectory import Segment
 
 _Found: TypeAlias = FoldStep | Deferred[FoldStep]

@@ -14,12 +14,12 @@ from numpy.typing import NDArray
 
 from planner.geometry.driving import IMPOSSIBLE, STANDOFFS_PER_M
 from planner.geometry.pose import Point2
+from planner.primitives.base_move import MoveTimes
 from planner.primitives.context import DRAGS_PER_M, Context
 from planner.primitives.drag_step import DragStep
 from planner.primitives.drag_way import DragWay
 from planner.primitives.fold_query import FoldQueries
 from planner.primitives.held_covers import held_covers
-from planner.primitives.move_times import MoveTimes
 from planner.primitives.primitive import Deferred
 from planner.primitives.state import Held, State
 

@@ -11,77 +11,16 @@ from planner.primitives.context import Context
 from planner.primitives.state import State
 from planner.task.grip import Grip, Holding
 from planner.task.phase import Phase
-from planner.task.plan_step import PlanStep
+from planner.task.plan import PlanStep
 from planner.task.trajectory import Segment
 
 
-class Motion(Protocol):
-    """The motion of a step, for which joint paths are sought."""
+class Step(Protocol):
+    """A primitive as a step of a plan: the states before and after it, its duration and its motion.
 
-    def phases(self) -> tuple[Phase, ...]:
-        """Return the phases of the motion; their durations add up to those of the step."""
-        ...
-
-    def extremes(self) -> tuple[Phase, ...]:
-        """Return phases that begin and end as it does while cloth is held; in between they need not be true to it."""
-        ...
-
-    @property
-    def hands(self) -> Mapping[int, Approach]:
-        """The orientation in which each arm's hand takes hold, by the arm's number."""
-        ...
-
-
-class Keyed(Protocol):
-    """The keys of a step: by them answers about it are kept and shared."""
-
-    @property
-    def motion(self) -> tuple[object, ...]:
-        """The key that tells it from other steps of the same task, the way it is done included."""
-        ...
-
-    @property
-    def situation(self) -> tuple[object, ...]:
-        """The key it shares with the same motion while the base stands elsewhere; see `Varied.begun_in`."""
-        ...
-
-    @property
-    def task(self) -> tuple[object, ...]:
-        """The key it shares with the same step from the same station by the same arms, wherever the cloth lies."""
-        ...
-
-
-class Varied(Protocol):
-    """The alternatives to a step, tried where it has no joint paths, or in a similar task."""
-
-    def variants(self) -> "Iterable[Step]":
-        """Return this step, then every other way between the same two states, the quickest first."""
-        ...
-
-    @property
-    def turns(self) -> Mapping[int, int]:
-        """The number of the approach in which each arm takes or holds its grip."""
-        ...
-
-    def turned(self, turns: Mapping[int, int]) -> "Iterable[Step]":
-        """Return this step with the hands in given approaches, if they can be and are not; at most one."""
-        ...
-
-    def begun_in(self, state: State) -> "Step":
-        """Return the step begun in another state of the same situation."""
-        ...
-
-    def elsewhere(self, count: int) -> "Iterable[Step]":
-        """Return about `count` other ways to do it from the same state, with the base at other standoffs."""
-        ...
-
-    def again(self, context: Context, state: State) -> "Iterable[Step]":
-        """Return the step repeated in a state of another, similar task, the most alike first; empty if it cannot be."""
-        ...
-
-
-class Step(Motion, Keyed, Varied, Protocol):
-    """A primitive as a step of a plan: the states before and after it, and its duration."""
+    By its keys answers about it are kept and shared. Alternatives to it are tried where it has no joint paths, or in a
+    similar task.
+    """
 
     @property
     def kind(self) -> str:
@@ -115,6 +54,59 @@ class Step(Motion, Keyed, Varied, Protocol):
 
     def holdings(self) -> tuple[Holding, ...]:
         """Return what each arm holds, from the leftmost to the rightmost, and which vertices had to be held."""
+        ...
+
+    def phases(self) -> tuple[Phase, ...]:
+        """Return the phases of the motion; their durations add up to those of the step."""
+        ...
+
+    def extremes(self) -> tuple[Phase, ...]:
+        """Return phases that begin and end as it does while cloth is held; in between they need not be true to it."""
+        ...
+
+    @property
+    def hands(self) -> Mapping[int, Approach]:
+        """The orientation in which each arm's hand takes hold, by the arm's number."""
+        ...
+
+    @property
+    def motion(self) -> tuple[object, ...]:
+        """The key that tells it from other steps of the same task, the way it is done included."""
+        ...
+
+    @property
+    def situation(self) -> tuple[object, ...]:
+        """The key it shares with the same motion while the base stands elsewhere; see `begun_in`."""
+        ...
+
+    @property
+    def task(self) -> tuple[object, ...]:
+        """The key it shares with the same step from the same station by the same arms, wherever the cloth lies."""
+        ...
+
+    def variants(self) -> "Iterable[Step]":
+        """Return this step, then every other way between the same two states, the quickest first."""
+        ...
+
+    @property
+    def turns(self) -> Mapping[int, int]:
+        """The number of the approach in which each arm takes or holds its grip."""
+        ...
+
+    def turned(self, turns: Mapping[int, int]) -> "Iterable[Step]":
+        """Return this step with the hands in given approaches, if they can be and are not; at most one."""
+        ...
+
+    def begun_in(self, state: State) -> "Step":
+        """Return the step begun in another state of the same situation."""
+        ...
+
+    def elsewhere(self, count: int) -> "Iterable[Step]":
+        """Return about `count` other ways to do it from the same state, with the base at other standoffs."""
+        ...
+
+    def again(self, context: Context, state: State) -> "Iterable[Step]":
+        """Return the step repeated in a state of another, similar task, the most alike first; empty if it cannot be."""
         ...
 
 

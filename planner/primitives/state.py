@@ -32,7 +32,6 @@ class Held:
     key: HeldKey = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        """Compute the key."""
         object.__setattr__(self, "key", (self.arm, grid_key(self.point[0]), grid_key(self.point[1])))
 
 

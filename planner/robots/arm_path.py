@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.robots.joint_chain import cheapest_chain
-from planner.robots.path_arm import PathArm
-from planner.robots.tool_path import LEAP_RAD, IsFree, NoPath, ToolPath, joints_along
+from planner.robots.tool_path import LEAP_RAD, IsFree, NoPath, PathArm, ToolPath, joints_along
 
 _JUMP_RAD = 0.8
 """Largest movement of a joint from link to link of a chain (rad; m where it slides)."""

@@ -1,7 +1,7 @@
 """Joints for arms whose tools follow a path each: continuous, within limits, free of collision.
 
 Each arm's path is first found on its own (`planner.robots.arm_path`). Where two arms collide,
-`planner.robots.joint_chain_pair` searches for both at once. It starts by allowing every pair of samples; where the
+`planner.robots.joint_chain` searches for both at once. It starts by allowing every pair of samples; where the
 chains found collide, the pairs of those poses are checked, at a few of the poses first, and the search is repeated.
 Of three arms and more that collide, one pair after the other is led apart.
 """
@@ -16,9 +16,8 @@ from numpy.typing import NDArray
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.robots.arm_path import ArmSearch, links_beside, links_inside
 from planner.robots.card import RobotCard
-from planner.robots.joint_chain_pair import cheapest_chain_pair
-from planner.robots.path_arm import PathArm
-from planner.robots.tool_path import IsFree, NoPath, ToolPath
+from planner.robots.joint_chain import cheapest_chain_pair
+from planner.robots.tool_path import IsFree, NoPath, PathArm, ToolPath
 
 _TRIES_MAX = 24
 """Pairs of chains tried before the search gives up."""

@@ -10,12 +10,16 @@ import numpy as np
 
 from planner.errors import RequestError, SceneError
 from planner.geometry.pose import BoolArray, FloatArray
+from planner.geometry.table import Table
 from planner.robots.arm_paths import Together, arm_paths, arm_searches
 from planner.robots.card import RobotCard
+from planner.robots.collision.collisions import Collisions
+from planner.robots.collision.robot_parts import RobotParts
 from planner.robots.comfort_memories import Memories
+from planner.robots.comfort_reach import ComfortReach
 from planner.robots.edge_grip import HandShape, edge_raised_m
-from planner.robots.path_arm import PathArm
-from planner.robots.tool_path import IsFree, NoPath, ToolPath, free_postures, near_path
+from planner.robots.openings import OPENING_M
+from planner.robots.tool_path import IsFree, NoPath, PathArm, ToolPath, free_postures, near_path
 
 _MEMORIES_KEPT = 4
 """Lift heights and comfort radii whose memories of reach are kept."""
@@ -30,17 +34,20 @@ class PosableArm(PathArm, Protocol):
 
 
 class ArmedRobot(ABC):
-    """A robot with arms; implements `planner.motion.robot_port.RobotPort` but for reach and collisions.
+    """A robot with arms: its card, its reach, what its arms touch, and the joints that bring a tool to a pose.
 
     It does not change, so all users may share one instance. Arms are numbered from left to right as the robot sees
     them. Poses are of the tool frame, in the base frame (x ahead, z up from the floor), in m.
+
+    Attributes:
+        card: the robot's card.
     """
 
     can_mind_arms = False
+    """Whether `reach` differs where the other arm is minded."""
 
     def __init__(self, card: RobotCard) -> None:
-        """Take the robot's card."""
-        self._card = card
+        self.card = card
         self._edges: dict[tuple[int, float, float], float | None] = {}
         self._memories = lru_cache(_MEMORIES_KEPT)(lambda torso_m, comfort_m, minds_arms: Memories())
 
@@ -52,10 +59,42 @@ class ArmedRobot(ABC):
     def _hand_shape(self, arm: int) -> HandShape:
         """Return an arm's hand as its tool sees it."""
 
+    @abstractmethod
+    def reach(
+        self,
+        torso_m: float,
+        comfort_m: float,
+        *,
+        is_passing: bool = False,
+        minds_body: bool = True,
+        minds_arms: bool = False,
+    ) -> ComfortReach:
+        """Return the reach with the lift at a height, for a comfort radius (m).
+
+        Args:
+            torso_m: how far the lift is raised (m).
+            comfort_m: the comfort radius (m).
+            is_passing: whether it is for a few queries only: it takes no memory from earlier plans and leaves none.
+            minds_body: whether a place is out of reach where the robot's body may be in the arm's way. What that leaves
+                is told in cells of 2 cm; a path that keeps clear of the body knows better.
+            minds_arms: whether it is out of reach, too, where the other arm at home may be in the way. That arm may be
+                elsewhere, so this is for restricted tasks.
+
+        Raises:
+            SceneError: the lift does not go there.
+            RequestError: the radius is negative or no number.
+        """
+
     @property
-    def card(self) -> RobotCard:
-        """The robot's card."""
-        return self._card
+    @abstractmethod
+    def _parts(self) -> RobotParts:
+        """The parts that may collide."""
+
+    def collisions(
+        self, table: Table, torso_m: float, opening_m: float = OPENING_M, margin_m: float = 0.0
+    ) -> Collisions:
+        """Return the collision checks at a table, with the lift raised (1 ms); see `Collisions`."""
+        return Collisions(self._parts, table, torso_m, opening_m, margin_m)
 
     @property
     def mirror(self) -> Callable[[FloatArray], FloatArray] | None:
@@ -64,10 +103,13 @@ class ArmedRobot(ABC):
 
     def home(self, arm: int) -> FloatArray:
         """Return the joints of an arm that is out of the way (rad), shape (joints,)."""
-        return np.array(self._card.arms[arm].home)
+        return np.array(self.card.arms[arm].home)
 
     def edge_raised_m(self, arm: int, height_m: float, pitch_rad: float) -> float | None:
-        """Return how far above its path an arm's hand opens and closes at an edge of cloth (see `edge_raised_m`)."""
+        """Return how far above its path an arm's hand opens and closes to hold cloth at its edge (m).
+
+        One finger is then under the cloth and one over it; see `edge_raised_m`.
+        """
         key = (arm, height_m, pitch_rad)
         if key not in self._edges:
             self._edges[key] = edge_raised_m(self._hand_shape(arm), height_m, pitch_rad)
@@ -78,13 +120,8 @@ class ArmedRobot(ABC):
         self._memories.cache_clear()
 
     def _memories_of(self, torso_m: float, comfort_m: float, *, minds_arms: bool = False) -> Memories:
-        """Return the memories for a height of the lift and a comfort radius (m).
-
-        Raises:
-            SceneError: the lift does not go there.
-            RequestError: the radius is negative or no number.
-        """
-        low, high = self._card.lift_limits_m
+        """Return the memories for a height of the lift and a comfort radius (m); raises as `reach` does."""
+        low, high = self.card.lift_limits_m
         if not low <= torso_m <= high:
             raise SceneError("torso_m", f"{torso_m} m is not between {low} and {high} m")
         if not (math.isfinite(comfort_m) and comfort_m >= 0.0):
@@ -118,7 +155,7 @@ class ArmedRobot(ABC):
             Joints within their limits (rad), one arm after the other, shape (n, joints); joints without end are
             unwound.
         """
-        return arm_paths(arm_searches(self._arms, self._card, paths, torso_m, floor_m, are_free), together)
+        return arm_paths(arm_searches(self._arms, self.card, paths, torso_m, floor_m, are_free), together)
 
     def free_postures(
         self,

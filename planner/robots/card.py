@@ -4,7 +4,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Protocol
+from typing import TypeAlias
 
 import numpy as np
 
@@ -15,38 +15,6 @@ RISE_S = 0.25
 
 FINGER_RISE_S = 0.08
 """The same for the joint that drives fingers, which weigh little."""
-
-
-class GripperCard(Protocol):
-    """A gripper of two fingers that one joint drives."""
-
-    @property
-    def joint_name(self) -> str:
-        """The joint that drives both fingers; the others mimic it."""
-        ...
-
-    @property
-    def opening_max_m(self) -> float:
-        """The widest opening (m)."""
-        ...
-
-    @property
-    def finger_width_m(self) -> float:
-        """A finger's width across the closing direction (m)."""
-        ...
-
-    @property
-    def speed(self) -> float:
-        """The top speed of the driven joint (rad/s, m/s)."""
-        ...
-
-    def angle(self, opening_m: float) -> float:
-        """Return the driven joint (rad, m) at which the fingers are an opening apart (m), within 0..opening_max_m."""
-        ...
-
-    def least_s(self, wide_m: float, narrow_m: float) -> float:
-        """Return the least time to go at constant speed from one opening (m) to a narrower one, or back (s)."""
-        ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,7 +52,7 @@ class ParallelogramGripper:
     """Two fingers on parallelograms: they swing out and stay parallel.
 
     Attributes:
-        joint_name: the joint that drives both fingers; the others mimic it.
+        joint_name: the joint that drives both fingers.
         link_x_m: how far the fingertip's hinge is ahead of the driven hinge, gripper closed (m).
         link_y_m: how far it is to the side of the driven hinge (m).
         opening_max_m: the widest opening (m).
@@ -116,6 +84,10 @@ class ParallelogramGripper:
         """
         ahead = math.sqrt(self.link_x_m**2 + self.link_y_m**2 - (0.5 * wide_m + self.link_y_m) ** 2)
         return 0.5 * (wide_m - narrow_m) / ahead / self.speed
+
+
+GripperCard: TypeAlias = LinearGripper | ParallelogramGripper
+"""A gripper of two fingers that one joint drives; the others mimic it."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,26 +1,25 @@
 """A robot as its card and its URDF describe it, ready for planning."""
 
 import threading
+from collections.abc import Sequence
+from itertools import accumulate
 from typing import TypeAlias
 
 import numpy as np
 
 from planner.geometry.pose import FloatArray
-from planner.geometry.table import Table
 from planner.robots.armed_robot import ArmedRobot
-from planner.robots.collision.collisions import Collisions
 from planner.robots.collision.described_parts import described_parts
+from planner.robots.collision.robot_parts import RobotParts
+from planner.robots.comfort_reach import QueriedArms
 from planner.robots.described_card import robot_card
 from planner.robots.described_robot import DescribedRobot
 from planner.robots.edge_grip import HandShape
 from planner.robots.mapped_arm import ALL_ROUND, MappedArm, all_arms
 from planner.robots.mapped_comfort import ARM_LABELS, MappedArms, mapped_arms, rooted
 from planner.robots.mapped_reach import Heights, MappedReach
-from planner.robots.openings import OPENING_M
-from planner.robots.posture_layers import covered_heights
-from planner.robots.queried_arms import QueriedArms
-from planner.robots.reach_maps import Progress
-from planner.robots.shared_maps import shared_maps
+from planner.robots.reach_map import ReachMap
+from planner.robots.reach_maps import Progress, covered_heights
 
 _Mapped: TypeAlias = tuple[MappedArms, Heights, tuple[MappedArm, ...]]
 """Arms for the compiled queries, the heights that their maps cover, and each arm alone."""
@@ -45,19 +44,15 @@ class CardRobot(ArmedRobot):
         minds_body: bool = True,
         minds_arms: bool = False,
     ) -> MappedReach:
-        """Return the reach with the lift raised by `torso_m`, for a comfort radius (m); see `RobotPort.reach`.
+        """Return the reach with the lift raised, for a comfort radius (m); see `ArmedRobot.reach`.
 
         Body and other arms are left to the joint paths, whether they are to be minded or not.
-
-        Raises:
-            SceneError: the lift does not go there.
-            RequestError: the radius is negative or no number.
         """
         memories = None if is_passing else self._memories_of(torso_m, comfort_m)
-        names = tuple(arm.name for arm in self._card.arms)
+        names = tuple(arm.name for arm in self.card.arms)
         ask = np.arange(1, len(ALL_ROUND) + 1)
         labels = tuple(ARM_LABELS * number + ask for number in range(len(names)))
-        joints = tuple(arm.joint_names for arm in self._card.arms)
+        joints = tuple(arm.joint_names for arm in self.card.arms)
         lengths = tuple(arm.length_m for arm in self._arms)
 
         def covering(arm: int, seen: FloatArray) -> tuple[MappedArms, Heights]:
@@ -104,15 +99,13 @@ class CardRobot(ArmedRobot):
     def _arms(self) -> tuple[MappedArm, ...]:
         return self.prepare()
 
-    def collisions(
-        self, table: Table, torso_m: float, opening_m: float = OPENING_M, margin_m: float = 0.0
-    ) -> Collisions:
-        """Return the collision checks at a table, with the lift raised; see `Collisions`."""
-        return Collisions(described_parts(self._described), table, torso_m, opening_m, margin_m)
+    @property
+    def _parts(self) -> RobotParts:
+        return described_parts(self._described)
 
     def _hand_shape(self, arm: int) -> HandShape:
         chain = self._described.arms[arm].chain
-        return HandShape.of(described_parts(self._described), arm, chain.tool_offset, chain.tool_rotation)
+        return HandShape.of(self._parts, arm, chain.tool_offset, chain.tool_rotation)
 
 
 def _sharing(arms: tuple[MappedArm, ...]) -> _Mapped:
@@ -122,3 +115,10 @@ def _sharing(arms: tuple[MappedArm, ...]) -> _Mapped:
     for arm, known, shared in zip(arms, maps, shared_maps(asked, maps), strict=True):
         arm.take(known, shared)
     return asked, tuple(covered_heights(known.grid) for known in maps), arms
+
+
+def shared_maps(arms: MappedArms, maps: Sequence[ReachMap]) -> tuple[ReachMap, ...]:
+    """Return the maps that arms were made of as parts of what these hold, so that the maps need not be kept as well."""
+    counts = [len(known.starts) for known in maps]
+    parts = zip(maps, counts, accumulate(counts), strict=True)
+    return tuple(ReachMap(known.grid, arms.starts[end - count : end], arms.postures) for known, count, end in parts)

@@ -75,9 +75,14 @@ def at_rest(model: pin.Model, resting: Mapping[str, float], moving: Sequence[str
         if joint.nq == 1:
             q[joint.idx_q] = 0.0
     for name, value in resting.items():
-        joint = model.joints[model.getJointId(name)]
-        q[joint.idx_q : joint.idx_q + joint.nq] = [value] if joint.nq == 1 else [math.cos(value), math.sin(value)]
+        set_joint(model, q, name, value)
     return q
+
+
+def set_joint(model: pin.Model, q: FloatArray, name: str, value: float) -> None:
+    """Set a joint of a configuration (rad, m); one that turns without end has a cosine and a sine there."""
+    joint = model.joints[model.getJointId(name)]
+    q[joint.idx_q : joint.idx_q + joint.nq] = [value] if joint.nq == 1 else [math.cos(value), math.sin(value)]
 
 
 def _rows(chain: Chain) -> int:

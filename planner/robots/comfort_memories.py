@@ -23,7 +23,6 @@ class Memories:
     """The memories of one robot for one torso height and comfort radius. Threads may share it."""
 
     def __init__(self) -> None:
-        """Start without any."""
         self._left: deque[Memory] = deque(maxlen=_LEFT_MAX)
 
     def take(self) -> Memory:

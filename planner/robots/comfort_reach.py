@@ -6,26 +6,84 @@ Where arms are mirror images, places and approaches are mirrored on the way in, 
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from time import thread_time
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from planner.deadline import ENDLESS, Deadline
+from planner.geometry.driving import IMPOSSIBLE, Driving, Wanted
 from planner.geometry.pose import Approach, BoolArray, FloatArray, Point3
-from planner.geometry.reach_query import ReachQuery
-from planner.geometry.shortfall import Shortfall
+from planner.geometry.reach_query import ReachQuery, Shortfall
 from planner.geometry.tolerance import grid_keys
 from planner.robots.arm_query import ArmNumbers
 from planner.robots.comfort import ROW_CELLS
 from planner.robots.comfort_memories import Memories, PlanMemory
-from planner.robots.driving_task import UNSEEN, DrivingTask
-from planner.robots.following import FollowingPaths
+from planner.robots.driving import ANY, EVERY, UNBEATEN, UNSEEN, DrivingTask, least_driving
 from planner.robots.place import STANDOFF_STEP
-from planner.robots.queried_arms import QueriedArms
 from planner.robots.standoffs import anywhere, standoff_masks
+
+_WANTED = {"unbeaten": UNBEATEN, "every": EVERY, "any": ANY}
+
+
+class FollowingPaths:
+    """Hands that follow paths."""
+
+    def __init__(self, task: DrivingTask, charge: Callable[[float], None]) -> None:
+        """Take the task; `charge` is called with the time spent on each query (s)."""
+        self._task = task
+        self._charge = charge
+
+    def least_driving(
+        self, begun: NDArray[np.int64], most: int = IMPOSSIBLE - 1, wanted: Wanted = "unbeaten"
+    ) -> Driving:
+        """Return how the base may drive meanwhile, in as few steps as possible.
+
+        Args:
+            begun: for each standoff the steps in which the base can be there when the hands begin; `IMPOSSIBLE` where
+                it cannot. Shape (count,), count at most 32.
+            most: the largest number of steps considered.
+            wanted: which ends are wanted.
+        """
+        started = thread_time()
+        answer, more = least_driving(self._task, begun, most, _WANTED[wanted])
+        self._charge(thread_time() - started)
+        return Driving(answer[0], answer[1], answer[2:], more)
+
+
+class ReachingArm(Protocol):
+    """An arm as the compiled queries see it."""
+
+    def shoulder(self, torso_m: float) -> FloatArray:
+        """Return its shoulder in its own frame with the lift raised (m), shape (3,)."""
+        ...
+
+    def mirrored_places(self, places: FloatArray) -> FloatArray:
+        """Return points of the base frame, shape (..., 3), in the arm's own frame; a new array."""
+        ...
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class QueriedArms:
+    """The arms of a robot, and how the compiled queries are asked about them.
+
+    Attributes:
+        names: the arms from left to right.
+        arms: the same arms.
+        numbers: what the queries compute with; one arm's where the others are its mirror images.
+        approaches: the directions from which the grippers may pinch cloth, base frame.
+        labels: for each arm the memory's label of each approach.
+    """
+
+    names: tuple[str, ...]
+    arms: tuple[ReachingArm, ...]
+    numbers: ArmNumbers
+    approaches: tuple[Approach, ...]
+    labels: tuple[NDArray[np.int64], ...]
+
 
 _MOST_STANDOFFS = 32
 """Largest number of standoffs: one bit of a mask each."""
@@ -38,6 +96,10 @@ class ComfortReach(ABC):
     the grid of `LENGTH_M`, base frame.
 
     Attributes:
+        arm_names: the arms from left to right.
+        approaches: the directions from which the grippers may pinch cloth, base frame.
+        torso_m: the torso's height (m).
+        comfort_m: the comfort radius (m).
         memory: what has been answered so far.
     """
 
@@ -51,20 +113,10 @@ class ComfortReach(ABC):
             memories: what earlier plans with the same arms, torso, radius and room have learned; None: nothing.
         """
         self._asked = asked
-        self._torso_m = torso_m
-        self._comfort_m = comfort_m
+        self.arm_names, self.approaches = asked.names, asked.approaches
+        self.torso_m, self.comfort_m = torso_m, comfort_m
         self.memory = PlanMemory(memories)
         self._shoulders = tuple(arm.shoulder(torso_m) for arm in asked.arms)
-
-    @property
-    def arm_names(self) -> tuple[str, ...]:
-        """The arms from left to right."""
-        return self._asked.names
-
-    @property
-    def approaches(self) -> tuple[Approach, ...]:
-        """The directions from which the grippers may pinch cloth, base frame."""
-        return self._asked.approaches
 
     @property
     def shoulders(self) -> tuple[Point3, ...]:
@@ -72,16 +124,6 @@ class ComfortReach(ABC):
         seen = zip(self._asked.arms, self._shoulders, strict=True)
         found = [arm.mirrored_places(shoulder[None])[0] for arm, shoulder in seen]
         return tuple((float(x), float(y), float(z)) for x, y, z in found)
-
-    @property
-    def torso_m(self) -> float:
-        """The torso's height (m)."""
-        return self._torso_m
-
-    @property
-    def comfort_m(self) -> float:
-        """The comfort radius (m)."""
-        return self._comfort_m
 
     def standoffs(
         self,
@@ -106,7 +148,7 @@ class ComfortReach(ABC):
             self._asked.arms[path.arm].mirrored_places(path.points),
             self._asked.labels[path.arm][path.approaches],
             path.count,
-            self._comfort_m,
+            self.comfort_m,
             full if start is None else 1 << start,
             np.full(len(path.points), full) if among is None else among.astype(np.int64),
             full if end is None else 1 << end,
@@ -126,7 +168,7 @@ class ComfortReach(ABC):
             places[hand] = steps - grid_keys(self._shoulders[path.arm])
         slots = np.full((*labels.shape, waypoints), UNSEEN, dtype=np.int64)
         cells = places[:, :, 0] // STANDOFF_STEP + ROW_CELLS // 2
-        task = DrivingTask(numbers, self.memory.rows, labels, places, cells, slots, self._comfort_m)
+        task = DrivingTask(numbers, self.memory.rows, labels, places, cells, slots, self.comfort_m)
         return FollowingPaths(task, self.memory.charge)
 
     def from_anywhere(self, places: ReachQuery) -> BoolArray:
@@ -140,7 +182,7 @@ class ComfortReach(ABC):
             self._asked.arms[places.arm].mirrored_places(places.points),
             self._asked.labels[places.arm][places.approaches],
             places.count,
-            self._comfort_m,
+            self.comfort_m,
         )
         self.memory.charge(thread_time() - started)
         return answers

@@ -67,7 +67,7 @@ def _arm_card(model: pin.Model, arm: ArmFile) -> ArmCard:
         is_continuous=tuple(joint.nq > joint.nv for joint in joints),
         tool_frame=arm.tool.link,
         home=arm.home,
-        gripper=_gripper_card(model, arm.gripper),
+        gripper=gripper_card(model, arm.gripper),
         lifting=arm.lifting,
         accelerations=arm.accelerations,
         limits=tuple(_limits(model, joint) for joint in joints),
@@ -81,7 +81,8 @@ def _limits(model: pin.Model, joint: pin.JointModel) -> tuple[float, float]:
     return float(model.lowerPositionLimit[joint.idx_q]), float(model.upperPositionLimit[joint.idx_q])
 
 
-def _gripper_card(model: pin.Model, gripper: GripperFile) -> GripperCard:
+def gripper_card(model: pin.Model, gripper: GripperFile) -> GripperCard:
+    """Return the gripper of a JSON card, with its speed from the kinematic tree where the card has none."""
     drive = gripper.drive
     speed = gripper.speed or float(model.velocityLimit[model.joints[model.getJointId(drive.joint)].idx_v])
     if isinstance(drive, ParallelogramDrive):

@@ -1,8 +1,12 @@
-"""A robot read from its card: its kinematic tree, and each of its arms as a chain."""
+"""A robot read from its card: its composed URDF, its kinematic tree, and each of its arms as a chain."""
 
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from copy import deepcopy
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from xml.etree.ElementTree import Element, SubElement, tostring
 
 import numpy as np
 import pinocchio as pin
@@ -10,15 +14,13 @@ import pinocchio as pin
 from planner.errors import FieldError, RobotError
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.robots.card_file import ArmFile, CardFile
-from planner.robots.card_joints import check_joints, mimicking, moving_joint
-from planner.robots.card_parts import ToolFile
+from planner.robots.card_parts import LinearDrive, Mount, ToolFile
 from planner.robots.chain import Chain, length_of
 from planner.robots.chain_reader import read_chain
 from planner.robots.known_robots import read_card, shipped_path, shipped_robots
 from planner.robots.own_robots import own_card, own_robots
 from planner.robots.soft_limits import keep_soft_limits
-from planner.robots.urdf_composing import composed_urdf
-from planner.robots.urdf_reader import parsed
+from planner.robots.urdf_reader import locate, mimics_of, parsed, read_urdf
 
 REACH_MAX_M = 10.0
 """Arms that are longer, sliding joints included, are refused: their maps would be coarse."""
@@ -86,7 +88,7 @@ class DescribedRobot:
         if card.camera is not None and card.camera.link is not None and not model.existFrame(card.camera.link):
             raise RobotError("camera.link", f"{card.camera.link!r} is no link of the URDF")
         limits = lift_limits(model, card)
-        check_joints(model, card, mimicking(tree))
+        check_joints(model, card, mimics_of(tree.iterfind("joint")))
         if not limits[0] <= card.scene.torso_m <= limits[1]:
             said = "without a lift" if card.lift is None else f"the lift goes from {limits[0]:g} to {limits[1]:g}"
             raise RobotError("scene.torso_m", f"is {card.scene.torso_m}, {said}")
@@ -183,3 +185,141 @@ def lift_limits(model: pin.Model, card: CardFile) -> tuple[float, float]:
     if not np.allclose(axis, [0.0, 0.0, 1.0, 0.0, 0.0, 0.0], atol=1e-6):
         raise RobotError("lift", f"joint {card.lift!r} does not slide straight up")
     return float(model.lowerPositionLimit[joint.idx_q]), float(model.upperPositionLimit[joint.idx_q])
+
+
+_ROUNDED = 1e-3
+"""A card's numbers may be rounded (m, rad)."""
+
+
+def moving_joint(model: pin.Model, name: str, field: str) -> pin.JointModel:
+    """Return a joint that moves in one direction, by name; raise `RobotError` if there is none."""
+    if not model.existJointName(name):
+        raise RobotError(field, f"the URDF has no moving joint {name!r}")
+    joint = model.joints[model.getJointId(name)]
+    if joint.nv != 1:
+        raise RobotError(field, f"joint {name!r} has {joint.nv} degrees of freedom, not one")
+    return joint
+
+
+def check_joints(model: pin.Model, card: CardFile, mimics: Mapping[str, tuple[str, float, float]]) -> None:
+    """Refuse joints that would be moved twice, that others drive, or that would be outside of their limits.
+
+    Args:
+        model: the robot's kinematic tree.
+        card: the card.
+        mimics: the joints that mimic another, see `mimics_of`.
+
+    Raises:
+        RobotError: names the card's field and the joint.
+    """
+    moved: dict[str, str] = {}
+    for field, name in _moved(card):
+        if name in moved:
+            raise RobotError(field, f"{name!r} is {moved[name]} already")
+        moved[name] = field
+        moving_joint(model, name, field)
+        if name in mimics:
+            raise RobotError(field, f"{name!r} mimics {mimics[name][0]!r}, so it cannot be moved by itself")
+    for number, arm in enumerate(card.arms):
+        _check_drive(model, arm, f"arms[{number}].gripper")
+    for name, value in card.resting:
+        field = f"resting.{name}"
+        joint = moving_joint(model, name, field)
+        if name in moved:
+            raise RobotError(field, f"{name!r} does not rest: it is {moved[name]}")
+        _check_within(model, joint, value, field)
+
+
+def _moved(card: CardFile) -> Iterator[tuple[str, str]]:
+    """Yield the fields that name a joint to be moved, and the joint."""
+    for number, arm in enumerate(card.arms):
+        yield from ((f"arms[{number}].joints[{index}]", name) for index, name in enumerate(arm.joints))
+        yield f"arms[{number}].gripper.drive.joint", arm.gripper.drive.joint
+    if card.lift is not None:
+        yield "lift", card.lift
+
+
+def _check_drive(model: pin.Model, arm: ArmFile, field: str) -> None:
+    drive = arm.gripper.drive
+    joint = moving_joint(model, drive.joint, f"{field}.drive.joint")
+    if arm.gripper.speed is None and not 0.0 < model.velocityLimit[joint.idx_v] < np.inf:
+        raise RobotError(f"{field}.speed", f"the URDF gives joint {drive.joint!r} no speed, so the card must")
+    if isinstance(drive, LinearDrive):
+        _check_within(model, joint, drive.closed, f"{field}.drive.closed")
+        _check_within(model, joint, drive.opened, f"{field}.drive.opened")
+
+
+def _check_within(model: pin.Model, joint: pin.JointModel, value: float, field: str) -> None:
+    if joint.nq > 1:
+        return
+    low, high = model.lowerPositionLimit[joint.idx_q], model.upperPositionLimit[joint.idx_q]
+    if not low - _ROUNDED <= value <= high + _ROUNDED:
+        raise RobotError(field, f"{value} is outside of the limits {low:g} and {high:g}")
+
+
+BASE_LINK = "pleat_base"
+"""The composed URDF's root: the base frame."""
+
+
+def composed_urdf(card: CardFile, folder: Path) -> str:
+    """Return the URDF of a card's robot, its root the base frame, the paths of its meshes absolute.
+
+    Args:
+        card: the card.
+        folder: the card's folder.
+
+    Raises:
+        RobotError: a URDF is missing or refused (see `planner.robots.urdf_reader`), or the link that a tool is fixed to
+            is missing, or two links or joints have one name.
+    """
+    body = read_urdf(locate(card.urdf, folder, "urdf"), "urdf")
+    for number, tool in enumerate(card.tools):
+        field = f"tools[{number}]"
+        links = {link.get("name") for link in body.findall("link")}
+        if tool.link not in links:
+            raise RobotError(f"{field}.link", f"there is no link {tool.link!r}")
+        _join(body, read_urdf(locate(tool.urdf, folder, f"{field}.urdf"), f"{field}.urdf"), tool.link, tool.mount)
+    whole = Element("robot", name=card.name)
+    SubElement(whole, "link", name=BASE_LINK)
+    for mount in card.mounts:
+        _join(whole, deepcopy(body), BASE_LINK, mount)
+    _drop_prefixed(whole)
+    for tag in ("link", "joint"):
+        ((twice, times),) = Counter(one.get("name") for one in whole.iterfind(tag)).most_common(1) or (("", 0),)
+        if times > 1:
+            raise RobotError("mounts", f"two {tag}s are called {twice!r}: mounts and tools need names of their own")
+    return tostring(whole, encoding="unicode")
+
+
+def _drop_prefixed(element: Element) -> None:
+    """Drop elements and attributes with prefixes that nothing declares: they are another program's, and no XML."""
+    for name in [name for name in element.attrib if ":" in name]:
+        del element.attrib[name]
+    for child in list(element):
+        if ":" in child.tag:
+            element.remove(child)
+        else:
+            _drop_prefixed(child)
+
+
+def _join(whole: Element, part: Element, parent: str, mount: Mount) -> None:
+    """Add a URDF's links and joints to another, prefixed by the mount's name, its root fixed to a link."""
+    prefix = f"{mount.name}_" if mount.name else ""
+    children = {child.get("link") for child in part.findall("joint/child")}
+    roots = [link for link in part.findall("link") if link.get("name") not in children]
+    if len(roots) != 1:
+        raise RobotError("urdf", f"the URDF has {len(roots)} root links, not one")
+    materials = {one.get("name") for one in whole.findall("material")}
+    whole.extend(one for one in part.findall("material") if one.get("name") not in materials)
+    joint = SubElement(whole, "joint", name=f"{parent}_carries_{prefix}{roots[0].get('name')}", type="fixed")
+    SubElement(joint, "parent", link=parent)
+    SubElement(joint, "child", link=f"{prefix}{roots[0].get('name')}")
+    place = (mount.x_m, mount.y_m, mount.z_m)
+    turn = (mount.roll_rad, mount.pitch_rad, mount.yaw_rad)
+    SubElement(joint, "origin", xyz=" ".join(map(repr, place)), rpy=" ".join(map(repr, turn)))
+    for one in (*part.findall("link"), *part.findall("joint")):
+        one.set("name", f"{prefix}{one.get('name')}")
+        for tag, key in (("parent", "link"), ("child", "link"), ("mimic", "joint")):
+            for reference in one.findall(tag):
+                reference.set(key, f"{prefix}{reference.get(key)}")
+        whole.append(one)

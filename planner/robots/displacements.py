@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from planner.geometry.pose import FloatArray, Point3
+from planner.geometry.pose import FloatArray
 
 FURTHEST_M = 0.8
 """Largest displacement tried (m)."""
@@ -22,9 +22,3 @@ def homewards(point: FloatArray) -> FloatArray:
     """Return the unit direction to the shoulder; straight ahead from the shoulder itself."""
     distance = float(np.linalg.norm(point))
     return -point / distance if distance > 0.0 else DIRECTIONS[0]
-
-
-def as_point(direction: FloatArray) -> Point3:
-    """Return a direction as plain numbers."""
-    x, y, z = (float(component) for component in direction)
-    return x, y, z

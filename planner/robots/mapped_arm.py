@@ -2,21 +2,79 @@
 
 import math
 import threading
+from collections import OrderedDict
+from collections.abc import Callable
+from threading import Lock
 
 import numpy as np
 
 from planner.geometry.pose import Approach, BoolArray, FloatArray
-from planner.robots.chain import PITCH, WHOLE, Chain, length_of, tool_poses
+from planner.robots.chain import length_of, tool_poses
 from planner.robots.described_robot import DescribedArm, DescribedRobot
 from planner.robots.hand_roll import gives_roll
-from planner.robots.newton import solve_from
-from planner.robots.posture_following import followed
-from planner.robots.posture_layers import covered_heights, covering
-from planner.robots.posture_samples import axis_samples, posture_samples
+from planner.robots.newton import followed
+from planner.robots.posture_samples import axis_samples, gives_roll_alone, posture_samples, rolled_samples, unrolled
 from planner.robots.reach_map import ReachMap, reachable_poses
-from planner.robots.reach_maps import Progress, reach_map
-from planner.robots.rolled_samples import gives_roll_alone, rolled_samples, unrolled
-from planner.robots.sample_memory import SampleMemory
+from planner.robots.reach_maps import Progress, covered_heights, covering, reach_map
+
+_POSES_KEPT = 4096
+"""Poses whose samples are kept, those asked last: some ten MB."""
+
+_Key = tuple[bytes, bytes, float]
+_Samples = tuple[FloatArray, FloatArray]
+
+Sampled = Callable[[FloatArray, FloatArray, float], _Samples]
+"""The samples at poses: from points (k, 3), rotations (k, 3, 3) and the floor, joints (k, m, n) and costs (k, m).
+
+A pose's samples do not depend on the other poses; its costs are infinite after its last sample.
+"""
+
+
+class SampleMemory:
+    """The samples of the poses asked last. May be shared between threads."""
+
+    def __init__(self, sampled: Sampled) -> None:
+        """Take what samples poses, and start with nothing known."""
+        self._sampled = sampled
+        self._known: OrderedDict[_Key, _Samples] = OrderedDict()
+        self._lock = Lock()
+
+    def forget(self) -> None:
+        """Drop all samples, so that benchmarks measure their computation."""
+        with self._lock:
+            self._known.clear()
+
+    def samples(self, points: FloatArray, rotations: FloatArray, floor: float) -> _Samples:
+        """Return what the sampling function does, which is asked only for the poses that are not known."""
+        keys = [(point.tobytes(), rotation.tobytes(), floor) for point, rotation in zip(points, rotations, strict=True)]
+        with self._lock:
+            found = {key: self._known[key] for key in keys if key in self._known}
+        new = {key: number for number, key in enumerate(keys) if key not in found}
+        if new:
+            numbers = list(new.values())
+            joints, costs = self._sampled(points[numbers], rotations[numbers], floor)
+            taken = np.isfinite(costs).sum(axis=1)
+            own = zip(new, joints, costs, taken, strict=True)
+            found |= {key: (some[:count].copy(), each[:count].copy()) for key, some, each, count in own}
+        self._keep(found)
+        return _together([found[key] for key in keys])
+
+    def _keep(self, found: dict[_Key, _Samples]) -> None:
+        with self._lock:
+            self._known |= found
+            for key in found:
+                self._known.move_to_end(key)
+            while len(self._known) > _POSES_KEPT:
+                self._known.popitem(last=False)
+
+
+def _together(each: list[_Samples]) -> _Samples:
+    most = max([1, *(len(costs) for _, costs in each)])
+    joints, costs = np.zeros((len(each), most, each[0][0].shape[1])), np.full((len(each), most), np.inf)
+    for number, (some, own) in enumerate(each):
+        joints[number, : len(own)], costs[number, : len(own)] = some, own
+    return joints, costs
+
 
 _PITCHES_DEG = (15, 30, 45, 60, 75)
 _HEADINGS_DEG = range(0, 360, 30)
@@ -46,35 +104,29 @@ class MappedArm:
 
     Poses are of the tool, x along the approach axis, in the base frame (m). How high the lift is raised is given with
     each question.
+
+    Attributes:
+        chain: its joints and its tool, seen from its root.
+        known: the reach map as far as it has grown.
+        periods: a whole turn for each joint that a chain may wind up, 0 for the others (rad), shape (joints,).
     """
 
     def __init__(self, arm: DescribedArm, known: ReachMap) -> None:
-        """Take the arm and its map."""
-        self._chain = arm.chain
+        self.chain = arm.chain
         self._root = arm.root
         self._is_endless = arm.is_endless
-        self._known = known
+        self.known = known
         is_wide = arm.chain.turns & (arm.chain.high - arm.chain.low >= _WIDE_RAD)
         self.periods: FloatArray = np.where(arm.is_endless | is_wide, math.tau, 0.0)
         self._gives_roll_alone = gives_roll_alone(arm.chain)
         self._building = threading.Lock()
         self._memory = SampleMemory(self._sampled)
 
-    @property
-    def chain(self) -> Chain:
-        """Its joints and its tool, seen from its root."""
-        return self._chain
-
-    @property
-    def known(self) -> ReachMap:
-        """The part of the reach map that queries have filled."""
-        return self._known
-
     def take(self, known: ReachMap, same: ReachMap) -> None:
         """Use the same map at another place in memory, unless it has grown since."""
         with self._building:
-            if self._known is known:
-                self._known = same
+            if self.known is known:
+                self.known = same
 
     def cover(self, points: FloatArray, torso_m: float) -> None:
         """Have the map cover points that are seen from the root (m), shape (..., 3): builds layers, in seconds each.
@@ -85,21 +137,21 @@ class MappedArm:
             return
         floor_m = -float(self.shoulder(torso_m)[2])
         lowest_m, highest_m = max(float(points[..., 2].min()), floor_m), float(points[..., 2].max())
-        low_m, high_m = covered_heights(self._known.grid)
+        low_m, high_m = covered_heights(self.known.grid)
         if lowest_m < low_m or highest_m > high_m:
             with self._building:
-                self._known = covering(self._chain, self._known, (lowest_m, highest_m))
+                self.known = covering(self.chain, self.known, (lowest_m, highest_m))
 
     def _sampled(self, points: FloatArray, rotations: FloatArray, floor: float) -> tuple[FloatArray, FloatArray]:
         """Return samples of the joints at poses seen from the root, those of the axis where the last joint rolls it."""
         sampled = axis_samples if self._gives_roll_alone else posture_samples
-        found: tuple[FloatArray, FloatArray] = sampled(self._chain, self._known, self.periods, points, rotations, floor)
+        found: tuple[FloatArray, FloatArray] = sampled(self.chain, self.known, self.periods, points, rotations, floor)
         return found
 
     @property
     def length_m(self) -> float:
         """Its largest reach from its root (m)."""
-        return length_of(self._chain)
+        return length_of(self.chain)
 
     @property
     def stride(self) -> int:
@@ -107,14 +159,9 @@ class MappedArm:
         return min(max(int(self.length_m / _LENGTH_OF_STRIDE_M), 1), _STRIDE_MAX)
 
     @property
-    def asks_pitch_only(self) -> bool:
-        """Whether the arm has too few joints to choose the heading of an approach, so that only its pitch counts."""
-        return self._chain.rows == PITCH
-
-    @property
     def size_mb(self) -> float:
         """The memory that the map takes (MB)."""
-        return (self._known.starts.nbytes + self._known.postures.nbytes) / 1e6
+        return (self.known.starts.nbytes + self.known.postures.nbytes) / 1e6
 
     def mirrored_places(self, places: FloatArray) -> FloatArray:
         """Return points of the base frame as the arm sees them: as they are; a new array."""
@@ -133,20 +180,11 @@ class MappedArm:
         """Return which tool poses the arm can take, see `can_reach`, and joints for each, shape (n, joints)."""
         points = np.ascontiguousarray(positions - self.shoulder(torso_m))
         self.cover(points, torso_m)
-        return reachable_poses(self._chain, self._known, points, np.ascontiguousarray(rotations))
-
-    def joints_near(
-        self, position: FloatArray, rotation: FloatArray, near: FloatArray, torso_m: float = 0.0
-    ) -> FloatArray | None:
-        """Return joints that bring the tool to a pose, roll included, found from nearby joints; else None."""
-        rows = self._chain.rows if self.asks_pitch_only else WHOLE
-        point = np.ascontiguousarray(position - self.shoulder(torso_m))
-        found, joints = solve_from(self._chain, point[None], np.ascontiguousarray(rotation)[None], rows, near[None])
-        return joints[0] if found[0] else None
+        return reachable_poses(self.chain, self.known, points, np.ascontiguousarray(rotations))
 
     def tool_poses(self, joints: FloatArray, torso_m: float = 0.0) -> tuple[FloatArray, FloatArray]:
         """Return the tool's positions, shape (n, 3), and rotations, shape (n, 3, 3), at rows of joints."""
-        points, rotations = tool_poses(self._chain, np.ascontiguousarray(joints))
+        points, rotations = tool_poses(self.chain, np.ascontiguousarray(joints))
         return points + self.shoulder(torso_m), rotations
 
     def tool_pose(self, joints: FloatArray, torso_m: float) -> tuple[FloatArray, FloatArray]:
@@ -169,16 +207,16 @@ class MappedArm:
         if not self._gives_roll_alone:
             return self._memory.samples(points, axes, floor)
         of_axes = self._memory.samples(points, unrolled(axes), floor)
-        found: tuple[FloatArray, FloatArray] = rolled_samples(self._chain, self.periods, axes, *of_axes)
+        found: tuple[FloatArray, FloatArray] = rolled_samples(self.chain, self.periods, axes, *of_axes)
         return found
 
     def compile_samples(self) -> None:
         """Compile what samples the joints of any mapped arm, whether or not its last joint gives the roll alone."""
-        gives_roll(self._chain)
+        gives_roll(self.chain)
         points, axes = np.zeros((1, 3)), np.eye(3)[None]
-        posture_samples(self._chain, self._known, self.periods, points, axes, 0.0)
-        of_axes = axis_samples(self._chain, self._known, self.periods, points, unrolled(axes), 0.0)
-        rolled_samples(self._chain, self.periods, axes, *of_axes)
+        posture_samples(self.chain, self.known, self.periods, points, axes, 0.0)
+        of_axes = axis_samples(self.chain, self.known, self.periods, points, unrolled(axes), 0.0)
+        rolled_samples(self.chain, self.periods, axes, *of_axes)
 
     def forget_samples(self) -> None:
         """Drop the samples that searches have left, so that benchmarks measure their computation."""
@@ -189,7 +227,7 @@ class MappedArm:
     ) -> tuple[FloatArray, BoolArray]:
         """Return joints near to guides at each tool pose, shape (n, joints), and if there are any; see `PathArm`."""
         points, axes = np.ascontiguousarray(positions - self.shoulder(torso_m)), np.ascontiguousarray(rotations)
-        return followed(self._chain, self._is_endless, points, axes, np.ascontiguousarray(guides))
+        return followed(self.chain, self._is_endless, points, axes, np.ascontiguousarray(guides))
 
     def unwound(self, chain: FloatArray) -> FloatArray:
         """Return a chain of samples, shape (n, joints), with the joints that have periods wound up.
@@ -201,7 +239,7 @@ class MappedArm:
         for k in np.flatnonzero(self.periods):
             joints[:, k] = np.unwrap(joints[:, k])
             if not self._is_endless[k]:
-                off = joints[:, k].min() + joints[:, k].max() - self._chain.low[k] - self._chain.high[k]
+                off = joints[:, k].min() + joints[:, k].max() - self.chain.low[k] - self.chain.high[k]
                 joints[:, k] -= math.tau * np.round(0.5 * off / math.tau)
         return joints
 

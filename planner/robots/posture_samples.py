@@ -6,7 +6,7 @@ alike, so a hand that is rolled by half a turn more takes the pose too. Arms wit
 have curves of postures there: these are followed both ways from every posture found.
 
 Where the last joint's axis goes through the tool's point, nothing but the roll depends on it. Such an arm has the same
-samples for all rolls: `axis_samples` finds them, `planner.robots.rolled_samples` turns their hands.
+samples for all rolls: `axis_samples` finds them, `planner.robots.posture_samples` turns their hands.
 """
 
 import math
@@ -16,9 +16,9 @@ import numpy as np
 from planner.geometry.pose import FloatArray
 from planner.kernels import kernel
 from planner.robots.chain import AXIS, PITCH, WHOLE, Chain, Scratch, forward, scratch_for
-from planner.robots.hand_roll import gives_roll, roll_left, turn_to_roll
+from planner.robots.hand_roll import gives_roll, roll_between, roll_left, turn_to_roll
 from planner.robots.joint_chain import ELBOW_CLEAR_M, ELBOW_COST, LIMIT_COST, NEAR_LIMIT
-from planner.robots.newton import solve
+from planner.robots.newton import EXACT_M, solve
 from planner.robots.posture_curves import SAMPLES_MAX, Samples, add, is_alike, spread
 from planner.robots.reach_map import ReachMap, approach_of, cell_of, decode
 
@@ -210,3 +210,80 @@ def _take_pose(
         if not solve(chain, point, rotation, PITCH, joints, scratch):
             return False
     return True
+
+
+_STEEP = 0.7
+"""Sine of the pitch of an approach from which its level direction is not certain enough to build on."""
+
+_TURNS = (0.0, -math.tau, math.tau)
+"""Whole turns by which a last joint of more than one turn may be off (rad)."""
+
+
+def gives_roll_alone(chain: Chain) -> bool:
+    """Return whether the last joint changes the hand's roll and neither the tool's point nor its approach axis."""
+    beside_m = math.hypot(float(chain.tool_offset[0]), float(chain.tool_offset[1]))
+    return chain.rows == AXIS and beside_m <= EXACT_M and gives_roll(chain) and _is_along(chain)
+
+
+def _is_along(chain: Chain) -> bool:
+    return math.hypot(float(chain.tool_rotation[0, 0]), float(chain.tool_rotation[1, 0])) <= EXACT_M
+
+
+@kernel
+def unrolled(rotations: FloatArray) -> FloatArray:
+    """Return rotations with the same x axes, shape (n, 3, 3), and rolls that depend on these alone."""
+    found = np.empty((len(rotations), 3, 3))
+    for i in range(len(rotations)):
+        # No negative zeros: equal axes are to be equal bytes.
+        x, y, z = rotations[i, 0, 0] + 0.0, rotations[i, 1, 0] + 0.0, rotations[i, 2, 0] + 0.0
+        ax, ay, az = (0.0, -z, y) if abs(z) > _STEEP else (-y, x, 0.0)  # across the axis, with x or with z
+        length = math.sqrt(ax * ax + ay * ay + az * az)
+        ax, ay, az = ax / length, ay / length, az / length
+        found[i, 0, 0], found[i, 1, 0], found[i, 2, 0] = x, y, z
+        found[i, 0, 1], found[i, 1, 1], found[i, 2, 1] = ax, ay, az
+        found[i, 0, 2], found[i, 1, 2], found[i, 2, 2] = y * az - z * ay, z * ax - x * az, x * ay - y * ax
+    return found
+
+
+@kernel
+def rolled_samples(
+    chain: Chain, periods: FloatArray, rotations: FloatArray, joints: FloatArray, costs: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Return samples at whole poses.
+
+    Args:
+        chain: the arm.
+        periods: what each joint may be off without any difference, see `posture_samples`.
+        rotations: the poses' rotations, shape (k, 3, 3).
+        joints: the samples of their points and axes, shape (k, m, n).
+        costs: their costs, shape (k, m); infinite where there is no sample.
+
+    Returns:
+        Joints and costs in the same form, at least one a pose.
+    """
+    poses, size, count = joints.shape
+    found = np.zeros((poses, 6 * size, count))
+    taken, scratch, most = np.full((poses, 6 * size), np.inf), scratch_for(count), 1
+    last, turning = count - 1, np.empty(count)
+    middle = 0.5 * (chain.low[last] + chain.high[last])
+    for i in range(poses):
+        number = 0
+        for each in range(size):
+            if costs[i, each] == np.inf:
+                continue
+            turning[:] = joints[i, each]
+            forward(chain, turning, scratch)
+            roll = roll_between(scratch.frame, rotations[i, :, 1])
+            level = turning[last] + (roll if chain.tool_rotation[2, 0] > 0.0 else -roll)
+            for half in range(2):
+                rolled = level + math.pi * half
+                rolled -= math.tau * math.floor((rolled - middle) / math.tau + 0.5)
+                for turn in _TURNS:
+                    turning[last] = rolled + turn
+                    is_within = chain.low[last] <= turning[last] <= chain.high[last]
+                    if is_within and (turn == 0.0 or periods[last] == 0.0):
+                        found[i, number] = turning
+                        taken[i, number] = costs[i, each] + limit_cost(chain, periods, turning, count)
+                        number += 1
+        most = max(most, number)
+    return found[:, :most].copy(), taken[:, :most].copy()

@@ -1,21 +1,26 @@
-"""Build reach maps, and keep them in the user's cache."""
+"""Build reach maps, and keep them in the user's cache.
 
-import contextlib
-import os
-import tempfile
+A map covers the heights at which most cloth is handled. Cloth that hangs far over an edge of the table is taken and
+carried below them, a long part rises above them. So maps are made higher and deeper, layer by layer, when something
+above or below them is asked. Each layer is a map of its own, grown and cached alone, and then becomes part of the
+whole: the postures that the map had stay as they are, so an answer does not depend on what was asked before it.
+"""
+
 from collections.abc import Callable, Sequence
 from hashlib import blake2b
 from pathlib import Path
-from zipfile import BadZipFile
 
 import numpy as np
+from numpy.typing import NDArray
 
 from planner.deadline import left_out
 from planner.geometry.pose import Approach
+from planner.geometry.tolerance import LENGTH_M
 from planner.robots.chain import Chain
+from planner.robots.kept_arrays import kept
 from planner.robots.reach_map import Grid, ReachMap
 from planner.robots.reach_map_building import APART, FEW, FRINGE, OUTER, ReachMapBuilding, finished, grow, sow
-from planner.user_cache import cache_folder, use
+from planner.user_cache import cache_folder
 
 CELL_M = 0.075
 """The largest edge of a cell (m), but for arms that are longer than any person's."""
@@ -70,17 +75,17 @@ def reach_map(
 def kept_map(chain: Chain, grid: Grid, progress: Progress | None = None, directory: Path | None = None) -> ReachMap:
     """Return an arm's map of some cells, read from the cache or built and kept; see `reach_map`."""
     path = (directory or cache_folder()) / "postures" / f"{_digest(chain, grid)}.npz"
-    try:
-        with path.open("rb") as file, np.load(file, allow_pickle=False) as arrays:
-            found = ReachMap(grid, arrays["starts"], arrays["postures"])
-    except (OSError, ValueError, KeyError, EOFError, BadZipFile):
+
+    def made() -> ReachMap:
         with left_out():  # a map is built once
-            found = build_map(chain, grid, progress)
-        with contextlib.suppress(OSError):
-            _write(path, found)
-    with contextlib.suppress(OSError):
-        use(path)
-    return found
+            return build_map(chain, grid, progress)
+
+    return kept(
+        path,
+        lambda arrays: ReachMap(grid, arrays["starts"], arrays["postures"]),
+        made,
+        lambda known: {"starts": known.starts, "postures": known.postures},
+    )
 
 
 def build_map(chain: Chain, grid: Grid, progress: Progress | None = None) -> ReachMap:
@@ -130,14 +135,66 @@ def _digest(chain: Chain, grid: Grid) -> str:
     return digest.hexdigest()
 
 
-def _write(path: Path, made: ReachMap) -> None:
-    """Write a map to a file atomically, so that it exists only once it is complete."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    handle, temporary = tempfile.mkstemp(dir=path.parent, suffix=".npz")
-    try:
-        with os.fdopen(handle, "wb") as file:
-            np.savez(file, starts=made.starts, postures=made.postures)
-        Path(temporary).replace(path)
-    except BaseException:
-        Path(temporary).unlink(missing_ok=True)
-        raise
+LAYER_CELLS = 4
+"""Cells across the height of a layer: 0.3 m for all arms but short and very long ones."""
+
+
+def covered_heights(grid: Grid) -> tuple[float, float]:
+    """Return the lowest and the highest point of a map, seen from the arm's root (m)."""
+    low = float(grid.low[2])
+    return low, low + float(grid.counts[2]) * grid.cell
+
+
+def covering(chain: Chain, known: ReachMap, heights_m: tuple[float, float], directory: Path | None = None) -> ReachMap:
+    """Return a map that covers heights, as far as the arm is long: the same map where it does already.
+
+    Layers are read from the user's cache or built (in seconds).
+
+    Args:
+        chain: the arm.
+        known: its map.
+        heights_m: the lowest and the highest point that are asked, seen from the arm's root (m).
+        directory: the cache directory; None: the platform's own.
+    """
+    reach = float(-known.grid.low[0])
+    lowest, highest = max(heights_m[0], -reach), min(heights_m[1], reach)
+    while covered_heights(known.grid)[0] > lowest + LENGTH_M:
+        grid = known.grid
+        layer = _layer(grid, float(grid.low[2]) - LAYER_CELLS * grid.cell)
+        known = _stacked(kept_map(chain, layer, None, directory), known)
+    while covered_heights(known.grid)[1] < highest - LENGTH_M:
+        layer = _layer(known.grid, covered_heights(known.grid)[1])
+        known = _stacked(known, kept_map(chain, layer, None, directory))
+    return known
+
+
+def _layer(grid: Grid, low_m: float) -> Grid:
+    """Return the grid of a layer with the cells of a map, its lowest point given (m)."""
+    counts = np.array([*grid.counts[:2], LAYER_CELLS], dtype=np.int64)
+    return grid._replace(low=np.array([*grid.low[:2], low_m]), counts=counts)
+
+
+def _stacked(lower: ReachMap, upper: ReachMap) -> ReachMap:
+    """Return two maps as one; the second begins at the height where the first ends."""
+    below, above = _by_column(lower), _by_column(upper)
+    grid = lower.grid
+    counts = np.concatenate([below, above], axis=1)
+    starts = np.concatenate([[0], np.cumsum(counts)]).astype(np.int32)
+    postures = np.empty((int(starts[-1]), lower.postures.shape[1]), dtype=np.int8)
+    columns = np.concatenate([below.sum(axis=1)[:, None], above.sum(axis=1)[:, None]], axis=1)
+    is_below = np.repeat(np.tile([True, False], len(columns)), columns.ravel())
+    postures[is_below], postures[~is_below] = _own(lower), _own(upper)
+    heights = np.array([*grid.counts[:2], grid.counts[2] + upper.grid.counts[2]], dtype=np.int64)
+    return ReachMap(grid._replace(counts=heights), starts, postures)
+
+
+def _by_column(known: ReachMap) -> NDArray[np.int64]:
+    """Return the number of postures of each entry, one row for each column of cells."""
+    counts: NDArray[np.int64] = np.diff(known.starts).astype(np.int64)
+    return counts.reshape(int(known.grid.counts[0] * known.grid.counts[1]), -1)
+
+
+def _own(known: ReachMap) -> NDArray[np.int8]:
+    """Return the postures of a map, which may share its memory with other maps, of its arm's joints alone."""
+    found: NDArray[np.int8] = known.postures[known.starts[0] : known.starts[-1], : len(known.grid.middle)]
+    return found

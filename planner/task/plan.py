@@ -1,7 +1,7 @@
 """A plan: the answer to a task, as data alone."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from typing import Any, Literal
 
@@ -12,15 +12,103 @@ from planner.folds.fold_dag import FoldDag
 from planner.folds.fold_sequence import FoldSequence, replayed
 from planner.geometry.pose import Pose2
 from planner.geometry.tolerance import TIME_S
-from planner.json_form import JsonForm
-from planner.task.plan_step import PlanStep
+from planner.json_form import STRICT, JsonForm
+from planner.task.grip import BaseStop, Grip, Holding
 from planner.task.reason import Reason
 from planner.task.scene import Scene
-from planner.task.statistics import Statistics
-from planner.task.task import Task
+from planner.task.task import Task, require_version
 from planner.task.trajectory import Trajectory
-from planner.task.version import require_version
 from planner.task.world_state import WorldState
+
+
+@dataclass(frozen=True, slots=True)
+class PlanStep:
+    """A step of a plan: a primitive with its states.
+
+    Attributes:
+        kind: the primitive's name, as "fold" or "move".
+        start_s: the time of its start (s).
+        duration_s: its duration (s): the cost model's, or longer if the joints are slower.
+        details: the fields of its kind alone, as JSON: the fold, the distance, the stations.
+        base: where it leaves the base.
+        grips: the paths of the tools, from the leftmost arm to the rightmost.
+        before: the world at its start.
+        after: the world at its end.
+        holdings: the grip of each arm, and the vertices it holds.
+    """
+
+    __pydantic_config__ = STRICT
+
+    kind: str
+    start_s: float
+    duration_s: float
+    details: dict[str, Any]
+    base: BaseStop
+    grips: tuple[Grip, ...]
+    before: WorldState
+    after: WorldState
+    holdings: tuple[Holding, ...] = ()
+
+    @property
+    def end_s(self) -> float:
+        """The time of its end (s)."""
+        return self.start_s + self.duration_s
+
+    @property
+    def fold(self) -> int | None:
+        """The index of the fold that it makes, if it makes one."""
+        return self.details.get("fold")
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the step in its REST form."""
+        return {
+            "kind": self.kind,
+            "start_s": self.start_s,
+            "duration_s": self.duration_s,
+            **self.details,
+            "base": self.base.to_dict(),
+            "grips": [grip.to_dict() for grip in self.grips],
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class Statistics:
+    """Figures of the search (paper, Table 1).
+
+    Attributes:
+        expanded: states expanded.
+        explored: successors pushed.
+        ik_queries: queries of the exact inverse kinematics, including those for comfort points.
+        ik_time_s: time spent in them (s).
+        search_time_s: time of the whole search (s), without joint paths.
+        joint_time_s: time spent on joint paths (s).
+        bound_s: a lower bound on the cost of any plan, whatever the joints can do (s); None when the search ended
+            without a plan and had time left.
+        ways: candidate steps that were examined; the work of the search, equal on every machine.
+        is_cut_short: whether it ended for lack of work, time or states; if not, a longer search finds nothing else.
+    """
+
+    __pydantic_config__ = STRICT
+
+    expanded: int
+    explored: int
+    ik_queries: int
+    ik_time_s: float
+    search_time_s: float
+    joint_time_s: float
+    bound_s: float | None
+    ways: int = 0
+    is_cut_short: bool = False
+
+    def after(self, before: "Statistics") -> "Statistics":
+        """Return the sum of these and another search's figures, from which this one went on, with this one's bound."""
+        summed = ("expanded", "explored", "ik_queries", "ik_time_s", "search_time_s", "joint_time_s", "ways")
+        return replace(self, **{name: getattr(before, name) + getattr(self, name) for name in summed})
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the statistics as JSON."""
+        return {name: getattr(self, name) for name in self.__slots__}
+
 
 VERSION = 1
 

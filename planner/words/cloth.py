@@ -19,17 +19,6 @@ def _corner_covered(values: Values) -> str:
     return f"the cloth covers the table's corner at ({x:.3f}, {y:.3f}) m, which is {depth_m:.2f} m inside it"
 
 
-def _hangs_from_several(values: Values) -> str:
-    return f"a part of {values['area_m2']:.3f} m^2 hangs from {' and '.join(values['edges']) or 'no edge'} at once"
-
-
-def _hangs_loose(values: Values) -> str:
-    return (
-        f"layer {values['layer']} hangs over the {values['edge']} edge and nothing holds its corner at "
-        f"{on_garment([values['at']])}, {values['beyond_m']:.2f} m beyond the edge"
-    )
-
-
 def _slips(values: Values) -> str:
     hanging, lying_m2 = values["hanging_m2"], values["lying_m2"]
     whole = lying_m2 + sum(hanging.values())
@@ -38,10 +27,6 @@ def _slips(values: Values) -> str:
     ]
     lying = f"{lying_m2:.3f} m^2 ({lying_m2 / whole:.1%}) lies on the table, layers counted"
     return f"the cloth slips: {', '.join(over)} and {lying}; {_friction(values)}"
-
-
-def _slips_on_the_way(values: Values) -> str:
-    return f"the cloth slips wherever it would be in reach; {_friction(values)}"
 
 
 def _friction(values: Values) -> str:
@@ -53,8 +38,13 @@ def _friction(values: Values) -> str:
 _AT_REST: Mapping[str, Callable[[Values], str]] = {
     "beside_table": _beside_table,
     "corner_covered": _corner_covered,
-    "hangs_from_several": _hangs_from_several,
-    "hangs_loose": _hangs_loose,
+    "hangs_from_several": lambda values: (
+        f"a part of {values['area_m2']:.3f} m^2 hangs from {' and '.join(values['edges']) or 'no edge'} at once"
+    ),
+    "hangs_loose": lambda values: (
+        f"layer {values['layer']} hangs over the {values['edge']} edge and nothing holds its corner at "
+        f"{on_garment([values['at']])}, {values['beyond_m']:.2f} m beyond the edge"
+    ),
     "slips": _slips,
 }
 
@@ -70,34 +60,22 @@ def _afterwards(values: Values) -> str:
     return f"afterwards {_AT_REST[what['code']](what)}{carried(values)}"
 
 
-def _line_off_table(values: Values) -> str:
-    return (
-        f"all of its line lies beyond the table's edge, by {values['off_m']:.2f} m; a part must be on the table"
-        f"{carried(values)}"
-    )
-
-
-def _turn_off_table(values: Values) -> str:
-    return (
-        f"the edge about which it turns reaches {values['off_m']:.2f} m beyond the table's edge; all of it must be on "
-        f"the table{carried(values)}"
-    )
-
-
-def _behind_line(values: Values) -> str:
-    return (
-        f"the part that moves reaches {values['behind_m']:.2f} m behind the line's extension, where the fold cannot "
-        f"carry it; turn or lengthen the line, or fold that part by itself first{carried(values)}"
-    )
-
-
 CLOTH: Mapping[str, Callable[[Values], str]] = {
     **_AT_REST,
-    "slips_on_the_way": _slips_on_the_way,
+    "slips_on_the_way": lambda values: f"the cloth slips wherever it would be in reach; {_friction(values)}",
     "at_start": _at_start,
     "afterwards": _afterwards,
-    "line_off_table": _line_off_table,
-    "turn_off_table": _turn_off_table,
-    "behind_line": _behind_line,
+    "line_off_table": lambda values: (
+        f"all of its line lies beyond the table's edge, by {values['off_m']:.2f} m; a part must be on the table"
+        f"{carried(values)}"
+    ),
+    "turn_off_table": lambda values: (
+        f"the edge about which it turns reaches {values['off_m']:.2f} m beyond the table's edge; all of it must be on "
+        f"the table{carried(values)}"
+    ),
+    "behind_line": lambda values: (
+        f"the part that moves reaches {values['behind_m']:.2f} m behind the line's extension, where the fold cannot "
+        f"carry it; turn or lengthen the line, or fold that part by itself first{carried(values)}"
+    ),
 }
 """Sentences about cloth by the message's code."""

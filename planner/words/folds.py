@@ -8,13 +8,6 @@ _TURNS = ("", "by 90 degrees to the left", "by 180 degrees", "by 90 degrees to t
 """Quarter turns in words."""
 
 
-def _red_unheld(values: Values, folds: Folds) -> str:
-    return (
-        f"{on_garment([values['at']])} must be held, but no hand that still holds from "
-        f"{called(folds, values['before'])} is on the part that moves; make it a blue fold"
-    )
-
-
 def _red_held_too_far(values: Values, folds: Folds) -> str:
     needed = values["needed_grip_radius_m"]
     return (
@@ -22,14 +15,6 @@ def _red_held_too_far(values: Values, folds: Folds) -> str:
         f"{called(folds, values['before'])} is {needed:.2f} m away and holds what is within "
         f"{values['grip_radius_m']:g} m; a grip radius of {rounded_up(needed)} m would do, or a blue fold"
     )
-
-
-def _waits_for(values: Values, folds: Folds) -> str:
-    return f"waits for {' and '.join(called(folds, fold) for fold in values['folds'])}, which cannot be done"
-
-
-def _not_with_the_others(_values: Values, _folds: Folds) -> str:
-    return "can be done, but not together with the others"
 
 
 def _place(values: Values, _folds: Folds) -> str:
@@ -48,46 +33,10 @@ def _shift_fold(values: Values, folds: Folds) -> str:
     return f"Shift {called(folds, values['fold'])} {in_cm(values['by_m'])} {direction(*values['towards'])}"
 
 
-def _shift_folds(values: Values, folds: Folds) -> str:
-    return " and ".join(_shift_fold(shift, folds) for shift in values["shifts"])
-
-
-def _flip_fold(values: Values, folds: Folds) -> str:
-    return f"Fold the other side of the cloth at {called(folds, values['fold'])}"
-
-
-def _fold_before(values: Values, folds: Folds) -> str:
-    return f"Make {called(folds, values['fold'])} before {called(folds, values['before'])}"
-
-
-def _fold_in_order(values: Values, folds: Folds) -> str:
-    return "Fold in the order " + ", ".join(f"{fold} '{folds[fold].name}'" for fold in values["folds"])
-
-
-def _split_fold(values: Values, folds: Folds) -> str:
-    return f"Do {called(folds, values['fold'])} in two, the outer {in_cm(values['depth_m'])} first"
-
-
-def _halve_first(values: Values, folds: Folds) -> str:
-    return f"Halve the cloth across {called(folds, values['fold'])} first"
-
-
 def _stand_also_at(values: Values, _folds: Folds) -> str:
     where = moved(*values["at"])
     named = f"Let the robot also stand at a station {values['station']!r}"
     return f"{named}, {where} as seen from the table's middle" if where else named
-
-
-def _other_robot(values: Values, _folds: Folds) -> str:
-    return f"Let {values['title']} fold it, at its own table"
-
-
-def _assume_comfort(values: Values, _folds: Folds) -> str:
-    return f"Assume that a comfort radius of {in_cm(values['comfort_m'])} is enough, not {in_cm(values['now_m'])}"
-
-
-def _assume_friction(values: Values, _folds: Folds) -> str:
-    return f"Assume a friction coefficient of {values['friction']:g}, not {values['now']:g}"
 
 
 def _assume_grip_radius(values: Values, folds: Folds) -> str:
@@ -101,23 +50,38 @@ def _assume_together(values: Values, folds: Folds) -> str:
 
 
 FOLDS: Mapping[str, Callable[[Values, Folds], str]] = {
-    "red_unheld": _red_unheld,
+    "red_unheld": lambda values, folds: (
+        f"{on_garment([values['at']])} must be held, but no hand that still holds from "
+        f"{called(folds, values['before'])} is on the part that moves; make it a blue fold"
+    ),
     "red_held_too_far": _red_held_too_far,
-    "waits_for": _waits_for,
-    "not_with_the_others": _not_with_the_others,
+    "waits_for": lambda values, folds: (
+        f"waits for {' and '.join(called(folds, fold) for fold in values['folds'])}, which cannot be done"
+    ),
+    "not_with_the_others": lambda _values, _folds: "can be done, but not together with the others",
     "place": _place,
     "smaller": _smaller,
     "shift_fold": _shift_fold,
-    "shift_folds": _shift_folds,
-    "flip_fold": _flip_fold,
-    "fold_before": _fold_before,
-    "fold_in_order": _fold_in_order,
-    "split_fold": _split_fold,
-    "halve_first": _halve_first,
+    "shift_folds": lambda values, folds: " and ".join(_shift_fold(shift, folds) for shift in values["shifts"]),
+    "flip_fold": lambda values, folds: f"Fold the other side of the cloth at {called(folds, values['fold'])}",
+    "fold_before": lambda values, folds: (
+        f"Make {called(folds, values['fold'])} before {called(folds, values['before'])}"
+    ),
+    "fold_in_order": lambda values, folds: (
+        "Fold in the order " + ", ".join(f"{fold} '{folds[fold].name}'" for fold in values["folds"])
+    ),
+    "split_fold": lambda values, folds: (
+        f"Do {called(folds, values['fold'])} in two, the outer {in_cm(values['depth_m'])} first"
+    ),
+    "halve_first": lambda values, folds: f"Halve the cloth across {called(folds, values['fold'])} first",
     "stand_also_at": _stand_also_at,
-    "other_robot": _other_robot,
-    "assume_comfort": _assume_comfort,
-    "assume_friction": _assume_friction,
+    "other_robot": lambda values, _folds: f"Let {values['title']} fold it, at its own table",
+    "assume_comfort": lambda values, _folds: (
+        f"Assume that a comfort radius of {in_cm(values['comfort_m'])} is enough, not {in_cm(values['now_m'])}"
+    ),
+    "assume_friction": lambda values, _folds: (
+        f"Assume a friction coefficient of {values['friction']:g}, not {values['now']:g}"
+    ),
     "assume_grip_radius": _assume_grip_radius,
     "assume_together": _assume_together,
 }

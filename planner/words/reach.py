@@ -122,14 +122,6 @@ def _whereto(towards: Sequence[float]) -> str:
     return " and ".join(words) or "nearer to its shoulder"
 
 
-def _arms_cannot_get_there(values: Values) -> str:
-    return (
-        f"{_dragging(values)}from {_stand(values)} the hands could be where they must, but the arms cannot get them "
-        f"there and along their way within the limits of their joints, without touching the table, the robot or each "
-        f"other{carried(values)}"
-    )
-
-
 def _collision(values: Values) -> str:
     first, second = values["parts"]
     return (
@@ -154,14 +146,6 @@ def _too_many_grips(values: Values) -> str:
     )
 
 
-def _grips_too_close(values: Values) -> str:
-    return (
-        f"its grips, at {on_garment(values['points'])}, are {values['apart_m']:.3f} m apart, and two hands need "
-        f"{values['needed_apart_m']:.2f} m; with a grip radius of {rounded_up(values['needed_grip_radius_m'])} m, now "
-        f"{values['grip_radius_m']:g} m, one hand would hold both"
-    )
-
-
 def _wider_grip(values: Values) -> str:
     where = ", in drags too," if values["in_drags"] else ""
     needed = rounded_up(values["needed_grip_radius_m"])
@@ -173,18 +157,24 @@ def _stiffer_cloth(values: Values) -> str:
     return f"too many points must be held, unless cloth holds itself within {needed} degrees of upright, now {now}"
 
 
-def _one_more_hand(values: Values) -> str:
-    return f"must be held at more points than {counted_hands(values['hands'])} can; one more would do"
-
-
 REACH: Mapping[str, Callable[[Values], str]] = {
     "out_of_reach": _out_of_reach,
-    "arms_cannot_get_there": _arms_cannot_get_there,
+    "arms_cannot_get_there": lambda values: (
+        f"{_dragging(values)}from {_stand(values)} the hands could be where they must, but the arms cannot get them "
+        f"there and along their way within the limits of their joints, without touching the table, the robot or each "
+        f"other{carried(values)}"
+    ),
     "collision": _collision,
     "too_many_grips": _too_many_grips,
-    "grips_too_close": _grips_too_close,
+    "grips_too_close": lambda values: (
+        f"its grips, at {on_garment(values['points'])}, are {values['apart_m']:.3f} m apart, and two hands need "
+        f"{values['needed_apart_m']:.2f} m; with a grip radius of {rounded_up(values['needed_grip_radius_m'])} m, now "
+        f"{values['grip_radius_m']:g} m, one hand would hold both"
+    ),
     "wider_grip": _wider_grip,
     "stiffer_cloth": _stiffer_cloth,
-    "one_more_hand": _one_more_hand,
+    "one_more_hand": lambda values: (
+        f"must be held at more points than {counted_hands(values['hands'])} can; one more would do"
+    ),
 }
 """Sentences about hands by the message's code."""

@@ -17,8 +17,7 @@ from app.rehearsal.trace import RunTrace
 from planner import Plan, Scene, load_garment
 from planner.geometry.pose import Point2, Pose2
 from planner.geometry.table import Table
-from planner.motion.sample import Sample
-from planner.motion.timeline import Timeline
+from planner.motion.timeline import Sample, Timeline
 from planner.robots.card import RobotCard
 from tests.app.drawing.drawings import outlined, pulled
 from tests.replay.planned import shipped_plan

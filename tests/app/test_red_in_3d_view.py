@@ -13,7 +13,7 @@ from app.ui.view_3d import View3D
 from planner import Plan, Scene
 from planner.motion.timeline import Timeline
 from planner.robots.load_robot import load_robot
-from planner.task.plan_step import PlanStep
+from planner.task.plan import PlanStep
 from tests.replay.planned import shipped_plan
 
 CARD = load_robot("pr2").card

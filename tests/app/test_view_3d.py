@@ -23,7 +23,7 @@ from app.ui.viser_patches import LOOPBACK, SECRET_HEADER
 from planner import Plan, Scene, load_garment
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
-from planner.motion.cloth_alone import spread_cloth
+from planner.motion.cloth_surface import spread_cloth
 from planner.motion.timeline import Timeline
 from planner.robots.load_robot import load_robot
 from tests.app.pose_matrix import matrix

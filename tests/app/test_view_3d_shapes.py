@@ -10,8 +10,7 @@ from app.ui.relief import Relief
 from app.ui.rotation import from_matrix, product, turn
 from app.ui.thick_cloth import ThickCloth
 from planner import Scene, load_garment
-from planner.motion.cloth_alone import spread_cloth
-from planner.motion.sample import ClothSurface
+from planner.motion.cloth_surface import ClothSurface, spread_cloth
 from tests.app.pose_matrix import matrix
 
 

@@ -21,7 +21,7 @@ from planner.explain.changes import (
     table_lifted,
     torso_lifted,
 )
-from planner.explain.relaxed_problem import RelaxedProblem
+from planner.explain.relaxation_trials import RelaxedProblem
 from planner.explain.suggestion import SuggestionTrial
 from planner.geometry.pose import Pose2
 from planner.planning.problem import Problem

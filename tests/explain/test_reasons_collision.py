@@ -10,7 +10,7 @@ from planner.geometry.table import Table
 from planner.planning import problem
 from planner.primitives.obstacle import BlockingContact, Obstacle, Obstacles
 from planner.primitives.state import State
-from planner.robots.collision.contact import Contact
+from planner.robots.collision.collisions import Contact
 from planner.robots.pr2.robot import Pr2
 from planner.task.reason import Code
 from tests.planning.test_motion_validator import (

@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 import shapely
 
-from planner.geometry.convex_pieces import convex_pieces
-from planner.geometry.region import Region
+from planner.geometry.region import Region, convex_pieces
 from tests.builders import rectangle, star
 
 

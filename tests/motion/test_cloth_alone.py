@@ -3,8 +3,7 @@ import pytest
 
 from planner import Scene, load_garment
 from planner.folds.fold_sequence import FoldSequence
-from planner.motion.cloth_alone import ClothAlone, spread_cloth
-from planner.motion.sample import ClothSurface
+from planner.motion.cloth_surface import ClothAlone, ClothSurface, spread_cloth
 
 
 def area_m2(cloth: ClothSurface) -> float:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from planner.geometry.woven_mesh import woven_mesh
-from planner.motion.cloth_points import ClothPoints
+from planner.motion.cloth_surface import ClothPoints
 from planner.motion.timeline import Timeline
 from tests.small_plan import small_plan
 

@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 from planner.geometry.pose import Approach, FloatArray, Point3, Pose2
 from planner.geometry.table import Table
 from planner.geometry.table_top import TableTop
-from planner.motion.phase_shares import STEP_M, STEP_RAD
+from planner.motion.phase_stretches import STEP_M, STEP_RAD
 from planner.motion.transfer import is_carrying
 from planner.motion.waypoints import Waypoints, forget_waypoints, waypoints_of
 from planner.task.phase import ClothMotion, Hand, Phase

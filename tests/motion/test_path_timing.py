@@ -9,8 +9,7 @@ from toppra import SplineInterpolator
 from toppra.algorithm import TOPPRA
 from toppra.constraint import DiscretizationType, JointAccelerationConstraint, JointVelocityConstraint
 
-from planner.motion.path_intervals import EXCESS
-from planner.motion.path_timing import PathTiming, quickest, timed
+from planner.motion.path_timing import EXCESS, PathTiming, quickest, timed
 
 ONE = (np.array([1.0]), np.array([2.0]))
 

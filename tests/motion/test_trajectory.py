@@ -7,8 +7,7 @@ import pytest
 
 from planner import Scene, make_plan
 from planner.geometry.pose import FloatArray, Pose2
-from planner.motion.joint_trajectory import CLOSED_M, OPEN_M, JointTrajectory
-from planner.motion.line import Keyframes
+from planner.motion.joint_trajectory import CLOSED_M, OPEN_M, JointTrajectory, Keyframes
 from planner.motion.opened_collisions import OpenedCollisions
 from planner.motion.timeline import Timeline
 from planner.robots.load_robot import load_robot

@@ -6,8 +6,7 @@ import pytest
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
 from planner.geometry.table_top import TableTop
-from planner.motion.timed_phase import TimedPhase
-from planner.motion.transit_time import TransitTime
+from planner.motion.timed_phase import TimedPhase, TransitTime
 from planner.task.phase import ClothMotion, Phase
 
 STATION, BACK, TURNED = Pose2(-0.95, 0.0, 3.0), Pose2(-1.15, 0.1, 3.0), Pose2(-1.15, 0.1, -3.0)

@@ -8,9 +8,8 @@ import pytest
 from planner.geometry.pose import FloatArray
 from planner.motion.lying_cloth import LyingCloth
 from planner.motion.plan_segment import PlanSegment, duration_s, linked
-from planner.motion.timed_phase import TimedPhase
+from planner.motion.timed_phase import TimedPhase, TransitTime
 from planner.motion.transit_planner import TransitPlanner
-from planner.motion.transit_time import TransitTime
 from planner.planning.found_plan import FoundPlan
 from planner.planning.problem import Problem
 from tests.replay.planned import planned

@@ -23,7 +23,7 @@ from planner.primitives.fold_step import FoldStep
 from planner.primitives.g_drag import GDrag
 from planner.primitives.g_fold import GFold
 from planner.primitives.state import State
-from planner.task.plan_step import PlanStep
+from planner.task.plan import PlanStep
 from planner.task.reason import Code
 from tests.builders import context, fold, garment, rectangle_points
 from tests.replay.planned import shipped_plan

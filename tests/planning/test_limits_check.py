@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from planner import Plan, Scene
 from planner.errors import RequestError
 from planner.geometry.keyframes import extremes, peaks, rate_at, value_at
-from planner.motion.motion_limits import MotionLimits
+from planner.motion.motion_values import MotionLimits
 from planner.planning.plan_check import require_replay
 from planner.planning.problem import Problem
 from planner.task.trajectory import Trajectory

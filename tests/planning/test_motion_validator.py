@@ -18,7 +18,6 @@ from planner.geometry.pose import BoolArray, FloatArray, Pose2
 from planner.geometry.table import Table
 from planner.motion.edge_hands import EdgeHands
 from planner.motion.plan_segment import duration_s
-from planner.motion.robot_port import Clearance, Collisions
 from planner.motion.search_limits import QUICK
 from planner.motion.transfer import Transfer
 from planner.motion.transfer_planner import TransferPlanner
@@ -30,7 +29,7 @@ from planner.primitives.context import Context
 from planner.primitives.primitive import Step
 from planner.primitives.primitive_set import PRIMITIVES
 from planner.primitives.state import State
-from planner.robots.collision.contact import Contact
+from planner.robots.collision.collisions import Clearance, Collisions, Contact
 from planner.robots.load_robot import load_robot
 from planner.robots.pr2.robot import Pr2
 from planner.task.reason import Code

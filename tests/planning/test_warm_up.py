@@ -46,7 +46,7 @@ def test_no_garment_has_to_wait_for_the_compiler() -> None:
 SAMPLING = """
 from planner.planning.warm_up import compile_kernels
 from planner.robots.posture_samples import axis_samples, posture_samples
-from planner.robots.rolled_samples import rolled_samples, unrolled
+from planner.robots.posture_samples import rolled_samples, unrolled
 
 compile_kernels("so101-pair")
 print([one.__name__ for one in (axis_samples, posture_samples, rolled_samples, unrolled) if not one.signatures])

@@ -15,10 +15,9 @@ from planner.planning import problem
 from planner.planning.heuristic import arm_time
 from planner.planning.plan_check import require_replay
 from planner.plans import find_plan
-from planner.primitives.arm_drag import ArmDrag
-from planner.primitives.arm_drag_step import ArmDragStep
+from planner.primitives.arm_drag import ArmDrag, ArmDragStep
 from planner.primitives.context import Context
-from planner.primitives.drag_offsets import drag_offsets
+from planner.primitives.drag_grips import drag_offsets
 from planner.primitives.state import Held, State
 from planner.task.task import Task
 from tests.builders import context, fold, garment, rectangle_points

@@ -12,9 +12,8 @@ import pytest
 
 from planner.geometry.pose import Point2, Pose2
 from planner.geometry.table import Table
-from planner.primitives.base_move import BaseMove, MoveStep
+from planner.primitives.base_move import BaseMove, MoveStep, Route, clear_of_table, route_along, shortest_way
 from planner.primitives.drive_time import DriveTime
-from planner.primitives.route import Route, clear_of_table, route_along, shortest_way
 from planner.primitives.state import Held, State
 from planner.task.scene import Scene
 from tests.builders import CIRCLE_M, context, garment, rectangle_points

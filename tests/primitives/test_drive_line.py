@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from planner.geometry.driving import IMPOSSIBLE
 from planner.primitives.base_legs import travel
-from planner.primitives.drive_line import Corner, drive_line
+from planner.primitives.fold_motion import Corner, drive_line
 from tests.primitives.test_base_legs import random_strips, strip_of
 
 NEAR = 1e-6

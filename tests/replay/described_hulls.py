@@ -14,7 +14,7 @@ import numpy as np
 import pinocchio as pin
 
 from planner.geometry.pose import FloatArray, Pose2
-from planner.geometry.table_parts import table_parts
+from planner.geometry.table import table_parts
 from planner.robots.card_parts import ParallelogramDrive
 from planner.robots.described_robot import DescribedRobot
 from planner.robots.urdf_reader import parsed

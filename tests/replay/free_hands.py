@@ -13,10 +13,8 @@ import shapely
 import trimesh
 
 from planner import Plan
-from planner.geometry.table import Table
-from planner.geometry.table_parts import table_parts
-from planner.motion.sample import Sample
-from planner.motion.timeline import Timeline
+from planner.geometry.table import Table, table_parts
+from planner.motion.timeline import Sample, Timeline
 from tests.replay.hands import CLOSED_M, seen
 from tests.replay.hulls import Body, bodies, robot
 

@@ -17,8 +17,7 @@ import numpy as np
 import trimesh
 import yourdfpy
 
-from planner.geometry.table import Table
-from planner.geometry.table_parts import table_parts
+from planner.geometry.table import Table, table_parts
 
 SHARE = "cmeel.prefix/share"
 URDF = f"{SHARE}/example-robot-data/robots/pr2_description/urdf/pr2.urdf"

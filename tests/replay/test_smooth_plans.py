@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from planner import Plan
-from planner.motion.motion_limits import MotionLimits
-from planner.motion.motion_values import accelerations_at, positions_at, velocities_at
+from planner.motion.motion_values import MotionLimits, accelerations_at, positions_at, velocities_at
 from planner.task.trajectory import ArmTrack, GripperTrack
 from tests.replay.planned import each_solvable, shipped_plan
 from tests.replay.smooth import require_smooth

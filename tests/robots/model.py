@@ -47,7 +47,14 @@ def pin_pose(frame: str, values: dict[str, float]) -> tuple[FloatArray, FloatArr
 
 def pin_tool_pose(card: RobotCard, arm: int, joints: FloatArray, torso_m: float) -> tuple[FloatArray, FloatArray]:
     """Return position and rotation of an arm's tool in base_footprint."""
+    return pin_arm_pose(card.arms[arm].tool_frame, card, arm, joints, torso_m)
+
+
+def pin_arm_pose(
+    frame: str, card: RobotCard, arm: int, joints: FloatArray, torso_m: float
+) -> tuple[FloatArray, FloatArray]:
+    """Return position and rotation of a frame of an arm in base_footprint."""
     names = card.arms[arm].joint_names
     assert card.lift_joint is not None
     values: dict[str, float] = {card.lift_joint: torso_m, **dict(zip(names, joints, strict=True))}
-    return pin_pose(card.arms[arm].tool_frame, values)
+    return pin_pose(frame, values)

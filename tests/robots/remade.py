@@ -14,14 +14,11 @@ import numpy as np
 
 from planner.deadline import Deadline
 from planner.geometry.pose import BoolArray, FloatArray, Point3, Pose2
-from planner.geometry.reach_query import ReachQuery
-from planner.geometry.shortfall import Shortfall
+from planner.geometry.reach_query import ReachQuery, Shortfall
 from planner.geometry.table import Table
 from planner.robots.arm_paths import Together, arm_paths, arm_searches
 from planner.robots.card import ArmCard, ParallelogramGripper, RobotCard
-from planner.robots.collision.clearance import Clearance
-from planner.robots.collision.collisions import Collisions
-from planner.robots.collision.contact import Contact
+from planner.robots.collision.collisions import Clearance, Collisions, Contact
 from planner.robots.joint_layout import JointLayout
 from planner.robots.pr2.mirrored_arm import MirroredArm
 from planner.robots.pr2.reach import Pr2Reach
@@ -103,7 +100,7 @@ class RemadeReach(Pr2Reach):
     @property
     def shoulders(self) -> tuple[Point3, ...]:
         plain = [MirroredArm(arm.shape, arm.is_mirrored) for arm in self._arms]
-        found = [arm.mirrored_places(arm.shoulder(self._torso_m)) for arm in plain]
+        found = [arm.mirrored_places(arm.shoulder(self.torso_m)) for arm in plain]
         return tuple(
             (float(x), float(y) + arm.aside_m, float(z)) for arm, (x, y, z) in zip(self._arms, found, strict=True)
         )

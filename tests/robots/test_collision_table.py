@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from planner.geometry.pose import Pose2
-from planner.geometry.table import Table
-from planner.geometry.table_parts import table_parts
+from planner.geometry.table import Table, table_parts
 from planner.task.scene import DEFAULT_STATIONS, Scene
 from tests.replay import hulls
 from tests.robots.collision_samples import CARD, HOME, ROBOT, TORSO_M

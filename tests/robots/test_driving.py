@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 
 from planner.geometry.driving import IMPOSSIBLE, Driving
 from planner.geometry.reach_query import ReachQuery
-from planner.robots.pr2.approaches import APPROACHES
-from planner.robots.pr2.reach import Pr2Reach
+from planner.robots.pr2.reach import APPROACHES, Pr2Reach
 from tests.robots.model import the_pr2
 
 ROBOT = the_pr2()

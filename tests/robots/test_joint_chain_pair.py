@@ -6,8 +6,7 @@ import networkx as nx
 import numpy as np
 import pytest
 
-from planner.robots.joint_chain import cheapest_chain, link_costs
-from planner.robots.joint_chain_pair import cheapest_chain_pair
+from planner.robots.joint_chain import cheapest_chain, cheapest_chain_pair, link_costs
 
 POSES, SAMPLES = 6, 5
 SPEEDS = np.linspace(1.0, 2.0, 14).reshape(2, 7)

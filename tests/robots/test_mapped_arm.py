@@ -8,13 +8,12 @@ import numpy as np
 import pytest
 
 from planner.geometry.pose import FloatArray
-from planner.robots import posture_layers, reach_maps
+from planner.robots import reach_maps
 from planner.robots.chain import tool_poses
 from planner.robots.described_robot import DescribedArm, read_robot
 from planner.robots.mapped_arm import ALL_ROUND, MappedArm, heights, mapped_arm
-from planner.robots.posture_layers import covered_heights, covering
 from planner.robots.reach_map import ReachMap
-from planner.robots.reach_maps import Progress, grid_of, reach_map
+from planner.robots.reach_maps import Progress, covered_heights, covering, grid_of, reach_map
 from planner.user_cache import CACHES, Cache
 from tests.robots.model import pin_pose, the_pr2
 
@@ -67,16 +66,6 @@ def test_every_yes_has_joints_within_limits_that_take_the_pose(cache: Path, pose
         np.testing.assert_allclose(rotation[:, 0], poses[1][number][:, 0], atol=1e-4)
 
 
-def test_joints_nearby_lead_to_the_whole_pose(cache: Path, poses: Poses) -> None:
-    arm = mapped(cache)
-    found, joints = arm.joints(*poses, TORSO_M)
-    for row in joints[found][:40]:
-        points, rotations = arm.tool_poses(row[None], TORSO_M)
-        near = arm.joints_near(points[0], rotations[0], row, TORSO_M)
-        assert near is not None
-        np.testing.assert_allclose(near, row, atol=1e-4)
-
-
 def test_a_map_is_built_once_and_then_read_and_one_that_was_not_used_lately_is_dropped(
     tmp_path: Path, poses: Poses, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -116,7 +105,7 @@ def test_what_is_asked_above_or_below_a_map_is_looked_for_in_layers_of_it(
     cache: Path, poses: Poses, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(reach_maps, "cache_folder", lambda: cache)
-    monkeypatch.setattr(posture_layers, "LAYER_CELLS", posture_layers.LAYER_CELLS // 3)
+    monkeypatch.setattr(reach_maps, "LAYER_CELLS", reach_maps.LAYER_CELLS // 3)
     arm, reference = mapped(cache), the_pr2()
     before = arm.can_reach(*poses, TORSO_M)
     low_m, high_m = covered_heights(arm.known.grid)
@@ -140,7 +129,7 @@ def unknown(arm: DescribedArm, heights_m: tuple[float, float]) -> ReachMap:
 
 
 def test_no_layer_is_built_below_the_floor_or_beyond_the_arms_length(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("planner.robots.posture_layers.kept_map", lambda *_: pytest.fail("a layer was built"))
+    monkeypatch.setattr("planner.robots.reach_maps.kept_map", lambda *_: pytest.fail("a layer was built"))
     described = read_robot("pr2").arms[0]
     floor_m = -float(described.root[2]) - TORSO_M
     to_floor, everywhere = unknown(described, (floor_m, 0.2)), unknown(described, (-9.0, 9.0))

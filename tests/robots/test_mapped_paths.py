@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from planner.geometry.pose import Approach, BoolArray, FloatArray
 from planner.robots.arm_path import ArmSearch
 from planner.robots.arm_paths import arm_paths
-from planner.robots.chain import WHOLE, tool_poses
+from planner.robots.chain import PITCH, WHOLE, tool_poses
 from planner.robots.described_robot import read_robot
 from planner.robots.mapped_arm import ALL_ROUND, MappedArm
 from planner.robots.newton import solve_from
@@ -67,7 +67,7 @@ class Bench:
         for at, position, rotation in zip(joints, path.positions, path.rotations, strict=True):
             place, axes = self.pin_pose(at)
             np.testing.assert_allclose(place, position, atol=1e-4)
-            if self.arm.asks_pitch_only:
+            if self.arm.chain.rows == PITCH:
                 assert axes[2, 0] == pytest.approx(rotation[2, 0], abs=1e-4)
             else:
                 np.testing.assert_allclose(axes, rotation @ HALF_TURN if is_over else rotation, atol=1e-4)

@@ -7,8 +7,8 @@ import numpy as np
 from planner.geometry.pose import Approach, BoolArray
 from planner.geometry.reach_query import ReachQuery
 from planner.geometry.table import Table
-from planner.robots.pr2.approaches import APPROACHES
-from planner.robots.pr2.place_memory import empty_memory, learn, place_key, slot_of
+from planner.robots.pr2.posture_room import empty_memory, learn, place_key, slot_of
+from planner.robots.pr2.reach import APPROACHES
 from tests.robots.collision_samples import FAR, HOME
 from tests.robots.model import the_pr2
 

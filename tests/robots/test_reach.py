@@ -10,10 +10,9 @@ from planner.geometry.pose import Approach, FloatArray
 from planner.geometry.reach_query import ReachQuery
 from planner.robots import comfort, comfort_memories
 from planner.robots.comfort_memories import Memories
-from planner.robots.pr2.approaches import APPROACHES
 from planner.robots.pr2.arm import read_arm
 from planner.robots.pr2.mirrored_arm import MirroredArm
-from planner.robots.pr2.reach import Pr2Reach
+from planner.robots.pr2.reach import APPROACHES, Pr2Reach
 from tests.robots.model import MODEL, limits, pin_tool_pose, random_joints, the_pr2
 
 ROBOT = the_pr2()

@@ -9,9 +9,8 @@ from planner.geometry.pose import Approach, FloatArray
 from planner.robots.chain import tool_poses
 from planner.robots.described_robot import read_robot
 from planner.robots.mapped_arm import ALL_ROUND, MappedArm
-from planner.robots.posture_samples import posture_samples
+from planner.robots.posture_samples import gives_roll_alone, posture_samples, unrolled
 from planner.robots.reach_maps import reach_map
-from planner.robots.rolled_samples import gives_roll_alone, unrolled
 
 FLOOR_M = 0.75
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from planner.geometry.pose import FloatArray
-from planner.robots.sample_memory import SampleMemory
+from planner.robots.mapped_arm import SampleMemory
 
 JOINTS = 5
 

@@ -8,18 +8,16 @@ import pytest
 from numpy.typing import NDArray
 
 from planner.deadline import ENDLESS, Deadline
-from planner.geometry.reach_query import ReachQuery
-from planner.geometry.shortfall import Shortfall
+from planner.geometry.reach_query import ReachQuery, Shortfall
 from planner.robots.displacements import DIRECTIONS, FURTHEST_M
 from planner.robots.pr2 import reach as reach_module
 from planner.robots.pr2 import shortfall
 from planner.robots.pr2.aim import ToolPose
-from planner.robots.pr2.approaches import APPROACHES
 from planner.robots.pr2.arm import read_arm
 from planner.robots.pr2.joint_slack import slacks
-from planner.robots.pr2.limiting_joint import JOINT_NAMES, joint_slacks
 from planner.robots.pr2.mirrored_arm import MirroredArm
-from planner.robots.pr2.reach import Pr2Reach
+from planner.robots.pr2.reach import APPROACHES, Pr2Reach
+from planner.robots.pr2.shortfall import JOINT_NAMES, joint_slacks
 from tests.required import required
 from tests.robots.model import MODEL, the_pr2
 

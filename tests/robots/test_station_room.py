@@ -4,9 +4,9 @@ import pytest
 
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
+from planner.robots.card_doubts import StationInTable, stations_in_table
 from planner.robots.described_robot import read_robot
 from planner.robots.load_robot import load_robot
-from planner.robots.station_room import StationInTable, stations_in_table
 from planner.task.scene import DEFAULT_STATIONS, Scene
 
 

@@ -12,7 +12,6 @@ from hashlib import blake2b
 from json import dumps, loads
 from pathlib import Path
 from typing import Any
-from zipfile import BadZipFile
 
 import numpy as np
 
@@ -20,8 +19,8 @@ from app.ui import robot_mesh, robot_model
 from app.ui.robot_model import Link, Pose3, Visual, load_robot_model
 from planner.geometry.pose import FloatArray
 from planner.robots import mesh_file
-from planner.robots.collision.shape_files import write_arrays
-from planner.user_cache import cache_folder, use
+from planner.robots.kept_arrays import kept
+from planner.user_cache import cache_folder
 
 _POINTS = 400
 """Vertices of a part that are kept at most, besides those furthest out along each axis."""
@@ -41,16 +40,12 @@ def light_links(urdf_path: Path, package_dir: Path, directory: Path | None = Non
         directory: the cache directory; None: the platform's own.
     """
     path = (directory or cache_folder()) / "links" / f"{_digest(urdf_path, package_dir)}.npz"
-    try:
-        with path.open("rb") as file, np.load(file, allow_pickle=False) as arrays:
-            found = _read(arrays["links"].tobytes(), arrays["points"], arrays["counts"])
-    except (OSError, ValueError, KeyError, EOFError, BadZipFile):
-        found = tuple(_light(link) for link in load_robot_model(urdf_path, package_dir))
-        with contextlib.suppress(OSError):
-            write_arrays(path, _arrays(found))
-    with contextlib.suppress(OSError):
-        use(path)
-    return found
+    return kept(
+        path,
+        lambda arrays: _read(arrays["links"].tobytes(), arrays["points"], arrays["counts"]),
+        lambda: tuple(_light(link) for link in load_robot_model(urdf_path, package_dir)),
+        _arrays,
+    )
 
 
 def _light(link: Link) -> Link:

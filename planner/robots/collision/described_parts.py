@@ -1,31 +1,30 @@
 """The parts of a robot that a card and a URDF describe, made once and kept in the user's cache."""
 
-import contextlib
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from functools import cache, lru_cache
+from functools import cache, lru_cache, partial
 from hashlib import blake2b
 from json import dumps
 from pathlib import Path
 from typing import Any, NamedTuple
 from xml.etree.ElementTree import tostring
-from zipfile import BadZipFile
 
 import numpy as np
 from numpy.typing import NDArray
 
 from planner.errors import RobotError
 from planner.robots.collision import part_source
-from planner.robots.collision.arm_chains import ArmChains
+from planner.robots.collision.arm_kinematics import ArmChains
 from planner.robots.collision.pair_choice import Choice, choose
 from planner.robots.collision.part_poses import Index
 from planner.robots.collision.part_source import Part, make_parts, openings_m
 from planner.robots.collision.rigid_groups import BODY, Carrier
 from planner.robots.collision.robot_parts import RobotParts
-from planner.robots.collision.shape_files import Arrays, hull_arrays, hull_from, write_arrays
+from planner.robots.collision.rounded_hull import hull_arrays, hull_from
 from planner.robots.described_robot import DescribedRobot
+from planner.robots.kept_arrays import Arrays, kept
 from planner.robots.urdf_reader import parsed
-from planner.user_cache import cache_folder, use
+from planner.user_cache import cache_folder
 
 _FORMAT = 2
 """Version of the cache; raise it whenever parts or pairs are made or stored differently."""
@@ -70,15 +69,7 @@ def described_parts(robot: DescribedRobot, directory: Path | None = None) -> Rob
         RobotError: a mesh cannot be read or is too large, or no link has a shape.
     """
     path = (directory or cache_folder()) / "shapes" / f"{_digest(robot, _card(robot))}.npz"
-    try:
-        with path.open("rb") as file, np.load(file, allow_pickle=False) as arrays:
-            made = _read(robot, arrays)
-    except (OSError, ValueError, KeyError, EOFError, BadZipFile):
-        made = _make(robot)
-        with contextlib.suppress(OSError):
-            write_arrays(path, _arrays(made))
-    with contextlib.suppress(OSError):
-        use(path)
+    made = kept(path, partial(_read, robot), partial(_make, robot), _arrays)
     return _robot_parts(robot, made.parts, made.choice)
 
 

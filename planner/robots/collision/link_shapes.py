@@ -162,7 +162,6 @@ class _Meshes:
     """The meshes of one robot: each is read, and made into a shape, once, however many links have it."""
 
     def __init__(self) -> None:
-        """Begin with none."""
         self._read: dict[tuple[Path, tuple[float, ...]], tuple[FloatArray, NDArray[np.int64]]] = {}
         self._made: dict[tuple[Path, tuple[float, ...]], _Shape] = {}
         self._left = TRIANGLES_MAX

@@ -1,6 +1,5 @@
 """Group a robot's links that move as one: by the arm's joint that carries them, as its fingers, or with the body."""
 
-import math
 from dataclasses import dataclass
 from itertools import accumulate
 from operator import mul
@@ -9,12 +8,13 @@ import numpy as np
 import pinocchio as pin
 
 from planner.geometry.pose import FloatArray
-from planner.robots.card_parts import GripperFile, ParallelogramDrive
+from planner.robots.card_parts import GripperFile
 from planner.robots.chain import Chain
-from planner.robots.chain_reader import at_rest
+from planner.robots.chain_reader import at_rest, set_joint
 from planner.robots.collision.link_shapes import LinkShape
+from planner.robots.described_card import gripper_card
 from planner.robots.described_robot import DescribedArm, DescribedRobot
-from planner.robots.urdf_reader import parsed
+from planner.robots.urdf_reader import mimics_of, parsed
 
 BODY = -1
 """Stands for the arm of what belongs to no arm."""
@@ -55,7 +55,7 @@ class Skeleton:
         self._q = at_rest(self.model, dict(robot.card.resting), sorted(self._moving))
         self._data = self.model.createData()  # once: for a robot of a hundred joints it takes 24 ms
         self._places = self._at(self._q)
-        self._mimics = _mimics(robot.urdf)
+        self._mimics = mimics_of(parsed(robot.urdf.encode()).iterfind("joint"))
 
     def carrier(self, joint: int) -> Carrier:
         """Return what carries the links of a joint of pinocchio's model."""
@@ -84,7 +84,7 @@ class Skeleton:
             The points, and how far outside of their hull points between them may be (m).
         """
         gripper = self._arms[self.carrier(shape.joint).arm].card.gripper
-        low, high = (drive_value(gripper, at_m) for at_m in (0.0, opening_m))
+        low, high = (gripper_card(self.model, gripper).angle(at_m) for at_m in (0.0, opening_m))
         values = np.linspace(low, high, SWEEP if high != low else 1)
         ways = [_moved(self._driven(shape, gripper, value), shape.corners) for value in values]
         # A curve in small steps is off its chords by an eighth of its second differences.
@@ -94,15 +94,13 @@ class Skeleton:
     def placement_open(self, shape: LinkShape, opening_m: float) -> pin.SE3:
         """Return where a finger's shape is at an opening (m), in the frame of the joint that carries it."""
         gripper = self._arms[self.carrier(shape.joint).arm].card.gripper
-        return self._driven(shape, gripper, drive_value(gripper, opening_m)) * shape.placement
+        return self._driven(shape, gripper, gripper_card(self.model, gripper).angle(opening_m)) * shape.placement
 
     def _driven(self, shape: LinkShape, gripper: GripperFile, value: float) -> pin.SE3:
         """Return where a finger's joint is, in the frame of its carrier, at a value of the driving joint."""
         q = self._q.copy()
         for name, (factor, offset) in self._fingers(gripper).items():
-            joint = self.model.joints[self.model.getJointId(name)]
-            at = factor * value + offset
-            q[joint.idx_q : joint.idx_q + joint.nq] = [at] if joint.nq == 1 else [math.cos(at), math.sin(at)]
+            set_joint(self.model, q, name, factor * value + offset)
         return self._place(shape, self._at(q))
 
     def _place(self, shape: LinkShape, places: list[pin.SE3]) -> pin.SE3:
@@ -124,26 +122,6 @@ class Skeleton:
         return {
             name: how for name, how in found.items() if self.model.existJointName(name) and name not in self._moving
         }
-
-
-def drive_value(gripper: GripperFile, opening_m: float) -> float:
-    """Return the value of the driving joint at which the fingers are an opening apart (rad, m)."""
-    drive, share = gripper.drive, min(max(opening_m / gripper.opening_max_m, 0.0), 1.0)
-    if isinstance(drive, ParallelogramDrive):
-        length, half_m = math.hypot(drive.link_x_m, drive.link_y_m), 0.5 * share * gripper.opening_max_m
-        return math.asin((half_m + drive.link_y_m) / length) - math.asin(drive.link_y_m / length)
-    return drive.closed + share * (drive.opened - drive.closed)
-
-
-def _mimics(urdf: str) -> dict[str, tuple[str, float, float]]:
-    """Return the joints that mimic another: its name, the factor and the offset."""
-    found = {}
-    for joint in parsed(urdf.encode()).iterfind("joint"):
-        mimic = joint.find("mimic")
-        if mimic is not None:
-            factor, offset = (float(mimic.get(key, default)) for key, default in (("multiplier", "1"), ("offset", "0")))
-            found[joint.get("name", "")] = (mimic.get("joint", ""), factor, offset)
-    return found
 
 
 def _frames(arm: DescribedArm) -> tuple[pin.SE3, ...]:

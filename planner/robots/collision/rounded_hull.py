@@ -9,7 +9,7 @@ hulls are further apart than the sum of both radii.
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import product
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import coal
 import numpy as np
@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import GRID_M
+from planner.robots.kept_arrays import Arrays
 
 if TYPE_CHECKING:
     from scipy.spatial import ConvexHull
@@ -151,3 +152,17 @@ def _qhull(points: FloatArray) -> "ConvexHull":
     from scipy.spatial import ConvexHull  # slow to import, and needed only where shapes are made
 
     return ConvexHull(points)
+
+
+def hull_from(arrays: Arrays, name: str) -> RoundedHull:
+    """Return the hull of a name; raise one of several errors where it is missing or malformed."""
+    return RoundedHull(arrays[f"{name}/corners"], arrays[f"{name}/faces"], float(arrays[f"{name}/radius"]))
+
+
+def hull_arrays(name: str, hull: RoundedHull) -> dict[str, NDArray[Any]]:
+    """Return the arrays by which a hull is kept."""
+    return {
+        f"{name}/corners": hull.corners,
+        f"{name}/faces": hull.faces,
+        f"{name}/radius": np.array(hull.radius_m),
+    }

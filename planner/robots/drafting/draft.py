@@ -1,6 +1,5 @@
 """A robot's card drafted from its URDF: what a URDF says, what its shapes let guess, and what neither can tell."""
 
-import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import count
@@ -15,17 +14,18 @@ import pinocchio as pin
 from planner.errors import RobotError
 from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.table import Table
+from planner.robots.card_doubts import stations_in_table
 from planner.robots.card_file import VERSION, ArmFile, BaseFile, CardFile, SuitableScene
 from planner.robots.card_parts import GripperFile, LinearDrive, Mount, ToolFile, UrdfFile
 from planner.robots.card_robot import CardRobot
 from planner.robots.chain import length_of, tool_poses
+from planner.robots.chain_reader import set_joint
 from planner.robots.collision.link_shapes import link_shapes
 from planner.robots.collision.rigid_groups import BODY, Skeleton
 from planner.robots.described_robot import DescribedRobot
 from planner.robots.drafting.hands import Hand, hands_of
 from planner.robots.drafting.jaws import Jaws, read_jaws
 from planner.robots.soft_limits import limits_of
-from planner.robots.station_room import stations_in_table
 from planner.robots.tool_point import tool_points
 from planner.robots.urdf_reader import read_urdf
 from planner.robots.urdf_shapes import Source
@@ -333,10 +333,7 @@ class _Drafting:
         data, q = self._model.createData(), pin.neutral(self._model)
         for arm in card.arms:
             for name, value in zip(arm.joints, arm.home, strict=True):
-                joint = self._model.joints[self._model.getJointId(name)]
-                q[joint.idx_q : joint.idx_q + joint.nq] = (
-                    [value] if joint.nq == 1 else [math.cos(value), math.sin(value)]
-                )
+                set_joint(self._model, q, name, value)
         pin.computeJointJacobians(self._model, data, q)
 
         def lifts(name: str) -> bool:

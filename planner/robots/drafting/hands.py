@@ -10,6 +10,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from xml.etree.ElementTree import Element
 
+from planner.robots.urdf_reader import mimics_of
+
 _FINGER = re.compile(r"finger|thumb|jaw|claw|knuckle|gripper|(?<![a-z])(index|middle|ring|little|pinky)(?![a-z])")
 _CERTAIN = re.compile(r"finger|thumb|jaw|claw|knuckle")
 _MOVING = ("revolute", "continuous", "prismatic")
@@ -68,7 +70,7 @@ class _Tree:
             while inner is not None and self._kinds[inner] not in _MOVING:
                 inner = by_child.get(_end(joints[inner], "parent"))
             self.carrier[name] = inner
-        mimics = {name: mimic.get("joint", "") for name in joints if (mimic := joints[name].find("mimic")) is not None}
+        mimics = {name: driver for name, (driver, _, __) in mimics_of(joints.values()).items()}
         self._coupled = {*mimics, *mimics.values()}
         self._carried: dict[str | None, list[str]] = {}
         for name, carrier in self.carrier.items():

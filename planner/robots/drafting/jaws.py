@@ -14,6 +14,7 @@ from planner.geometry.pose import FloatArray
 from planner.robots.collision.link_shapes import LinkShape, link_shapes
 from planner.robots.drafting.hands import Hand
 from planner.robots.soft_limits import limits_of
+from planner.robots.urdf_reader import mimics_of
 
 _TIP_M = 0.02
 """Length of the fingertips that meet (m)."""
@@ -138,12 +139,7 @@ class _Look:
                 "urdf", f"the fingers at {hand.arm[-1]!r} have no shapes, so where they meet cannot be seen"
             )
         self._fingers = [[numbers[name] for name in finger] for finger in fingers]
-        self._mimics = {
-            name: (mimic.get("joint", ""), float(mimic.get("multiplier", "1")), float(mimic.get("offset", "0")))
-            for finger in fingers
-            for name in finger
-            if (mimic := joints[name].find("mimic")) is not None
-        }
+        self._mimics = mimics_of(joints[name] for finger in fingers for name in finger)
         driven = (self._mimics[name][0] if name in self._mimics else name for finger in fingers for name in finger)
         self.drivers = tuple(dict.fromkeys(driven))
         self._limits = {name: limits_of(joints[name]) for name in self.drivers}

@@ -97,11 +97,6 @@ class MirroredArm:
             joints[:, joint] = np.unwrap(joints[:, joint])
         return self.mirrored_joints(joints)
 
-    def elbow_height(self, joints: FloatArray, torso_m: float) -> float:
-        """Return how high the elbow is above the floor (m)."""
-        _, lift, *_ = self.mirrored_joints(joints)
-        return float(self.shoulder(torso_m)[2] - self.shape.upper * np.sin(lift))
-
     def mirrored_joints(self, joints: FloatArray) -> FloatArray:
         """Return joints, shape (..., 7), as the left arm's, and back; a new array."""
         return np.array(joints * MIRROR if self.is_mirrored else joints, dtype=float, order="C")

@@ -13,14 +13,12 @@ from numpy.typing import NDArray
 
 from planner.deadline import ENDLESS, Deadline
 from planner.geometry.driving import STANDOFF_STEP_M
-from planner.geometry.pose import FloatArray
-from planner.geometry.reach_query import ReachQuery
-from planner.geometry.shortfall import Shortfall
+from planner.geometry.pose import Approach, FloatArray
+from planner.geometry.reach_query import ReachQuery, Shortfall
 from planner.geometry.tolerance import LENGTH_M, grid_keys
 from planner.robots.comfort_memories import Memories
-from planner.robots.comfort_reach import ComfortReach
+from planner.robots.comfort_reach import ComfortReach, QueriedArms
 from planner.robots.displacements import DIRECTIONS, FURTHEST_M
-from planner.robots.pr2.approaches import APPROACHES, mirror_images
 from planner.robots.pr2.arm import numbers_of
 from planner.robots.pr2.arm_gap import least_gaps
 from planner.robots.pr2.closed_comfort import ClosedArm, no_hints
@@ -30,7 +28,22 @@ from planner.robots.pr2.nearest_comfort import PIECE_QUERIES
 from planner.robots.pr2.posture_room import Room, no_walls
 from planner.robots.pr2.requirements import Requirements
 from planner.robots.pr2.shortfall import left_shortfall
-from planner.robots.queried_arms import QueriedArms
+
+_PITCHES_DEG = (15, 30, 45, 60)
+_HEADINGS_DEG = range(-90, 91, 15)
+
+APPROACHES = (
+    *(Approach(math.radians(heading), math.radians(pitch)) for pitch in _PITCHES_DEG for heading in _HEADINGS_DEG),
+    Approach(0.0, math.pi / 2),
+)
+"""Directions from which a gripper may pinch: a fan at four pitches, and straight down."""
+
+
+def mirror_images() -> NDArray[np.int64]:
+    """Return for each approach the index of its mirror image, shape (len(APPROACHES),)."""
+    fan = len(_HEADINGS_DEG)
+    inner = [index - index % fan + fan - 1 - index % fan for index in range(len(APPROACHES) - 1)]
+    return np.array([*inner, len(APPROACHES) - 1], dtype=np.int64)
 
 
 class Pr2Reach(ComfortReach):
@@ -71,9 +84,9 @@ class Pr2Reach(ComfortReach):
     def at_least_short(self, ways: ReachQuery) -> FloatArray:
         """Return a lower bound in closed form on each way's shortfall (see `Reach`)."""
         mirrored = self._arms[ways.arm]
-        places = mirrored.mirrored_places(ways.points) - mirrored.shoulder(self._torso_m)
+        places = mirrored.mirrored_places(ways.points) - mirrored.shoulder(self.torso_m)
         axes = self._arm.axes[self._as_left_arm_sees(ways)]
-        return np.asarray(least_gaps(mirrored.shape, places, axes, ways.count, STANDOFF_STEP_M, self._comfort_m))
+        return np.asarray(least_gaps(mirrored.shape, places, axes, ways.count, STANDOFF_STEP_M, self.comfort_m))
 
     def _least_shortfall(self, place: ReachQuery, at_most_m: float, deadline: Deadline) -> tuple[Shortfall, int]:
         mirrored, query = self._arms[place.arm], self._required(place)
@@ -111,12 +124,12 @@ class Pr2Reach(ComfortReach):
     def _required(self, places: ReachQuery) -> Requirements:
         """Return the requirements on places to be reached in one of some approaches, as the left arm sees them."""
         seen = self._as_left_arm_sees(places)
-        return Requirements(self._arm.axes[seen], seen + 1, self._comfort_m, self._arm.room)
+        return Requirements(self._arm.axes[seen], seen + 1, self.comfort_m, self._arm.room)
 
     def _from_shoulder(self, mirrored: MirroredArm, points: FloatArray) -> FloatArray:
         """Return points on the grid, as seen from the left arm's shoulder (m)."""
         on_grid = LENGTH_M * grid_keys(mirrored.mirrored_places(points))
-        return np.asarray(on_grid - mirrored.shoulder(self._torso_m))
+        return np.asarray(on_grid - mirrored.shoulder(self.torso_m))
 
     def _as_left_arm_sees(self, query: ReachQuery) -> NDArray[np.int64]:
         return np.asarray(self._labels[query.arm][query.approaches] - 1)

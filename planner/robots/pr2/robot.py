@@ -1,24 +1,34 @@
 """The PR2, with its card, its reach and its joints."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
+import pinocchio as pin
 
 from planner.geometry.pose import BoolArray, FloatArray
-from planner.geometry.table import Table
 from planner.robots.armed_robot import ArmedRobot
-from planner.robots.collision.collisions import Collisions
+from planner.robots.card import RobotCard
 from planner.robots.collision.robot_parts import RobotParts
+from planner.robots.described_card import card_on
+from planner.robots.described_robot import lift_limits
 from planner.robots.edge_grip import HandShape
-from planner.robots.openings import OPENING_M
+from planner.robots.known_robots import read_card, shipped_path
 from planner.robots.pr2.arm import MIRROR, read_arm
-from planner.robots.pr2.card import pr2_card
 from planner.robots.pr2.collision_parts import pr2_parts
-from planner.robots.pr2.description import read_model
+from planner.robots.pr2.description import package_directory, read_model, urdf_path
 from planner.robots.pr2.mirrored_arm import MirroredArm
 from planner.robots.pr2.posture_room import Room, room_beside
 from planner.robots.pr2.reach import Pr2Reach
+
+
+def pr2_card(model: pin.Model) -> RobotCard:
+    """Return the card of a PR2, with numbers from its kinematic tree."""
+    described = read_card(shipped_path("pr2"))
+    card = card_on(described, model, lift_limits(model, described), urdf_path(), package_directory())
+    left, right = card.arms
+    return replace(card, arms=(left, replace(right, is_mirrored=True)), eye_frame="head_plate_frame")
 
 
 def _mirrored(joints: FloatArray) -> FloatArray:
@@ -56,14 +66,9 @@ class Pr2(ArmedRobot):
         minds_body: bool = True,
         minds_arms: bool = False,
     ) -> Pr2Reach:
-        """Return the reach with the torso raised by `torso_m`, for a comfort radius (m); see `RobotPort.reach`.
-
-        Raises:
-            SceneError: the torso does not go there.
-            RequestError: the radius is negative or no number.
-        """
+        """Return the reach with the torso raised, for a comfort radius (m); see `ArmedRobot.reach`."""
         memories = None if is_passing else self._memories_of(torso_m, comfort_m, minds_arms=minds_arms)
-        names = tuple(arm.name for arm in self._card.arms)
+        names = tuple(arm.name for arm in self.card.arms)
         room = self._room(float(torso_m), minds_arms) if minds_body else None
         return Pr2Reach(names, self._arms, float(torso_m), float(comfort_m), room, memories)
 
@@ -76,19 +81,6 @@ class Pr2(ArmedRobot):
             self._rooms = {**others, key: room_beside(self._arms[0].shape, self._parts, torso_m, home)}
         return self._rooms[key]
 
-    def collisions(
-        self, table: Table, torso_m: float, opening_m: float = OPENING_M, margin_m: float = 0.0
-    ) -> Collisions:
-        """Return the collision checks at a table, with the torso raised (1 ms).
-
-        Args:
-            table: the table.
-            torso_m: how far the torso is raised (m).
-            opening_m: the largest opening of the fingers, which may be anywhere from closed to it (m).
-            margin_m: the distance below which parts count as colliding (m).
-        """
-        return Collisions(self._parts, table, torso_m, opening_m, margin_m)
-
     def _hand_shape(self, arm: int) -> HandShape:
         """Return an arm's hand; shapes of both are those of the left one."""
         return HandShape.of(self._parts, arm, np.array([self._arms[arm].shape.tool, 0.0, 0.0]), np.eye(3))
@@ -96,7 +88,7 @@ class Pr2(ArmedRobot):
     @cached_property
     def _parts(self) -> RobotParts:
         """The parts that may collide; 15 ms the first time, a second where the cache of shapes is empty."""
-        return pr2_parts(self._model, self._card)
+        return pr2_parts(self._model, self.card)
 
     def can_reach(self, arm: int, positions: FloatArray, rotations: FloatArray, torso_m: float) -> BoolArray:
         """Return which tool poses an arm can take with every joint within its limits, shape (n,).
@@ -129,7 +121,3 @@ class Pr2(ArmedRobot):
             where the pose is out of reach.
         """
         return self._arms[arm].joints_near(position, rotation, float(torso_m), near)
-
-    def elbow_height(self, arm: int, joints: FloatArray, torso_m: float) -> float:
-        """Return how high an arm's elbow is above the floor (m) at seven joint angles."""
-        return self._arms[arm].elbow_height(joints, float(torso_m))

@@ -13,8 +13,7 @@ import pytest
 from app.files.folder_file import unpack
 from app.files.lerobot_dataset import FPS, lerobot_folder
 from planner import Plan, make_plan
-from planner.motion.motion_limits import MotionLimits
-from planner.motion.motion_values import positions_at
+from planner.motion.motion_values import MotionLimits, positions_at
 from planner.robots.load_robot import load_robot
 from tests.builders import fold, garment
 from tests.required import required

@@ -13,10 +13,10 @@ from app.rehearsal.watch import FOLDED_OVERLAP, Watch
 from app.rehearsal.world import WITHDRAW, Observation, Performed, StepMotion, Truth
 from planner import Plan
 from planner.geometry.pose import FloatArray
-from planner.geometry.ring import evenly_along
 from planner.geometry.woven_mesh import woven_mesh
 from tests.app.rehearsal.flat_cloth import FlatCloth, home, no_plan
 from tests.app.rehearsal.towel import towel_plan
+from tests.builders import evenly_along
 from tests.replay.planned import shipped_plan
 
 

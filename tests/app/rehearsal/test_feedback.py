@@ -19,11 +19,11 @@ from planner import Plan, Task, make_plan
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.region import Region
-from planner.geometry.ring import evenly_along
 from planner.robots.load_robot import load_robot, robot_card_file
 from planner.task.task import TIME_LIMIT_S
 from tests.app.rehearsal.flat_cloth import home
 from tests.app.rehearsal.towel import towel_plan
+from tests.builders import evenly_along
 from tests.replay.planned import shipped_plan
 
 

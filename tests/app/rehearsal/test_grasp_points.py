@@ -17,9 +17,9 @@ from app.rehearsal.world import StepMotion
 from planner import Plan
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Point2
-from planner.geometry.ring import evenly_along
 from planner.task.grip import Holding
-from planner.task.plan_step import PlanStep
+from planner.task.plan import PlanStep
+from tests.builders import evenly_along
 from tests.replay.planned import shipped_plan
 
 

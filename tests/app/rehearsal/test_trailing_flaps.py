@@ -21,7 +21,7 @@ from planner.geometry.segment import Segment
 from planner.geometry.table import Table
 from planner.geometry.table_top import TableTop
 from planner.task.grip import Holding
-from planner.task.plan_step import PlanStep
+from planner.task.plan import PlanStep
 from planner.task.world_state import WorldState
 from tests.app.rehearsal.towel import towel_plan
 from tests.builders import fold, garment, rectangle_points

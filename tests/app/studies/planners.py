@@ -6,8 +6,7 @@ import time
 from dataclasses import replace
 from pathlib import Path
 
-from planner.task.plan import Plan
-from planner.task.statistics import Statistics
+from planner.task.plan import Plan, Statistics
 from planner.task.task import Task
 
 
