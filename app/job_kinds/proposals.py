@@ -91,7 +91,7 @@ class ProposalsTask(NamedTuple):
     """What proposals are asked for: the garment, how many, and what begins to look for them as they are taken."""
 
     garment: Garment
-    count: int
+    most: int
     begin: Callable[[], Generator[Proposal, None, Tried]]
 
 
@@ -137,7 +137,7 @@ def propose(asked: ProposalsTask, progress: Progress) -> dict[str, Any]:
             return
         body = told[proposal.garment.folds] = {**proposal.to_dict(), "plan_id": uuid.uuid4().hex}
         progress(
-            len(told) / asked.count,
+            len(told) / asked.most,
             f"{len(told)} found",
             Found(body, (proposal.plan.task, PackedPlan.of(proposal.plan))),
         )
