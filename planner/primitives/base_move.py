@@ -16,7 +16,7 @@ from planner.geometry.pose import Approach, Point2, wrapped_angle
 from planner.geometry.table_top import TableTop
 from planner.primitives.context import Context
 from planner.primitives.primitive import Deferred, DeferredSteps, HeldTools
-from planner.primitives.route import Route, clear_of_table, place_of, route_along, shortest_way
+from planner.primitives.route import Route, place_of, route_round
 from planner.primitives.state import State
 from planner.task.grip import Grip, Holding
 from planner.task.phase import ClothMotion, Hand, Phase
@@ -133,7 +133,6 @@ class BaseMove:
 
     def __init__(self, context: Context) -> None:
         self._context = context
-        self._routes: dict[tuple[int, int, int], Route] = {}
 
     def successors(self, state: State) -> Iterable[MoveStep]:
         """Return one step for each other station."""
@@ -162,13 +161,6 @@ class BaseMove:
         return (MoveStep(self._context, self._route(state, station), state, after),)
 
     def _route(self, state: State, station: int) -> Route:
-        key = (state.station, state.standoff, station)
-        if key not in self._routes:
-            context = self._context
-            start = context.base_pose(state.station, state.standoff)
-            out = clear_of_table(start, context.scene.table, context.circle_m)
-            goal = context.station_pose(station)
-            outside = clear_of_table(goal, context.scene.table, context.circle_m)
-            bends = shortest_way(place_of(out), place_of(outside), context.scene.table, context.circle_m)
-            self._routes[key] = route_along(start, out, bends, outside, goal)
-        return self._routes[key]
+        context = self._context
+        start, goal = context.base_pose(state.station, state.standoff), context.station_pose(station)
+        return route_round(start, goal, context.scene.table, context.circle_m)

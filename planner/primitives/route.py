@@ -9,6 +9,7 @@ import itertools
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import lru_cache
 
 import networkx as nx
 
@@ -16,6 +17,9 @@ from planner.geometry.pose import Point2, Pose2, wrapped_angle
 from planner.geometry.table import Table
 from planner.geometry.tolerance import LENGTH_M
 from planner.primitives.drive_time import DriveTime
+
+_ROUTES_KEPT = 4096
+"""Routes that are remembered, some 1 kB each: all plans at a table drive between the same places."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,6 +41,13 @@ class Route:
             + time.turning_s(abs(wrapped_angle(b.yaw_rad - a.yaw_rad)))
             for a, b in legs
         )
+
+
+@lru_cache(_ROUTES_KEPT)
+def route_round(start: Pose2, goal: Pose2, table: Table, circle_m: float) -> Route:
+    """Return the route of a base from one pose to another, its circle clear of the table between the two."""
+    out, outside = clear_of_table(start, table, circle_m), clear_of_table(goal, table, circle_m)
+    return route_along(start, out, shortest_way(place_of(out), place_of(outside), table, circle_m), outside, goal)
 
 
 def clear_of_table(pose: Pose2, table: Table, circle_m: float) -> Pose2:
