@@ -56,35 +56,29 @@ class Comparison:
         }
 
 
-def compared(
-    garment: Garment, robots: Sequence[str], limits: Limits | None = None, should_stop: Callable[[], bool] | None = None
-) -> Iterator[Comparison]:
+def compared(garment: Garment, robots: Sequence[str], limits: Limits) -> Iterator[Comparison]:
     """Plan a garment for each robot, at the table and the place that suit it.
 
     Args:
         garment: the garment.
         robots: the robots, by name or by the path of a card.
         limits: the limits of each plan; as much time again may go into the margin, or into a change that helps.
-        should_stop: polled while planning; once it returns true, nothing more comes.
 
     Raises:
         FoldError: a fold is not legal.
         RequestError: there is no such robot.
     """
-    within = limits or Limits()
-    tasks = [replace(task_for(garment, robot=robot), limits=within) for robot in robots]
+    tasks = [replace(task_for(garment, robot=robot), limits=limits) for robot in robots]
     for robot, task in zip(robots, tasks, strict=True):
-        if should_stop is not None and should_stop():
-            return
-        plan = make_plan(task, should_stop=should_stop)
-        margin_m = _margin_m(task, should_stop) if plan.is_solved else None
-        change = None if plan.is_solved else next(suggestions(task, plan=plan, should_stop=should_stop), None)
+        plan = make_plan(task)
+        margin_m = _margin_m(task) if plan.is_solved else None
+        change = None if plan.is_solved else next(suggestions(task, plan=plan), None)
         yield Comparison(robot, plan, margin_m, change)
 
 
-def _margin_m(task: Task, should_stop: Callable[[], bool] | None) -> float:
+def _margin_m(task: Task) -> float:
     share = replace(task.limits, time_limit_s=max(task.limits.time_limit_s / STEPS, 0.01))
-    return comfort_margin_m(replace(task, limits=share), lambda tried: make_plan(tried, should_stop=should_stop))
+    return comfort_margin_m(replace(task, limits=share), make_plan)
 
 
 def comfort_margin_m(task: Task, make_plan: Callable[[Task], Plan]) -> float:

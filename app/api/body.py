@@ -49,17 +49,17 @@ class JsonBody(Generic[Body]):
         return TypeAdapter(self._kind).json_schema()
 
 
-async def read_object(request: Request, *, may_be_empty: bool = False, most: int = LARGEST_BODY) -> dict[str, Any]:
+async def read_object(request: Request, *, most: int) -> dict[str, Any]:
     """Return the body as a JSON object.
 
     Raises:
-        TooLargeError: the body is larger than allowed, by default `LARGEST_BODY` bytes.
+        TooLargeError: the body has more bytes than allowed.
         RequestError: the content type is not JSON, or the body is no JSON or no object.
     """
-    return _object(request, await read_bytes(request, most), may_be_empty=may_be_empty)
+    return _object(request, await read_bytes(request, most))
 
 
-def _object(request: Request, body: bytes, *, may_be_empty: bool) -> dict[str, Any]:
+def _object(request: Request, body: bytes, *, may_be_empty: bool = False) -> dict[str, Any]:
     if may_be_empty and not body:
         return {}
     _require_json_type(request.headers.get("content-type"))

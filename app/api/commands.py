@@ -3,29 +3,7 @@
 from dataclasses import replace
 from typing import TypeAlias
 
-from app.api.document_messages import (
-    Choose,
-    Command,
-    EditRequest,
-    GarmentRequest,
-    LookLonger,
-    Pause,
-    PlanAgain,
-    PlanFrom,
-    PlanFromState,
-    Play,
-    Preview,
-    Redo,
-    RobotRequest,
-    Seek,
-    SetEffort,
-    SetLanguage,
-    SetSpeed,
-    SetTheme,
-    ShowTrace,
-    Stop,
-    Undo,
-)
+from app.api import document_messages as messages
 from app.api.problems import LookOnlyError
 from app.api.request_parsing import requested_garment, requested_start
 from app.document import Document, Played
@@ -44,7 +22,14 @@ from planner.errors import FieldError, RequestError
 from planner.robots.known_robots import require_name
 from planner.robots.load_robot import robot_card_file
 
-Wanted: TypeAlias = Command | EditRequest | GarmentRequest | RobotRequest | Undo | Redo
+Wanted: TypeAlias = (
+    messages.Command
+    | messages.EditRequest
+    | messages.GarmentRequest
+    | messages.RobotRequest
+    | messages.Undo
+    | messages.Redo
+)
 
 
 def dispatch(wanted: Wanted, workspace: Workspace, document: Document) -> DocumentState:
@@ -57,40 +42,40 @@ def dispatch(wanted: Wanted, workspace: Workspace, document: Document) -> Docume
     if _play(wanted, document):
         return document.state
     match wanted:
-        case EditRequest():
+        case messages.EditRequest():
             return document.edit(_edit(wanted, document.state.drawing))
-        case GarmentRequest():
+        case messages.GarmentRequest():
             garment = requested_garment(workspace, wanted.garment)
             return put_garment(document, garment, wanted.label, wanted.base_version, has_arcs=wanted.arcs)
-        case RobotRequest():
+        case messages.RobotRequest():
             return put_robot(document, wanted.robot, wanted.label, wanted.base_version)
-        case Undo():
+        case messages.Undo():
             return document.undo(wanted.base_version)
-        case Redo():
+        case messages.Redo():
             return document.redo(wanted.base_version)
-        case SetTheme(dark=is_dark):
+        case messages.SetTheme(dark=is_dark):
             document.set_theme(is_dark=is_dark)
-        case SetLanguage(language=language):
+        case messages.SetLanguage(language=language):
             document.set_language(language)
-        case SetEffort(work_s=work_s):
+        case messages.SetEffort(work_s=work_s):
             document.set_effort(work_s)
-        case Choose(garment=name):
+        case messages.Choose(garment=name):
             put_garment(document, workspace.garments.garment(name))
-        case PlanAgain():
+        case messages.PlanAgain():
             document.plan_again()
-        case LookLonger():
+        case messages.LookLonger():
             document.look_longer()
-        case PlanFrom(step=None):
+        case messages.PlanFrom(step=None):
             document.plan_from(lambda _: None)
-        case PlanFrom(step=int(step)):
+        case messages.PlanFrom(step=int(step)):
             document.plan_from(lambda state: state.start_after(step))
-        case PlanFromState(start=start):
+        case messages.PlanFromState(start=start):
             document.plan_from(lambda state: state.start_in(lambda task: requested_start(task, start)))
-        case Stop():
+        case messages.Stop():
             document.stop_planning()
-        case Preview(plan=plan_id):
+        case messages.Preview(plan=plan_id):
             document.preview(None if plan_id is None else workspace.plans.plan(plan_id))
-        case ShowTrace(trace=trace_id):
+        case messages.ShowTrace(trace=trace_id):
             content = None if trace_id is None else workspace.traces.content(trace_id)
             document.show_trace(None if content is None else RunTrace.unpacked(content))
     return document.state
@@ -105,13 +90,13 @@ def play(wanted: Wanted, visitors: VisitorsView) -> None:
 def _play(wanted: Wanted, played: Played) -> bool:
     """Carry out a command if it is one of playback; return whether it is."""
     match wanted:
-        case Play():
+        case messages.Play():
             played.play()
-        case Pause():
+        case messages.Pause():
             played.pause()
-        case Seek(t_s=t_s):
+        case messages.Seek(t_s=t_s):
             played.seek(t_s)
-        case SetSpeed(speed=speed):
+        case messages.SetSpeed(speed=speed):
             played.set_speed(speed)
         case _:
             return False
@@ -159,7 +144,7 @@ def put_robot(
     return state
 
 
-def _edit(wanted: EditRequest, now: Drawing) -> Edit:
+def _edit(wanted: messages.EditRequest, now: Drawing) -> Edit:
     phase = Phase(wanted.phase)
     if wanted.drawing is None and phase is not Phase.CANCEL:
         raise RequestError("drawing", "is missing")

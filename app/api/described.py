@@ -31,6 +31,11 @@ def problems(*statuses: int) -> dict[int | str, dict[str, Any]]:
     return {status: {"description": "A problem (RFC 9457)", "content": content} for status in statuses}
 
 
+def answering(model: Any, *statuses: int, status: int = 200) -> dict[int | str, dict[str, Any]]:  # noqa: ANN401
+    """Return the descriptions of a route's answer, and of the errors that it may answer with."""
+    return {status: {"model": model}, **problems(*statuses)}
+
+
 class DescribedRoute(APIRoute):
     """A route whose description includes the body that its dependency reads."""
 

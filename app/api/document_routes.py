@@ -12,7 +12,7 @@ from starlette.responses import JSONResponse
 from app.api.asker import workspace_of
 from app.api.body import JsonBody
 from app.api.commands import Wanted, dispatch, play
-from app.api.described import DescribedRoute, problems
+from app.api.described import DescribedRoute, answering, problems
 from app.api.disconnect import answer_of
 from app.api.document_answers import (
     CreaseAnswer,
@@ -107,7 +107,7 @@ async def list_documents(
     return page.entries
 
 
-@router.post("", status_code=201, responses={201: {"model": DocumentAnswer}, **problems(403, 404, 413, 422, 429, 507)})
+@router.post("", status_code=201, responses=answering(DocumentAnswer, 403, 404, 413, 422, 429, 507, status=201))
 async def create_document(request: Request, wanted: NewDocumentBody) -> JSONResponse:
     """Create a document; its address is in `Location`."""
     opened = await run_in_threadpool(_created, workspace_of(request), wanted)
@@ -116,7 +116,7 @@ async def create_document(request: Request, wanted: NewDocumentBody) -> JSONResp
     return JSONResponse(message, status_code=201, headers={"location": location})
 
 
-@router.get("/{document_id}", responses={200: {"model": DocumentAnswer}, **problems(403, 404, 409, 422, 429)})
+@router.get("/{document_id}", responses=answering(DocumentAnswer, 403, 404, 409, 422, 429))
 async def read_document(request: Request, document_id: str) -> JSONResponse:
     """Return the drawing of a document, its solution and its problems."""
     opened = await _opened(request, document_id)
@@ -160,9 +160,7 @@ async def redo(request: Request, document_id: str, wanted: TravelRequestBody) ->
     return await _changed(request, document_id, Redo(do="redo", base_version=wanted.base_version))
 
 
-@router.post(
-    "/{document_id}/playback", responses={200: {"model": PlaybackAnswer}, **problems(403, 404, 409, 413, 422, 429)}
-)
+@router.post("/{document_id}/playback", responses=answering(PlaybackAnswer, 403, 404, 409, 413, 422, 429))
 async def post_playback(request: Request, document_id: str, command: CommandBody) -> JSONResponse:
     """Carry out a command as on the websocket: play, pause, seek, speed, theme, choose."""
     opened = await _opened(request, document_id)
@@ -173,40 +171,32 @@ async def post_playback(request: Request, document_id: str, command: CommandBody
     return JSONResponse(playback_message(opened.document.state, opened.document.t_s))
 
 
-@router.post(
-    "/{document_id}/crease", responses={200: {"model": CreaseAnswer}, **problems(403, 404, 409, 413, 422, 429, 503)}
-)
+@router.post("/{document_id}/crease", responses=answering(CreaseAnswer, 403, 404, 409, 413, 422, 429, 503))
 async def post_crease(request: Request, document_id: str, wanted: CreaseRequestBody) -> JSONResponse:
     """Return the fold that takes a point of the cloth to another place, or that runs along a line."""
     return await _answered(request, document_id, wanted)
 
 
-@router.get("/{document_id}/steps", responses={200: {"model": StepsAnswer}, **problems(403, 404, 409, 422, 429, 503)})
+@router.get("/{document_id}/steps", responses=answering(StepsAnswer, 403, 404, 409, 422, 429, 503))
 async def read_steps(request: Request, document_id: str) -> JSONResponse:
     """Return the layers before each legal fold and after the last, bottom to top."""
     return await _answered(request, document_id, AskSteps(do="steps"))
 
 
-@router.get("/{document_id}/versions", responses={200: {"model": list[VersionAnswer]}, **problems(403, 404, 422)})
+@router.get("/{document_id}/versions", responses=answering(list[VersionAnswer], 403, 404, 422))
 async def read_versions(request: Request, document_id: str) -> JSONResponse:
     """The drawings before the current one that the document can go back to, the latest first."""
     found = await run_in_threadpool(workspace_of(request).documents.versions, document_id)
     return JSONResponse([asdict(version) for version in found])
 
 
-@router.get(
-    "/{document_id}/quick-fixes", responses={200: {"model": QuickFixesAnswer}, **problems(403, 404, 409, 422, 429, 503)}
-)
+@router.get("/{document_id}/quick-fixes", responses=answering(QuickFixesAnswer, 403, 404, 409, 422, 429, 503))
 async def read_quick_fixes(request: Request, document_id: str) -> JSONResponse:
     """Return the quick fixes of the drawing's first problem, best first; none if it has no problems."""
     return await _answered(request, document_id, AskQuickFixes(do="quick_fixes"))
 
 
-@router.get(
-    "/{document_id}/overlays",
-    tags=["overlays"],
-    responses={200: {"model": OverlaysAnswer}, **problems(404, 409, 422, 429, 503)},
-)
+@router.get("/{document_id}/overlays", tags=["overlays"], responses=answering(OverlaysAnswer, 404, 409, 422, 429, 503))
 async def read_overlays(
     request: Request,
     document_id: str,
@@ -224,18 +214,14 @@ async def read_overlays(
 
 
 @router.post(
-    "/{document_id}/overlays/places",
-    tags=["overlays"],
-    responses={200: {"model": PlacesAnswer}, **problems(404, 409, 413, 422, 429, 503)},
+    "/{document_id}/overlays/places", tags=["overlays"], responses=answering(PlacesAnswer, 404, 409, 413, 422, 429, 503)
 )
 async def post_places(request: Request, document_id: str, wanted: PlacesRequestBody) -> Response:
     """Plan the document's garment wherever it could be laid, not turned, and return the costs."""
     return await _answered(request, document_id, wanted)
 
 
-@router.post(
-    "/{document_id}/share", status_code=201, responses={201: {"model": ShareAnswer}, **problems(403, 404, 507)}
-)
+@router.post("/{document_id}/share", status_code=201, responses=answering(ShareAnswer, 403, 404, 507, status=201))
 async def share_document(request: Request, document_id: str) -> JSONResponse:
     """Make a link with which others may look at the document and play its plan, but change nothing.
 

@@ -15,7 +15,7 @@ from app import searches
 from app.api.answers import GarmentAnswer, Says
 from app.api.asker import workspace_of
 from app.api.body import read_bytes
-from app.api.described import problems
+from app.api.described import answering, problems
 from app.api.disconnect import answer_of
 from app.api.problems import ProblemResponse
 from app.api.request_parsing import HasGarments
@@ -140,7 +140,7 @@ class FileEntry(BaseModel):
     says: Says | None
 
 
-@router.post("/imports", openapi_extra=_ANY_FILE, responses={200: {"model": ImportAnswer}, **problems(413, 422, 503)})
+@router.post("/imports", openapi_extra=_ANY_FILE, responses=answering(ImportAnswer, 413, 422, 503))
 async def post_import(
     request: Request,
     filename: FileName,
@@ -177,7 +177,7 @@ async def post_import(
         return ProblemResponse(422, str(error), [field], None, {"sizes": error.sizes})
 
 
-@router.get("/documents/{document_id}/files", responses={200: {"model": list[FileEntry]}, **problems(404, 422, 429)})
+@router.get("/documents/{document_id}/files", responses=answering(list[FileEntry], 404, 422, 429))
 async def list_files(request: Request, document_id: str) -> JSONResponse:
     """Return all kinds of files that a document can be exported as, and whether each is available now."""
     opened = await run_in_threadpool(workspace_of(request).opened, document_id)

@@ -8,7 +8,7 @@ from starlette.responses import JSONResponse
 
 from app.api.asker import workspace_of
 from app.api.body import JsonBody
-from app.api.described import DescribedRoute, problems
+from app.api.described import DescribedRoute, answering, problems
 from app.api.messages import WholeGarment
 from app.store.garment_repository import GarmentEntry
 from planner.cloth.garment import Garment
@@ -32,7 +32,7 @@ async def list_garments(request: Request) -> list[GarmentEntry]:
     return await run_in_threadpool(workspace_of(request).garments.entries)
 
 
-@router.get("/{name}", responses={200: {"model": Garment}, **problems(404)})
+@router.get("/{name}", responses=answering(Garment, 404))
 async def read_garment(request: Request, name: AnyName) -> JSONResponse:
     """Return a garment file with every field filled in."""
     garment = await run_in_threadpool(workspace_of(request).garments.garment, name)

@@ -12,7 +12,7 @@ from starlette.responses import JSONResponse
 
 from app.api.asker import client_of, workspace_of
 from app.api.body import JsonBody, read_object
-from app.api.described import problems, taking
+from app.api.described import answering, problems, taking
 from app.api.disconnect import waking
 from app.api.job_answers import STREAM, JobAnswer, JobsAnswer, job_entry
 from app.api.request_parsing import within_request
@@ -56,12 +56,12 @@ for _kind in BY_JSON:
         name=f"start_{_kind.name}",
         description=f"{_kind.does} Answers at once; `Location` is the job's path.",
         status_code=202,
-        responses={202: {"model": JobAnswer}, **problems(404, 409, 413, 422, 429, 503)},
+        responses=answering(JobAnswer, 404, 409, 413, 422, 429, 503, status=202),
         openapi_extra=taking(JsonBody(_kind.body, _kind.example)),
     )
 
 
-@router.get("/api/jobs", responses={200: {"model": JobsAnswer}, **problems(404, 422)})
+@router.get("/api/jobs", responses=answering(JobsAnswer, 404, 422))
 async def list_jobs(
     request: Request, limit: Annotated[int, Query(ge=1, le=LISTED_MAX)] = 20, before: str | None = None
 ) -> JSONResponse:
@@ -75,13 +75,13 @@ async def list_jobs(
     )
 
 
-@router.get("/api/jobs/{job_id}", responses={200: {"model": JobAnswer}, **problems(404)})
+@router.get("/api/jobs/{job_id}", responses=answering(JobAnswer, 404))
 async def read_job(request: Request, job_id: str) -> JSONResponse:
     """Return how far a job is, and its result once it is done."""
     return JSONResponse(await run_in_threadpool(_answer, workspace_of(request).jobs, job_id))
 
 
-@router.post("/api/jobs/{job_id}/cancel", responses={200: {"model": JobAnswer}, **problems(404, 409)})
+@router.post("/api/jobs/{job_id}/cancel", responses=answering(JobAnswer, 404, 409))
 async def cancel_job(request: Request, job_id: str) -> JSONResponse:
     """Cancel a job unless it has ended, and return it; its process is killed."""
     jobs = workspace_of(request).jobs

@@ -12,7 +12,7 @@ from app import searches
 from app.api.answers import DagAnswer, PictureAnswer, PlanAnswer, TimelineAnswer
 from app.api.asker import workspace_of
 from app.api.body import JsonBody, read_object
-from app.api.described import DescribedRoute, problems
+from app.api.described import DescribedRoute, answering, problems
 from app.api.disconnect import answer_of, quick_answer
 from app.api.messages import DagRequest, PlanRequest
 from app.api.questions import pictures
@@ -48,13 +48,13 @@ _PLAN_FILE_BODY = {
 SampleRate = Annotated[float, Query(ge=1.0, le=200.0, allow_inf_nan=False)]
 
 
-@router.post("/dag", responses={200: {"model": DagAnswer}, **problems(404, 413, 422, 503)})
+@router.post("/dag", responses=answering(DagAnswer, 404, 413, 422, 503))
 async def post_dag(request: Request, wanted: DagRequestBody) -> JSONResponse:
     """Return the Fold-DAG, and the layers after all folds."""
     return JSONResponse(await quick_answer(request, _dag, workspace_of(request), wanted))
 
 
-@router.post("/plans", responses={200: {"model": PlanAnswer}, **problems(404, 413, 422, 503)})
+@router.post("/plans", responses=answering(PlanAnswer, 404, 413, 422, 503))
 async def post_plan(request: Request, wanted: PlanRequestBody) -> Response:
     """Plan a garment; "there is no plan" is an answer, too.
 
@@ -66,9 +66,7 @@ async def post_plan(request: Request, wanted: PlanRequestBody) -> Response:
     return Response(told, media_type="application/json")
 
 
-@router.post(
-    "/plans/imports", openapi_extra=_PLAN_FILE_BODY, responses={200: {"model": PlanAnswer}, **problems(413, 422, 503)}
-)
+@router.post("/plans/imports", openapi_extra=_PLAN_FILE_BODY, responses=answering(PlanAnswer, 413, 422, 503))
 async def post_plan_file(request: Request) -> JSONResponse:
     """Import a plan file: replay it and keep it under a new id.
 
@@ -100,7 +98,7 @@ async def read_plan_file(request: Request, plan_id: str) -> Response:
     return await _plan_file(await _kept(request, plan_id))
 
 
-@router.get("/plans/{plan_id}/timeline", responses={200: {"model": TimelineAnswer}, **problems(404, 409, 422, 503)})
+@router.get("/plans/{plan_id}/timeline", responses=answering(TimelineAnswer, 404, 409, 422, 503))
 async def read_timeline(request: Request, plan_id: str, rate_hz: SampleRate = 30.0) -> Response:
     """Return a solved plan's timeline, sampled from 0 to its end."""
     plan = await _kept(request, plan_id)
@@ -110,7 +108,7 @@ async def read_timeline(request: Request, plan_id: str, rate_hz: SampleRate = 30
     return Response(sampled, media_type="application/json")
 
 
-@router.get("/plans/{plan_id}/pictures", responses={200: {"model": list[PictureAnswer]}, **problems(404)})
+@router.get("/plans/{plan_id}/pictures", responses=answering(list[PictureAnswer], 404))
 async def read_pictures(request: Request, plan_id: str) -> JSONResponse:
     """Return cloth and base before each step of a plan and after the last, as seen from above."""
     return JSONResponse(await run_in_threadpool(pictures, await _kept(request, plan_id)))

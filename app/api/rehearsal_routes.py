@@ -10,7 +10,7 @@ from starlette.responses import JSONResponse
 
 from app.api.answers import Point, Point3, Says
 from app.api.asker import workspace_of
-from app.api.described import DescribedRoute, problems
+from app.api.described import DescribedRoute, answering
 from app.rehearsal.trace import UNIT_M, Frames, RunTrace
 from app.workspace import Workspace
 from planner.geometry.pose import Pose2
@@ -95,7 +95,7 @@ class TraceClothAnswer(BaseModel):
     steps: list[ClothsAnswer]
 
 
-@router.get("/{trace_id}", responses={200: {"model": TraceAnswer}, **problems(404)})
+@router.get("/{trace_id}", responses=answering(TraceAnswer, 404))
 async def read_trace(request: Request, trace_id: str) -> JSONResponse:
     """Return the outlines and pictures of a rehearsed run, by the `trace` of the run in the job's result.
 
@@ -104,7 +104,7 @@ async def read_trace(request: Request, trace_id: str) -> JSONResponse:
     return JSONResponse(await run_in_threadpool(_trace, workspace_of(request), trace_id))
 
 
-@router.get("/{trace_id}/cloth", responses={200: {"model": TraceClothAnswer}, **problems(404)})
+@router.get("/{trace_id}/cloth", responses=answering(TraceClothAnswer, 404))
 async def read_trace_cloth(request: Request, trace_id: str) -> JSONResponse:
     """Return the points of the cloth after each judged step of a rehearsed run, to a tenth of a millimetre."""
     return JSONResponse(await run_in_threadpool(_cloth, workspace_of(request), trace_id))

@@ -12,7 +12,7 @@ from app import searches
 from app.api.answers import RobotEntry, RobotTaken
 from app.api.asker import workspace_of
 from app.api.body import JsonBody, read_bytes
-from app.api.described import DescribedRoute, problems
+from app.api.described import DescribedRoute, answering, problems
 from app.api.disconnect import answer_of
 from app.api.job_answers import JobAnswer
 from app.api.job_routes import begun
@@ -90,7 +90,7 @@ async def post_robot_import(request: Request, prefer: Prefer = None, filename: F
     return JSONResponse({**robot_entry(card), **told}, status_code=201 if is_new else 200)
 
 
-@router.get("/{name}", responses={200: {"model": CardFile}, **problems(404, 422)})
+@router.get("/{name}", responses=answering(CardFile, 404, 422))
 async def read_robot_card(name: AnyName) -> JSONResponse:
     """Return a robot's card with every field filled in."""
     card = await run_in_threadpool(card_of, name)

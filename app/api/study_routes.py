@@ -13,7 +13,7 @@ from starlette.responses import Response
 
 from app.api.answers import PlanAnswer
 from app.api.asker import workspace_of
-from app.api.described import DescribedRoute, problems
+from app.api.described import DescribedRoute, answering, problems
 from app.api.disconnect import answer_of
 from app.api.plan_routes import planned
 from app.job_kinds.studies import STUDY_FILES
@@ -41,11 +41,7 @@ async def read_study_file(request: Request, study_id: str, file: FileName) -> Re
     return Response(content, media_type=STUDY_FILES[file], headers=_SAFE)
 
 
-@router.post(
-    "/{study_id}/cells/{cell}/plan",
-    response_class=Response,
-    responses={200: {"model": PlanAnswer}, **problems(404, 422, 503)},
-)
+@router.post("/{study_id}/cells/{cell}/plan", response_class=Response, responses=answering(PlanAnswer, 404, 422, 503))
 async def post_cell_plan(request: Request, study_id: str, cell: Annotated[int, Path(ge=0, examples=[0])]) -> Response:
     """Make the plan of a cell again, by its number in the table; it is kept as those of `POST /api/plans` are."""
     workspace = workspace_of(request)

@@ -19,7 +19,7 @@ from app import searches
 from app.api.answers import Change, Says
 from app.api.asker import workspace_of
 from app.api.body import JsonBody
-from app.api.described import DescribedRoute, problems
+from app.api.described import DescribedRoute, answering, problems
 from app.api.disconnect import answer_of, until
 from app.api.event_streams import event_stream
 from app.api.messages import PlacementsRequest, PlanRequest
@@ -260,7 +260,7 @@ async def post_suggestions(search: Annotated[SuggestionSearch, Depends(_begun)])
         yield event
 
 
-@router.post("/placements", responses={200: {"model": PlacementsAnswer}, **problems(404, 413, 422, 503)})
+@router.post("/placements", responses=answering(PlacementsAnswer, 404, 413, 422, 503))
 async def post_placements(request: Request, wanted: PlacementsRequestBody) -> JSONResponse:
     """Plan a garment wherever it could be laid on the default table, not turned, and return the costs."""
     workspace, limit = workspace_of(request), TimeLimit(wanted.time_limit_s)

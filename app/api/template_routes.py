@@ -10,7 +10,7 @@ from starlette.responses import JSONResponse
 
 from app.api.answers import GarmentAnswer, Point
 from app.api.body import JsonBody
-from app.api.described import DescribedRoute, problems
+from app.api.described import DescribedRoute, answering
 from app.store.picture import PictureFold
 from app.templates.catalogue import TEMPLATES, find_template
 from app.templates.measure import MeasureError, Measures
@@ -67,7 +67,7 @@ async def list_templates() -> list[dict[str, Any]]:
     return await run_in_threadpool(lambda: [template.to_dict() for template in TEMPLATES])
 
 
-@router.post("/{name}", responses={200: {"model": MadeAnswer}, **problems(404, 413, 422)})
+@router.post("/{name}", responses=answering(MadeAnswer, 404, 413, 422))
 async def post_template(request: Request, name: Name, wanted: MadeRequestBody) -> JSONResponse:
     """Return the garment that a template makes of these measures, with its folds."""
     template = find_template(name)

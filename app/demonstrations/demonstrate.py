@@ -6,7 +6,6 @@ from concurrent.futures import Future, ThreadPoolExecutor
 
 from app.demonstrations.dataset import DemonstrationDataset
 from app.files.lerobot_dataset import Episode
-from app.rehearsal.physics.fabric import Resolution
 from app.rehearsal.rehearse import require_physics
 from app.worker.process import Caller
 from app.worker.stop import Stop
@@ -23,7 +22,6 @@ def demonstrate(
     episodes: int,
     workers: int,
     progress: Callable[[int, int], None],
-    resolution: Resolution | None = None,
     *,
     has_wrists: bool = True,
 ) -> bool:
@@ -35,7 +33,6 @@ def demonstrate(
         episodes: how many it is to have.
         workers: how many are made at once; the dataset is the same for any number.
         progress: is told how many episodes there are, and how many seeds were tried.
-        resolution: how finely the world is simulated; None as finely as suits the article's size.
         has_wrists: whether there are cameras on the wrists.
 
     Raises:
@@ -48,7 +45,7 @@ def demonstrate(
     with Workers(kept=workers) as team, ThreadPoolExecutor(workers) as threads:
 
         def begun(seed: int) -> Future[Episode | None]:
-            return threads.submit(team.run, _made, stop, lambda _news: None, task, seed, resolution, has_wrists)
+            return threads.submit(team.run, _made, stop, lambda _news: None, task, seed, has_wrists)
 
         running: deque[Future[Episode | None]] = deque()
         try:
@@ -63,8 +60,8 @@ def demonstrate(
     return dataset.count >= episodes
 
 
-def _made(caller: Caller, task: Task, seed: int, resolution: Resolution | None, has_wrists: bool) -> Episode | None:
+def _made(caller: Caller, task: Task, seed: int, has_wrists: bool) -> Episode | None:
     """Make a demonstration, in a worker."""
     from app.demonstrations.episode import demonstration  # needs MuJoCo and the whole planner
 
-    return demonstration(task, seed, caller.should_stop, resolution, has_wrists=has_wrists)
+    return demonstration(task, seed, caller.should_stop, has_wrists=has_wrists)

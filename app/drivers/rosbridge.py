@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from app.drivers.driver import Clock, DriverError, Joints, LostError, RealClock, Seen
+from app.drivers.driver import DriverError, Joints, LostError, RealClock, Seen
 from app.drivers.streamed import FINGERS_S
 from app.files.joint_motion import JointMotion, controller_name, controllers
 from planner.robots.card import RobotCard
@@ -32,7 +32,7 @@ _SUCCEEDED = 4
 class RosbridgeDriver:
     """A robot whose controllers are asked over a websocket."""
 
-    def __init__(self, card: RobotCard, address: str = ADDRESS, clock: Clock | None = None) -> None:
+    def __init__(self, card: RobotCard, address: str = ADDRESS) -> None:
         """Take the robot's card and the websocket's address.
 
         Raises:
@@ -43,7 +43,7 @@ class RosbridgeDriver:
         self._parts = {
             f"/{controller_name(name)}/follow_joint_trajectory": joints for name, joints in controllers(card)
         }
-        self._address, self._clock = address, clock or RealClock()
+        self._address, self._clock = address, RealClock()
         self._socket: Any = None
         self._state: dict[str, float] = {}
         self._results: queue.Queue[Mapping[str, Any]] = queue.Queue()

@@ -16,14 +16,12 @@ class Outline:
         fill: the colour of its inside; a shape that is filled is closed.
         stroke: the colour of its line.
         width: the line's width (pt).
-        dash: the lengths of dashes and gaps (pt); empty for a whole line.
     """
 
     points: tuple[Spot, ...]
     fill: str = ""
     stroke: str = "333333"
     width: float = 0.8
-    dash: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,7 +6,6 @@ there is one that has them; a letter that no font has becomes an empty square.
 
 import io
 from functools import cache
-from typing import Any
 
 from matplotlib.artist import Artist
 from matplotlib.backends.backend_pdf import FigureCanvasPdf
@@ -54,15 +53,13 @@ def page_pdf(page: Page) -> bytes:
 
 def _drawn(shape: Shape, from_top: Transform) -> Artist:
     match shape:
-        case Outline(points, fill, stroke, width, dash):
-            style: Any = (0, dash) if dash else "solid"
+        case Outline(points, fill, stroke, width):
             return Polygon(
                 points,
                 closed=bool(fill),
                 facecolor=_colour(fill),
                 edgecolor=_colour(stroke),
                 linewidth=width,
-                linestyle=style,
                 joinstyle="round",
                 transform=from_top,
             )

@@ -20,11 +20,10 @@ def page_svg(page: Page) -> bytes:
 
 def _element(shape: Shape) -> str:
     match shape:
-        case Outline(points, fill, stroke, width, dash):
+        case Outline(points, fill, stroke, width):
             d = "M" + "L".join(f"{x:.2f} {y:.2f}" for x, y in points) + ("Z" if fill else "")
-            dashes = f' stroke-dasharray="{" ".join(f"{length:g}" for length in dash)}"' if dash else ""
             colours = f'fill="{_colour(fill)}" stroke="{_colour(stroke)}"'
-            return f'<path d="{d}" {colours} stroke-width="{width:g}" stroke-linejoin="round"{dashes}/>'
+            return f'<path d="{d}" {colours} stroke-width="{width:g}" stroke-linejoin="round"/>'
         case Disc((x, y), radius, fill, stroke):
             return (
                 f'<circle cx="{x:.2f}" cy="{y:.2f}" r="{radius:g}" fill="{_colour(fill)}" stroke="{_colour(stroke)}"/>'

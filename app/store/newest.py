@@ -1,17 +1,12 @@
 """Tables of which only the newest rows are kept."""
 
-from typing import TypeAlias
-
 from sqlalchemy import delete, select
 from sqlalchemy.orm import Session
 
-from app.store.schema import PlanRow, TraceRow
-
-Sized: TypeAlias = type[PlanRow] | type[TraceRow]
-"""A table whose rows have a `number` that grows, and a `size` in bytes."""
+from app.store.schema import SizedRow
 
 
-def drop_oldest(session: Session, table: Sized, most: int, most_bytes: int) -> None:
+def drop_oldest(session: Session, table: type[SizedRow], most: int, most_bytes: int) -> None:
     """Drop the oldest rows of a table beyond a number of rows, and beyond their size in all (bytes)."""
     kept, total = 0, 0
     for number, size in session.execute(select(table.number, table.size).order_by(table.number.desc())):

@@ -88,28 +88,28 @@ class GarmentRow(Table):
     content: Mapped[str] = mapped_column(Text)
 
 
-class PlanRow(Table):
-    """A plan as compressed JSON, and its size (bytes); `number` grows from plan to plan."""
+class SizedRow(Table):
+    """A row of a table of which only the newest are kept: its content and its size (bytes); `number` grows."""
+
+    __abstract__ = True
+    __table_args__ = ({"sqlite_autoincrement": True},)
+
+    number: Mapped[int] = mapped_column(primary_key=True, autoincrement=True)
+    id: Mapped[str] = mapped_column(unique=True)
+    size: Mapped[int]
+    content: Mapped[bytes] = mapped_column(LargeBinary)
+
+
+class PlanRow(SizedRow):
+    """A plan as compressed JSON."""
 
     __tablename__ = "plans"
-    __table_args__ = ({"sqlite_autoincrement": True},)
-
-    number: Mapped[int] = mapped_column(primary_key=True, autoincrement=True)
-    id: Mapped[str] = mapped_column(unique=True)
-    size: Mapped[int]
-    content: Mapped[bytes] = mapped_column(LargeBinary)
 
 
-class TraceRow(Table):
-    """The trace of a rehearsed run, packed (`app.rehearsal.trace`), and its size (bytes); `number` grows."""
+class TraceRow(SizedRow):
+    """The trace of a rehearsed run, packed (`app.rehearsal.trace`)."""
 
     __tablename__ = "traces"
-    __table_args__ = ({"sqlite_autoincrement": True},)
-
-    number: Mapped[int] = mapped_column(primary_key=True, autoincrement=True)
-    id: Mapped[str] = mapped_column(unique=True)
-    size: Mapped[int]
-    content: Mapped[bytes] = mapped_column(LargeBinary)
 
 
 class ShareRow(Table):

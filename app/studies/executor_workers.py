@@ -25,19 +25,17 @@ _CONNECT_S = 10.0
 class ExecutorWorkers:
     """Plans the cells with an executor."""
 
-    def __init__(self, executor: Executor, workers: int, make_plan: MakePlan | None = None, batch: int = BATCH) -> None:
+    def __init__(self, executor: Executor, workers: int, make_plan: MakePlan | None = None) -> None:
         """Use an executor, which stays open.
 
         Args:
             executor: the executor.
             workers: the number of batches that it does at once.
             make_plan: a module-level function to plan with; by default the planner's.
-            batch: the number of cells in a batch.
         """
         self._executor = executor
         self._count = workers
         self._make_plan = make_plan
-        self._batch = batch
 
     def answers(self, cells: Iterable[Cell], *, keep_plans: bool = False) -> Generator[Answer]:
         """Yield the answers as they come."""
@@ -45,7 +43,7 @@ class ExecutorWorkers:
             cells,
             lambda batch: self._executor.submit(_answers, batch, self._make_plan, keep_plans),
             self._count,
-            batch=self._batch,
+            batch=BATCH,
             tries=1,
         )
 

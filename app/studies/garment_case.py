@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
 
 from planner.cloth.garment import Garment
 
@@ -24,20 +23,3 @@ class GarmentCase:
     seed: int | None = None
     measures: Mapping[str, float] = field(default_factory=dict)
     error: str | None = None
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return the case as JSON."""
-        return {
-            "label": self.label,
-            "garment": None if self.garment is None else self.garment.to_dict(),
-            "seed": self.seed,
-            "measures": dict(self.measures),
-            "error": self.error,
-        }
-
-    @staticmethod
-    def from_dict(data: Mapping[str, Any]) -> "GarmentCase":
-        """Return the case that `to_dict` wrote."""
-        drawn = data["garment"]
-        garment = None if drawn is None else Garment.from_dict(drawn)
-        return GarmentCase(data["label"], garment, data["seed"], data["measures"], data["error"])

@@ -1,7 +1,7 @@
 """Rehearsals of a study: each plan is performed in simulated physics, with the noise of its cell."""
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from statistics import mean
 from typing import Any
 
@@ -44,10 +44,6 @@ class StudyRehearsal:
     runs: int = 1
     seed: int = 0
     feedback: bool = True
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return it as JSON."""
-        return asdict(self)
 
     def options(self, noise: str) -> RehearsalOptions:
         """Return the options of a cell's rehearsal, in the process that plans it."""

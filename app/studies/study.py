@@ -13,6 +13,7 @@ from app.studies.cell import Cell, cell_of
 from app.studies.garment_case import GarmentCase
 from app.studies.rehearsed import NOISE_AXIS, StudyRehearsal
 from planner.geometry.pose import Pose2
+from planner.json_form import STRICT, JsonForm
 from planner.task.scene import Scene
 
 VERSION = 1
@@ -48,6 +49,8 @@ class Study:
         has_comfort_margin: whether the answers tell the comfort margin, which takes further plans.
         rehearsal: how plans are rehearsed; None: not at all.
     """
+
+    __pydantic_config__ = STRICT
 
     title: str
     garments: tuple[GarmentCase, ...]
@@ -104,37 +107,20 @@ class Study:
 
     def to_dict(self) -> dict[str, Any]:
         """Return the study as JSON, all files that it names read in; later options only where they are used."""
-        options: dict[str, Any] = {"has_comfort_margin": True} if self.has_comfort_margin else {}
-        options |= {} if self.rehearsal is None else {"rehearsal": self.rehearsal.to_dict()}
-        return {
-            "pleat_study": VERSION,
-            "title": self.title,
-            "garments": [case.to_dict() for case in self.garments],
-            "axes": [{"name": a.name, "values": list(a.values), "is_ordered": a.is_ordered} for a in self.axes],
-            "scene": self.scene.to_dict(),
-            "has_stations": self.has_stations,
-            "placements": [pose.to_dict() for pose in self.placements],
-            "sample": None if self.sample is None else {"cells": self.sample.cells, "seed": self.sample.seed},
-            **options,
-        }
+        written = {"pleat_study": VERSION, **_FORM.write(self)}
+        return {name: value for name, value in written.items() if value or name not in _LATER}
 
     @staticmethod
     def from_dict(data: Mapping[str, Any]) -> "Study":
         """Return the study that `to_dict` wrote."""
-        return Study(
-            data["title"],
-            tuple(GarmentCase.from_dict(case) for case in data["garments"]),
-            tuple(Axis(axis["name"], tuple(axis["values"]), axis["is_ordered"]) for axis in data["axes"]),
-            Scene.from_dict(data["scene"]),
-            data["has_stations"],
-            tuple(Pose2(**pose) for pose in data["placements"]),
-            None if data["sample"] is None else Sample(**data["sample"]),
-            data.get("has_comfort_margin", False),
-            StudyRehearsal(**data["rehearsal"]) if "rehearsal" in data else None,
-        )
+        return _FORM.read({name: value for name, value in data.items() if name != "pleat_study"})
 
     @property
     def digest(self) -> str:
         """A digest of all on which its cells depend."""
         told = {name: value for name, value in self.to_dict().items() if name != "title"}
         return hashlib.sha256(json.dumps(told, sort_keys=True).encode()).hexdigest()
+
+
+_FORM = JsonForm(Study)
+_LATER = frozenset({"has_comfort_margin", "rehearsal"})

@@ -3,20 +3,7 @@
  * Two lines have two bisectors; only one over which a part of the first edge comes to lie on the second is meant.
  */
 
-import {
-  chordAlong,
-  cross,
-  distance,
-  dot,
-  edgesOf,
-  left,
-  minus,
-  mirrored,
-  nearestOn,
-  plus,
-  times,
-  unit,
-} from "./geometry.js";
+import { chordAlong, cross, distance, dot, edgesOf, left, minus, mirrored, nearestOn, plus, times, unit } from "./geometry.js";
 
 /** @import { Point } from "pleat" */
 

@@ -5,20 +5,7 @@
  * that is level, and more so one that slants, has to be better.
  */
 
-import {
-  between,
-  boxOf,
-  cross,
-  distance,
-  edgesOf,
-  left,
-  minus,
-  mirrored,
-  nearestOn,
-  plus,
-  times,
-  unit,
-} from "./geometry.js";
+import { between, boxOf, cross, distance, edgesOf, left, minus, mirrored, nearestOn, plus, times, unit } from "./geometry.js";
 
 /** @import { Point } from "pleat" */
 
