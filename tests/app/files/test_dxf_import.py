@@ -2,7 +2,8 @@ import io
 
 import numpy as np
 import pytest
-from ezdxf import filemanagement, options
+from ezdxf import filemanagement
+from ezdxf._options import options
 from ezdxf.document import Drawing
 
 from app.files.import_errors import ImportedFileError, UnitsNeededError
