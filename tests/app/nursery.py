@@ -33,9 +33,6 @@ SERVER = ("alembic.command", "app.api.metrics", "app.cli.serve", "app.server.ser
 WORKERS = ("app.job_kinds.kinds", "app.live_planning", "app.searches")
 """What they import as they start."""
 
-_STARTED: list[subprocess.Popen[bytes]] = []
-"""The nursery, where this process has started it; it ends with the test run."""
-
 ENVIRONMENT = dict(os.environ)
 """As it is before any test changes it."""
 
@@ -117,9 +114,8 @@ def _nursery() -> socket.socket:
             listener.bind(str(folder / SOCKET))
             listener.listen(64)
             command = f"from tests.app.nursery import fork_on_request; fork_on_request({listener.fileno()})"
-            _STARTED.append(
-                subprocess.Popen([sys.executable, "-c", command], pass_fds=[listener.fileno()], env=ENVIRONMENT)
-            )
+            listener.set_inheritable(True)
+            os.posix_spawn(sys.executable, [sys.executable, "-c", command], ENVIRONMENT)
     nursery = socket.socket(socket.AF_UNIX)
     nursery.connect(str(folder / SOCKET))
     return nursery

@@ -20,14 +20,14 @@ from tests.small_plan import unsolved
 @pytest.fixture(scope="module")
 def file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("plans") / "towel.plan.json"
-    assert pleat("plan", "hand-towel", "--out", str(path)).exit_code == 0
+    assert pleat("plan", "letter-towel", "--out", str(path)).exit_code == 0
     return path
 
 
 def test_a_plan_file_is_shown_as_it_was_planned(file: Path) -> None:
     shown = pleat("show", str(file))
     assert shown.exit_code == 0
-    assert shown.stdout == pleat("plan", "hand-towel").stdout
+    assert shown.stdout == pleat("plan", "letter-towel").stdout
 
 
 @pytest.fixture(scope="module")
@@ -77,7 +77,7 @@ def test_velocities_are_how_joints_change(file: Path) -> None:
 
 def test_planning_goes_on_from_a_plan(file: Path, tmp_path: Path) -> None:
     rest = tmp_path / "rest.plan.json"
-    assert pleat("plan", "hand-towel", "--from", str(file), "--after-step", "0", "--out", str(rest)).exit_code == 0
+    assert pleat("plan", "letter-towel", "--from", str(file), "--after-step", "0", "--out", str(rest)).exit_code == 0
     whole, tail = read_plan(file), read_plan(rest)
     assert tail.cost_s == pytest.approx(required(whole.cost_s) - whole.steps[0].end_s)
     assert tail.task.start == whole.steps[0].after
@@ -144,7 +144,7 @@ def test_kinds_of_exports_are_listed() -> None:
     [
         (("show", "nowhere.plan.json"), "nowhere.plan.json"),
         (("plan", "vest", "--after-step", "0"), "--after-step"),
-        (("plan", "hand-towel", "--from", "FILE", "--after-step", "9"), "--after-step: 9"),
+        (("plan", "letter-towel", "--from", "FILE", "--after-step", "9"), "--after-step: 9"),
         (("plan", "vest", "--out", "/nowhere/vest.plan.json"), "/nowhere/vest.plan.json"),
         (("timeline", "FILE", "--rate-hz", "0"), "--rate-hz"),
         (("export", "FILE", "--to", "gcode"), "--to"),

@@ -72,5 +72,5 @@ def test_a_server_and_the_processes_of_its_work(hostile: Path, tmp_path: Path, i
 
 def test_the_processes_of_a_study(hostile: Path) -> None:
     (hostile / "study.toml").write_text(STUDY)
-    pleat(hostile, "study", "study.toml", "--out", "out", "--workers", 2)
+    pleat(hostile, "study", "study.toml", "--out", "out", "--workers", 1)
     assert_not_run(hostile)

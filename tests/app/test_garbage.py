@@ -184,7 +184,7 @@ def app(tmp_path_factory: pytest.TempPathFactory) -> Iterator[FastAPI]:
     made.state.workspace.close()
 
 
-@settings(max_examples=150, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=60, deadline=None, suppress_health_check=list(HealthCheck))
 @given(body=st.dictionaries(KNOWN, JSON, max_size=5))
 def test_no_known_field_with_any_value_ends_in_a_500(body: dict[str, Any], app: FastAPI) -> None:
     async def ask() -> httpx.Response:

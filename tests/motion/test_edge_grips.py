@@ -13,7 +13,6 @@ from planner import Plan, load_garment
 from planner.geometry.pose import FloatArray
 from planner.motion.edge_hands import EdgeHands
 from planner.motion.joint_trajectory import CLOSED_M, OPEN_M
-from planner.motion.timeline import Timeline
 from planner.planning.plan_check import require_replay
 from planner.robots.openings import EDGE_OPEN_M, HELD_M
 from planner.task.grip import GripKind
@@ -55,7 +54,7 @@ def closing_axis(plan: Plan, arm: str, t_s: float) -> tuple[FloatArray, FloatArr
     """Return the approach axis and the closing axis of a hand at a time."""
     model, data = robot()
     q = pin.neutral(model)
-    for joint, value in Timeline.of(plan).at(t_s).joints.items():
+    for joint, value in required(plan.trajectory).joints_at(t_s).items():
         one = model.joints[model.getJointId(joint)]
         q[one.idx_q : one.idx_q + one.nq] = value if one.nq == 1 else (math.cos(value), math.sin(value))
     pin.framesForwardKinematics(model, data, q)
@@ -65,7 +64,7 @@ def closing_axis(plan: Plan, arm: str, t_s: float) -> tuple[FloatArray, FloatArr
 
 def lowest_m(plan: Plan, arm: str, t_s: float) -> float:
     """Return how high over the table the lowest vertex of a gripper's meshes is at a time (m)."""
-    hulls.robot().update_cfg(Timeline.of(plan).at(t_s).joints)
+    hulls.robot().update_cfg(required(plan.trajectory).joints_at(t_s))
     heights = [
         (hulls.robot().get_transform(one.name) @ np.c_[points, np.ones(len(points))].T)[2].min()
         for one in hulls.bodies()

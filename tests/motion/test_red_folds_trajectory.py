@@ -44,7 +44,7 @@ def test_plans_with_chains_replay(planned: Callable[[], Plan]) -> None:
 
 
 def openings(plan: Plan, t_s: float) -> dict[str, float]:
-    return Timeline.of(plan).at(t_s).grippers_m
+    return {track.arm: track.opening_at(t_s) for track in required(plan.trajectory).grippers}
 
 
 def performed(plan: Plan, index: int) -> PlanStep:

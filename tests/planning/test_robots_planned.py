@@ -62,13 +62,13 @@ def test_the_tools_are_where_the_grips_are_when_they_take_the_cloth(plan: Plan) 
     model = pin.buildModelFromXML(read_robot(NAME).urdf)
     data, step = model.createData(), plan.steps[0]
     base, height_m = step.after.base.pose, plan.scene.table.height_m
-    played = Timeline.of(plan)
+    joints_at = required(plan.trajectory).joints_at
     for grip in step.grips:
         arm = next(one for one in read_robot(NAME).arms if one.card.name == grip.arm)
         nearest = np.inf
         for t in np.linspace(0.0, required(plan.cost_s), 601):
             q = pin.neutral(model)
-            for name, value in played.at(float(t)).to_dict()["joints"].items():
+            for name, value in joints_at(float(t)).items():
                 q[model.joints[model.getJointId(name)].idx_q] = value
             pin.framesForwardKinematics(model, data, q)
             frame = data.oMf[model.getFrameId(arm.card.tool.link)]

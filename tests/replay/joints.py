@@ -13,10 +13,10 @@ RATE_HZ = 50.0
 def arm_joints(timeline: Timeline) -> tuple[list[str], np.ndarray, float]:
     """Return the arms' joints, 50 samples a second, shape (n, joints), and the time between two (s)."""
     count = int(np.ceil(timeline.duration_s * RATE_HZ))
-    frames = [timeline.at(t) for t in np.linspace(0.0, timeline.duration_s, count + 1)]
-    names = [joint for joint in frames[0].joints if joint.split("_", 1)[1].endswith(("_joint",)) and joint[1] == "_"]
+    frames = [timeline.trajectory.joints_at(float(t)) for t in np.linspace(0.0, timeline.duration_s, count + 1)]
+    names = [joint for joint in frames[0] if joint.split("_", 1)[1].endswith(("_joint",)) and joint[1] == "_"]
     arms = [joint for joint in names if not joint.split("_", 1)[1].startswith("gripper")]
-    values = np.array([[frame.joints[joint] for joint in arms] for frame in frames])
+    values = np.array([[frame[joint] for joint in arms] for frame in frames])
     return arms, values, timeline.duration_s / count
 
 
@@ -37,6 +37,6 @@ def require_speeds(timeline: Timeline) -> None:
 def require_clear(timeline: Timeline, table: Table, every_s: float) -> None:
     """Require that nothing touches anything but the cloth."""
     for t in np.arange(0.4 * every_s, timeline.duration_s, every_s):
-        frame = timeline.at(float(t))
-        found = contacts(frame.joints, (frame.base.x_m, frame.base.y_m, frame.base.yaw_rad), table)
+        base = timeline.base_at(float(t))
+        found = contacts(timeline.trajectory.joints_at(float(t)), (base.x_m, base.y_m, base.yaw_rad), table)
         assert not found, f"at {t:.2f} s: {found}"

@@ -13,6 +13,7 @@ from tests.replay.free_hands import Look, in_table, looks, too_low
 from tests.replay.hands import CLOSED_M
 from tests.replay.joints import speed_limits
 from tests.replay.planned import SOLVABLE, each_solvable, shipped_plan
+from tests.required import required
 from tests.sweep import sweep
 
 IS_LONG = settings.get_current_profile_name() == LONG
@@ -26,14 +27,6 @@ each_looked_at = sweep("name", SOLVABLE, ("vest", "hand-towel"))
 @cache
 def looks_at(name: str) -> list[Look]:
     return looks(shipped_plan(name), RATE_HZ)
-
-
-@cache
-def sampled(name: str, rate_hz: float) -> tuple[np.ndarray, dict[str, np.ndarray]]:
-    """Return the times of the samples (s), and the fingers' angles at them."""
-    frames = list(Timeline.of(shipped_plan(name)).samples(rate_hz))
-    angles = {joint: np.array([frame.joints[joint] for frame in frames]) for joint in FINGERS.values()}
-    return np.array([frame.t_s for frame in frames]), angles
 
 
 @each_looked_at
@@ -58,7 +51,7 @@ def test_no_finger_opens_before_the_cloth_lies(name: str) -> None:
         end = primitive.start_s + primitive.duration_s
         lies = timeline.at(end - 1e-6).cloth.vertices
         times = np.arange(primitive.start_s, end, 0.02)
-        openings = np.array([[*timeline.at(float(t)).grippers_m.values()] for t in times])
+        openings = np.array([[track.opening_at(float(t)) for track in timeline.trajectory.grippers] for t in times])
         for arm in range(openings.shape[1]):
             is_opening = (openings[1:, arm] > openings[:-1, arm] + 1e-6) & (openings[1:, arm] > CLOSED_M)
             for t in times[1:][is_opening]:
@@ -69,18 +62,20 @@ def test_no_finger_opens_before_the_cloth_lies(name: str) -> None:
 
 @each_solvable
 def test_fingers_are_no_faster_than_the_urdf_allows(name: str) -> None:
-    times, fingers = sampled(name, 50.0)
+    path = required(shipped_plan(name).trajectory)
+    times = np.arange(0.0, path.duration_s, 0.02)
+    joints = [path.joints_at(float(t)) for t in times]
     for joint, limit in zip(FINGERS.values(), speed_limits([*FINGERS.values()]), strict=True):
-        angles = fingers[joint]
+        angles = np.array([at[joint] for at in joints])
         assert np.ptp(angles) > 0.1 or joint.startswith("l_"), f"{joint} never moves"
         assert np.abs(np.diff(angles) / np.diff(times)).max() <= limit + 1e-6
 
 
-@pytest.mark.parametrize("rate_hz", [1.0, 10.0, 30.0, 50.0])
+@pytest.mark.parametrize("rate_hz", [1.0, *(pytest.param(rate, marks=pytest.mark.long) for rate in (10.0, 30.0, 50.0))])
 @each_solvable
 def test_sample_times_strictly_grow_by_whole_steps_to_exactly_the_end(name: str, rate_hz: float) -> None:
     plan = shipped_plan(name)
-    times, _ = sampled(name, rate_hz)
+    times = np.array([sample.t_s for sample in Timeline.of(plan).samples(rate_hz)])
     assert times[-1] == plan.cost_s
     steps = np.diff(times)
     assert steps[:-1] == pytest.approx(np.full(len(steps) - 1, 1.0 / rate_hz), abs=1e-9)

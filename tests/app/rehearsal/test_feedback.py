@@ -141,7 +141,7 @@ def test_a_hand_that_misses_tries_again_within_the_comfort_radius() -> None:
     assert apart == [pytest.approx([miss_m, 0.0], abs=1e-3) for miss_m in (0.0, 0.01, 0.01)]
 
 
-@pytest.mark.parametrize("name", ["tie", "scarf", "skirt"])
+@pytest.mark.parametrize("name", [*(pytest.param(name, marks=pytest.mark.long) for name in ("tie", "scarf")), "skirt"])
 def test_a_hand_that_misses_the_edge_of_cloth_that_it_pulls_behind_it_tries_again_inside_it(name: str) -> None:
     # Ahead of that hand there is no cloth.
     plan = shipped_plan(name)

@@ -97,7 +97,7 @@ def test_a_dask_cluster_answers_as_one_process_does() -> None:
 
     asked = study(table={"height_m": [0.7, 5.0]})
     with (
-        LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as local,
+        LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address=None) as local,
         cluster(local.scheduler_address) as workers,
     ):
         assert answers(workers, asked) == answers(InProcess(), asked)
