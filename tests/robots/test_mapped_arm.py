@@ -119,7 +119,7 @@ def unknown(arm: DescribedArm, heights_m: tuple[float, float]) -> ReachMap:
 
 
 def test_no_layer_is_built_below_the_floor_or_beyond_the_arms_length(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("planner.robots.posture_layers.kept_map", lambda *_: pytest.fail("a layer was built"))
+    monkeypatch.setattr("planner.robots.reach_maps.kept_map", lambda *_: pytest.fail("a layer was built"))
     described = read_robot("pr2").arms[0]
     floor_m = -float(described.root[2]) - TORSO_M
     to_floor, everywhere = unknown(described, (floor_m, 0.2)), unknown(described, (-9.0, 9.0))
