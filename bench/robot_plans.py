@@ -16,8 +16,7 @@ from bench.paper import TABLE_2
 from bench.re_plan import ILLEGAL, redrawn
 from bench.report import ABSENT, Report, Row, seconds
 from planner import Garment, Task, load_garment, make_plan
-from planner.explain.suggestion import Suggestion, SuggestionTrial
-from planner.explain.suggestion_budget import TrialBudget
+from planner.explain.suggestion import Suggestion, SuggestionTrial, TrialBudget
 from planner.explain.suggestion_placement import placements
 from planner.planning.budget import Budget
 from planner.planning.problem import forget_garments

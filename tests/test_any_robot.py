@@ -15,6 +15,7 @@ from tests.test_imports import ROOT, all_imports, is_within
 
 DOOR = (
     "planner.robots.arm_paths",
+    "planner.robots.armed_robot",
     "planner.robots.card",
     "planner.robots.card_doubts",
     "planner.robots.card_file",
@@ -26,14 +27,12 @@ DOOR = (
     "planner.robots.collision.rounded_hull",
     "planner.robots.described_robot",
     "planner.robots.drafting.draft",
-    "planner.robots.joint_layout",
+    "planner.robots.kept_arrays",
     "planner.robots.known_robots",
     "planner.robots.load_robot",
     "planner.robots.mesh_file",
-    "planner.robots.openings",
     "planner.robots.own_robots",
     "planner.robots.reach_maps",
-    "planner.robots.card_doubts",
     "planner.robots.table_reach",
     "planner.robots.tool_path",
     "planner.robots.tool_point",

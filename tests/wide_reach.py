@@ -104,9 +104,7 @@ class WideFollowing:
     reach: WideReach
     paths: Sequence[ReachQuery]
 
-    def least_driving(
-        self, begun: NDArray[np.int64], most: int = IMPOSSIBLE - 1, wanted: Wanted = "unbeaten"
-    ) -> Driving:
+    def __call__(self, begun: NDArray[np.int64], most: int = IMPOSSIBLE - 1, wanted: Wanted = "unbeaten") -> Driving:
         """Return all ways by relaxation over waypoints and standoffs; `most` is ignored."""
         count = len(begun)
         seen = np.all([self.reach.seen(path.arm, path.points, count) for path in self.paths], axis=0)

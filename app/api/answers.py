@@ -10,9 +10,9 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from planner.cloth.fold_kinds import FoldName
 from planner.geometry.pose import Pose2
-from planner.task.grip import BaseStop, Grip
 from planner.task.plan import Statistics
 from planner.task.scene import Scene
+from planner.task.world_state import BaseStop, Grip
 
 Point = tuple[float, float]
 Point3 = tuple[float, float, float]

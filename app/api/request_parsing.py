@@ -13,10 +13,9 @@ from planner.errors import FoldError, GarmentError, RequestError, SceneError
 from planner.geometry.pose import Pose2
 from planner.planning.robot_task import task_for
 from planner.robots.known_robots import require_name
-from planner.task.grip import BaseStop
 from planner.task.scene import Scene
 from planner.task.task import Task, TaskOptions
-from planner.task.world_state import WorldState
+from planner.task.world_state import BaseStop, WorldState
 
 SHORTEST_S = 0.01
 """The least time that a search is given, even when its deadline is nearer (s)."""

@@ -3,8 +3,8 @@
 In each step, a hand has up to five poses: before the grasp, the grasp, the highest on the cloth's way, the place where
 that ends, and after the retreat. Each is given in the frame of the robot's base, as that stands at this moment (it may
 drive while it folds), and in the table's. Each grip has its kind: with one finger under the cloth and one over it, or
-with both from above (see `planner.task.grip.GripKind`). A hand that holds its cloth from the step before has no pose
-before its grasp, one that keeps it for the next step has no retreat.
+with both from above (see `planner.task.world_state.GripKind`). A hand that holds its cloth from the step before has no
+pose before its grasp, one that keeps it for the next step has no retreat.
 """
 
 import io

@@ -27,8 +27,7 @@ from app.ui.robot_view import link_colour
 from app.ui.rotation import yaw
 from planner.errors import UnsolvedPlanError
 from planner.geometry.pose import FloatArray
-from planner.geometry.table import table_parts
-from planner.geometry.table_top import TableTop
+from planner.geometry.table import TableTop, table_parts
 from planner.geometry.tolerance import TIME_S
 from planner.geometry.woven_mesh import woven_mesh
 from planner.motion.motion_values import BASE_NAMES, MotionLimits, positions_at

@@ -19,10 +19,9 @@ from app.step_kinds import step_words
 from planner.errors import UnsolvedPlanError
 from planner.geometry.pose import Point3, Pose2
 from planner.geometry.tolerance import ANGLE_RAD, DECIMALS
-from planner.task.grip import Grip
-from planner.task.phase import Phase
 from planner.task.plan import Plan, PlanStep
-from planner.task.trajectory import Segment
+from planner.task.trajectory import Phase, Segment
+from planner.task.world_state import Grip
 
 MOMENTS = ("pick", "apex", "place")
 _FORMULA = ("=", "+", "-", "@")

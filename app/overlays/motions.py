@@ -10,8 +10,8 @@ from app.overlays.moment import Moment
 from planner.geometry.pose import FloatArray, wrapped_angle
 from planner.geometry.segment import Segment
 from planner.geometry.tolerance import LENGTH_M
-from planner.task.phase import Phase
 from planner.task.plan import Plan, PlanStep
+from planner.task.trajectory import Phase
 
 
 def base_overlay(moment: Moment) -> dict[str, Any] | None:

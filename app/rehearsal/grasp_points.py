@@ -10,8 +10,8 @@ from app.rehearsal.vision.seen_stack import SeenStack
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.pose import Point2
 from planner.geometry.tolerance import LENGTH_M
-from planner.task.grip import Holding
 from planner.task.plan import PlanStep
+from planner.task.world_state import Holding
 
 INSIDE_M = 0.01
 """How far inside of the corners of several layers the middle of the fingers takes them (m).

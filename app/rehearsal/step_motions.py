@@ -10,9 +10,8 @@ from app.rehearsal.camera.posture import Posture
 from app.rehearsal.world import GripMotion, StepMotion
 from planner.errors import UnsolvedPlanError
 from planner.geometry.pose import Point3, Pose2
-from planner.task.phase import Hand
 from planner.task.plan import Plan, PlanStep
-from planner.task.trajectory import Segment, Trajectory
+from planner.task.trajectory import Hand, Segment, Trajectory
 
 _SIDE_BY_SIDE_RAD = math.radians(59.0)
 """The pitch from which on fingers close along the table (see `planner.robots.edge_grip`), 60 degrees, with a margin."""

@@ -15,7 +15,7 @@ from app.rehearsal.step_seen import StepSeen
 from app.rehearsal.world import GripMotion, StepMotion, way_done
 from planner.folds.fold_path import REST_HEIGHT_M
 from planner.geometry.pose import FloatArray
-from planner.geometry.table_top import TableTop
+from planner.geometry.table import TableTop
 
 
 def over_edge(motion: StepMotion, seen: StepSeen) -> StepMotion:

@@ -14,7 +14,7 @@ from app.ui.relief import Relief
 from planner.cloth.garment import DrawnFold, Garment
 from planner.geometry.drape import bent_at, draped
 from planner.geometry.pose import FloatArray, Pose2
-from planner.geometry.table_top import TableTop
+from planner.geometry.table import TableTop
 from planner.motion.cloth_surface import ClothSurface
 
 ROOT = "/folds"

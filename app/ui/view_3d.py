@@ -27,7 +27,7 @@ from app.ui.viewpoint import Viewpoint
 from app.ui.viser_patches import start_private_viser
 from planner.cloth.garment import Garment
 from planner.geometry.pose import Pose2
-from planner.geometry.table_top import TableTop
+from planner.geometry.table import TableTop
 from planner.geometry.tolerance import TIME_S
 from planner.motion.cloth_surface import ClothSurface
 from planner.motion.timeline import Sample

@@ -6,8 +6,7 @@ from docs.figures.drawing import BLUE, EDGE, FAINT, INK, NONE, RED, TABLE, Drawi
 from planner.folds.fold_path import FoldPath
 from planner.geometry.pose import Point2
 from planner.geometry.segment import Segment
-from planner.geometry.table import Table
-from planner.geometry.table_top import TableTop
+from planner.geometry.table import Table, TableTop
 from planner.task.scene import Scene
 
 _DEPTH_M, _GRIP_M = 0.40, 0.30

@@ -3,9 +3,8 @@
 from docs.figures.drawing import FAINT, INK, NONE, RED, TABLE, Drawing, Style, View
 from planner import load_garment, make_plan
 from planner.geometry.pose import Point2
-from planner.task.grip import Grip
 from planner.task.plan import Plan
-from planner.task.world_state import WorldState
+from planner.task.world_state import Grip, WorldState
 
 _SCALE = 152.0
 _PANEL_PX, _FIRST_PX, _HEIGHT_PX = 296.0, 152.0, 110.0

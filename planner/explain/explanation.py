@@ -16,8 +16,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 
-from planner.explain.change import SpentError
-from planner.explain.changes import COLLISIONS_IGNORED
+from planner.explain.change import COLLISIONS_IGNORED, SpentError
 from planner.explain.reason_obstacle import lacking
 from planner.explain.reason_out_of_reach import enough_with_others, removed_by
 from planner.explain.reasons import reasons_met

@@ -23,7 +23,7 @@ from planner.geometry.segment import Segment
 from planner.geometry.tolerance import LENGTH_M, grid_key
 from planner.primitives.context import Context
 from planner.primitives.fold_trial import grips_obstacle
-from planner.primitives.held_covers import held_covers
+from planner.primitives.grasping import held_covers
 from planner.primitives.obstacle import Obstacle
 from planner.primitives.state import Held, State
 from planner.robots.load_robot import load_robot

@@ -21,8 +21,7 @@ from planner.primitives.context import Context
 from planner.primitives.fold_obstacles import geometric_obstacle, geometric_obstacles
 from planner.primitives.fold_trial import fold_trials
 from planner.primitives.fold_way import can_follow
-from planner.primitives.grasping import nearest_pair_m
-from planner.primitives.held_covers import lifted_points
+from planner.primitives.grasping import lifted_points, nearest_pair_m
 from planner.primitives.obstacle import BlockingContact, Obstacle
 from planner.primitives.primitive import Step
 from planner.primitives.state import State

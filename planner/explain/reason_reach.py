@@ -22,7 +22,7 @@ from planner.geometry.pose import FloatArray, Point2
 from planner.geometry.reach_query import ReachQuery
 from planner.geometry.tolerance import LENGTH_M, grid_key, grid_keys
 from planner.primitives.context import Context
-from planner.primitives.drag_grips import drag_covers, dragged, longest_drag, towards_robot
+from planner.primitives.drag_way import drag_covers, dragged, longest_drag, towards_robot
 from planner.primitives.fold_obstacles import geometric_obstacle
 from planner.primitives.fold_trial import fold_trials
 from planner.primitives.fold_way import away_from_shoulders

@@ -6,8 +6,15 @@ from dataclasses import dataclass
 from typing import Any
 
 from planner.errors import FoldingError
-from planner.explain.change import NO_LIBERTIES, Bisection, Change, Liberties, SpentError, request_fields
-from planner.explain.changes import COLLISIONS_IGNORED
+from planner.explain.change import (
+    COLLISIONS_IGNORED,
+    NO_LIBERTIES,
+    Bisection,
+    Change,
+    Liberties,
+    SpentError,
+    request_fields,
+)
 from planner.explain.reasons import reasons_met
 from planner.planning.problem import Problem
 from planner.planning.trial import Trial

@@ -9,8 +9,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import replace
 
-from planner.explain.change import Change
-from planner.explain.changes import (
+from planner.explain.change import (
     COLLISIONS_IGNORED,
     COMFORT,
     CONE,
@@ -18,6 +17,7 @@ from planner.explain.changes import (
     LONG_ARMS,
     ONE_MORE_HAND,
     STIFFNESS,
+    Change,
     blue,
     cloth_moved,
     grip_radius,

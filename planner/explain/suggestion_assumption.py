@@ -14,8 +14,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from planner.explain.change import Change, SpentError
-from planner.explain.changes import COMFORT, FRICTION, grip_radius
+from planner.explain.change import COMFORT, FRICTION, Change, SpentError, grip_radius
 from planner.explain.suggestion import Search, SuggestionTrial, proven, smallest
 from planner.geometry.tolerance import LENGTH_M
 from planner.task.reason import Reason

@@ -7,7 +7,7 @@ from typing import Any
 
 from planner.errors import RequestError
 from planner.explain.room import Room
-from planner.explain.suggestion_budget import TrialBudget
+from planner.explain.suggestion import TrialBudget
 from planner.geometry.pose import Pose2
 from planner.planning.budget import Budget
 from planner.planning.warm_up import compile_kernels

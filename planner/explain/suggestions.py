@@ -11,9 +11,8 @@ from functools import partial
 from typing import TypeAlias
 
 from planner.explain.change import SpentError
-from planner.explain.suggestion import Search, Suggestion, SuggestionTrial
+from planner.explain.suggestion import Search, Suggestion, SuggestionTrial, TrialBudget
 from planner.explain.suggestion_assumption import comforts, frictions, grip_radii, together
-from planner.explain.suggestion_budget import TrialBudget
 from planner.explain.suggestion_drawing import flips, fold_lines, halvings, orders, sizes, splits
 from planner.explain.suggestion_placement import placements
 from planner.explain.suggestion_robot import robots, stations

@@ -14,7 +14,7 @@ import numpy as np
 from planner.cloth.cloth_state import ClothState
 from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.segment import Segment
-from planner.geometry.table_top import TableTop
+from planner.geometry.table import TableTop
 from planner.geometry.tolerance import LENGTH_M, SNAP_M
 
 REST_HEIGHT_M = 0.02

@@ -14,7 +14,7 @@ import numpy as np
 
 from planner.geometry.pose import FloatArray
 from planner.geometry.segment import Segment
-from planner.geometry.table_top import TableTop
+from planner.geometry.table import TableTop
 
 BEND_M = 0.008
 """Radius of the bend below the lowest layer (m): smaller looks like a plate, larger hangs clear of the table."""

@@ -1,12 +1,13 @@
 """Values between keyframes: a cubic with the keyframes' values and rates at its ends, or a straight line without rates.
 
 A cubic Hermite curve has one velocity at each keyframe, so that what moves along it never jumps, neither in its place
-nor in its velocity.
+nor in its velocity. `ramps` makes keyframes of a way that speeds up evenly, goes on, and slows down evenly.
 """
 
+import math
 from bisect import bisect_right
 from collections.abc import Sequence
-from typing import Any, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -121,3 +122,53 @@ def _cubic(share: Any, gap: Any, start: Any, end: Any, start_rate: Any, end_rate
     rest = 1.0 - share
     bent = rest * (gap * start_rate - (end - start)) - share * (gap * end_rate - (end - start))
     return start + share * (end - start + rest * bent)
+
+
+_EASING = 0.3
+"""The fraction of its time for which a way that has time speeds up, and again slows down."""
+
+_SAME = 1e-6
+"""The share of its time for which a way may go on at top speed and still count as speeding up and slowing down only."""
+
+
+class Ramps(NamedTuple):
+    """The keyframes of a way from rest to rest.
+
+    Attributes:
+        times_s: the times, rising from 0 (s).
+        fractions: the fraction of the way that is done at each.
+        rates: its change at each (1/s).
+    """
+
+    times_s: tuple[float, ...]
+    fractions: tuple[float, ...]
+    rates: tuple[float, ...]
+
+
+def least_s(way: float, speed: float, acceleration: float) -> float:
+    """Return the least time of a way from rest to rest (s)."""
+    if way * acceleration >= speed**2:
+        return way / speed + speed / acceleration
+    return 2.0 * math.sqrt(way / acceleration)
+
+
+def ramps(duration_s: float, way: float, speed: float, acceleration: float) -> Ramps:
+    """Return the keyframes of a way, with accelerations no greater than the time that there is demands.
+
+    Args:
+        duration_s: its duration, no less than the least (s).
+        way: how far it goes.
+        speed: the top speed, in the way's unit (1/s).
+        acceleration: the top acceleration, alike (1/s2).
+    """
+    if duration_s <= 0.0:
+        return Ramps((0.0,), (1.0,), (0.0,))
+    hardest_s = 0.5 * (duration_s - math.sqrt(max(duration_s**2 - 4.0 * way / acceleration, 0.0)))
+    softest_s = min(duration_s - way / speed, 0.5 * duration_s)
+    rising_s = max(min(max(_EASING * duration_s, hardest_s), softest_s), hardest_s)
+    top = 1.0 / (duration_s - rising_s)
+    if duration_s - 2.0 * rising_s <= _SAME * duration_s:
+        return Ramps((0.0, 0.5 * duration_s, duration_s), (0.0, 0.5, 1.0), (0.0, top, 0.0))
+    gone = 0.5 * top * rising_s
+    times_s = (0.0, rising_s, duration_s - rising_s, duration_s)
+    return Ramps(times_s, (0.0, gone, 1.0 - gone, 1.0), (0.0, top, top, 0.0))

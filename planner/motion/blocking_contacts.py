@@ -15,8 +15,8 @@ from planner.geometry.pose import FloatArray, Point3, Pose2
 from planner.motion.waypoints import Waypoints
 from planner.primitives.obstacle import BlockingContact
 from planner.robots.armed_robot import ArmedRobot
+from planner.robots.card import JointLayout
 from planner.robots.collision.collisions import Collisions, Contact
-from planner.robots.joint_layout import JointLayout
 
 _MOMENTS = 16
 """The number of waypoints tested."""

@@ -22,11 +22,10 @@ from planner.geometry.drape import bends, draped
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import BoolArray, FloatArray, Pose2
 from planner.geometry.segment import Segment
-from planner.geometry.table import Table
-from planner.geometry.table_top import TableTop
+from planner.geometry.table import Table, TableTop
 from planner.geometry.triangles import creased, parted
 from planner.motion.lifted_cloth import LiftedCloth
-from planner.task.phase import ClothMotion
+from planner.task.trajectory import ClothMotion
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -16,8 +16,8 @@ from planner.geometry.tolerance import ANGLE_RAD
 from planner.motion.joint_trajectory import CLOSED_M, OPEN_M
 from planner.motion.waypoints import Waypoints
 from planner.robots.armed_robot import ArmedRobot
-from planner.robots.openings import EDGE_OPEN_M, HELD_M, OPENING_M
-from planner.task.grip import GripKind
+from planner.robots.card import EDGE_OPEN_M, HELD_M, OPENING_M
+from planner.task.world_state import GripKind
 
 OVER, BESIDE = 0.5 * math.pi, 0.0
 """The roll of a hand with one finger above the other, and with both side by side (rad)."""

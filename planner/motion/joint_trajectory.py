@@ -5,9 +5,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from planner.geometry.keyframes import values_at
+from planner.geometry.keyframes import least_s, values_at
 from planner.geometry.pose import FloatArray
-from planner.geometry.ramps import least_s
 from planner.geometry.tolerance import TIME_S
 from planner.motion.path_timing import PathTiming
 from planner.robots.card import FINGER_RISE_S, GripperCard

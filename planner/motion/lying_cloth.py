@@ -12,8 +12,8 @@ from planner.geometry.tolerance import grid_key
 from planner.motion.opened_collisions import OpenedCollisions
 from planner.primitives.context import Context
 from planner.primitives.state import State
+from planner.robots.card import OPENING_M
 from planner.robots.collision.collisions import Clearance, Collisions
-from planner.robots.openings import OPENING_M
 
 OVER_CLOTH_M = 0.032
 """The height above the table that empty arms keep over cloth at the waypoints tested, more over high stacks (m).

@@ -7,9 +7,8 @@ from planner.geometry.table import Table
 from planner.geometry.tolerance import LENGTH_M
 from planner.motion.hand_holds import HandHold
 from planner.robots.armed_robot import ArmedRobot
+from planner.robots.card import EDGE_OPEN_M, HELD_M, OPENING_M, JointLayout
 from planner.robots.collision.collisions import Collisions
-from planner.robots.joint_layout import JointLayout
-from planner.robots.openings import EDGE_OPEN_M, HELD_M, OPENING_M
 
 _OPENINGS_M = np.array([HELD_M, EDGE_OPEN_M, OPENING_M])
 """The openings up to which fingers are compared (m), in rising order."""

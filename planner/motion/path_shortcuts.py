@@ -11,7 +11,7 @@ import numpy as np
 
 from planner.geometry.pose import FloatArray
 from planner.motion.pacing import needed_s
-from planner.robots.joint_layout import JointLayout
+from planner.robots.card import JointLayout
 
 PARTS = (3, 5)
 """Into how many parts of equal time a path is divided, one after the other; shortcuts join the ends of parts."""

@@ -12,7 +12,7 @@ import numpy as np
 
 from planner.geometry.pose import Approach, FloatArray, wrapped_angle
 from planner.geometry.tolerance import ANGLE_RAD, EDGE_RAD, LENGTH_M, nearest_whole
-from planner.task.phase import Hand, Phase
+from planner.task.trajectory import Hand, Phase
 
 
 @dataclass(frozen=True, slots=True, eq=False)

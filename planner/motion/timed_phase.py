@@ -10,7 +10,7 @@ from planner.geometry.keyframes import values_at
 from planner.geometry.pose import FloatArray, Pose2, wrapped_angle
 from planner.motion.lying_cloth import LyingCloth
 from planner.primitives.drive_time import DriveTime
-from planner.task.phase import Phase
+from planner.task.trajectory import Phase
 
 
 def _evenly() -> FloatArray:

@@ -9,7 +9,7 @@ from typing import Any
 
 from planner.errors import RequestError, UnsolvedPlanError
 from planner.geometry.pose import Pose2
-from planner.geometry.table_top import TableTop
+from planner.geometry.table import TableTop
 from planner.geometry.tolerance import TIME_S
 from planner.motion.cloth_surface import ClothMoment, ClothSurface, ClothSurfaces
 from planner.task.plan import Plan

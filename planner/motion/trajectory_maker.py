@@ -10,10 +10,9 @@ from itertools import accumulate, pairwise
 
 import numpy as np
 
-from planner.geometry.keyframes import rate_at, values_at
+from planner.geometry.keyframes import ramps, rate_at, values_at
 from planner.geometry.pose import FloatArray
-from planner.geometry.ramps import ramps
-from planner.geometry.table_top import TableTop
+from planner.geometry.table import TableTop
 from planner.geometry.tolerance import TIME_S
 from planner.motion.hand_holds import settling_s
 from planner.motion.joint_trajectory import JointTrajectory, Keyframes, finger_limits_over
@@ -25,8 +24,7 @@ from planner.motion.transit_paths import TransitPaths
 from planner.primitives.context import Context
 from planner.primitives.drive_time import DriveTime
 from planner.robots.card import ArmCard, RobotCard
-from planner.task.phase import ClothMotion, Phase
-from planner.task.trajectory import ArmTrack, GripperTrack, Segment, Trajectory
+from planner.task.trajectory import ArmTrack, ClothMotion, GripperTrack, Phase, Segment, Trajectory
 
 _FINGER_KNOTS = 8
 """Keyframes while fingers close or open: they swing on links, so their joint does not move as the opening does."""

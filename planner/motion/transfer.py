@@ -17,7 +17,7 @@ from planner.motion.transfer_timing import TransferTiming
 from planner.motion.transit_planner import TransitPlanner
 from planner.primitives.drive_time import DriveTime
 from planner.primitives.primitive import Step
-from planner.task.phase import Phase
+from planner.task.trajectory import Phase
 
 
 def is_carrying(phase: Phase) -> bool:

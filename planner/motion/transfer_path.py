@@ -10,7 +10,7 @@ from planner.motion.opened_collisions import OpenedCollisions
 from planner.motion.smoothing import smoothed
 from planner.motion.transfer_tool_paths import ApproachLines, Cloths
 from planner.motion.waypoints import Waypoints
-from planner.robots.openings import HELD_M, OPENING_M
+from planner.robots.card import HELD_M, OPENING_M
 
 _SMOOTHING_PASSES = 30
 """How often joints are smoothed while a base drags."""

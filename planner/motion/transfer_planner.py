@@ -16,9 +16,16 @@ from planner.motion.hand_holds import edge_holds, opening_of, settling_s
 from planner.motion.joint_trajectory import Line, finger_run_s
 from planner.motion.lying_cloth import LyingCloth, LyingCloths
 from planner.motion.opened_collisions import OpenedCollisions
-from planner.motion.search_limits import QUICK, SearchLimits
 from planner.motion.transfer import Transfer, Transit, is_carrying, transit_between
-from planner.motion.transfer_candidate import BlockedWaypoints, Candidate, KnownTransfers, motion_of, ways_of
+from planner.motion.transfer_candidate import (
+    QUICK,
+    BlockedWaypoints,
+    Candidate,
+    KnownTransfers,
+    SearchLimits,
+    motion_of,
+    ways_of,
+)
 from planner.motion.transfer_path import TransferPath
 from planner.motion.transfer_path_finder import TransferPathFinder
 from planner.motion.transfer_timing import TransferLimits, TransferTiming
@@ -29,9 +36,9 @@ from planner.primitives.context import Context
 from planner.primitives.obstacle import BlockingContact
 from planner.primitives.primitive import Step
 from planner.robots.armed_robot import ArmedRobot
-from planner.robots.joint_layout import JointLayout
+from planner.robots.card import JointLayout
 from planner.robots.tool_path import NoPath
-from planner.task.phase import Phase
+from planner.task.trajectory import Phase
 
 MARGIN_M = 0.001
 """The distance kept between bodies that must not touch, at the waypoints tested (m)."""

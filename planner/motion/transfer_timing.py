@@ -18,8 +18,8 @@ from planner.motion.path_timing import UNBOUNDED, PathTiming, timed
 from planner.motion.timed_phase import TimedPhase
 from planner.motion.waypoints import Waypoints
 from planner.primitives.drive_time import DriveTime
-from planner.robots.joint_layout import JointLayout
-from planner.task.phase import Phase
+from planner.robots.card import JointLayout
+from planner.task.trajectory import Phase
 
 Carrying = Sequence[tuple[int, Phase]]
 """The phases of a transfer in which cloth is held, each with its primitive's number."""

@@ -11,8 +11,8 @@ from itertools import chain, pairwise, product
 
 import numpy as np
 
+from planner.geometry.keyframes import ramps
 from planner.geometry.pose import FloatArray, Pose2
-from planner.geometry.ramps import ramps
 from planner.geometry.tolerance import EDGE_RAD
 from planner.motion.answer_memory import AnswerMemory, RecentAnswers
 from planner.motion.joint_trajectory import Keyframes, Line
@@ -23,9 +23,8 @@ from planner.motion.path_timing import quickest
 from planner.motion.polylines import lengths_on_table
 from planner.motion.sampled_paths import SampledPaths, sampled
 from planner.robots.armed_robot import ArmedRobot
+from planner.robots.card import OPENING_M, JointLayout
 from planner.robots.collision.collisions import Collisions
-from planner.robots.joint_layout import JointLayout
-from planner.robots.openings import OPENING_M
 
 _LEADS = (0.25, 0.5, 0.75)
 """The fractions of their path by which some arms are tried ahead of the others."""

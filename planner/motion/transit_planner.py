@@ -22,7 +22,7 @@ from planner.motion.path_shortcuts import PARTS, places, shortcuts
 from planner.motion.smoothing import smoothed
 from planner.motion.timed_phase import TransitTime
 from planner.motion.transit_paths import TransitPaths
-from planner.robots.openings import EDGE_OPEN_M, HELD_M, OPENING_M
+from planner.robots.card import EDGE_OPEN_M, HELD_M, OPENING_M
 
 _LEAD_S, _TAIL_S = 0.8, 0.6
 """The time in which hands come straight to their grips and withdraw, if there is enough of it (s)."""

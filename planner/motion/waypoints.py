@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from planner.geometry.pose import BoolArray, FloatArray, Point3
 from planner.geometry.tolerance import LENGTH_M
 from planner.motion.phase_stretches import Stretch, StretchSampler, about_x, rolls_of
-from planner.task.phase import Phase
+from planner.task.trajectory import Phase
 
 
 @dataclass(frozen=True, slots=True, eq=False)

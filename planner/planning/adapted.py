@@ -10,7 +10,7 @@ from dataclasses import replace
 from itertools import islice, zip_longest
 
 from planner.motion.plan_segment import PlanSegment
-from planner.motion.search_limits import QUICK
+from planner.motion.transfer_candidate import QUICK
 from planner.planning.effort import Effort
 from planner.planning.found_plan import FoundPlan
 from planner.planning.problem import Problem

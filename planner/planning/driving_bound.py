@@ -21,8 +21,9 @@ from planner.geometry.pose import BoolArray, FloatArray
 from planner.planning.budget import Budget
 from planner.planning.heuristic import Heuristic, arm_time
 from planner.primitives.context import Context
-from planner.primitives.fold_stands import FoldStands
-from planner.primitives.relaxed_sites import FREE, HELD, Service, Site, SiteMap, Sites, to_go
+from planner.primitives.fold_query import FoldStands
+from planner.primitives.relaxed_sites import FREE, HELD, Sites, to_go
+from planner.primitives.site_map import Service, Site, SiteMap
 from planner.primitives.state import ANYWHERE, State
 
 _HORIZON_S, _GROWTH = 8.0, 1.6

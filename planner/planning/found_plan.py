@@ -11,12 +11,11 @@ from planner.planning.problem import Problem
 from planner.primitives.context import DRAGS_PER_M, Context
 from planner.primitives.primitive import Step
 from planner.primitives.state import State
-from planner.task.grip import Grip
 from planner.task.plan import Plan, PlanStep, Statistics
 from planner.task.reason import Reason
 from planner.task.task import Task
 from planner.task.trajectory import Trajectory
-from planner.task.world_state import HeldPoint, WorldState
+from planner.task.world_state import Grip, HeldPoint, WorldState
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,8 +10,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
 from planner.motion.plan_segment import PlanSegment, is_transfer, transfers_of
-from planner.motion.search_limits import QUICK
 from planner.motion.transfer import Transfer
+from planner.motion.transfer_candidate import QUICK
 from planner.planning.budget import Budget
 from planner.planning.edges import Edges
 from planner.planning.effort import Effort

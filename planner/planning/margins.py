@@ -12,7 +12,7 @@ from planner.cloth.g_state import TableInArticle, needed_friction
 from planner.geometry.pose import Approach, FloatArray
 from planner.geometry.reach_query import ReachQuery
 from planner.planning.problem import Problem
-from planner.robots.joint_layout import JointLayout
+from planner.robots.card import JointLayout
 from planner.task.plan import Plan
 from planner.task.task import COMFORT_MAX_M
 from planner.task.trajectory import Trajectory

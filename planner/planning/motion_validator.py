@@ -24,9 +24,8 @@ from itertools import islice
 from planner.geometry.tolerance import TIME_S
 from planner.motion.edge_hands import EdgeHands
 from planner.motion.plan_segment import PlanSegment, duration_s, is_transfer, linked, transfers_of
-from planner.motion.search_limits import QUICK, SearchLimits
 from planner.motion.transfer import Transfer
-from planner.motion.transfer_candidate import Candidate, ways_of
+from planner.motion.transfer_candidate import QUICK, Candidate, SearchLimits, ways_of
 from planner.motion.transfer_planner import TransferPlanner
 from planner.planning.budget import Budget, OutOfTimeError
 from planner.planning.failure_memory import FailureMemory

@@ -16,7 +16,7 @@ from typing import Any
 from planner.geometry.tolerance import TIME_S
 from planner.motion.edge_hands import EdgeHands
 from planner.motion.plan_segment import PlanSegment, duration_s
-from planner.motion.search_limits import QUICK, SearchLimits
+from planner.motion.transfer_candidate import QUICK, SearchLimits
 from planner.planning.budget import Budget, OutOfTimeError
 from planner.planning.driving_bound import DrivingBound
 from planner.planning.edge_path import EdgePath

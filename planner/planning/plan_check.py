@@ -21,8 +21,7 @@ from planner.primitives.fold_obstacles import geometric_obstacle
 from planner.primitives.primitive import HeldTools
 from planner.primitives.primitive_set import PRIMITIVES
 from planner.primitives.state import State
-from planner.robots.joint_layout import JointLayout
-from planner.robots.openings import LOWERED_MAX_M, RAISED_MAX_M
+from planner.robots.card import LOWERED_MAX_M, RAISED_MAX_M, JointLayout
 from planner.task.plan import Plan, PlanStep
 from planner.task.trajectory import Segment, Trajectory
 

@@ -8,7 +8,7 @@ from typing import Literal, TypeAlias
 
 from planner.motion.edge_hands import EdgeHands
 from planner.motion.plan_segment import PlanSegment, duration_s
-from planner.motion.search_limits import MORE_TRANSFERS, THOROUGH
+from planner.motion.transfer_candidate import MORE_TRANSFERS, THOROUGH
 from planner.planning.budget import Budget
 from planner.planning.events import Blocked, Done, Event, Improved
 from planner.planning.found_plan import FoundPlan

@@ -14,8 +14,7 @@ from planner.geometry.pose import Pose2
 from planner.geometry.tolerance import LENGTH_M, nearest_whole
 from planner.motion.transfer_candidate import KnownTransfers
 from planner.motion.transfer_planner import TransferPlanner
-from planner.primitives.cloth_memory import cloth_memory
-from planner.primitives.context import DRAGS_PER_M, Context
+from planner.primitives.context import DRAGS_PER_M, Context, cloth_memory
 from planner.primitives.reach import Reach, UnlimitedReach
 from planner.primitives.state import Held, State
 from planner.robots.armed_robot import ArmedRobot

@@ -24,7 +24,7 @@ from planner.geometry.tolerance import LENGTH_M, grid_key, grid_keys
 from planner.planning.budget import Budget
 from planner.planning.single_fold_cases import Case, Cases
 from planner.primitives.context import Context
-from planner.primitives.drag_grips import drag_offsets, dragged, longest_drag
+from planner.primitives.drag_way import drag_offsets, dragged, longest_drag
 from planner.primitives.fold_obstacles import geometric_obstacle, geometric_obstacles
 from planner.primitives.fold_trial import FoldTrial, fold_trials
 from planner.primitives.fold_way import attempt_of, can_follow

@@ -11,9 +11,9 @@ from planner.geometry.pose import FloatArray, Point2
 from planner.geometry.tolerance import LENGTH_M
 from planner.planning.budget import Budget
 from planner.primitives.context import Context
-from planner.primitives.drag_grips import drag_covers, hangs_ahead, towards_robot
+from planner.primitives.drag_way import drag_covers, hangs_ahead, towards_robot
 from planner.primitives.fold_trial import grips_obstacle
-from planner.primitives.held_covers import held_covers
+from planner.primitives.grasping import held_covers
 from planner.primitives.state import Held, State
 
 

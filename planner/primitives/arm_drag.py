@@ -9,9 +9,8 @@ from typing import Any, ClassVar
 from planner.geometry.pose import Point2
 from planner.geometry.tolerance import grid_key
 from planner.primitives.context import Context
-from planner.primitives.drag_grips import along, arm_drag_steps, arm_dragged, longest_drag
 from planner.primitives.drag_step import DragStep
-from planner.primitives.drag_way import DragWays, dragged_tools
+from planner.primitives.drag_way import DragWays, along, arm_drag_steps, arm_dragged, dragged_tools, longest_drag
 from planner.primitives.grasping import by_nearness
 from planner.primitives.primitive import Deferred, DeferredSteps, HeldTools
 from planner.primitives.state import State

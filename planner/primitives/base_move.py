@@ -18,16 +18,15 @@ from numpy.typing import NDArray
 
 from planner.errors import RequestError
 from planner.geometry.pose import Approach, FloatArray, Point2, Pose2, wrapped_angle
-from planner.geometry.table import Table
-from planner.geometry.table_top import TableTop
+from planner.geometry.table import Table, TableTop
 from planner.geometry.tolerance import LENGTH_M, TIME_S
 from planner.primitives.context import Context
 from planner.primitives.drive_time import DriveTime
 from planner.primitives.primitive import Deferred, DeferredSteps, HeldTools
 from planner.primitives.state import State
-from planner.task.grip import Grip, Holding
-from planner.task.phase import ClothMotion, Hand, Phase
 from planner.task.plan import PlanStep
+from planner.task.trajectory import ClothMotion, Hand, Phase
+from planner.task.world_state import Grip, Holding
 
 _ROUTES_KEPT = 4096
 """Routes that are remembered, some 1 kB each: all plans at a table drive between the same places."""

@@ -10,14 +10,13 @@ import numpy as np
 
 from planner.geometry.driving import STANDOFFS_PER_M
 from planner.geometry.pose import Approach, FloatArray, Point2, point3
-from planner.geometry.table_top import TableTop
+from planner.geometry.table import TableTop
 from planner.primitives.context import DRAGS_PER_M, Context
-from planner.primitives.drag_grips import drag_covers, dragged, towards_robot
-from planner.primitives.drag_way import DragWay, DragWays, hands_at
+from planner.primitives.drag_way import DragWay, DragWays, drag_covers, dragged, hands_at, towards_robot
 from planner.primitives.grasping import by_nearness, holdings
 from planner.primitives.state import Held, State
-from planner.task.grip import Grip, Holding
-from planner.task.phase import ClothMotion, Hand, Phase
+from planner.task.trajectory import ClothMotion, Hand, Phase
+from planner.task.world_state import Grip, Holding
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from planner.geometry.ramps import Ramps, least_s, ramps
+from planner.geometry.keyframes import Ramps, least_s, ramps
 
 ACCELERATION_M_S2, TURN_ACCELERATION_RAD_S2 = 0.5, 1.0
 """Accelerations of a base whose card gives none; no card gives that of turning."""

@@ -25,7 +25,7 @@ from planner.primitives.base_legs import legs, stands_beside
 from planner.primitives.context import Context
 from planner.primitives.fold_way import FoldWay
 from planner.primitives.state import State
-from planner.task.phase import ClothMotion, Hand, Phase
+from planner.task.trajectory import ClothMotion, Hand, Phase
 
 _BESIDE = 1e-9
 """How far gates at the same sweep lie apart, so that a line that drives there has a slope."""

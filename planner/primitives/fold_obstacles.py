@@ -6,7 +6,7 @@ import numpy as np
 
 from planner.cloth.fold_kinds import FOLD_KINDS
 from planner.geometry.pose import Point2
-from planner.geometry.table_top import TableTop
+from planner.geometry.table import TableTop
 from planner.geometry.tolerance import LENGTH_M
 from planner.primitives.context import Context
 from planner.primitives.obstacle import Obstacle
@@ -15,20 +15,13 @@ from planner.task.reason import Code
 from planner.words.catalogue import worded
 
 
-class Depths:
-    """The distances from the fold line that the moving part of each fold covers."""
-
-    def __init__(self, context: Context) -> None:
-        self._context = context
-        self._known: dict[int, tuple[float, float]] = {}
-
-    def of(self, fold: int) -> tuple[float, float]:
-        """Return the smallest and the largest distance from the line, to the left (m)."""
-        if fold not in self._known:
-            moving = self._context.sequence.moving(fold)
-            distances = self._context.sequence.folds[fold].line.left_distances(moving.coordinates)
-            self._known[fold] = (float(distances.min()), float(distances.max()))
-        return self._known[fold]
+def depths(context: Context) -> tuple[tuple[float, float], ...]:
+    """Return the smallest and the largest distance of what each fold moves from its line, to the left (m)."""
+    found = []
+    for fold in context.sequence.folds:
+        distances = fold.line.left_distances(context.sequence.moving(fold.index).coordinates)
+        found.append((float(distances.min()), float(distances.max())))
+    return tuple(found)
 
 
 def geometric_obstacle(context: Context, state: State, fold: int) -> Obstacle | None:
@@ -43,7 +36,7 @@ def geometric_obstacles(context: Context, state: State, fold: int) -> Iterator[O
         off = context.table_in_article(state.offset).region.distance_to(folds[fold].line)
         says = worded("line_off_table", {"off_m": float(off)}, folds, fold)
         yield Obstacle(fold, Code.LINE_OFF_TABLE, says, off, state)
-    behind = -context.kept(Depths).of(fold)[0]
+    behind = -context.kept(depths)[fold][0]
     if behind > context.behind_max_m + LENGTH_M:
         says = worded("behind_line", {"behind_m": behind}, folds, fold)
         yield Obstacle(fold, Code.NOT_A_G_STATE, says, behind, state)

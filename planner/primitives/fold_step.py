@@ -17,8 +17,8 @@ from planner.primitives.fold_variants import Variant, fold_spread, fold_variants
 from planner.primitives.fold_way import FoldWay
 from planner.primitives.grasping import by_nearness, holdings, like_approach
 from planner.primitives.state import Held, State
-from planner.task.grip import Grip, Holding
-from planner.task.phase import Phase
+from planner.task.trajectory import Phase
+from planner.task.world_state import Grip, Holding
 
 _LIKE = 8
 """The number of approaches of each arm that count as like its former one; trying all takes several times as long."""

@@ -17,20 +17,19 @@ from planner.geometry.pose import FloatArray, Point2, point2
 from planner.geometry.reach_query import ReachQuery
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
-from planner.geometry.table_top import TableTop
+from planner.geometry.table import TableTop
 from planner.geometry.tolerance import LENGTH_M, grid_keys
-from planner.primitives.cloth_memory import Hands
-from planner.primitives.context import Context
-from planner.primitives.fold_obstacles import Depths
+from planner.primitives.context import Context, Hands
+from planner.primitives.fold_obstacles import depths
 from planner.primitives.grasping import (
     all_approaches,
     approaches_from_outside,
     assignments,
     hand_keys,
+    held_covers,
     nearest_pair_m,
     sides,
 )
-from planner.primitives.held_covers import held_covers
 from planner.primitives.obstacle import Obstacle
 from planner.primitives.reach import Following
 from planner.primitives.state import State
@@ -218,7 +217,7 @@ def _path(context: Context, state: State, fold: int) -> FoldPath:
 
 def _over(context: Context, offset: Point2, fold: int, tops: tuple[TableTop, TableTop]) -> FoldPath:
     """Return the path of a fold after drags by an offset (m), over the table's top and the one until the apex."""
-    line, (_, depth_m) = _line(context, offset, fold), context.kept(Depths).of(fold)
+    line, (_, depth_m) = _line(context, offset, fold), context.kept(depths)[fold]
     stacks = context.sequence.rests_of(fold)
     return FoldPath(line, depth_m, *tops, context.scene.edge_clear_m, context.placed(offset), stacks)
 

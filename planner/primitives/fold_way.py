@@ -55,7 +55,7 @@ def can_follow(context: Context, station: int, trial: FoldTrial, stands: int | N
     begun = np.zeros(context.standoffs, dtype=np.int64)
     if stands is not None:
         begun[[not stands >> standoff & 1 for standoff in range(context.standoffs)]] = IMPOSSIBLE
-    return bool(trial.following(context, station).least_driving(begun, wanted="any").ends)
+    return bool(trial.following(context, station)(begun, wanted="any").ends)
 
 
 def attempt_of(state: State, trial: FoldTrial, places: FloatArray) -> Attempt:

@@ -11,9 +11,8 @@ from planner.geometry.pose import Point2
 from planner.primitives.base_legs import unbeaten
 from planner.primitives.base_move import MoveTimes
 from planner.primitives.context import Context
-from planner.primitives.drag_grips import dragged, longest_drag
 from planner.primitives.drag_step import DragStep
-from planner.primitives.drag_way import DragWay, DragWays, dragged_tools
+from planner.primitives.drag_way import DragWay, DragWays, dragged, dragged_tools, longest_drag
 from planner.primitives.holding_drags import STEPS_PER_DRAG, HoldingDrags
 from planner.primitives.primitive import Deferred, DeferredSteps, HeldTools
 from planner.primitives.state import State

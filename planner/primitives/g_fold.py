@@ -11,8 +11,7 @@ from planner.geometry.driving import IMPOSSIBLE
 from planner.geometry.pose import FloatArray, Point2
 from planner.primitives.base_move import MoveTimes
 from planner.primitives.context import Context
-from planner.primitives.fold_query import FoldQueries
-from planner.primitives.fold_stands import FoldStands
+from planner.primitives.fold_query import FoldQueries, FoldStands
 from planner.primitives.fold_step import FoldStep, fold_step
 from planner.primitives.fold_trial import fold_trials
 from planner.primitives.primitive import Deferred, DeferredSteps, HeldTools, is_taken_alike

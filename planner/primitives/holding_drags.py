@@ -19,7 +19,7 @@ from planner.primitives.context import DRAGS_PER_M, Context
 from planner.primitives.drag_step import DragStep
 from planner.primitives.drag_way import DragWay
 from planner.primitives.fold_query import FoldQueries
-from planner.primitives.held_covers import held_covers
+from planner.primitives.grasping import held_covers
 from planner.primitives.primitive import Deferred
 from planner.primitives.state import Held, State
 

@@ -9,10 +9,9 @@ from planner.geometry.pose import Approach, FloatArray, Point2
 from planner.geometry.tolerance import LENGTH_M
 from planner.primitives.context import Context
 from planner.primitives.state import State
-from planner.task.grip import Grip, Holding
-from planner.task.phase import Phase
 from planner.task.plan import PlanStep
-from planner.task.trajectory import Segment
+from planner.task.trajectory import Phase, Segment
+from planner.task.world_state import Grip, Holding
 
 
 class Step(Protocol):

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from functools import partial
 from typing import Protocol
 
 import numpy as np
@@ -14,11 +15,9 @@ from planner.geometry.reach_query import ReachQuery, Shortfall
 
 
 class Following(Protocol):
-    """A query about hands that follow paths."""
+    """A query about hands that follow paths: how the base may drive meanwhile."""
 
-    def least_driving(
-        self, begun: NDArray[np.int64], most: int = IMPOSSIBLE - 1, wanted: Wanted = "unbeaten"
-    ) -> Driving:
+    def __call__(self, begun: NDArray[np.int64], most: int = IMPOSSIBLE - 1, wanted: Wanted = "unbeaten") -> Driving:
         """Return how the base may drive meanwhile, in as few steps as possible.
 
         Args:
@@ -192,8 +191,8 @@ class UnlimitedReach:
         return masks if among is None else masks & among
 
     def following(self, paths: Sequence[ReachQuery]) -> Following:
-        """Return hands that can follow any path from anywhere."""
-        return _Unlimited(len(paths))
+        """Return the query about hands that can follow any path from anywhere, with the first approach of each."""
+        return partial(_driven_anywhere, len(paths))
 
     def from_anywhere(self, places: ReachQuery) -> BoolArray:
         """Return true for each approach and point."""
@@ -217,21 +216,15 @@ class _NoMemory:
     def share(self) -> None: ...
 
 
-class _Unlimited:
-    """Hands that can follow any path with the first approach of each."""
-
-    def __init__(self, hands: int) -> None:
-        self._hands = hands
-
-    def least_driving(
-        self, begun: NDArray[np.int64], most: int = IMPOSSIBLE - 1, wanted: Wanted = "unbeaten"
-    ) -> Driving:
-        """Keep the base where it is when the hands begin, or drive it from there to every end if that is wanted."""
-        places = np.arange(len(begun))
-        steps, first = begun.copy(), places
-        if wanted == "every":
-            ways = begun[:, None] + np.abs(places[:, None] - places)
-            first, steps = ways.argmin(axis=0), ways.min(axis=0)
-        more = int(steps.min(where=steps > most, initial=IMPOSSIBLE))
-        steps = np.where(steps <= most, steps, IMPOSSIBLE)
-        return Driving(steps, first, np.zeros((self._hands, len(begun)), dtype=np.int64), more)
+def _driven_anywhere(
+    hands: int, begun: NDArray[np.int64], most: int = IMPOSSIBLE - 1, wanted: Wanted = "unbeaten"
+) -> Driving:
+    """Keep the base where it is when the hands begin, or drive it from there to every end if that is wanted."""
+    places = np.arange(len(begun))
+    steps, first = begun.copy(), places
+    if wanted == "every":
+        ways = begun[:, None] + np.abs(places[:, None] - places)
+        first, steps = ways.argmin(axis=0), ways.min(axis=0)
+    more = int(steps.min(where=steps > most, initial=IMPOSSIBLE))
+    steps = np.where(steps <= most, steps, IMPOSSIBLE)
+    return Driving(steps, first, np.zeros((hands, len(begun)), dtype=np.int64), more)

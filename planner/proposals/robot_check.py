@@ -17,7 +17,7 @@ from planner.geometry.pose import Point2
 from planner.planning.problem import Problem
 from planner.planning.warm_up import compile_kernels
 from planner.primitives.context import Context
-from planner.primitives.drag_grips import arm_drag_steps, arm_dragged, dragged, longest_drag
+from planner.primitives.drag_way import arm_drag_steps, arm_dragged, dragged, longest_drag
 from planner.primitives.fold_obstacles import geometric_obstacle
 from planner.primitives.fold_trial import fold_trials
 from planner.primitives.fold_way import can_follow

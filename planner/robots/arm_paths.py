@@ -52,16 +52,7 @@ def arm_searches(
     floor_m: float,
     are_free: Mapping[int, IsFree],
 ) -> dict[int, ArmSearch]:
-    """Return the search for the path of each arm that has one, for `arm_paths`.
-
-    Args:
-        arms: the robot's arms.
-        card: the robot's card.
-        paths: each arm's tool path, in rising order of the arms.
-        torso_m: how far the lift is raised (m).
-        floor_m: the height over which elbows should preferably stay, base frame (m).
-        are_free: for each of them the check of which joints are collision-free, whatever the others do.
-    """
+    """Return the search for the path of each arm that has one; for the arguments see `ArmedRobot.arm_paths`."""
     return {
         arm: ArmSearch(arms[arm], np.array(card.arms[arm].speeds_rad_s), path, float(torso_m), floor_m, are_free[arm])
         for arm, path in paths.items()

@@ -12,13 +12,11 @@ from planner.errors import RequestError, SceneError
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.geometry.table import Table
 from planner.robots.arm_paths import Together, arm_paths, arm_searches
-from planner.robots.card import RobotCard
+from planner.robots.card import OPENING_M, RobotCard
 from planner.robots.collision.collisions import Collisions
 from planner.robots.collision.robot_parts import RobotParts
-from planner.robots.comfort_memories import Memories
-from planner.robots.comfort_reach import ComfortReach
+from planner.robots.comfort_reach import ComfortReach, Memories
 from planner.robots.edge_grip import HandShape, edge_raised_m
-from planner.robots.openings import OPENING_M
 from planner.robots.tool_path import IsFree, NoPath, PathArm, ToolPath, free_postures, near_path
 
 _MEMORIES_KEPT = 4
@@ -59,7 +57,6 @@ class ArmedRobot(ABC):
     def _hand_shape(self, arm: int) -> HandShape:
         """Return an arm's hand as its tool sees it."""
 
-    @abstractmethod
     def reach(
         self,
         torso_m: float,
@@ -84,6 +81,15 @@ class ArmedRobot(ABC):
             SceneError: the lift does not go there.
             RequestError: the radius is negative or no number.
         """
+        minds_arms = minds_arms and self.can_mind_arms
+        memories = None if is_passing else self._memories_of(torso_m, comfort_m, minds_arms=minds_arms)
+        return self._reach(float(torso_m), float(comfort_m), memories, minds_body=minds_body, minds_arms=minds_arms)
+
+    @abstractmethod
+    def _reach(
+        self, torso_m: float, comfort_m: float, memories: Memories | None, *, minds_body: bool, minds_arms: bool
+    ) -> ComfortReach:
+        """Return the reach; it takes a memory from some memories, and leaves it there."""
 
     @property
     @abstractmethod

@@ -1,14 +1,29 @@
 """A robot's card: the data to show, place and describe the robot."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 from typing import TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
-from planner.geometry.pose import FloatArray
+from planner.geometry.pose import BoolArray, FloatArray
+
+HELD_M = 0.001
+"""The fingers' opening while they hold cloth at its edge (m): its layers, pressed."""
+
+EDGE_OPEN_M = 0.01
+"""The opening with which one finger slides under the cloth at its edge and the other over it (m)."""
+
+OPENING_M = 0.06
+"""Default upper limit of the fingers' opening where they are compared with other things (m)."""
+
+RAISED_MAX_M, LOWERED_MAX_M = 0.004, 0.03
+"""How far above and below the height of its path a hand may take cloth and let go of it (m)."""
+
 
 RISE_S = 0.25
 """The time in which a joint comes to its top speed, where a card gives no acceleration (s); a URDF never does."""
@@ -192,3 +207,63 @@ class RobotCard:
             values |= {name: float(q) for name, q in zip(arm.joint_names, joints, strict=True)}
             values[arm.gripper.joint_name] = arm.gripper.angle(float(opening_m))
         return values
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class JointLayout:
+    """The joints of all arms in a configuration: one row, one arm after the other.
+
+    So arms may have different numbers of joints, and one array, shape (n, joints), holds a whole motion.
+
+    Attributes:
+        spans: each arm's part of a configuration.
+        owners: the arm of each joint, shape (joints,).
+        home: all arms out of the way (rad), shape (joints,).
+        speeds_rad_s: the top speeds, shape (joints,).
+        accelerations: the top accelerations (rad/s2), shape (joints,).
+        is_continuous: which joints turn without end, shape (joints,).
+        is_lifting: which joints raise an arm's elbow and hand, shape (joints,).
+        ranges: the lowest and highest values (rad, m), infinite for endless joints, shape (joints, 2).
+    """
+
+    spans: tuple[slice, ...]
+    owners: NDArray[np.int64]
+    home: FloatArray
+    speeds_rad_s: FloatArray
+    accelerations: FloatArray
+    is_continuous: BoolArray
+    is_lifting: BoolArray
+    ranges: FloatArray
+
+    @staticmethod
+    def of(card: RobotCard) -> "JointLayout":
+        """Return the layout of a robot's arms, from left to right."""
+        counts = [len(arm.joint_names) for arm in card.arms]
+        ends = np.cumsum([0, *counts]).tolist()
+        lifting = [name in arm.lifting for arm in card.arms for name in arm.joint_names]
+        return JointLayout(
+            tuple(slice(start, end) for start, end in pairwise(ends)),
+            np.repeat(np.arange(len(counts)), counts),
+            np.array([q for arm in card.arms for q in arm.home], dtype=float),
+            np.array([speed for arm in card.arms for speed in arm.speeds_rad_s], dtype=float),
+            np.array([own for arm in card.arms for own in arm.kept_accelerations], dtype=float),
+            np.array([turns for arm in card.arms for turns in arm.is_continuous], dtype=np.bool_),
+            np.array(lifting, dtype=np.bool_),
+            np.array([ends for arm in card.arms for ends in arm.limits], dtype=float),
+        )
+
+    @property
+    def arms(self) -> range:
+        """The arms' indices."""
+        return range(len(self.spans))
+
+    def at_home(self, count: int) -> FloatArray:
+        """Return configurations with all arms at home, shape (count, joints); a new array."""
+        return np.tile(self.home, (count, 1))
+
+    def joints_of(self, arms: Iterable[int]) -> slice | NDArray[np.int64]:
+        """Return the indices of some arms' joints in a configuration; arms in rising order."""
+        chosen = tuple(arms)
+        if chosen == tuple(self.arms):
+            return slice(None)
+        return np.flatnonzero(np.isin(self.owners, chosen))

@@ -11,7 +11,7 @@ from planner.geometry.pose import FloatArray
 from planner.robots.armed_robot import ArmedRobot
 from planner.robots.collision.described_parts import described_parts
 from planner.robots.collision.robot_parts import RobotParts
-from planner.robots.comfort_reach import QueriedArms
+from planner.robots.comfort_reach import Memories, QueriedArms
 from planner.robots.described_card import robot_card
 from planner.robots.described_robot import DescribedRobot
 from planner.robots.edge_grip import HandShape
@@ -35,20 +35,10 @@ class CardRobot(ArmedRobot):
         self._mapping = threading.Lock()
         self._mapped: _Mapped | None = None
 
-    def reach(
-        self,
-        torso_m: float,
-        comfort_m: float,
-        *,
-        is_passing: bool = False,
-        minds_body: bool = True,
-        minds_arms: bool = False,
+    def _reach(
+        self, torso_m: float, comfort_m: float, memories: Memories | None, *, minds_body: bool, minds_arms: bool
     ) -> MappedReach:
-        """Return the reach with the lift raised, for a comfort radius (m); see `ArmedRobot.reach`.
-
-        Body and other arms are left to the joint paths, whether they are to be minded or not.
-        """
-        memories = None if is_passing else self._memories_of(torso_m, comfort_m)
+        """Return the reach; body and other arms are left to the joint paths, whether they are minded or not."""
         names = tuple(arm.name for arm in self.card.arms)
         ask = np.arange(1, len(ALL_ROUND) + 1)
         labels = tuple(ARM_LABELS * number + ask for number in range(len(names)))
@@ -56,12 +46,12 @@ class CardRobot(ArmedRobot):
         lengths = tuple(arm.length_m for arm in self._arms)
 
         def covering(arm: int, seen: FloatArray) -> tuple[MappedArms, Heights]:
-            self._arms[arm].cover(seen, float(torso_m))
-            return self._seen(float(torso_m))
+            self._arms[arm].cover(seen, torso_m)
+            return self._seen(torso_m)
 
-        numbers, heights = self._seen(float(torso_m))
+        numbers, heights = self._seen(torso_m)
         asked = QueriedArms(names, self._arms, numbers, ALL_ROUND, labels)
-        return MappedReach(asked, heights, covering, joints, lengths, float(torso_m), float(comfort_m), memories)
+        return MappedReach(asked, heights, covering, joints, lengths, torso_m, comfort_m, memories)
 
     def _seen(self, torso_m: float) -> tuple[MappedArms, Heights]:
         """Return the arms for the compiled queries with the lift raised, and the heights that their maps cover."""

@@ -6,6 +6,7 @@ Where arms are mirror images, places and approaches are mirrored on the way in, 
 
 import math
 from abc import ABC, abstractmethod
+from collections import deque
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from time import thread_time
@@ -20,38 +21,92 @@ from planner.geometry.pose import Approach, BoolArray, FloatArray, Point3
 from planner.geometry.reach_query import ReachQuery, Shortfall
 from planner.geometry.tolerance import grid_keys
 from planner.robots.arm_query import ArmNumbers
-from planner.robots.comfort import ROW_CELLS
-from planner.robots.comfort_memories import Memories, PlanMemory
+from planner.robots.comfort import GOOD, KNOWN, QUERIES, ROW_CELLS, ROWS, Memory, empty_memory
 from planner.robots.driving import ANY, EVERY, UNBEATEN, UNSEEN, DrivingTask, least_driving
 from planner.robots.place import STANDOFF_STEP
 from planner.robots.standoffs import anywhere, standoff_masks
 
-_WANTED = {"unbeaten": UNBEATEN, "every": EVERY, "any": ANY}
+_LEFT_MAX = 2
+"""Memories that are left for plans to come: as many as are mostly made at once."""
+
+_FULL = 0.5
+"""Share of a memory's rows from which it has no room for another plan."""
+
+_SMALL_BITS = 4
+"""Size of a memory that will hardly be used any more, as a power of two."""
 
 
-class FollowingPaths:
-    """Hands that follow paths."""
+class Memories:
+    """The memories of one robot for one torso height and comfort radius. Threads may share it.
 
-    def __init__(self, task: DrivingTask, charge: Callable[[float], None]) -> None:
-        """Take the task; `charge` is called with the time spent on each query (s)."""
-        self._task = task
-        self._charge = charge
+    Where an arm reaches depends on the robot alone, and a garment that has changed a little asks about much the same
+    places. A memory (see `planner.robots.comfort`) must not be shared between threads, so a plan takes one and leaves
+    it when done. A plan is charged for what another has asked, so that its work does not depend on what came before it.
+    """
 
-    def least_driving(
-        self, begun: NDArray[np.int64], most: int = IMPOSSIBLE - 1, wanted: Wanted = "unbeaten"
-    ) -> Driving:
-        """Return how the base may drive meanwhile, in as few steps as possible.
+    def __init__(self) -> None:
+        self._left: deque[Memory] = deque(maxlen=_LEFT_MAX)
 
-        Args:
-            begun: for each standoff the steps in which the base can be there when the hands begin; `IMPOSSIBLE` where
-                it cannot. Shape (count,), count at most 32.
-            most: the largest number of steps considered.
-            wanted: which ends are wanted.
+    def take(self) -> Memory:
+        """Return the memory left last, or an empty one."""
+        try:
+            memory = self._left.pop()
+        except IndexError:
+            return empty_memory()
+        memory.bits[:, KNOWN : GOOD + 1] = 0
+        memory.counts[QUERIES] = 0
+        return memory
+
+    def leave(self, memory: Memory) -> None:
+        """Leave a memory for another plan, unless it is too full."""
+        if memory.counts[ROWS] < _FULL * len(memory.keys):
+            self._left.append(memory)
+
+
+class PlanMemory:
+    """The memory of one plan, and its counters; implements `planner.primitives.reach.ReachMemory`.
+
+    Attributes:
+        rows: what the compiled queries remember; they add to it.
+        query_time_s: the time spent on answers (s), remembered ones included.
+    """
+
+    def __init__(self, others: Memories | None = None) -> None:
+        """Take what other plans have found out; None: nothing."""
+        self._others = others
+        self.rows = empty_memory() if others is None else others.take()
+        self.query_time_s = 0.0
+        self._more_queries = 0
+
+    @property
+    def queries(self) -> int:
+        """The number of queries computed by the exact kernel so far, points on the comfort circle included.
+
+        What is remembered, or further away than the arm is long, is answered without a query.
         """
-        started = thread_time()
-        answer, more = least_driving(self._task, begun, most, _WANTED[wanted])
-        self._charge(thread_time() - started)
-        return Driving(answer[0], answer[1], answer[2:], more)
+        return int(self.rows.counts[QUERIES]) + self._more_queries
+
+    def charge(self, time_s: float, queries: int = 0) -> None:
+        """Add the time of an answer (s), and queries that it took beyond those about remembered places."""
+        self.query_time_s += time_s
+        self._more_queries += queries
+
+    def forget(self) -> None:
+        """Leave the memory, some 4 MB, to another plan and keep the counters; the answers stay the same."""
+        queries = self.rows.counts[QUERIES]
+        if self._others is not None:
+            self._others.leave(self.rows)
+            self._others = None
+        self.rows = empty_memory(_SMALL_BITS)
+        self.rows.counts[QUERIES] = queries
+
+    def share(self) -> None:
+        """Leave a copy of the memory to the next plan (1 ms); see `Memories`."""
+        if self._others is not None and self.rows.counts[ROWS]:
+            self._others.leave(Memory(*(part.copy() for part in self.rows)))
+
+
+_WANTED = {"unbeaten": UNBEATEN, "every": EVERY, "any": ANY}
 
 
 class ReachingArm(Protocol):
@@ -156,8 +211,8 @@ class ComfortReach(ABC):
         self.memory.charge(thread_time() - started)
         return masks
 
-    def following(self, paths: Sequence[ReachQuery]) -> FollowingPaths:
-        """Return hands that are to follow paths, each in one approach (see `Reach`)."""
+    def following(self, paths: Sequence[ReachQuery]) -> Callable[..., Driving]:
+        """Return the query about hands that are to follow paths, each in one approach (see `Reach`)."""
         hands, waypoints = len(paths), len(paths[0].points)
         labels = np.zeros((hands, max(len(path.approaches) for path in paths)), dtype=np.int64)
         places = np.empty((hands, waypoints, 3), dtype=np.int64)
@@ -169,7 +224,15 @@ class ComfortReach(ABC):
         slots = np.full((*labels.shape, waypoints), UNSEEN, dtype=np.int64)
         cells = places[:, :, 0] // STANDOFF_STEP + ROW_CELLS // 2
         task = DrivingTask(numbers, self.memory.rows, labels, places, cells, slots, self.comfort_m)
-        return FollowingPaths(task, self.memory.charge)
+        charge = self.memory.charge
+
+        def driven(begun: NDArray[np.int64], most: int = IMPOSSIBLE - 1, wanted: Wanted = "unbeaten") -> Driving:
+            started = thread_time()
+            answer, more = least_driving(task, begun, most, _WANTED[wanted])
+            charge(thread_time() - started)
+            return Driving(answer[0], answer[1], answer[2:], more)
+
+        return driven
 
     def from_anywhere(self, places: ReachQuery) -> BoolArray:
         """Return which points, each on its own, are within the comfort radius from at least one standoff, (k, n)."""

@@ -13,8 +13,8 @@ import pinocchio as pin
 from planner.robots.card import ArmCard, GripperCard, LinearGripper, ParallelogramGripper, RobotCard
 from planner.robots.card_file import ArmFile, CardFile
 from planner.robots.card_parts import GripperFile, ParallelogramDrive
+from planner.robots.chain_reader import keep_soft_limits, limits_of
 from planner.robots.described_robot import DescribedRobot
-from planner.robots.soft_limits import keep_soft_limits, limits_of
 from planner.user_cache import cache_folder, use
 
 _MOVING = ("revolute", "continuous", "prismatic")

@@ -16,10 +16,9 @@ from planner.geometry.pose import BoolArray, FloatArray
 from planner.robots.card_file import ArmFile, CardFile
 from planner.robots.card_parts import LinearDrive, Mount, ToolFile
 from planner.robots.chain import Chain, length_of
-from planner.robots.chain_reader import read_chain
+from planner.robots.chain_reader import keep_soft_limits, read_chain
 from planner.robots.known_robots import read_card, shipped_path, shipped_robots
 from planner.robots.own_robots import own_card, own_robots
-from planner.robots.soft_limits import keep_soft_limits
 from planner.robots.urdf_reader import locate, mimics_of, parsed, read_urdf
 
 REACH_MAX_M = 10.0

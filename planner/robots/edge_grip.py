@@ -12,11 +12,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from planner.geometry.pose import FloatArray
+from planner.robots.card import EDGE_OPEN_M, HELD_M, LOWERED_MAX_M, RAISED_MAX_M
 from planner.robots.collision.collisions import TIP_CLEAR_M
 from planner.robots.collision.robot_parts import RobotParts
 from planner.robots.collision.rounded_hull import RoundedHull
 from planner.robots.collision.separation import END, HAND
-from planner.robots.openings import EDGE_OPEN_M, HELD_M, LOWERED_MAX_M, RAISED_MAX_M
 
 FINGER_CLEAR_M, BODY_CLEAR_M = 0.0003, 0.0015
 """Distance that fingertips, and all else of a hand, keep from the table (m); collision checks ask for 0.1 and 1 mm."""

@@ -13,12 +13,11 @@ from planner.folds.fold_sequence import FoldSequence, replayed
 from planner.geometry.pose import Pose2
 from planner.geometry.tolerance import TIME_S
 from planner.json_form import STRICT, JsonForm
-from planner.task.grip import BaseStop, Grip, Holding
 from planner.task.reason import Reason
 from planner.task.scene import Scene
 from planner.task.task import Task, require_version
 from planner.task.trajectory import Trajectory
-from planner.task.world_state import WorldState
+from planner.task.world_state import BaseStop, Grip, Holding, WorldState
 
 
 @dataclass(frozen=True, slots=True)

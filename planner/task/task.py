@@ -10,9 +10,8 @@ from planner.cloth.garment import Garment
 from planner.errors import FieldError, RequestError
 from planner.geometry.pose import Pose2
 from planner.json_form import STRICT, JsonForm, require_intervals
-from planner.task.grip import BaseStop
 from planner.task.scene import Scene
-from planner.task.world_state import WORLD_STATES, WorldState
+from planner.task.world_state import WORLD_STATES, BaseStop, WorldState
 
 
 def require_version(data: Mapping[str, Any], key: str, newest: int, fields: Set[str]) -> None:

@@ -14,7 +14,7 @@ from app.replanner import Replanner, Searching
 from app.store.plan_store import PlanStore, UnknownPlanError
 from app.worker.stop import Stop
 from planner import Plan
-from planner.task.grip import Holding
+from planner.task.world_state import Holding
 from tests.app.drawing.drawings import crease, outlined
 from tests.app.replan_desk import TOWEL, Desk, Endless, moved, nothing, replanning
 from tests.patience import PATIENCE_S

@@ -8,15 +8,17 @@ import pytest
 
 from planner import Scene, Task
 from planner.errors import SceneError
-from planner.explain.change import Bisection, Change, request_fields
-from planner.explain.changes import (
+from planner.explain.change import (
     COMFORT,
     CONE,
     FRICTION,
     STIFFNESS,
+    Bisection,
+    Change,
     blue,
     cloth_moved,
     grip_radius,
+    request_fields,
     station_moved,
     table_lifted,
     torso_lifted,

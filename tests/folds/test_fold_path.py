@@ -9,8 +9,7 @@ import pytest
 from planner.folds.fold_path import REST_HEIGHT_M, SPACING_M, FoldPath
 from planner.geometry.pose import FloatArray
 from planner.geometry.segment import Segment
-from planner.geometry.table import Table
-from planner.geometry.table_top import TableTop
+from planner.geometry.table import Table, TableTop
 
 TOP = TableTop.of(Table(1.6, 0.98, 0.79))
 # Across the middle of the table; what lies at larger x (its left) moves.

@@ -10,8 +10,7 @@ from planner.folds.fold_path import FoldPath, rest_height_m
 from planner.folds.fold_sequence import FoldSequence
 from planner.geometry.pose import Pose2
 from planner.geometry.segment import Segment
-from planner.geometry.table import Table
-from planner.geometry.table_top import TableTop
+from planner.geometry.table import Table, TableTop
 from tests.builders import fold, garment, rectangle_points
 
 FLEECE_M = 0.005

@@ -11,8 +11,7 @@ from hypothesis import strategies as st
 from planner.geometry.drape import BEND_M, bends, draped
 from planner.geometry.pose import FloatArray
 from planner.geometry.region import Region
-from planner.geometry.table import Table
-from planner.geometry.table_top import TableTop
+from planner.geometry.table import Table, TableTop
 from planner.geometry.triangles import creased
 
 TOP = TableTop.of(Table(1.6, 0.98, 0.79))

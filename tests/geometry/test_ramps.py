@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.interpolate import CubicHermiteSpline
 
-from planner.geometry.ramps import least_s, ramps
+from planner.geometry.keyframes import least_s, ramps
 
 WAYS, LIMITS = st.floats(1e-4, 10.0), st.floats(0.05, 20.0)
 

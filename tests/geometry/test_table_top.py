@@ -8,8 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from planner.geometry.table import Table
-from planner.geometry.table_top import TableTop
+from planner.geometry.table import Table, TableTop
 
 TOP = TableTop.of(Table(1.6, 0.98, 0.79))
 places = st.floats(-1.5, 1.5)

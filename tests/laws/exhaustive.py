@@ -20,7 +20,7 @@ from planner.geometry.pose import FloatArray
 from planner.geometry.reach_query import ReachQuery
 from planner.primitives.base_move import BaseMove
 from planner.primitives.context import Context
-from planner.primitives.drag_grips import drag_covers, dragged, hangs_ahead, longest_drag, towards_robot
+from planner.primitives.drag_way import drag_covers, dragged, hangs_ahead, longest_drag, towards_robot
 from planner.primitives.fold_obstacles import geometric_obstacle
 from planner.primitives.fold_trial import FoldTrial, fold_trials
 from planner.primitives.grasping import approaches_from_outside, assignments, nearest_pair_m

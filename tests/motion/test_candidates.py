@@ -8,7 +8,7 @@ import pytest
 
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.geometry.table import Table
-from planner.motion.search_limits import QUICK
+from planner.motion.transfer_candidate import QUICK
 from planner.motion.transfer_planner import TransferPlanner
 from planner.motion.waypoints import waypoints_of
 from planner.planning.problem import Problem

@@ -14,8 +14,8 @@ from planner.geometry.pose import FloatArray
 from planner.motion.edge_hands import EdgeHands
 from planner.motion.joint_trajectory import CLOSED_M, OPEN_M
 from planner.planning.plan_check import require_replay
-from planner.robots.openings import EDGE_OPEN_M, HELD_M
-from planner.task.grip import GripKind
+from planner.robots.card import EDGE_OPEN_M, HELD_M
+from planner.task.world_state import GripKind
 from tests.planning.found import found_plan
 from tests.replay import hulls
 from tests.replay.hands import TOOLS, robot

@@ -9,12 +9,11 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from planner.geometry.pose import Approach, FloatArray, Point3, Pose2
-from planner.geometry.table import Table
-from planner.geometry.table_top import TableTop
+from planner.geometry.table import Table, TableTop
 from planner.motion.phase_stretches import STEP_M, STEP_RAD
 from planner.motion.transfer import is_carrying
 from planner.motion.waypoints import Waypoints, forget_waypoints, waypoints_of
-from planner.task.phase import ClothMotion, Hand, Phase
+from planner.task.trajectory import ClothMotion, Hand, Phase
 from tests.replay.planned import planned
 
 HEIGHT_M = 0.79

@@ -3,7 +3,7 @@
 import numpy as np
 
 from planner.motion.path_shortcuts import places, shortcuts
-from planner.robots.joint_layout import JointLayout
+from planner.robots.card import JointLayout
 from planner.robots.load_robot import load_robot
 
 LAYOUT = JointLayout.of(load_robot("pr2").card)

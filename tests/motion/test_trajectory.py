@@ -10,8 +10,8 @@ from planner.geometry.pose import FloatArray, Pose2
 from planner.motion.joint_trajectory import CLOSED_M, OPEN_M, JointTrajectory, Keyframes
 from planner.motion.opened_collisions import OpenedCollisions
 from planner.motion.timeline import Timeline
+from planner.robots.card import EDGE_OPEN_M, HELD_M
 from planner.robots.load_robot import load_robot
-from planner.robots.openings import EDGE_OPEN_M, HELD_M
 from planner.task.trajectory import Segment, Trajectory
 from tests.builders import fold, garment, rectangle_points
 from tests.replay.planned import shipped_plan

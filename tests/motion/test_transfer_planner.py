@@ -7,9 +7,8 @@ import pytest
 
 from planner import Scene, Task
 from planner.geometry.pose import Pose2
-from planner.motion.search_limits import QUICK
 from planner.motion.transfer import Transfer
-from planner.motion.transfer_candidate import Candidate, ways_of
+from planner.motion.transfer_candidate import QUICK, Candidate, ways_of
 from planner.motion.transfer_planner import TransferPlanner
 from planner.planning.problem import Problem
 from planner.primitives.primitive import Step

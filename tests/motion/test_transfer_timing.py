@@ -4,12 +4,11 @@ import numpy as np
 import pytest
 
 from planner.geometry.pose import Approach, Point3, Pose2
-from planner.geometry.table import Table
-from planner.geometry.table_top import TableTop
+from planner.geometry.table import Table, TableTop
 from planner.motion.transfer_timing import TransferLimits, TransferTiming
 from planner.motion.waypoints import waypoints_of
 from planner.primitives.drive_time import DriveTime
-from planner.task.phase import ClothMotion, Hand, Phase
+from planner.task.trajectory import ClothMotion, Hand, Phase
 
 HERE, BASE = Pose2(0.0, 0.0, 0.0), Pose2(-0.95, 0.0, 0.0)
 STILL = ClothMotion(0, HERE, HERE, TableTop.of(Table()))

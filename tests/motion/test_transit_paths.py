@@ -11,7 +11,7 @@ from planner.motion.transit_paths import TransitPaths
 from planner.planning.problem import Problem
 from planner.primitives.g_fold import GFold
 from planner.primitives.state import State
-from planner.robots.openings import OPENING_M
+from planner.robots.card import OPENING_M
 from tests.required import required
 
 

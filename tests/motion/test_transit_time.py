@@ -4,10 +4,9 @@ import numpy as np
 import pytest
 
 from planner.geometry.pose import Pose2
-from planner.geometry.table import Table
-from planner.geometry.table_top import TableTop
+from planner.geometry.table import Table, TableTop
 from planner.motion.timed_phase import TimedPhase, TransitTime
-from planner.task.phase import ClothMotion, Phase
+from planner.task.trajectory import ClothMotion, Phase
 
 STATION, BACK, TURNED = Pose2(-0.95, 0.0, 3.0), Pose2(-1.15, 0.1, 3.0), Pose2(-1.15, 0.1, -3.0)
 STILL = ClothMotion(0, Pose2(0.0, 0.0, 0.0), Pose2(0.0, 0.0, 0.0), TableTop.of(Table()))

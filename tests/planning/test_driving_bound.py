@@ -17,12 +17,11 @@ from planner.planning.driving_bound import DrivingBound
 from planner.planning.heuristic import arm_time
 from planner.primitives.base_move import BaseMove
 from planner.primitives.context import Context
-from planner.primitives.fold_query import FoldQueries
-from planner.primitives.fold_stands import FoldStands
+from planner.primitives.fold_query import FoldQueries, FoldStands
 from planner.primitives.g_drag import GDrag
 from planner.primitives.g_fold import GFold
 from planner.primitives.primitive import Primitive, Step
-from planner.primitives.relaxed_sites import Service
+from planner.primitives.site_map import Service
 from planner.primitives.state import State
 from planner.robots.load_robot import load_robot
 from planner.search.a_star import Edge, Outcome, a_star

@@ -6,8 +6,7 @@ from itertools import pairwise
 import pytest
 
 from planner import Scene, Task, load_garment
-from planner.motion.search_limits import QUICK
-from planner.motion.transfer_candidate import ways_of
+from planner.motion.transfer_candidate import QUICK, ways_of
 from planner.planning.found_plan import FoundPlan
 from planner.plans import find_plan
 from planner.primitives.primitive import Step

@@ -18,8 +18,8 @@ from planner.geometry.pose import BoolArray, FloatArray, Pose2
 from planner.geometry.table import Table
 from planner.motion.edge_hands import EdgeHands
 from planner.motion.plan_segment import duration_s
-from planner.motion.search_limits import QUICK
 from planner.motion.transfer import Transfer
+from planner.motion.transfer_candidate import QUICK
 from planner.motion.transfer_planner import TransferPlanner
 from planner.planning import motion_validator as validator
 from planner.planning import path_search, plan_search, problem

@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from planner import Scene, Task, load_garment
-from planner.motion.search_limits import THOROUGH, SearchLimits
+from planner.motion.transfer_candidate import THOROUGH, SearchLimits
 from planner.planning.budget import Budget
 from planner.planning.path_search import PathSearch, Pause
 from planner.planning.plan_search import Hints, _PlanSearch

@@ -10,7 +10,7 @@ from planner.planning import path_search as planning
 from planner.planning.budget import Budget
 from planner.planning.problem import Problem
 from planner.planning.single_fold import OFFSETS_MAX, SingleFold
-from planner.primitives.drag_grips import drag_offsets
+from planner.primitives.drag_way import drag_offsets
 from planner.task.reason import Code
 from tests.planning.found import found_plan
 from tests.replay.planned import shipped_plan

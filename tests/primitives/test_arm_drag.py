@@ -17,7 +17,7 @@ from planner.planning.plan_check import require_replay
 from planner.plans import find_plan
 from planner.primitives.arm_drag import ArmDrag, ArmDragStep
 from planner.primitives.context import Context
-from planner.primitives.drag_grips import drag_offsets
+from planner.primitives.drag_way import drag_offsets
 from planner.primitives.state import Held, State
 from planner.task.task import Task
 from tests.builders import context, fold, garment, rectangle_points

@@ -9,8 +9,7 @@ import pytest
 from planner import Scene
 from planner.geometry.pose import Pose2
 from planner.geometry.tolerance import grid_key
-from planner.primitives.cloth_memory import cloth_memory
-from planner.primitives.context import Context
+from planner.primitives.context import Context, cloth_memory
 from planner.primitives.fold_trial import fold_trials
 from planner.primitives.state import State
 from planner.task.reason import Code

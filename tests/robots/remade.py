@@ -17,9 +17,8 @@ from planner.geometry.pose import BoolArray, FloatArray, Point3, Pose2
 from planner.geometry.reach_query import ReachQuery, Shortfall
 from planner.geometry.table import Table
 from planner.robots.arm_paths import Together, arm_paths, arm_searches
-from planner.robots.card import ArmCard, ParallelogramGripper, RobotCard
+from planner.robots.card import ArmCard, JointLayout, ParallelogramGripper, RobotCard
 from planner.robots.collision.collisions import Clearance, Collisions, Contact
-from planner.robots.joint_layout import JointLayout
 from planner.robots.pr2.mirrored_arm import MirroredArm
 from planner.robots.pr2.reach import Pr2Reach
 from planner.robots.pr2.robot import Pr2

@@ -17,8 +17,7 @@ from planner.robots.collision.robot_parts import RobotParts
 from planner.robots.collision.rounded_hull import RoundedHull, rounded_hull
 from planner.robots.pr2.arm import ArmShape
 from planner.robots.pr2.arm_poses import EACH, pose_arm
-from planner.robots.pr2.collision_parts import pr2_parts
-from planner.robots.pr2.part_shapes import OPENINGS_M, ROUNDING_MAX_M, part_shapes
+from planner.robots.pr2.part_shapes import OPENINGS_M, ROUNDING_MAX_M, part_shapes, pr2_parts
 from planner.robots.pr2.parts import ARM_PARTS, BODY_PARTS, FINGERS, FINGERTIPS, pairs_in_arm, pairs_with_body
 from tests.replay import hulls
 from tests.required import required

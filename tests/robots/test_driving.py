@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from planner.geometry.driving import IMPOSSIBLE, Driving
 from planner.geometry.reach_query import ReachQuery
-from planner.robots.pr2.reach import APPROACHES, Pr2Reach
+from planner.robots.comfort_reach import ComfortReach
+from planner.robots.pr2.reach import APPROACHES
 from tests.robots.model import the_pr2
 
 ROBOT = the_pr2()
@@ -58,11 +59,11 @@ def _case(rng: np.random.Generator, given: tuple[int, ...] | None) -> Case:
     return Case(arms, np.round(paths, 5), allowed, begun)
 
 
-def asked(reach: Pr2Reach, case: Case) -> Driving:
-    return reach.following(case.hands).least_driving(case.begun)
+def asked(reach: ComfortReach, case: Case) -> Driving:
+    return reach.following(case.hands)(case.begun)
 
 
-def comfort(reach: Pr2Reach, case: Case) -> list[NDArray[np.bool_]]:
+def comfort(reach: ComfortReach, case: Case) -> list[NDArray[np.bool_]]:
     """Return for each hand whether each approach has each waypoint in comfort from each standoff, by single queries."""
     back = STEP_M * np.arange(COUNT)[:, None] * np.array([1.0, 0.0, 0.0])
     found = []
@@ -88,7 +89,7 @@ def dijkstra(is_good: NDArray[np.bool_], begun: NDArray[np.int64]) -> NDArray[np
     return np.array([steps.get((last, j), IMPOSSIBLE) for j in range(COUNT)])
 
 
-def least(reach: Pr2Reach, case: Case) -> NDArray[np.int64]:
+def least(reach: ComfortReach, case: Case) -> NDArray[np.int64]:
     """Return the least steps to each end over all combinations of approaches."""
     hands = comfort(reach, case)
     ways = [dijkstra(np.logical_and.reduce(good), case.begun) for good in product(*hands)]
@@ -107,8 +108,8 @@ def test_the_steps_are_those_of_the_shortest_way_through_all_places_in_comfort(c
     for case in cases(1, 60):
         expected = least(naive, case)
         following = ROBOT.reach(TORSO_M, comfort_m).following(case.hands)
-        np.testing.assert_array_equal(following.least_driving(case.begun, wanted="every").steps, expected)
-        found = following.least_driving(case.begun)
+        np.testing.assert_array_equal(following(case.begun, wanted="every").steps, expected)
+        found = following(case.begun)
         np.testing.assert_array_equal(found.steps, unbeaten(expected))
         assert found.more == IMPOSSIBLE
         driven += 0 < expected.min() < IMPOSSIBLE
@@ -122,7 +123,7 @@ def test_three_hands_drive_as_far_as_all_three_need() -> None:
     for case in cases(5, 60, (0, 1, 0)):
         expected = least(naive, case)
         following = ROBOT.reach(TORSO_M, 0.03).following(case.hands)
-        np.testing.assert_array_equal(following.least_driving(case.begun, wanted="every").steps, expected)
+        np.testing.assert_array_equal(following(case.begun, wanted="every").steps, expected)
         driven += expected.min() < IMPOSSIBLE
     assert 5 < driven < 55
 
@@ -149,7 +150,7 @@ def test_what_takes_too_many_steps_is_left_for_later_and_announced(most: int) ->
     reach = ROBOT.reach(TORSO_M, 0.03)
     for case in cases(3, 60):
         everything = asked(reach, case).steps
-        early = reach.following(case.hands).least_driving(case.begun, most)
+        early = reach.following(case.hands)(case.begun, most)
         np.testing.assert_array_equal(early.steps, np.where(everything <= most, everything, IMPOSSIBLE))
         left = everything[(everything > most) & (everything < IMPOSSIBLE)]
         assert early.more > most
@@ -160,7 +161,7 @@ def test_just_any_end_is_found_exactly_where_there_is_one() -> None:
     reach, found = ROBOT.reach(TORSO_M, 0.03), []
     for case in cases(4, 60):
         following = reach.following(case.hands)
-        found.append(bool(following.least_driving(case.begun, wanted="any").ends))
+        found.append(bool(following(case.begun, wanted="any").ends))
         assert found[-1] == bool(asked(reach, case).ends)
     assert 10 < sum(found) < 50
 
@@ -173,7 +174,7 @@ def test_the_best_approaches_are_taken_where_the_base_need_not_drive() -> None:
     reach, begun = ROBOT.reach(TORSO_M, 0.0), np.abs(np.arange(COUNT))
     for first in natural:
         allowed = np.array([first, *(other for other in natural if other != first)])
-        found = reach.following([ReachQuery(0, path, allowed)]).least_driving(begun)
+        found = reach.following([ReachQuery(0, path, allowed)])(begun)
         assert found.ends == [0] and found.steps[0] == 0
         assert found.approaches(0, (allowed,)) == (first,)
 

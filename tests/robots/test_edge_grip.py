@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from planner.geometry.pose import FloatArray
+from planner.robots.card import EDGE_OPEN_M, HELD_M
 from planner.robots.collision.link_shapes import link_shapes
 from planner.robots.collision.rigid_groups import Carrier, Skeleton
 from planner.robots.described_robot import DescribedRobot, read_robot
 from planner.robots.edge_grip import BODY_CLEAR_M, FINGER_CLEAR_M, HandShape, edge_raised_m
 from planner.robots.known_robots import shipped_path
 from planner.robots.load_robot import load_robot, robot_card_file
-from planner.robots.openings import EDGE_OPEN_M, HELD_M
 
 HEIGHT_M = 0.02
 PITCHES_DEG = (15, 30, 45, 60, 75)

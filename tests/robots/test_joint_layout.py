@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from planner.robots.joint_layout import JointLayout
+from planner.robots.card import JointLayout
 from tests.robots.remade import ONE_ARM, THREE_ARMS, UNLIKE, RemadeRobot
 
 

@@ -8,8 +8,8 @@ import pytest
 from planner.errors import RequestError, SceneError
 from planner.geometry.pose import Approach, FloatArray
 from planner.geometry.reach_query import ReachQuery
-from planner.robots import comfort, comfort_memories
-from planner.robots.comfort_memories import Memories
+from planner.robots import comfort, comfort_reach
+from planner.robots.comfort_reach import Memories
 from planner.robots.pr2.arm import read_arm
 from planner.robots.pr2.mirrored_arm import MirroredArm
 from planner.robots.pr2.reach import APPROACHES, Pr2Reach
@@ -186,7 +186,7 @@ def test_plans_made_at_once_have_memories_of_their_own() -> None:
 def test_a_full_memory_changes_no_answer(monkeypatch: pytest.MonkeyPatch) -> None:
     usual = bodiless(0.03)
     tiny = comfort.empty_memory(size_bits=2)
-    monkeypatch.setattr(comfort_memories, "empty_memory", lambda: tiny)
+    monkeypatch.setattr(comfort_reach, "empty_memory", lambda: tiny)
     forgetful = bodiless(0.03)
     for points in _paths(np.random.default_rng(18)):
         np.testing.assert_array_equal(

@@ -62,7 +62,7 @@ def test_what_the_caller_does_to_an_answer_is_not_remembered() -> None:
 
 
 def test_poses_asked_longest_ago_are_forgotten_first(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("planner.robots.sample_memory._POSES_KEPT", 2)
+    monkeypatch.setattr("planner.robots.mapped_arm._POSES_KEPT", 2)
     sampler = Sampler()
     memory = SampleMemory(sampler)
     for asked, times in ((1, 1), (2, 2), (1, 2), (3, 3), (1, 3), (2, 4)):

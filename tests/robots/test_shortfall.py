@@ -9,15 +9,16 @@ from numpy.typing import NDArray
 
 from planner.deadline import ENDLESS, Deadline
 from planner.geometry.reach_query import ReachQuery, Shortfall
+from planner.robots.comfort_reach import ComfortReach
 from planner.robots.displacements import DIRECTIONS, FURTHEST_M
 from planner.robots.pr2 import reach as reach_module
 from planner.robots.pr2 import shortfall
 from planner.robots.pr2.aim import ToolPose
 from planner.robots.pr2.arm import read_arm
 from planner.robots.pr2.joint_slack import slacks
+from planner.robots.pr2.kernel import JOINT_NAMES, joint_slacks
 from planner.robots.pr2.mirrored_arm import MirroredArm
 from planner.robots.pr2.reach import APPROACHES, Pr2Reach
-from planner.robots.pr2.shortfall import JOINT_NAMES, joint_slacks
 from tests.required import required
 from tests.robots.model import MODEL, the_pr2
 
@@ -313,7 +314,7 @@ def test_a_shortfall_that_is_none_is_refused(wrong: dict[str, Any]) -> None:
 
 
 def shortfall_of(
-    reach: Pr2Reach, arm: int, seen: np.ndarray, approaches: NDArray[np.int64], deadline: Deadline = ENDLESS
+    reach: ComfortReach, arm: int, seen: np.ndarray, approaches: NDArray[np.int64], deadline: Deadline = ENDLESS
 ) -> Shortfall | None:
     """Return the shortfall of one place, as seen from one place of the base or several."""
     return reach.shortfall(ReachQuery(arm, np.reshape(seen, (1, -1, 3)), approaches), deadline=deadline)
@@ -332,7 +333,7 @@ def _points(rng: np.random.Generator, count: int) -> np.ndarray:
     return np.round(rng.uniform((-0.2, -0.8, 0.7), (1.3, 0.8, 1.3), (count, 3)), 5)
 
 
-def _displaced(reach: Pr2Reach, arm: int, approaches: np.ndarray) -> list[tuple[np.ndarray, Shortfall]]:
+def _displaced(reach: ComfortReach, arm: int, approaches: np.ndarray) -> list[tuple[np.ndarray, Shortfall]]:
     """Yield points out of reach for which a displacement that helps was found."""
     asked = [(point, shortfall_of(reach, arm, point, approaches)) for point in _points(np.random.default_rng(30), 60)]
     found = [(p, f) for p, f in asked if f is not None and not f.is_at_least]

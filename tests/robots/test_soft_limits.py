@@ -7,10 +7,10 @@ import pytest
 
 from planner.geometry.pose import Approach
 from planner.robots.armed_robot import ArmedRobot
+from planner.robots.chain_reader import limits_of
 from planner.robots.described_robot import read_robot
 from planner.robots.known_robots import shipped_robots
 from planner.robots.load_robot import load_robot
-from planner.robots.soft_limits import limits_of
 from tests.robots.model import the_pr2
 
 

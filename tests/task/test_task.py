@@ -12,10 +12,9 @@ from planner import Limits, Scene, Task, WorldState, load_garment, make_plan
 from planner.errors import FieldError, RequestError
 from planner.geometry.pose import Pose2
 from planner.planning.robot_task import task_for
-from planner.task.grip import BaseStop
 from planner.task.scene import DEFAULT_STATIONS
 from planner.task.task import VERSION, TaskOptions, at_station
-from planner.task.world_state import HeldPoint
+from planner.task.world_state import BaseStop, HeldPoint
 
 FRONT = BaseStop.at("front", DEFAULT_STATIONS["front"])
 NAMES = ("t-shirt", "vest", "tie", "hand-towel", "tie-halved")

@@ -13,7 +13,7 @@ from app.rehearsal.physics.held_cloth import HeldCloth
 from app.rehearsal.physics.pinch import clamped, fingertip, pinched
 from app.rehearsal.world import GripMotion, way_done
 from planner.geometry.pose import FloatArray
-from planner.geometry.table_top import TableTop
+from planner.geometry.table import TableTop
 
 _STILL_M = 1e-3
 """The way on the ground below which a hand is taken to turn nothing over (m)."""

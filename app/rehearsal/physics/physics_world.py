@@ -15,7 +15,7 @@ from app.rehearsal.planned_cloth import planned_positions
 from app.rehearsal.world import GripMotion, Observation, Performed, StepMotion, Truth
 from planner.folds.fold_sequence import replayed
 from planner.geometry.pose import Pose2
-from planner.geometry.table_top import TableTop
+from planner.geometry.table import TableTop
 from planner.geometry.woven_mesh import woven_mesh
 from planner.robots.load_robot import robot_card_file
 from planner.task.task import Task

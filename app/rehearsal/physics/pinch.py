@@ -9,7 +9,7 @@ from scipy.sparse.csgraph import connected_components
 
 from planner.folds.fold_path import REST_HEIGHT_M
 from planner.geometry.pose import BoolArray, FloatArray
-from planner.geometry.table_top import TableTop
+from planner.geometry.table import TableTop
 
 PAD_M = 0.011
 """Half the width of a fingertip's pad (m): cloth within it is pinched."""

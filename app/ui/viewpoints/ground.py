@@ -8,7 +8,7 @@ import numpy as np
 from app.drawing.drawing import Drawing
 from app.drawing.ring import ring_of
 from planner.geometry.pose import Point2
-from planner.geometry.table_top import TableTop
+from planner.geometry.table import TableTop
 
 
 @dataclass(frozen=True, slots=True)

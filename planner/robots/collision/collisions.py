@@ -18,11 +18,11 @@ import numpy as np
 
 from planner.geometry.pose import BoolArray, FloatArray, Pose2
 from planner.geometry.table import Table, table_parts
+from planner.robots.card import OPENING_M
 from planner.robots.collision.bodies import Bodies, Pairs, rows
 from planner.robots.collision.part_poses import PLACE, set_middles
 from planner.robots.collision.robot_parts import RobotParts, compiled_parts
 from planner.robots.collision.separation import postures_apart
-from planner.robots.openings import OPENING_M
 
 
 class Clearance:

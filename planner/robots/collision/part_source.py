@@ -6,13 +6,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from planner.geometry.pose import FloatArray
+from planner.robots.card import EDGE_OPEN_M, HELD_M
 from planner.robots.collision.clusters import clusters
 from planner.robots.collision.link_shapes import LinkShape, link_shapes
 from planner.robots.collision.pair_choice import Solids
 from planner.robots.collision.rigid_groups import BODY, Carrier, Skeleton
 from planner.robots.collision.rounded_hull import RoundedHull, hull_corners, rounded_hull
 from planner.robots.described_robot import DescribedRobot
-from planner.robots.openings import EDGE_OPEN_M, HELD_M
 
 SMALL_M = (0.0, HELD_M, EDGE_OPEN_M)
 """Openings for which fingers have shapes (m): those with which one of them may be under cloth."""

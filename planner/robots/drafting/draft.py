@@ -19,13 +19,11 @@ from planner.robots.card_file import VERSION, ArmFile, BaseFile, CardFile, Suita
 from planner.robots.card_parts import GripperFile, LinearDrive, Mount, ToolFile, UrdfFile
 from planner.robots.card_robot import CardRobot
 from planner.robots.chain import length_of, tool_poses
-from planner.robots.chain_reader import set_joint
+from planner.robots.chain_reader import limits_of, set_joint
 from planner.robots.collision.link_shapes import link_shapes
 from planner.robots.collision.rigid_groups import BODY, Skeleton
 from planner.robots.described_robot import DescribedRobot
-from planner.robots.drafting.hands import Hand, hands_of
-from planner.robots.drafting.jaws import Jaws, read_jaws
-from planner.robots.soft_limits import limits_of
+from planner.robots.drafting.jaws import Hand, Jaws, hands_of, read_jaws
 from planner.robots.tool_point import tool_points
 from planner.robots.urdf_reader import read_urdf
 from planner.robots.urdf_shapes import Source

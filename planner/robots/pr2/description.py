@@ -7,7 +7,7 @@ from xml.etree import ElementTree
 import pinocchio as pin
 
 from planner.errors import FoldingError
-from planner.robots.soft_limits import keep_soft_limits
+from planner.robots.chain_reader import keep_soft_limits
 
 _DISTRIBUTION = "example-robot-data"
 _SHARE = "cmeel.prefix/share"

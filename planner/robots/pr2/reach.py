@@ -16,8 +16,7 @@ from planner.geometry.driving import STANDOFF_STEP_M
 from planner.geometry.pose import Approach, FloatArray
 from planner.geometry.reach_query import ReachQuery, Shortfall
 from planner.geometry.tolerance import LENGTH_M, grid_keys
-from planner.robots.comfort_memories import Memories
-from planner.robots.comfort_reach import ComfortReach, QueriedArms
+from planner.robots.comfort_reach import ComfortReach, Memories, QueriedArms
 from planner.robots.displacements import DIRECTIONS, FURTHEST_M
 from planner.robots.pr2.arm import numbers_of
 from planner.robots.pr2.arm_gap import least_gaps

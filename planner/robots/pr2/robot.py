@@ -11,14 +11,15 @@ from planner.geometry.pose import BoolArray, FloatArray
 from planner.robots.armed_robot import ArmedRobot
 from planner.robots.card import RobotCard
 from planner.robots.collision.robot_parts import RobotParts
+from planner.robots.comfort_reach import Memories
 from planner.robots.described_card import card_on
 from planner.robots.described_robot import lift_limits
 from planner.robots.edge_grip import HandShape
 from planner.robots.known_robots import read_card, shipped_path
 from planner.robots.pr2.arm import MIRROR, read_arm
-from planner.robots.pr2.collision_parts import pr2_parts
 from planner.robots.pr2.description import package_directory, read_model, urdf_path
 from planner.robots.pr2.mirrored_arm import MirroredArm
+from planner.robots.pr2.part_shapes import pr2_parts
 from planner.robots.pr2.posture_room import Room, room_beside
 from planner.robots.pr2.reach import Pr2Reach
 
@@ -57,20 +58,12 @@ class Pr2(ArmedRobot):
         """The mirror image of configurations, shape (n, 14)."""
         return _mirrored
 
-    def reach(
-        self,
-        torso_m: float,
-        comfort_m: float,
-        *,
-        is_passing: bool = False,
-        minds_body: bool = True,
-        minds_arms: bool = False,
+    def _reach(
+        self, torso_m: float, comfort_m: float, memories: Memories | None, *, minds_body: bool, minds_arms: bool
     ) -> Pr2Reach:
-        """Return the reach with the torso raised, for a comfort radius (m); see `ArmedRobot.reach`."""
-        memories = None if is_passing else self._memories_of(torso_m, comfort_m, minds_arms=minds_arms)
         names = tuple(arm.name for arm in self.card.arms)
-        room = self._room(float(torso_m), minds_arms) if minds_body else None
-        return Pr2Reach(names, self._arms, float(torso_m), float(comfort_m), room, memories)
+        room = self._room(torso_m, minds_arms) if minds_body else None
+        return Pr2Reach(names, self._arms, torso_m, comfort_m, room, memories)
 
     def _room(self, torso_m: float, minds_arms: bool) -> Room:
         """Return the room that the body, and the other arm, leave an arm; cached, because every plan needs it."""

@@ -17,8 +17,8 @@ from app.rehearsal.world import StepMotion
 from planner import Plan
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Point2
-from planner.task.grip import Holding
 from planner.task.plan import PlanStep
+from planner.task.world_state import Holding
 from tests.builders import evenly_along
 from tests.replay.planned import shipped_plan
 

@@ -10,8 +10,7 @@ from app.rehearsal.table_edge import laid_over, over_edge
 from app.rehearsal.world import GripMotion, StepMotion
 from planner.folds.fold_path import REST_HEIGHT_M, FoldPath
 from planner.geometry.segment import Segment
-from planner.geometry.table import Table
-from planner.geometry.table_top import TableTop
+from planner.geometry.table import Table, TableTop
 from planner.task.scene import Scene
 from tests.app.rehearsal.towel import towel_plan
 

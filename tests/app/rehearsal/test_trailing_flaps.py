@@ -18,11 +18,9 @@ from planner.folds.fold_sequence import replayed
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Point2
 from planner.geometry.segment import Segment
-from planner.geometry.table import Table
-from planner.geometry.table_top import TableTop
-from planner.task.grip import Holding
+from planner.geometry.table import Table, TableTop
 from planner.task.plan import PlanStep
-from planner.task.world_state import WorldState
+from planner.task.world_state import Holding, WorldState
 from tests.app.rehearsal.towel import towel_plan
 from tests.builders import fold, garment, rectangle_points
 

@@ -11,8 +11,7 @@ from app.rehearsal.physics.held_cloth import HeldCloth
 from app.rehearsal.physics.pinch import PAD_M, clamped, fingertip, nearest_weights, pinched
 from app.rehearsal.world import GripMotion
 from planner.folds.fold_path import REST_HEIGHT_M
-from planner.geometry.table import Table
-from planner.geometry.table_top import TableTop
+from planner.geometry.table import Table, TableTop
 
 TOP = TableTop.of(Table())
 

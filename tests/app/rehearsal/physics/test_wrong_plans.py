@@ -15,8 +15,7 @@ from planner.folds.fold_sequence import replayed
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Point2, Pose2
 from planner.geometry.segment import Segment
-from planner.geometry.table import Table
-from planner.geometry.table_top import TableTop
+from planner.geometry.table import Table, TableTop
 from planner.task.world_state import WorldState
 from tests.builders import fold, garment, rectangle_points
 
