@@ -6,7 +6,7 @@ stack of layers to the table is not.
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 
@@ -19,6 +19,9 @@ from planner.geometry.table import Table
 from planner.geometry.tolerance import AREA_M2, LENGTH_M
 from planner.message import Message
 from planner.words.catalogue import worded
+
+_UNRESTS_KEPT = 2048
+"""Answers that are remembered: stacks at a placement."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,6 +118,14 @@ def unrest(cloth: ClothState, top: TableInArticle, friction: float, support_angl
         return covered
     hanging = list(_hanging_parts(cloth, beyond, top))
     return _loose_part(hanging, top, support_angle_rad) or _slip(cloth, hanging, top, friction)
+
+
+@lru_cache(_UNRESTS_KEPT)
+def unrest_at(
+    cloth: ClothState, placement: Pose2, table: Table, friction: float, support_angle_rad: float
+) -> Unrest | None:
+    """Return the `unrest` of a stack with a placement; cached, because garments that begin alike share stacks."""
+    return unrest(cloth, TableInArticle.seen_from(placement, table), friction, support_angle_rad)
 
 
 @dataclass(frozen=True, slots=True)

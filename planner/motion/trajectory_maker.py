@@ -74,9 +74,10 @@ def _gripper_track(arm: ArmCard, times_s: Sequence[float], openings_m: Sequence[
         opened[-1] = end  # but for rounding it is there
         keyframes += zip((begin + since).tolist(), opened.tolist(), faster.tolist(), strict=True)
     times, openings, rates = (tuple(column) for column in zip(*keyframes, strict=True))
-    positions = tuple(hand.angle(opening) for opening in openings)
-    swings = [(hand.angle(one + _NEAR_M) - hand.angle(one - _NEAR_M)) / (2.0 * _NEAR_M) for one in openings]
-    velocities = tuple(swing * rate for swing, rate in zip(swings, rates, strict=True))
+    angle = {one: hand.angle(one) for one in set(openings)}
+    swing = {one: (hand.angle(one + _NEAR_M) - hand.angle(one - _NEAR_M)) / (2.0 * _NEAR_M) for one in angle}
+    positions = tuple(angle[one] for one in openings)
+    velocities = tuple(swing[one] * rate for one, rate in zip(openings, rates, strict=True))
     return GripperTrack(arm.name, hand.joint_name, times, openings, positions, rates, velocities)
 
 

@@ -9,7 +9,7 @@ import itertools
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property, lru_cache, partial
 from typing import Any
 
 import networkx as nx
@@ -27,6 +27,9 @@ from planner.primitives.state import State
 from planner.task.plan import PlanStep
 from planner.task.trajectory import ClothMotion, Hand, Phase
 from planner.task.world_state import Grip, Holding
+
+_ROUTES_KEPT = 4096
+"""Routes that are remembered, some 1 kB each: all plans at a table drive between the same places."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,6 +51,13 @@ class Route:
             + time.turning_s(abs(wrapped_angle(b.yaw_rad - a.yaw_rad)))
             for a, b in legs
         )
+
+
+@lru_cache(_ROUTES_KEPT)
+def route_round(start: Pose2, goal: Pose2, table: Table, circle_m: float) -> Route:
+    """Return the route of a base from one pose to another, its circle clear of the table between the two."""
+    out, outside = clear_of_table(start, table, circle_m), clear_of_table(goal, table, circle_m)
+    return route_along(start, out, shortest_way(place_of(out), place_of(outside), table, circle_m), outside, goal)
 
 
 def clear_of_table(pose: Pose2, table: Table, circle_m: float) -> Pose2:
@@ -238,7 +248,6 @@ class BaseMove:
 
     def __init__(self, context: Context) -> None:
         self._context = context
-        self._routes: dict[tuple[int, int, int], Route] = {}
 
     def successors(self, state: State) -> Iterable[MoveStep]:
         """Return one step for each other station."""
@@ -267,16 +276,9 @@ class BaseMove:
         return (MoveStep(self._context, self._route(state, station), state, after),)
 
     def _route(self, state: State, station: int) -> Route:
-        key = (state.station, state.standoff, station)
-        if key not in self._routes:
-            context = self._context
-            start = context.base_pose(state.station, state.standoff)
-            out = clear_of_table(start, context.scene.table, context.circle_m)
-            goal = context.station_pose(station)
-            outside = clear_of_table(goal, context.scene.table, context.circle_m)
-            bends = shortest_way(place_of(out), place_of(outside), context.scene.table, context.circle_m)
-            self._routes[key] = route_along(start, out, bends, outside, goal)
-        return self._routes[key]
+        context = self._context
+        start, goal = context.base_pose(state.station, state.standoff), context.station_pose(station)
+        return route_round(start, goal, context.scene.table, context.circle_m)
 
 
 class MoveTimes:

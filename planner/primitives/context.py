@@ -12,7 +12,7 @@ from typing import NamedTuple, TypeVar, cast
 
 import numpy as np
 
-from planner.cloth.g_state import TableInArticle, Unrest, unrest
+from planner.cloth.g_state import TableInArticle, Unrest, unrest_at
 from planner.cloth.garment import Garment
 from planner.cloth.grips import Cover, GripCovers
 from planner.deadline import ENDLESS, Deadline
@@ -290,7 +290,9 @@ class Context:
         """Return why the cloth would not stay at a placement after some folds; None if it is in a g-state."""
         key, known = (done, grid_key(offset[0]), grid_key(offset[1])), self.cloth.unrest
         if key not in known:
-            known[key] = None if self.is_all_on_table(done, offset) else self._unrest(done, offset)
+            scene = self.scene
+            at = (self.placed(offset), scene.table, scene.friction, scene.support_angle_rad)
+            known[key] = None if self.is_all_on_table(done, offset) else unrest_at(self.sequence.cloth(done), *at)
         return known[key]
 
     def stays(self, done: int, offset: Point2) -> bool:
@@ -298,7 +300,3 @@ class Context:
         found = self.unrest(done, offset)
         self.obstacles.note_unrest(found)
         return found is None
-
-    def _unrest(self, done: int, offset: Point2) -> Unrest | None:
-        scene, top = self.scene, self.table_in_article(offset)
-        return unrest(self.sequence.cloth(done), top, scene.friction, scene.support_angle_rad)

@@ -14,7 +14,7 @@ from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import LENGTH_M
 from planner.robots.collision.part_poses import PLACE
 from planner.robots.collision.robot_parts import RobotParts
-from planner.robots.collision.rounded_hull import RoundedHull, prism, rounded_hull
+from planner.robots.collision.rounded_hull import RoundedHull, rounded_hull
 from planner.robots.pr2.arm import ArmShape
 from planner.robots.pr2.arm_poses import EACH, pose_arm
 from planner.robots.pr2.part_shapes import OPENINGS_M, ROUNDING_MAX_M, part_shapes, pr2_parts
@@ -213,14 +213,3 @@ def test_the_bodys_shapes_are_their_own_mirror_images(parts: RobotParts) -> None
     for part, hull in enumerate(parts.hulls[0][2 * EACH :]):
         here = distances(hull.corners, hull.mirrored())
         assert here.max() <= LENGTH_M, parts.names[2 * EACH + part]
-
-
-@pytest.mark.parametrize("corners", [3, 4, 7, 400])
-def test_a_prism_over_a_polygon_of_many_corners_is_a_body_that_can_be_compared(corners: int) -> None:
-    around = np.linspace(0.0, 2.0 * np.pi, corners, endpoint=False)
-    hull = prism(0.4 * np.column_stack([np.cos(around), np.sin(around)]), 0.03)
-    a, b, c = (hull.corners[hull.faces[:, k]] for k in range(3))
-    # The tetrahedra from the origin to each face: their sum is the area of the polygon times the height.
-    volume = np.einsum("ij,ij->i", np.cross(a, b), c).sum() / 6.0
-    assert volume == pytest.approx(corners / 2.0 * np.sin(2.0 * np.pi / corners) * 0.4**2 * 0.03)
-    assert hull.convex().num_points == 2 * corners

@@ -1,12 +1,14 @@
 """Planes between convex parts, against coal's distances."""
 
+from itertools import product
+
 import coal
 import numpy as np
 import pytest
 
 from planner.geometry.pose import FloatArray
 from planner.robots.collision.plane import room_at_plane
-from planner.robots.collision.rounded_hull import RoundedHull, prism, rounded_hull
+from planner.robots.collision.rounded_hull import RoundedHull, rounded_hull
 
 TO_M = 1e-6
 
@@ -16,7 +18,7 @@ def some_hull(rng: np.random.Generator) -> RoundedHull:
 
 
 def table_top() -> RoundedHull:
-    return prism(np.array([(-0.4, -0.7), (0.4, -0.7), (0.4, 0.7), (-0.4, 0.7)]), 0.04)
+    return rounded_hull(np.array([*product((-0.4, 0.4), (-0.7, 0.7), (0.0, 0.04))]), 0.0)
 
 
 def turned(rng: np.random.Generator, *, is_upright: bool) -> FloatArray:

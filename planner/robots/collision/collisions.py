@@ -22,7 +22,6 @@ from planner.robots.card import OPENING_M
 from planner.robots.collision.bodies import Bodies, Pairs, rows
 from planner.robots.collision.part_poses import PLACE, set_middles
 from planner.robots.collision.robot_parts import RobotParts, compiled_parts
-from planner.robots.collision.rounded_hull import prism
 from planner.robots.collision.separation import postures_apart
 
 
@@ -52,12 +51,11 @@ class Clearance:
             height_m: the table top's height over the floor (m).
             torso_m: how far the lift is raised (m).
         """
-        slabs = [prism(piece, over_m) for piece in pieces]
-        shapes = (*robot.convexes[level], *(slab.convex() for slab in slabs))
-        parts = compiled_parts(robot, level, [slab.corners for slab in slabs])
-        poses, places = np.zeros((len(shapes), 5, 3)), np.tile([0.0, 0.0, height_m], (len(slabs), 1))
-        self._bodies = Bodies(robot.kinematics, torso_m, parts, shapes, robot.is_mirrored, poses, places)
-        slab_numbers = range(len(robot.names), len(shapes))
+        slabs = [np.vstack([np.insert(piece, 2, z, axis=1) for z in (0.0, over_m)]) for piece in pieces]
+        parts = compiled_parts(robot, level, slabs)
+        slab_numbers = range(len(robot.names), len(robot.names) + len(slabs))
+        poses, places = np.zeros((slab_numbers.stop, 5, 3)), np.tile([0.0, 0.0, height_m], (len(slabs), 1))
+        self._bodies = Bodies(robot.kinematics, torso_m, parts, (), robot.is_mirrored, poses, places)
         low = [range(first, robot.of_arm(arm).stop) for arm, first in enumerate(robot.low_parts)]
         self._of_arm = tuple(_pairs(parts_of_arm, slab_numbers) for parts_of_arm in low)
 

@@ -74,18 +74,6 @@ class RoundedHull:
         return RoundedHull(self.corners * _MIRROR, self.faces[:, ::-1].copy(), self.radius_m)
 
 
-def prism(base: FloatArray, height_m: float) -> RoundedHull:
-    """Return the prism over a convex polygon, shape (n, 2), counter-clockwise, from z = 0 to a height (m)."""
-    count = len(base)
-    corners = np.vstack([np.column_stack([base, np.full(count, z)]) for z in (0.0, height_m)])
-    caps = [face for i, j, k in _strip(count) for face in ((i, k, j), (count + i, count + j, count + k))]
-    sides = []
-    for k in range(count):
-        after = (k + 1) % count
-        sides += [(k, after, count + after), (k, count + after, count + k)]
-    return RoundedHull(corners, np.array([*caps, *sides], dtype=np.int32), 0.0)
-
-
 def rounded_hull(points: FloatArray, radius_max_m: float, is_symmetric: bool = False) -> RoundedHull:
     """Return a body that contains points, shape (n, 3), that do not all lie in one plane (m).
 
@@ -164,20 +152,6 @@ def _qhull(points: FloatArray) -> "ConvexHull":
     from scipy.spatial import ConvexHull  # slow to import, and needed only where shapes are made
 
     return ConvexHull(points)
-
-
-def _strip(count: int) -> Iterator[tuple[int, int, int]]:
-    """Yield the triangles of a convex polygon with a number of corners, counter-clockwise, as a zigzag strip.
-
-    In a fan one corner would be the neighbour of all others, and coal takes no more than 255 neighbours.
-    """
-    low, high = 0, count - 1
-    while high - low > 1:
-        yield (low, low + 1, high)
-        low += 1
-        if high - low > 1:
-            yield (low, high - 1, high)
-            high -= 1
 
 
 def hull_from(arrays: Arrays, name: str) -> RoundedHull:
