@@ -19,7 +19,7 @@ from planner.errors import FieldError
 from planner.motion.timeline import Timeline
 from planner.task.plan import VERSION
 from tests.planning.found import found_plan
-from tests.replay.planned import planned, shipped_plan
+from tests.replay.planned import shipped_plan
 from tests.required import required
 from tests.sweep import sweep
 
@@ -211,12 +211,12 @@ def test_an_unknown_field_of_a_reason_is_refused_by_its_name_and_path() -> None:
     assert refusal(data).field == "reasons[1].colour"
 
 
-@pytest.mark.parametrize("name", sorted(planned("hand-towel").plan))
-def test_a_missing_field_is_refused_by_its_name(name: str) -> None:
-    data = data_of("hand-towel")
-    del data[name]
-    error = refusal(data)
-    assert (error.field, error.message) == (name, "is missing")
+def test_a_missing_field_is_refused_by_its_name() -> None:
+    for name in data_of("hand-towel"):
+        data = data_of("hand-towel")
+        del data[name]
+        error = refusal(data)
+        assert (error.field, error.message) == (name, "is missing")
 
 
 def _later(data: dict[str, Any]) -> None:
