@@ -131,6 +131,7 @@ def test_what_is_dragged_when_the_3d_view_is_loaded_anew_is_let_go_where_it_is(p
     until(lambda: sheet.drawing == before)
 
 
+@pytest.mark.long
 def test_a_fold_is_drawn_on_the_cloth_on_the_table(page: Page, designer: Served) -> None:
     sheet = Sheet(designer.url, page.url.rpartition("/")[2])
     count, above = len(sheet.drawing["folds"]), look_from_above(page)
