@@ -1,9 +1,9 @@
 """A link to look at a document: made and copied in the page, and what the page has by it."""
 
-import pytest
 import re
 from collections.abc import Callable
 
+import pytest
 from playwright.sync_api import Browser, Page, expect
 
 from tests.app.conftest import REST
