@@ -305,6 +305,7 @@ def test_a_moved_corner_is_a_centimetre_away_and_no_other_moves() -> None:
     assert max(gap for i, gap in enumerate(gaps) if i != 2) == 0.0
 
 
+@pytest.mark.long
 def test_re_planning_is_timed_for_each_move(tmp_path: Path) -> None:
     (row,) = written(re_plan(["hand-towel"], 1), tmp_path)["rows"]
     assert sum(row["statuses"].values()) == 1
@@ -316,6 +317,7 @@ def test_re_planning_is_timed_for_each_move(tmp_path: Path) -> None:
     assert any(move.is_soon for move in moves), "most centimetres ask for no other plan"
 
 
+@pytest.mark.long
 def test_frames_are_shown_to_viewers_who_read_them(tmp_path: Path) -> None:
     (row,) = written(frames_of(["hand-towel"], 90, viewers=(0, 2)), tmp_path)["rows"]
     unwatched, watched = row["runs"]
@@ -342,6 +344,7 @@ def test_naming_a_garment_leaves_out_what_is_of_no_garment(monkeypatch: pytest.M
     assert all(articles == ["vest"] for articles in asked.values())
 
 
+@pytest.mark.long
 def test_every_article_that_is_rehearsed_can_be_named(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     asked: list[Sequence[str]] = []
 
@@ -427,6 +430,7 @@ def test_every_shipped_robot_has_a_row_of_reach(monkeypatch: pytest.MonkeyPatch,
     assert 0.9 < row["random_recall"] <= 1.0
 
 
+@pytest.mark.long
 def test_every_other_robot_has_a_row_for_each_article(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setattr("bench.robot_plans.shipped_robots", lambda: ("pr2", "so101-pair"))
     monkeypatch.setattr("bench.robot_plans.EDITS", 1)
@@ -439,6 +443,7 @@ def test_every_other_robot_has_a_row_for_each_article(monkeypatch: pytest.Monkey
     assert robot_plans(["scarf-halved"], 1).rows == ()
 
 
+@pytest.mark.long
 def test_an_article_that_a_robot_cannot_fold_where_it_lies_is_laid_elsewhere(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("bench.robot_plans.shipped_robots", lambda: ("so101-pair",))
     monkeypatch.setattr("bench.robot_plans.EDITS", 0)

@@ -31,6 +31,7 @@ def test_where_nothing_is_known_no_landmark_is_told() -> None:
     assert row.lines[0][4] == "-"
 
 
+@pytest.mark.long
 def test_a_sight_tells_every_landmark_and_how_far_off_it_may_be() -> None:
     seen = overhead_bench().sight(0, is_plain=True, has_arm=False)
     assert len(seen.told_m) == len(seen.off_m)

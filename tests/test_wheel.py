@@ -39,6 +39,7 @@ def pleat(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder / "venv" / "bin" / "pleat"
 
 
+@pytest.mark.long
 def test_the_wheel_runs_outside_of_the_checkout(pleat: Path) -> None:
     code = f"import app; from importlib.metadata import version; print(app.__file__, version({NAME!r}))"
     python = [str(pleat.parent / "python"), "-c", code]
@@ -46,6 +47,7 @@ def test_the_wheel_runs_outside_of_the_checkout(pleat: Path) -> None:
     assert Path(where).is_relative_to(pleat.parents[1]) and version == VERSION
 
 
+@pytest.mark.long
 def test_the_wheel_serves_its_page_and_its_garments(pleat: Path, tmp_path: Path) -> None:
     options = ["serve", "--data", str(tmp_path / "data"), "--log-json"]
     with (

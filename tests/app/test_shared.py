@@ -52,7 +52,8 @@ async def test_with_a_link_the_document_can_be_seen_and_played_and_not_changed(c
     path = f"/api/documents/{state['id']}"
     link = await link_to(client, state["id"])
     assert (await client.get(f"{link}{path}")).json() == state
-    for seen in ("/d/" + state["id"], "/static/js/main.js", "/api/scene", "/api/robots/pr2", f"{path}/steps"):
+    view = f"/viser/{state['id']}/"
+    for seen in ("/d/" + state["id"], "/static/js/main.js", "/api/scene", "/api/robots/pr2", f"{path}/steps", view):
         assert (await client.get(f"{link}{seen}")).status_code == 200, seen
     assert (await client.post(f"{link}{path}/playback", json={"do": "seek", "t_s": 1.0})).status_code == 200
     refused: list[tuple[str, str, Any]] = [
@@ -75,8 +76,8 @@ async def test_with_a_link_the_document_can_be_seen_and_played_and_not_changed(c
     for method, asked, body in refused:
         assert_problem(await client.request(method, f"{link}{asked}", json=body), 403)
     other = await created(client)
-    for asked in (f"/api/documents/{other['id']}", f"/d/{other['id']}", f"{path}{other['id']}"):
-        assert_problem(await client.get(f"{link}{asked}"), 403)
+    for before in ("/api/documents/", "/d/", path, "/viser/"):
+        assert_problem(await client.get(f"{link}{before}{other['id']}"), 403)
     assert (await client.get(path)).json() == state
 
 

@@ -1,14 +1,14 @@
 """The page in a real browser. The 3D view is tested through the page's own scene, not through pixels."""
 
-import time
 from typing import Any
 
 import pytest
 from playwright.sync_api import Page, expect
 
 from tests.app.conftest import Served
-from tests.browser.conftest import IN_VIEW, REST, VIEW_PATIENCE_MS
+from tests.browser.conftest import IN_VIEW, REST, Sheet
 from tests.browser.status_pill import expect_planned
+from tests.browser.view_hand import CAMERA, corner_in_picture, drag, look_from_above, until
 from tests.required import required
 
 NODE = """(name) => {
@@ -70,14 +70,6 @@ def node(page: Page, name: str) -> dict[str, Any]:
 
 def until_there(page: Page, name: str) -> None:
     page.wait_for_function(f"({NODE})({name!r})?.meshes > 0")
-
-
-def until(condition: Any) -> None:
-    """Wait until a condition holds that cannot be evaluated in the page."""
-    deadline = time.monotonic() + VIEW_PATIENCE_MS / 1000
-    while not condition():
-        assert time.monotonic() < deadline
-        time.sleep(0.05)
 
 
 def scrub(page: Page, t_s: float) -> None:
@@ -192,3 +184,37 @@ def test_page_and_3d_view_come_back_by_themselves_when_the_server_does(page: Pag
     expect_planned(page)
     page.wait_for_function("!document.getElementById('view3d').contentWindow.isOfBefore")
     until_there(page, "/cloth/front")
+
+
+def test_a_corner_is_dragged_from_above_and_undone_and_the_camera_stays(page: Page, designer: Served) -> None:
+    sheet = Sheet(designer.url, page.url.rpartition("/")[2])
+    before = sheet.drawing
+    above = look_from_above(page)
+    x, y = corner_in_picture(page, sheet, 0)
+    page.mouse.move(x, y)
+    overlay = page.locator(".view3d-surface")
+    expect(overlay).to_be_visible()
+    drag(page, (x, y), (x + 20, y - 12))
+    until(lambda: sheet.state["gesture"] == "Move vertex")
+    page.mouse.up()
+    until(lambda: sheet.state["gesture"] is None)
+    assert sheet.can_undo == "Move vertex"
+    u, v = corner_in_picture(page, sheet, 0)
+    assert (u, v) == pytest.approx((x + 20, y - 12), abs=3.0)  # as near as the board's snapping lets it come
+    assert [c["point"] for c in sheet.drawing["outline"][1:]] == [c["point"] for c in before["outline"][1:]]
+    assert page.evaluate(CAMERA) == above
+
+    page.keyboard.press("Control+z")
+    until(lambda: sheet.drawing == before)
+    page.locator("#drafting-board").hover()
+    expect(overlay).to_be_hidden()
+
+
+def test_where_there_is_nothing_to_take_the_pointer_turns_the_camera(page: Page, designer: Served) -> None:
+    sheet = Sheet(designer.url, page.url.rpartition("/")[2])
+    before, above = sheet.drawing, look_from_above(page)
+    x, y = corner_in_picture(page, sheet, 0)
+    drag(page, (x + 40, y - 40), (x + 90, y - 80))  # on the cloth, with the tool that selects
+    page.mouse.up()
+    until(lambda: page.evaluate(CAMERA) != above)
+    assert sheet.drawing == before

@@ -3,6 +3,7 @@
 import io
 
 import numpy as np
+import pytest
 from PIL import Image
 from playwright.sync_api import Page
 
@@ -14,6 +15,7 @@ LARGEST = 2_000_000
 """The largest picture that a reader should have to wait for (bytes)."""
 
 
+@pytest.mark.long
 def test_a_picture_shows_the_page(page: Page, designer: Served) -> None:
     take.PICTURES["exported"](page, designer.url)
     with Image.open(io.BytesIO(take.still(page))) as picture:

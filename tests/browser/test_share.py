@@ -3,6 +3,7 @@
 import re
 from collections.abc import Callable
 
+import pytest
 from playwright.sync_api import Browser, Page, expect
 
 from tests.app.conftest import REST
@@ -35,6 +36,7 @@ def test_the_page_of_a_link_plays_and_has_nothing_that_changes_the_document(page
     assert sheet.state == before
 
 
+@pytest.mark.long
 def test_the_3d_view_of_a_link_shows_the_robot_without_the_viewers_own_panel(
     browser: Browser, new_sheet: NewSheet
 ) -> None:

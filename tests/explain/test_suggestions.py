@@ -52,7 +52,7 @@ def test_a_garment_out_of_reach_is_told_to_be_moved_where_it_can_be_folded() -> 
 
 def test_every_suggestion_is_proven_by_its_change_and_there_are_three_of_a_kind_at_most() -> None:
     cloth = towel(FAR)
-    found = list(suggestions(Task.of(cloth, FRONT_ONLY, work_limit_s=4.0, time_limit_s=60.0)))
+    found = list(suggestions(Task.of(cloth, FRONT_ONLY, work_limit_s=2.0, time_limit_s=60.0)))
     assert len({s.kind for s in found}) > 1
     for kind in {s.kind for s in found}:
         assert len([s for s in found if s.kind == kind]) <= 3

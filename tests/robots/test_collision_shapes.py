@@ -157,7 +157,7 @@ def _flipped(content: bytes) -> bytes:
 @pytest.mark.parametrize(
     "spoil",
     [
-        _cut_short,
+        pytest.param(_cut_short, marks=pytest.mark.long),
         _flipped,
         pytest.param(lambda _: b"", marks=pytest.mark.long),
         pytest.param(lambda _: b"not shapes at all", marks=pytest.mark.long),

@@ -34,7 +34,7 @@ def test_there_is_a_fan_of_approaches_at_four_pitches_and_one_straight_down() ->
     assert [approach for approach in APPROACHES if approach.is_vertical] == [Approach(0.0, np.pi / 2)]
 
 
-@pytest.mark.parametrize("arm", [0, 1])
+@pytest.mark.parametrize("arm", [0, pytest.param(1, marks=pytest.mark.long)])
 def test_every_pose_of_a_configuration_within_limits_is_reachable(arm: int) -> None:
     rng = np.random.default_rng(11)
     poses = [ROBOT.tool_pose(arm, random_joints(CARD, arm, rng), TORSO_M) for _ in range(20_000)]
@@ -93,7 +93,7 @@ def test_standoffs_are_what_the_naive_loop_finds(arm: int, comfort_m: float) -> 
         np.testing.assert_array_equal(masks, again)
 
 
-@pytest.mark.parametrize("arm", [0, 1])
+@pytest.mark.parametrize("arm", [0, pytest.param(1, marks=pytest.mark.long)])
 def test_standoffs_that_matter_are_what_the_naive_loop_finds_among_them(arm: int) -> None:
     rng, able = np.random.default_rng(21), 0
     for points in _paths(rng):
