@@ -17,6 +17,9 @@ from planner.geometry.pose import FloatArray
 POINTS_MAX = 50_000
 """Largest number of points of a flattened curve."""
 
+_NUMBER_MAX = 1e12
+"""The largest coordinate of a line, in whatever unit: a survey's are a hundred thousand times smaller."""
+
 Segment: TypeAlias = Line | Close | QuadraticBezier | CubicBezier | Arc
 """A segment of a path; an arc has radii, and ends elsewhere than it starts."""
 
@@ -78,7 +81,7 @@ class SvgCurve:
                 raise broken(f"a curve in it needs more than {POINTS_MAX} points")
             pieces = [_points(segment, int(count)) for segment, count in zip(self.segments, counts, strict=True)]
             start = np.array([self.segments[0].start])
-            return _finite(self._placed(np.concatenate([start, *pieces])))
+            return finite(self._placed(np.concatenate([start, *pieces])))
 
     def _placed(self, points: FloatArray) -> FloatArray:
         plane = np.column_stack([points.real, points.imag, np.ones(len(points))])
@@ -108,12 +111,13 @@ class DrawnCurve:
 
     def flattened(self, tolerance: float) -> FloatArray:
         """Return points on the line."""
-        return _finite(self.cut(tolerance))
+        return finite(self.cut(tolerance))
 
 
-def _finite(points: FloatArray) -> FloatArray:
-    if not np.all(np.isfinite(points)):
-        raise broken("a curve in it cannot be followed: its numbers are too large")
+def finite(points: FloatArray) -> FloatArray:
+    """Return points; raise `ImportedFileError` where a number is none, or too large to reckon with."""
+    if not np.all(np.abs(points) <= _NUMBER_MAX):
+        raise broken(f"a curve in it cannot be followed: a coordinate of {np.abs(points).max():.3g} is too large")
     return points
 
 

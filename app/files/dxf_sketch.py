@@ -18,7 +18,7 @@ from ezdxf.lldxf.const import DXFError
 from ezdxf.math import Vec3
 from ezdxf.path import Path, make_path
 
-from app.files.curve import POINTS_MAX, DrawnCurve
+from app.files.curve import POINTS_MAX, DrawnCurve, finite
 from app.files.dxf_layers import (
     BOUNDARY,
     INSUNITS_M,
@@ -203,10 +203,7 @@ def _curve(path: Path, piece: str | None) -> DrawnCurve:
             raise broken(f"a curve in it needs more than {POINTS_MAX} points")
         return _plane(points)
 
-    extent = _plane(path.control_vertices())
-    if not np.all(np.isfinite(extent)):
-        raise broken("a number in it is too large")
-    return DrawnCurve(extent, cut, path.has_curves, piece)
+    return DrawnCurve(finite(_plane(path.control_vertices())), cut, path.has_curves, piece)
 
 
 def _plane(points: Iterable[Vec3]) -> FloatArray:

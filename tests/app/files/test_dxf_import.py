@@ -226,6 +226,14 @@ def test_what_is_on_a_layer_that_is_off_is_not_there() -> None:
     assert read(made).garment.folds == ()
 
 
+@pytest.mark.parametrize("far", [1e308, -2e12])
+def test_a_number_that_cannot_be_reckoned_with_is_refused(far: float) -> None:
+    made = drawing()
+    made.modelspace().add_lwpolyline([*SQUARE[:3], (0, far)], close=True)
+    with pytest.raises(ImportedFileError, match=f"coordinate of {abs(far):.3g} is too large".replace("+", r"\+")):
+        read(made)
+
+
 def test_blocks_that_multiply_are_refused() -> None:
     made = drawing()
     made.blocks.new("B0").add_line((0, 0), (1, 1))
