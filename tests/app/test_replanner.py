@@ -51,8 +51,8 @@ def test_the_grips_that_are_told_are_those_of_the_plan_and_without_one_the_fewes
     holding_more = replace(state, answer=replace(answer, plan=replace(answer.plan, steps=(more,))))
     unplanned = replace(state, version=2)
     told = [plan_message(one)["checks"]["folds"][0] for one in (holding_more, unplanned)]
-    assert told[0]["grips"] == [list(one.point) for one in more.holdings]
-    assert told[1]["grips"] == [list(point) for point in held.grips]
+    assert [*told[0]["grips"]] == [one.point for one in more.holdings]
+    assert told[1]["grips"] == held.grips
     assert [one["grips_needed"] for one in told] == [2, 2]
 
 

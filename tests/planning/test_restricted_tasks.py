@@ -60,7 +60,7 @@ def test_a_tighter_task_knows_already_where_the_cloth_stays(monkeypatch: pytest.
     def fail(*_: object) -> None:
         raise AssertionError("what is known is asked again")
 
-    monkeypatch.setattr("planner.primitives.context.unrest", fail)
+    monkeypatch.setattr("planner.primitives.context.unrest_at", fail)
     for one in tighter:
         assert [one.context.unrest(0, place) for place in places] == known
     with pytest.raises(AssertionError, match="asked again"):
