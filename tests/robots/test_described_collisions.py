@@ -48,7 +48,7 @@ def columns(robot: DescribedRobot, arm: int) -> slice:
     return slice(first, first + len(robot.arms[arm].card.joints))
 
 
-@pytest.mark.parametrize("name", shipped_robots())
+@sweep("name", shipped_robots(), quick=["pr2", "panda-pair", "so101-pair"])
 def test_every_robot_is_free_at_home_at_its_stations(name: str) -> None:
     robot = read_robot(name)
     asked = collisions(robot)

@@ -13,6 +13,7 @@ from planner.robots.described_robot import DescribedRobot, read_robot
 from planner.robots.edge_grip import BODY_CLEAR_M, FINGER_CLEAR_M, HandShape, edge_raised_m
 from planner.robots.known_robots import shipped_path
 from planner.robots.load_robot import load_robot, robot_card_file
+from tests.sweep import sweep
 
 HEIGHT_M = 0.02
 PITCHES_DEG = (15, 30, 45, 60, 75)
@@ -83,7 +84,7 @@ SHIPPED = {"pr2": (45,), "panda-pair": (60, 75), "tiago-pro": (30, 45, 60, 75)}
 """The pitches at which the grippers of some robots have room for a finger under the cloth (degrees)."""
 
 
-@pytest.mark.parametrize("name", SHIPPED)
+@sweep("name", SHIPPED, quick=["pr2", "panda-pair"])
 def test_the_meshes_of_a_hand_clear_the_table_and_its_lower_finger_slides_on_it(name: str) -> None:
     robot, described = load_robot(name), read_robot(name)
     found = {p: robot.edge_raised_m(0, HEIGHT_M, math.radians(p)) for p in PITCHES_DEG}
