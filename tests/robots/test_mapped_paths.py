@@ -34,7 +34,7 @@ class Bench:
         self.card, arm = robot.card, robot.arms[0]
         self.table_m = robot.card.scene.table.height_m
         shoulder_m = float(arm.root[2])
-        heights_m = (self.table_m - 0.02 - shoulder_m, self.table_m + 0.1 - shoulder_m)
+        heights_m = (self.table_m - shoulder_m, self.table_m + 0.08 - shoulder_m)
         self.chain, self.root = arm.chain, arm.root
         self.arm = MappedArm(arm, reach_map(arm.chain, ALL_ROUND, heights_m, directory=cache))
         self.speeds = np.full(len(arm.chain.low), 2.0)
