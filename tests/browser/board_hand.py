@@ -36,5 +36,12 @@ class Hand:
         if is_released:
             self.page.mouse.up()
 
+    def enlarge(self) -> None:
+        """Tap the inset of a phone that shows the board, and wait until the board has grown."""
+        expect(self.board).to_have_attribute("aria-busy", "false")
+        small = str(self.board.get_attribute("data-px-per-m"))
+        self.page.get_by_role("button", name="Show the board large").tap()
+        expect(self.board).not_to_have_attribute("data-px-per-m", small)
+
     def tool(self, name: str) -> None:
         self.page.get_by_role("button", name=name, exact=True).click()

@@ -128,8 +128,8 @@ def test_two_fingers_zoom_and_drop_the_stroke(phone: Page, new_sheet: Callable[[
     page = phone
     page.goto(sheet.page_url)
     expect(page.locator(".corner")).to_have_count(10)
-    page.get_by_role("button", name="Show the board large").tap()
     finger, hand = Finger(page), Hand(page)
+    hand.enlarge()
     before = float(str(hand.board.get_attribute("data-px-per-m")))
     a, b = hand.px((0.1, 0.2)), hand.px((0.3, 0.2))
     wide = (b[0] + (b[0] - a[0]), b[1])
