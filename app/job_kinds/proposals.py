@@ -13,7 +13,7 @@ from app.api.messages import GarmentField, TimeLimit
 from app.api.request_parsing import requested_garment
 from app.jobs.job_kind import JobKind, Progress, Stores, as_it_is
 from app.store.packed_plan import PackedPlan
-from planner.cloth.garment import FOLDS_MAX, DrawnFold, Garment
+from planner.cloth.garment import FOLDS_MAX, Garment
 from planner.geometry.given import GivenPose
 from planner.json_form import JsonForm
 from planner.planning.robot_task import with_robots_scene
@@ -129,13 +129,13 @@ class Found:
 
 def propose(asked: ProposalsTask, progress: Progress) -> dict[str, Any]:
     """Return the proposals as JSON, telling each as it is found; the work of the job."""
-    told: dict[tuple[DrawnFold, ...], dict[str, Any]] = {}
+    told: dict[int, dict[str, Any]] = {}
 
     def hear(proposal: Proposal) -> None:
         if proposal.plan is None:
             progress(0.0, "", Found(proposal.to_dict(), None))
             return
-        body = told[proposal.garment.folds] = {**proposal.to_dict(), "plan_id": uuid.uuid4().hex}
+        body = told[proposal.number] = {**proposal.to_dict(), "plan_id": uuid.uuid4().hex}
         progress(
             len(told) / asked.most,
             f"{len(told)} found",
@@ -143,7 +143,7 @@ def propose(asked: ProposalsTask, progress: Progress) -> dict[str, Any]:
         )
 
     found = all_proposals(asked.begin(), hear)
-    return {**found.to_dict(), "proposals": [told[one.garment.folds] for one in found.proposals]}
+    return {**found.to_dict(), "proposals": [told[one.number] for one in found.proposals]}
 
 
 def _tell(stores: Stores, found: Found) -> dict[str, Any]:

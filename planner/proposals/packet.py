@@ -15,7 +15,7 @@ from planner.proposals.moves import PARTS, Move, carried_out, line_across, round
 from planner.proposals.robot_check import RobotCheck, Stand
 from planner.proposals.target import TOLERANCE_M, Sides
 
-FOLD_EFFORT, _LAYER_EFFORT, _TURN_EFFORT = 0.15, 0.03, 1.0
+FOLD_EFFORT, LAYER_EFFORT, _TURN_EFFORT = 0.15, 0.03, 1.0
 """The efforts of a fold, of a layer of the stack and of turning it over, added to those of the moves."""
 
 _ALIKE = {"roll": "thirds", "side": "thirds", "sides": "thirds", "flap": "flaps"}
@@ -79,7 +79,7 @@ class Packet:
     @cached_property
     def taste(self) -> float:
         """How far it is from what people like: few, natural moves, few layers, a full rectangle; less is better."""
-        return self.effort + FOLD_EFFORT * len(self.folds) + _LAYER_EFFORT * len(self.cloth.layers) + self.hollow
+        return self.effort + FOLD_EFFORT * len(self.folds) + LAYER_EFFORT * len(self.cloth.layers) + self.hollow
 
     @cached_property
     def shape(self) -> tuple[int, ...]:

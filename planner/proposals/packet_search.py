@@ -3,9 +3,9 @@
 The naive search, every line in every order, drowns in stacks that nobody wants. So a state is the garment after a few
 *moves* that people know. What a move does to the garment's length and width is known without folding it, so what waits
 is a state with a move that has not been made: it is made, which takes some milliseconds, when its turn comes. The next
-is always the one with the least effort so far and the least number of moves still needed: no move shortens a side to
-less than a third. So packets come out about in the order of what people like, and the first are there while the rest
-is not yet looked for.
+is always the one with the least effort so far and the least that is still needed: halves and thirds that bring each
+side to the target, and the layers in which all of the cloth lies within it. So packets come out about in the order of
+what people like, and the first are there while the rest is not yet looked for.
 
 A robot is asked about a stack when its turn comes to be folded on. What the robot hardly can do waits longer then, and
 so does what begins with folds that turned out to have no plan.
@@ -14,13 +14,14 @@ so does what begins with folds that turned out to have no plan.
 import math
 from collections import Counter
 from collections.abc import Iterator
+from functools import cache
 from heapq import heappop, heappush
 from itertools import count
 from typing import Literal, NamedTuple, TypeAlias
 
 from planner.cloth.garment import DrawnFold, Garment
 from planner.proposals.moves import Move, flap_moves, inward_moves, slanted_moves
-from planner.proposals.packet import FOLD_EFFORT, Packet, grid_of
+from planner.proposals.packet import FOLD_EFFORT, LAYER_EFFORT, Packet, grid_of
 from planner.proposals.robot_check import DOUBT_EFFORT, RobotCheck
 from planner.proposals.target import TOLERANCE_M, Sides, Target, excess_m, is_filling, is_fitting
 
@@ -75,6 +76,9 @@ class PacketSearch:
         self._is_for_smallest = target.is_smallest
         self._target_m = target.sides_of(self._begin.size_m)
         ordered = zip(sorted(self._target_m), sorted(self._begin.size_m), strict=True)
+        (x_m, y_m), cloth = self._target_m, self._begin.cloth
+        area_m2 = sum(layer.region.area for layer in cloth.layers)
+        self._layers_least = math.ceil(area_m2 / ((x_m + TOLERANCE_M) * (y_m + TOLERANCE_M)))
         self._full_m = tuple(min(most, begun) for most, begun in ordered)
         self._max_folds = max_folds
         self._face = face
@@ -205,8 +209,9 @@ class PacketSearch:
         """
         if self._is_for_smallest:
             return _bulk_m2(move.size_m)
-        folds, left = len(packet.folds) + len(move.creases), _moves_left(move.size_m, self._target_m)
-        return packet.effort + move.effort + FOLD_EFFORT * (folds + left) + left
+        folds, layers = len(packet.folds) + len(move.creases), max(len(packet.cloth.layers) + 1, self._layers_least)
+        done = packet.effort + move.effort + FOLD_EFFORT * folds
+        return done + _least_effort(move.size_m, self._target_m) + LAYER_EFFORT * layers
 
 
 def _bulk_m2(size_m: Sides) -> float:
@@ -214,15 +219,19 @@ def _bulk_m2(size_m: Sides) -> float:
     return size_m[0] * size_m[1] + _OBLONG_M * sum(size_m)
 
 
-def _moves_left(size_m: Sides, target_m: Sides) -> int:
-    """Return how many moves bring a rectangle to a target at least, either way round."""
+def _least_effort(size_m: Sides, target_m: Sides) -> float:
+    """Return the least effort of the moves that bring a rectangle to a target, either way round."""
     wide, long = target_m
     return min(
-        sum(_thirdings(side, most) for side, most in zip(size_m, sides, strict=True))
+        sum(_shortening(math.ceil(side / (most + TOLERANCE_M))) for side, most in zip(size_m, sides, strict=True))
         for sides in ((wide, long), (long, wide))
     )
 
 
-def _thirdings(side_m: float, most_m: float) -> int:
-    """Return how often a side must be brought to its third until it is within a length (m)."""
-    return max(0, math.ceil(math.log(side_m / (most_m + TOLERANCE_M), 3.0)))
+@cache
+def _shortening(parts: int) -> float:
+    """Return the least effort of the halves and thirds that bring a side to one of some equal parts, or shorter."""
+    if parts <= 1:
+        return 0.0
+    half, thirds = (1.0 + folds * FOLD_EFFORT + _shortening(math.ceil(parts / (folds + 1))) for folds in (1, 2))
+    return min(half, thirds)

@@ -9,7 +9,8 @@ a plan with loose grips where much work gives a firm one, which may take longer:
 and are planned once more at the end.
 
 Of variants of one way (the same moves in another order, or from another side) only the first is proposed that can be
-done, or its mirror image if that takes less time: order and side decide much for a robot and nothing for the packet.
+done: order and side decide much for a robot and nothing for the packet. At the end those variants and mirror images are
+planned that may spare an arm motion; one that takes less time stands in for it.
 
 Instead of a size another garment may be given: then its folds, fitted to this one, are the only way. Or the garment is
 rolled up, to whatever size.
@@ -35,9 +36,10 @@ from planner.planning.heuristic import arm_time
 from planner.planning.plan_search import Hints
 from planner.planning.problem import Problem
 from planner.planning.robot_task import task_for
+from planner.plans import FIRM_SHARE
 from planner.plans import plan as plan_events
 from planner.proposals.likeness import LikenessSearch
-from planner.proposals.packet import Packet, Way
+from planner.proposals.packet import Packet, Way, grid_of
 from planner.proposals.packet_search import PacketSearch
 from planner.proposals.robot_check import RobotCheck
 from planner.proposals.rolling import RollSearch
@@ -55,20 +57,20 @@ COUNT_MAX = 32
 WORK_LIMIT_S = 1.0
 """The work for the plan of one packet, in seconds of a present-day machine, by default."""
 
-_FAILURES = 2
+_FAILURES = 4
 """Packets without a plan for each proposal asked for, after which no more are planned."""
 
 _BRIEF_SHARE = 0.4
 """The work for the plan of a packet's first folds, for a first try and for improving the first plan, as a share."""
 
 _PATIENT_SHARE = 10.0
-"""The work for each packet that took all its work without a plan, where no packet has one, as a share of that."""
+"""The work for a better plan at the end, and where no packet has a plan with its work, as a share of that."""
 
 _ASIDE = 2
 """How many ways without a plan at that work are put aside, until one of them is planned with all of it."""
 
-_VARIANTS = 3
-"""Variants of one way that are planned, at most."""
+_VARIANTS, _MORE = 3, 4
+"""Variants of one way that are planned, at most, and packets more that are looked at for them in the end."""
 
 _FIRST, _SKETCHES = 2, 2
 """Sketches that are planned where the robot must be asked much, and ways looked at for each sketch."""
@@ -96,6 +98,8 @@ class Proposal:
         face: the face of the cloth that is seen most from above: "front" or "back".
         plan: the plan, or that there is none; None before one is looked for.
         is_loose: whether hands hold some cloth from further away than firm grips do: no other plan was found.
+        number: its place among those that were tried, from 1: a better one takes the number of the one that it stands
+            in for.
     """
 
     garment: Garment
@@ -104,6 +108,7 @@ class Proposal:
     face: str
     plan: Plan | None
     is_loose: bool = False
+    number: int = 0
 
     @property
     def status(self) -> str:
@@ -132,6 +137,7 @@ class Proposal:
             "status": self.status,
             "cost_s": self.cost_s,
             "is_loose": self.is_loose,
+            "number": self.number,
         }
 
 
@@ -187,15 +193,15 @@ class Proposals:
 
 def all_proposals(found: Generator[Proposal, None, Tried], hear: Callable[[Proposal], None] | None = None) -> Proposals:
     """Return all proposals of `propose_folds` but untried ones, in order; call `hear` with each when it is found."""
-    proposals: dict[tuple[DrawnFold, ...], Proposal] = {}
+    proposals: dict[int, Proposal] = {}
     while True:
         try:
             one = next(found)
         except StopIteration as end:
-            tried = [one for one in proposals.values() if one.plan is not None]
-            in_order = sorted(tried, key=lambda one: math.inf if one.cost_s is None else one.cost_s)
+            proposals.pop(0, None)  # untried
+            in_order = sorted(proposals.values(), key=lambda one: math.inf if one.cost_s is None else one.cost_s)
             return Proposals(tuple(in_order), end.value)
-        proposals[one.garment.folds] = one
+        proposals[one.number] = one
         if hear is not None:
             hear(one)
 
@@ -232,8 +238,8 @@ def propose_folds(
     Yields:
         Untried ways; then those that can be done as they are found, about in the order of what people like (where none
         is found with that work, with ten times as much); then others, up to the count, each the best of a way of which
-        none can be done. At last the first one may come again, with a quicker plan for the same folds, and those with
-        loose grips, with firm ones.
+        none can be done. At last the first one may come again with a quicker plan, those with loose grips with firm
+        ones, and any with the folds of a quicker variant.
 
     Returns:
         What was tried.
@@ -307,15 +313,16 @@ def _planned(
     solved: set[Way] = set()
     failed: dict[Way, Proposal] = {}
     shown, fine = set[object](), set[tuple[DrawnFold, ...]]()
-    sketched_s, found = dict[Way, float](), list[Proposal]()
-    aside = list[_Aside]()
+    sketched_s, found = dict[Way, float](), list[tuple[Packet, Proposal]]()
+    aside, variants = list[_Aside](), list[Packet]()
     failures = 0
     packets = search.paced() if isinstance(search, PacketSearch) else search.packets()
-    for packet, is_brief in _turns(packets, solved, shown, aside):
+    for packet, is_brief in _turns(packets, solved, shown, aside, variants):
         if len(shown) == count or failures >= _FAILURES * count or (packet.doubts and len(failed) >= count):
             break
         briefly = _with_work(task, _BRIEF_SHARE) if is_brief else task
-        proposal = _proposal(briefly, packet, packet.folds, should_stop, is_first=not shown)
+        improving_share = math.inf if shown else _BRIEF_SHARE  # the first one is not waited for
+        proposal = _proposal(packet, _plan(briefly, packet.folds, should_stop, improving_share))
         if should_stop():
             break
         if is_brief and proposal.status == "budget_exceeded":
@@ -337,46 +344,83 @@ def _planned(
             solved.add(packet.way)
             if cost_s > sketched_s.get(packet.way, math.inf) - task.scene.arm_motion_s:
                 continue
-        if shown:  # the first one is not waited for any longer
-            proposal = _or_mirrored(task, packet, proposal, should_stop)
         if (looks := (packet.shape, proposal.cost_s)) not in shown:
             shown.add(looks)
-            found.append(proposal)
-            yield proposal
+            found.append((packet, replace(proposal, number=len(shown))))
+            yield found[-1][1]
     if not should_stop():
         left = islice((one for way, one in failed.items() if way not in solved), count - len(shown))
-        yield from left if shown else _tried_longer(task, left, should_stop)
-    yield from _improved(task, found, should_stop)
+        numbered = (replace(one, number=number) for number, one in enumerate(left, start=len(shown) + 1))
+        yield from numbered if shown else _tried_longer(task, numbered, should_stop)
+    if not should_stop() and any(_may_spare(task, one.garment.folds, one) for _, one in found):
+        variants += islice(filter(None, packets), _MORE)
+    for packet, proposal in found:
+        yield from _better(task, packet, proposal, variants, should_stop)
     return Tried(search.enumerated, search.nearest_m)
 
 
-def _improved(task: Task, found: Sequence[Proposal], should_stop: Callable[[], bool]) -> Iterator[Proposal]:
-    """Yield the first proposal again if all work gives a quicker plan, and loose ones if much work gives a firm one."""
-    for index, one in enumerate(found):
-        is_quickest = one.plan is None or one.plan.is_proven or index > 0
-        if should_stop() or (is_quickest and not one.is_loose):
-            continue
-        share = _PATIENT_SHARE if one.is_loose else 1.0
-        again = one.planned(_plan(_with_work(task, share), one.garment.folds, should_stop))
-        if again.cost_s is not None and (
-            (one.is_loose and not again.is_loose) or again.cost_s < (one.cost_s or 0.0) - TIME_S
-        ):
-            yield again
+def _better(
+    task: Task,
+    packet: Packet,
+    one: Proposal,
+    variants: Iterable[Packet],
+    should_stop: Callable[[], bool],
+) -> Iterator[Proposal]:
+    """Yield a proposal again: if a variant or mirror image takes less time, or more work gives a better plan.
+
+    More work is done for the first one, and for one with loose grips.
+    """
+    firmly = _with_work(task, 1.0 / FIRM_SHARE)  # with a cost to beat, hands that hold in any way are not looked for
+    for other in islice(_likely_quicker(task, packet, one, variants), _VARIANTS):
+        if should_stop():
+            return
+        found = _plan(firmly, other.folds, should_stop, below_s=one.cost_s or 0.0)
+        if found.plan.is_solved:
+            one = _proposal(other, found, one.number)
+            yield one
+            break
+    is_fine = one.plan is None or one.plan.is_proven or one.number > 1
+    if should_stop() or (is_fine and not one.is_loose):
+        return
+    again = one.planned(_plan(_with_work(task, _PATIENT_SHARE), one.garment.folds, should_stop))
+    is_quicker = (again.cost_s or math.inf) < (one.cost_s or 0.0) - TIME_S
+    if is_quicker or (one.is_loose and again.status == "solved" and not again.is_loose):
+        yield again
+
+
+def _likely_quicker(task: Task, packet: Packet, found: Proposal, variants: Iterable[Packet]) -> Iterator[Packet]:
+    """Yield mirror images and variants of a packet whose plans may spare an arm motion."""
+    images = () if task.garment.folds else packet.images(Region.polygon(task.garment.outline))
+    others = (one for one in variants if one.way == packet.way and grid_of(one.size_m) == grid_of(packet.size_m))
+    for one in chain((replace(packet, folds=folds) for folds in images), others):
+        if _may_spare(task, one.folds, found):
+            yield one
+
+
+def _may_spare(task: Task, folds: tuple[DrawnFold, ...], found: Proposal) -> bool:
+    """Return whether some folds alone take an arm motion less than a plan, so that a drag or a drive may be spared."""
+    problem = Problem.of(replace(task, garment=replace(task.garment, folds=folds)))
+    return arm_time(problem.context)(problem.start) <= (found.cost_s or 0.0) - task.scene.arm_motion_s
 
 
 def _turns(
-    packets: Iterable[Packet | None], solved: Set[Way], shown: Set[object], aside: "list[_Aside]"
+    packets: Iterable[Packet | None],
+    solved: Set[Way],
+    shown: Set[object],
+    aside: "list[_Aside]",
+    variants: list[Packet],
 ) -> Iterator[tuple[Packet, bool]]:
     """Yield packets to plan, and whether with little work: few of each way, and those put aside again.
 
     They come again once there are enough of them, or a proposal, or the next packet takes long (None): the one with the
-    least bound for each of its folds first.
+    least bound for each of its folds first. Variants of solved ways are added to `variants` instead.
     """
     planned, tried = set[tuple[DrawnFold, ...]](), Counter[Way]()
     for packet in packets:
         if packet is not None:
             is_enough = packet.way in solved or tried[packet.way] >= (1 if packet.doubts else _VARIANTS)
             if is_enough or packet.folds in planned:
+                variants += [packet] if packet.way in solved and packet.folds not in planned else []
                 continue
             planned.add(packet.folds)
             tried[packet.way] += not packet.is_sketch
@@ -399,11 +443,9 @@ def _again(aside: "list[_Aside]", solved: Set[Way]) -> Iterator[tuple[Packet, bo
         yield packet, False
 
 
-def _proposal(
-    task: Task, packet: Packet, folds: tuple[DrawnFold, ...], should_stop: Callable[[], bool], *, is_first: bool = False
-) -> Proposal:
-    found = _plan(task, folds, should_stop, _BRIEF_SHARE if is_first else math.inf)  # the first is not waited for
-    return Proposal(found.plan.garment, packet.size_m, packet.layers, packet.face, None).planned(found)
+def _proposal(packet: Packet, found: FoundPlan, number: int = 0) -> Proposal:
+    one = Proposal(found.plan.garment, packet.size_m, packet.layers, packet.face, None, number=number)
+    return one.planned(found)
 
 
 def _tried_longer(task: Task, found: Iterable[Proposal], should_stop: Callable[[], bool]) -> Iterator[Proposal]:
@@ -419,24 +461,6 @@ def _tried_longer(task: Task, found: Iterable[Proposal], should_stop: Callable[[
             others.append(one)
     if not should_stop():
         yield from others
-
-
-def _or_mirrored(task: Task, packet: Packet, found: Proposal, should_stop: Callable[[], bool]) -> Proposal:
-    """Return a proposal, or its mirror image if the robot is soon known to do that in less time.
-
-    A symmetric garment has images. They are planned only where the plan found takes an arm motion more than its folds,
-    so that a drag or a drive may be spared, and is proven: then they take little work, too.
-    """
-    garment, spared_s = task.garment, task.scene.arm_motion_s
-    is_soon = found.plan is not None and found.plan.is_proven
-    for folds in () if garment.folds or not is_soon else packet.images(Region.polygon(garment.outline)):
-        mirrored = Problem.of(replace(task, garment=replace(garment, folds=folds)))
-        if should_stop() or arm_time(mirrored.context)(mirrored.start) > (found.cost_s or 0.0) - spared_s:
-            break
-        image = found.planned(_plan(_with_work(task, _BRIEF_SHARE), folds, should_stop, below_s=found.cost_s or 0.0))
-        if image.status == "solved":
-            found = image
-    return found
 
 
 def _blamed(

@@ -69,6 +69,7 @@ def proposal(outline: list[list[float]], size_m: tuple[float, float]) -> dict[st
         "status": "solved",
         "cost_s": 9.0,
         "is_loose": False,
+        "number": 1,
         "plan_id": "1",
     }
 

@@ -142,6 +142,12 @@ def test_a_mirrored_garment_is_folded_the_same_ways() -> None:
         assert one.size_m == pytest.approx(other.size_m, abs=1e-4)
 
 
+@pytest.mark.parametrize("name", ["t-shirt", "jeans", "big-towel"])
+def test_what_people_like_most_comes_first(name: str) -> None:
+    tastes = [packet.taste for packet in islice(packets(replace(load_garment(name), folds=()), "shelf"), 8)]
+    assert tastes == sorted(tastes)
+
+
 def test_sequences_are_counted_and_limited() -> None:
     search = PacketSearch(replace(load_garment("hand-towel"), folds=()), Target.of("shelf"), 8)
     next(search.packets())

@@ -19,8 +19,7 @@ from planner.proposals.proposals import (
     Proposal,
     Proposals,
     _Aside,
-    _improved,
-    _or_mirrored,
+    _better,
     _planned,
     _turns,
     all_proposals,
@@ -58,24 +57,35 @@ def test_proposals_are_different_ways(found: Proposals) -> None:
     assert len({one.size_m for one in found.proposals}) == 3
 
 
-def test_a_way_that_the_robot_does_sooner_mirrored_is_proposed_mirrored() -> None:
+@pytest.mark.parametrize("is_image", [True, False])
+def test_what_the_robot_does_sooner_mirrored_or_from_another_side_stands_in_for_what_was_proposed(
+    is_image: bool,
+) -> None:
     jeans = load_garment("jeans")
     (other_leg_over,) = Packet.of(jeans).images(Region.polygon(jeans.outline))
-    task = Task.of(replace(jeans, folds=()), work_limit_s=1.0)
-    slow = Packet.of(replace(jeans, folds=other_leg_over))
-    plan = make_plan(replace(task, garment=replace(jeans, folds=slow.folds)))
-    first = Proposal(plan.garment, slow.size_m, slow.layers, slow.face, plan)
-    found = _or_mirrored(task, slow, first, lambda: False)
+    bare = jeans if is_image else replace(jeans, outline=((-0.001, 0.0), *jeans.outline[1:]))  # not symmetric
+    task = Task.of(replace(bare, folds=()), work_limit_s=1.0)
+    slow, quick = (Packet.of(replace(bare, folds=folds)) for folds in (other_leg_over, jeans.folds))
+    plan = make_plan(replace(task, garment=replace(bare, folds=slow.folds)))
+    first = Proposal(plan.garment, slow.size_m, slow.layers, slow.face, plan, number=2)
+    (found,) = _better(task, slow, first, () if is_image else (quick,), lambda: False)
     assert required(found.cost_s) < required(first.cost_s) - 1.0
     assert found.cost_s == pytest.approx(required(make_plan(jeans).cost_s), abs=1e-5)
-    assert (found.size_m, found.garment.folds) == (first.size_m, required(found.plan).garment.folds)
+    assert (found.number, found.garment.folds) == (2, required(found.plan).garment.folds)
+    assert found.size_m == pytest.approx(first.size_m, abs=0.005)
+
+
+def test_a_tie_is_proposed_as_quick_as_its_own_folds_are_whatever_end_is_folded_first() -> None:
+    tie = load_garment("tie")
+    (found,) = all_proposals(propose_folds(replace(tie, folds=()), (0.102, 0.3745), count=1)).proposals
+    assert required(found.cost_s) <= required(make_plan(tie).cost_s) + 1e-6
 
 
 def test_its_json_has_the_folds_as_a_garment_file_has_them(found: Proposals) -> None:
     data = found.to_dict()
     assert set(data) == {"proposals", "enumerated"}
     for one, answer in zip(found.proposals, data["proposals"], strict=True):
-        assert set(answer) == {"folds", "garment", "size_m", "layers", "face", "status", "cost_s", "is_loose"}
+        assert set(answer) == {"folds", "garment", "size_m", "layers", "face", "status", "cost_s", "is_loose", "number"}
         assert answer["folds"] == answer["garment"]["folds"] == one.garment.to_dict()["folds"]
         assert answer["cost_s"] == required(one.plan).cost_s
 
@@ -124,7 +134,7 @@ def test_a_loose_proposal_comes_again_with_a_firm_plan_though_that_takes_longer(
     loose = Proposal(plan.garment, packet.size_m, packet.layers, packet.face, plan, is_loose=True)
     longer = SimpleNamespace(plan=slowed(plan, 0.5), context=SimpleNamespace(is_firm=is_firm))
     monkeypatch.setattr(proposals, "_plan", lambda *_: longer)
-    again = [*_improved(plan.task, [loose], lambda: False)]
+    again = [*_better(plan.task, packet, loose, (), lambda: False)]
     assert [(one.is_loose, one.plan) for one in again] == ([(False, longer.plan)] if is_firm else [])
 
 
@@ -135,7 +145,7 @@ def test_what_is_put_aside_comes_again_the_least_bound_first_and_variants_last()
     variant = replace(one, folds=folds[1:2])
     other = replace(begun, moves=(("thirds", 1),), folds=folds[:2])
     aside: list[_Aside] = []
-    turns = _turns((one, variant, other), set(), set(), aside)
+    turns = _turns((one, variant, other), set(), set(), aside, [])
     for packet, bound_s in ((one, 2.0), (other, 1.0)):
         assert next(turns) == (packet, True)
         heappush(aside, _Aside(bound_s, packet.taste, packet))
@@ -145,7 +155,7 @@ def test_what_is_put_aside_comes_again_the_least_bound_first_and_variants_last()
 def test_what_is_put_aside_comes_again_where_the_next_one_takes_long() -> None:
     one = replace(Packet.of(TOWEL), moves=(("half", 0),))
     aside: list[_Aside] = []
-    turns = _turns((one, None), set(), set(), aside)
+    turns = _turns((one, None), set(), set(), aside, [])
     assert next(turns) == (one, True)
     heappush(aside, _Aside(1.0, one.taste, one))
     assert next(turns) == (one, False)
@@ -173,12 +183,14 @@ def test_a_variant_of_a_sketched_way_is_proposed_only_if_it_spares_an_arm_motion
     costs = {"sketch": whole_s + spared_s, "variant": whole_s}
     folds = {name: (replace(load_garment("hand-towel").folds[0], name=name),) for name in costs}
 
-    def planned(_task: Task, packet: Packet, drawn: tuple[DrawnFold, ...], *_: Any, **_named: Any) -> Proposal:
-        quick = slowed(plan, whole_s / costs[drawn[0].name])
-        return Proposal(replace(TOWEL, folds=drawn), (costs[drawn[0].name], 0.3), 1, "front", quick)
+    def proposal(packet: Packet, *_: object) -> Proposal:
+        cost_s = costs[packet.folds[0].name]
+        quick = slowed(plan, whole_s / cost_s)
+        return Proposal(replace(TOWEL, folds=packet.folds), (cost_s, 0.3), 1, "front", quick)
 
-    monkeypatch.setattr(proposals, "_proposal", planned)
-    monkeypatch.setattr(proposals, "_or_mirrored", lambda _task, _packet, found, _stop: found)
+    monkeypatch.setattr(proposals, "_plan", lambda *_: None)
+    monkeypatch.setattr(proposals, "_proposal", proposal)
+    monkeypatch.setattr(proposals, "_better", lambda *_: ())
     way = replace(Packet.of(TOWEL), moves=(("half", 0),))
     search = Given(*(replace(way, folds=folds[name], is_sketch=name == "sketch") for name in costs))
     found = [*_planned(task, search, 3, lambda: False)]  # type: ignore[arg-type]

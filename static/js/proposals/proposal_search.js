@@ -17,6 +17,7 @@ import { eventStream, rest } from "../event_stream.js";
  * @property {string} status of its plan
  * @property {number|null} cost_s
  * @property {boolean} is_loose whether its plan holds some cloth far from a hand
+ * @property {number} number equal for one and what stands in for it
  * @property {string} [plan_id] none before it is planned
  */
 /** @typedef {object} Asked the body of the request, as JSON */
@@ -74,9 +75,9 @@ export class ProposalSearch extends EventTarget {
     }
   }
 
-  /** A way may come again, with a quicker or a firmer plan. @param {Proposal} proposal */
+  /** A better one may come with the number of one that it stands in for. @param {Proposal} proposal */
   take(proposal) {
-    const known = this.found.findIndex(({ folds }) => JSON.stringify(folds) === JSON.stringify(proposal.folds));
+    const known = this.found.findIndex(({ number }) => number === proposal.number);
     this.found.splice(known < 0 ? this.found.length : known, 1, proposal);
   }
 
