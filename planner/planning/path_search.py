@@ -193,8 +193,8 @@ class PathSearch:
         )
 
     def keep(self, plan_segments: tuple[PlanSegment, ...] | None) -> None:
-        """Keep segments that can be performed, if any, if they are quicker than those kept."""
-        if plan_segments is not None and (self.found is None or duration_s(plan_segments) < duration_s(self.found)):
+        """Keep segments that can be performed, if any, if they are quicker than those kept and the known plan."""
+        if plan_segments is not None and duration_s(plan_segments) <= self.limit_s:
             self.found = plan_segments
 
     def run_again(self, search_limits: SearchLimits, transfers_max: float) -> Iterator[Pause]:

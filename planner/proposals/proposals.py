@@ -353,7 +353,8 @@ def _planned(
         numbered = (replace(one, number=number) for number, one in enumerate(left, start=len(shown) + 1))
         yield from numbered if shown else _tried_longer(task, numbered, should_stop)
     if not should_stop() and any(_may_spare(task, one.garment.folds, one) for _, one in found):
-        variants += islice(filter(None, packets), _MORE)
+        known = {one.garment.folds for _, one in found}
+        variants += (packet for packet in islice(filter(None, packets), _MORE) if packet.folds not in known)
     for packet, proposal in found:
         yield from _better(task, packet, proposal, variants, should_stop)
     return Tried(search.enumerated, search.nearest_m)

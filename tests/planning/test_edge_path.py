@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 
@@ -107,3 +108,15 @@ def test_in_restricted_tasks_hands_hold_edges_too(monkeypatch: pytest.MonkeyPatc
     search.restrict(next(with_narrower_cones(problem)), math.inf)
     found = required(search.exact.found)
     assert any(one.transfer is not None and one.transfer.edges for one in found)
+
+
+def test_of_what_is_validated_only_what_beats_the_known_plan_is_kept() -> None:
+    search = PathSearch(Problem.of(Task.of(load_garment("vest"))), Budget.endless(), 1000)
+    search.known_s = 5.0
+
+    def lasting(lasts_s: float) -> tuple[PlanSegment, ...]:
+        return (PlanSegment(0, (SimpleNamespace(duration_s=lasts_s),), None),)
+
+    for lasts_s, kept_s in ((6.0, None), (5.0, None), (4.0, 4.0), (4.5, 4.0), (3.0, 3.0)):
+        search.keep(lasting(lasts_s))
+        assert (None if search.found is None else duration_s(search.found)) == kept_s
