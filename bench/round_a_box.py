@@ -76,7 +76,7 @@ class Motions:
     def are_all_free(self, joints: FloatArray) -> bool:
         """Return whether nothing touches in any configuration of all arms, shape (n, joints)."""
         are_clear = self.box.arm_clear(0, self.base, joints[:, self.span])
-        return bool(are_clear.all()) and self.collisions.wide.are_all_free(self.base, joints)
+        return bool(are_clear.all()) and self.collisions.wide.is_path_free(self.base, joints)
 
 
 @dataclass(frozen=True, slots=True)

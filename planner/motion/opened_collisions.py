@@ -41,8 +41,8 @@ class OpenedCollisions:
             return wide
         return edge if is_open else held
 
-    def are_all_free(self, bases: FloatArray, joints: FloatArray, openings_m: FloatArray) -> bool:
-        """Return whether none of some configurations touches anything.
+    def is_path_free(self, bases: FloatArray, joints: FloatArray, openings_m: FloatArray) -> bool:
+        """Return whether nothing touches along a path, from one configuration to the next.
 
         Args:
             bases: the base's pose at each, shape (n, 3).
@@ -50,20 +50,21 @@ class OpenedCollisions:
             openings_m: how far each arm's fingers are open at most (m), shape (n, arms).
         """
         levels = np.searchsorted(_OPENINGS_M[:-1], openings_m - LENGTH_M)
-        for each in np.unique(levels, axis=0):
-            rows = (levels == each).all(axis=1)
-            if not self._are_free(bases[rows], joints[rows], each.tolist()):
-                return False
-        return True
+        # On the line on which fingers open or close they are open as far as at its end where they are narrower.
+        ends = 1 + np.flatnonzero((levels[1:] != levels[:-1]).any(axis=1))
+        runs = zip([0, *ends], [*ends, len(levels)], strict=True)
+        parts = [(first, last, levels[first]) for first, last in runs]
+        parts += [(end - 1, end + 1, np.minimum(levels[end - 1], levels[end])) for end in ends]
+        return all(self._is_free(bases[i:j], joints[i:j], opened.tolist()) for i, j, opened in parts)
 
-    def _are_free(self, bases: FloatArray, joints: FloatArray, levels: list[int]) -> bool:
-        """Return whether configurations are free in which each arm's fingers are open up to one of the openings."""
+    def _is_free(self, bases: FloatArray, joints: FloatArray, levels: list[int]) -> bool:
+        """Return whether a path is free on which each arm's fingers are open up to one of the openings."""
         least, most = min(levels), max(levels)
-        if not self._up_to[least].are_all_free(bases, joints):
+        if not self._up_to[least].is_path_free(bases, joints):
             return False
         if least == most:
             return True
         wider = (arm for arm, level in enumerate(levels) if level > least)
         return bool(self._up_to[most].arms_apart(tuple(self._layout.arms), joints).all()) and all(
-            self._up_to[levels[arm]].arm_free(arm, bases, joints[:, self._layout.spans[arm]]).all() for arm in wider
+            self._up_to[levels[arm]].is_arm_path_free(arm, bases, joints[:, self._layout.spans[arm]]) for arm in wider
         )

@@ -70,7 +70,7 @@ class TransferPath:
         joints = smoothed(self.joints, _SMOOTHING_PASSES, is_still)
         opened = np.array([HELD_M if hold.is_narrow else OPENING_M for hold in self.lines.holds])
         openings_m = np.tile(opened, (int(is_still.sum()), 1))
-        if not is_still.any() or not collisions.are_all_free(self.bases[is_still], joints[is_still], openings_m):
+        if not is_still.any() or not collisions.is_path_free(self.bases[is_still], joints[is_still], openings_m):
             return self
         return replace(self, joints=joints)
 

@@ -36,7 +36,7 @@ from planner.primitives.context import Context
 from planner.primitives.obstacle import BlockingContact
 from planner.primitives.primitive import Step
 from planner.robots.armed_robot import ArmedRobot
-from planner.robots.card import JointLayout
+from planner.robots.card import HELD_M, OPENING_M
 from planner.robots.tool_path import NoPath
 from planner.task.trajectory import Phase
 
@@ -199,7 +199,7 @@ class TransferPlanner:
         transfer_path = transfer_path.smoothed(self._collisions)
         joints, first, last = transfer_path.joints, transfer_path.first, transfer_path.last
         timing = TransferTiming.of(candidate.carrying, candidate.waypoints, joints[first : last + 1], self._limits)
-        if not is_clear_between(transfer_path, timing, self.transits.layout, self._collisions):
+        if not is_clear_between(transfer_path, timing, self._collisions):
             return None
         lead, tail = transfer_path.approach, transfer_path.retreat
         if transfer_path.settles:
@@ -309,30 +309,30 @@ def forget_paths() -> None:
     forget_waypoints()
 
 
-_SHARES = np.array([0.25, 0.5, 0.75])
-"""Where between two waypoints hands are tested."""
+_SHARES = np.array([0.0, 0.25, 0.5, 0.75])
+"""Where hands are tested from each waypoint on to the next: between these joints turn about evenly."""
 
 
-def is_clear_between(
-    transfer_path: TransferPath, timing: TransferTiming, layout: JointLayout, collisions: OpenedCollisions
-) -> bool:
-    """Return whether arms whose hands hold edges touch neither body nor table between the waypoints of a transfer.
+def is_clear_between(transfer_path: TransferPath, timing: TransferTiming, collisions: OpenedCollisions) -> bool:
+    """Return whether nothing touches between the waypoints of a transfer, where joints sag a little, before and after.
 
-    Joints sag a little there. Fingers side by side are well above the table while they hold cloth; the lower one of a
-    hand at an edge has some tenths of a millimetre.
+    While hands hold cloth their joints are taken as they are timed; on the lines to the grips and from them joints turn
+    evenly.
     """
-    arms = [arm for arm, hold in enumerate(transfer_path.lines.holds) if hold.is_narrow]
-    if not arms:
-        return True
     gaps = np.diff(timing.times_s)
     starts = np.flatnonzero(gaps > TIME_S)
-    times = (timing.times_s[starts, None] + gaps[starts, None] * _SHARES).ravel()
+    times = np.append((timing.times_s[starts, None] + gaps[starts, None] * _SHARES).ravel(), timing.times_s[-1])
     rows = transfer_path.first + timing.waypoints
     joints = values_at(timing.times_s, transfer_path.joints[rows], timing.velocities, times)
     bases = np.column_stack([np.interp(times, timing.times_s, column) for column in transfer_path.bases[rows].T])
+    holds, lead, tail = transfer_path.lines.holds, transfer_path.approach, transfer_path.retreat
+    held_m = [HELD_M if hold.is_narrow else OPENING_M for hold in holds]
+    open_m = [opening_of(hold) for hold in holds]
     return all(
-        collisions.of(transfer_path.lines.holds[arm], is_open=False)
-        .arm_free(arm, bases, joints[:, layout.spans[arm]])
-        .all()
-        for arm in arms
+        collisions.is_path_free(stands, there, np.tile(openings_m, (len(there), 1)))
+        for stands, there, openings_m in (
+            (bases, joints, held_m),
+            (transfer_path.bases[: len(lead)], lead, open_m),
+            (transfer_path.bases[-len(tail) :], tail, open_m),
+        )
     )

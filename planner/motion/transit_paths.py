@@ -229,13 +229,13 @@ class TransitPaths:
 
         Args:
             cloth: the cloth on the table.
-            bases: the base at each moment tested, shape (n, 3).
+            bases: the base at moments between which joints turn about evenly, shape (n, 3).
             joints: all arms' joints then (rad), shape (n, joints).
             openings_m: how far each arm's fingers are open at most then (m), shape (n, arms).
         """
         return self._tested.answer(
             lambda: (
-                self._opened.are_all_free(bases, joints, openings_m)
+                self._opened.is_path_free(bases, joints, openings_m)
                 and self.are_clear(cloth, bases, joints, self.at_grips, openings_m)
             ),
             cloth.key,
@@ -324,7 +324,7 @@ class _Lines:
         """Return whether nothing touches all along a line."""
         key = (start.tobytes(), end.tobytes())
         if key not in self._known:
-            self._known[key] = self._collisions.are_all_free(self.base, sampled(start, end, STEP_RAD))
+            self._known[key] = self._collisions.is_path_free(self.base, sampled(start, end, STEP_RAD))
         return self._known[key]
 
 

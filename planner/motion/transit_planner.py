@@ -27,8 +27,8 @@ from planner.robots.card import EDGE_OPEN_M, HELD_M, OPENING_M
 _LEAD_S, _TAIL_S = 0.8, 0.6
 """The time in which hands come straight to their grips and withdraw, if there is enough of it (s)."""
 
-_CHECK_S = 0.04
-"""The time between waypoints at which empty hands beside a moving base are tested (s)."""
+_CHECK_S = 0.02
+"""The time between moments at which empty hands are tested (s): between them joints turn about evenly."""
 
 _CHECKS_MAX = 1000
 """The most waypoints tested: hands that take minutes for a path move less from one moment to the next."""

@@ -150,7 +150,7 @@ def _require_arms(
     base = segment.base_at(t_s)
     opened = np.array([[track.opening_at(t_s) for track in path.grippers]])
     stands = np.array([[base.x_m, base.y_m, base.yaw_rad]])
-    if not collisions.are_all_free(stands, joints[None], opened):
+    if not collisions.is_path_free(stands, joints[None], opened):
         raise RequestError("trajectory", f"at {t_s:.2f} s the robot touches itself or the table")
     for arm_number, place in ({} if tools is None else _held(tools, segment, t_s)).items():
         own = joints[None, layout.spans[arm_number]]

@@ -149,13 +149,16 @@ class BarredCollisions:
         self._real = real
         self._is_barred = is_barred
 
-    def are_all_free(self, bases: Pose2 | FloatArray, joints: FloatArray) -> bool:
-        return self._real.are_all_free(bases, joints)
+    def is_path_free(self, bases: Pose2 | FloatArray, joints: FloatArray) -> bool:
+        return self._real.is_path_free(bases, joints)
 
     def arm_free(self, arm: int, bases: Pose2 | FloatArray, joints: FloatArray) -> BoolArray:
         stands = [bases] * len(joints) if isinstance(bases, Pose2) else [Pose2(*base) for base in bases]
         is_open = np.array([not self._is_barred(arm, stand) for stand in stands], dtype=bool)
         return is_open & self._real.arm_free(arm, bases, joints)
+
+    def is_arm_path_free(self, arm: int, bases: Pose2 | FloatArray, joints: FloatArray) -> bool:
+        return bool(self.arm_free(arm, bases, joints).all())
 
     def arms_apart(self, arms: tuple[int, ...], joints: FloatArray) -> BoolArray:
         return self._real.arms_apart(arms, joints)

@@ -256,6 +256,9 @@ class RemadeCollisions:
         one = self._arms[arm]
         return self._real.arm_free(one.of, one.stand(bases), one.bent(joints))
 
+    def is_arm_path_free(self, arm: int, bases: Pose2 | FloatArray, joints: FloatArray) -> bool:
+        return bool(self.arm_free(arm, bases, joints).all())
+
     def arms_apart(self, arms: tuple[int, ...], joints: FloatArray) -> BoolArray:
         counts = [len(self._robot.card.arms[arm].joint_names) for arm in arms]
         assert joints.shape[1] == sum(counts)
@@ -284,14 +287,14 @@ class RemadeCollisions:
         are_free = np.all([*alone, self.arms_apart(tuple(self._layout.arms), joints)], axis=0)
         return int(np.append(are_free, False).argmin())
 
-    def are_all_free(self, bases: Pose2 | FloatArray, joints: FloatArray) -> bool:
+    def is_path_free(self, bases: Pose2 | FloatArray, joints: FloatArray) -> bool:
         return self.free_until(bases, joints) == len(joints)
 
     def over_cloth(self, pieces: Sequence[FloatArray], over_m: float) -> RemadeClearance:
         return RemadeClearance(self._arms, self._real.over_cloth(pieces, over_m))
 
     def deepest_contact(self, base_in_table: Pose2, joints: FloatArray) -> Contact | None:
-        if self.are_all_free(base_in_table, joints[None]):
+        if self.is_path_free(base_in_table, joints[None]):
             return None
         return Contact(f"{self._arms[0].name} palm", f"{self._arms[-1].name} palm", 0.01)
 

@@ -6,7 +6,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from planner.geometry.pose import Pose2
+from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.table import Table
 from planner.geometry.tolerance import LENGTH_M
 from planner.robots.pr2.arm import MIRROR
@@ -176,9 +176,24 @@ def test_a_posture_is_answered_alike_alone_and_on_the_way_of_moving_arms_and_a_m
         assert 50 < found.sum() < 450
     alone = [bool(COLLISIONS.free(Pose2(*base), posture[None])[0]) for base, posture in zip(bases, ways, strict=True)]
     assert COLLISIONS.free(bases, ways).tolist() == alone
-    stretches = [COLLISIONS.are_all_free(bases[k : k + 3], ways[k : k + 3]) for k in range(len(ways) - 2)]
+    stretches = [COLLISIONS.is_path_free(bases[k : k + 3], ways[k : k + 3]) for k in range(len(ways) - 2)]
     assert stretches == [all(alone[k : k + 3]) for k in range(len(ways) - 2)]
     assert 10 < sum(stretches) < sum(alone) < 450
+
+
+def test_a_path_is_free_only_if_nothing_touches_between_its_postures() -> None:
+    starts = random_postures(12_000, 31)
+    ends = starts + np.random.default_rng(32).uniform(-1.0, 1.0, starts.shape)
+
+    def sampled(count: int) -> FloatArray:
+        return np.array([(1.0 - share) * starts + share * ends for share in np.linspace(0.0, 1.0, count)])
+
+    paths = sampled(5)
+    where_free = np.flatnonzero(np.array([COLLISIONS.free(FRONT, postures) for postures in paths]).all(axis=0))
+    found = np.array([COLLISIONS.is_path_free(FRONT, paths[:, number]) for number in where_free])
+    between = np.array([COLLISIONS.free(FRONT, postures[where_free]) for postures in sampled(97)]).all(axis=0)
+    assert found.tolist() == between.tolist()
+    assert 10 < (~between).sum() < 100
 
 
 def test_each_posture_may_have_a_base_of_its_own() -> None:

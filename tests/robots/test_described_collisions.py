@@ -54,7 +54,7 @@ def test_every_robot_is_free_at_home_at_its_stations(name: str) -> None:
     asked = collisions(robot)
     for _, pose in robot.card.scene.stations:
         assert asked.deepest_contact(pose, home(robot)) is None
-        assert asked.are_all_free(pose, home(robot)[None])
+        assert asked.is_path_free(pose, home(robot)[None])
         assert asked.body_free(pose)
 
 

@@ -40,10 +40,12 @@ def test_a_plane_is_found_just_where_parts_are_further_apart_than_a_gap(is_uprig
             pose[:3] = turned(rng, is_upright=is_upright)
             pose[3:] = rng.normal(size=3) * 0.2 if number == 0 else 0.0
         gap = float(rng.uniform(0.0, 0.02))
-        room = room_at_plane(np.vstack([hull.corners for hull in hulls]), spans, poses, 0, 1, gap, (0.0, 0.0, 0.0))
+        corners, way = np.vstack([hull.corners for hull in hulls]), (0.0, 0.0, 0.0)
+        room, nearly = (room_at_plane(corners, spans, poses, 0, 1, gap, way, wanted) for wanted in (0.0, np.inf))
         posed = [(hull.convex(), coal.Transform3s(pose[:3], pose[3])) for hull, pose in zip(hulls, poses, strict=True)]
         apart_m = coal.distance(*posed[0], *posed[1], coal.DistanceRequest(), coal.DistanceResult()) - gap
         if abs(apart_m) > TO_M:
             assert 0.0 < room <= apart_m + TO_M if apart_m > 0.0 else room < 0.0
+            assert nearly == pytest.approx(max(apart_m, 0.0) or -1.0, abs=TO_M)
             told.append(apart_m > 0.0)
     assert 50 < sum(told) < len(told) - 50

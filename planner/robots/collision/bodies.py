@@ -30,6 +30,13 @@ class Pairs(NamedTuple):
     margins: FloatArray
 
 
+_HALVINGS = 3
+"""How often lines on which parts may touch are halved."""
+
+_LENIENT_M = 0.0003
+"""How deep parts may overlap in postures between those given (m): they are estimates."""
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Bodies:
     """The parts of all arms, arm after arm, then the rest of the robot, then the parts of the table.
@@ -62,14 +69,35 @@ class Bodies:
             joints: for each posture the joints of the arms considered, one arm after the other (rad, m), shape (n, q).
             arms: those arms, shape (k,).
         """
-        close, _ = self.first_close(pairs, rows(bases), joints, arms, np.zeros(len(joints), dtype=np.int64))
+        close, *_ = self.first_close(pairs, rows(bases), joints, arms, np.zeros(len(joints), dtype=np.int64))
         return close < 0
 
     def free_until(self, pairs: Pairs, bases: Pose2 | FloatArray, joints: FloatArray, arms: Index) -> int:
         """Return the number of postures before the first one in which some pair touches; see `are_free`."""
         start = np.zeros(len(joints), dtype=np.int64)
-        close, _ = self.first_close(pairs, rows(bases), joints, arms, start, is_one_enough=True)
+        close, *_ = self.first_close(pairs, rows(bases), joints, arms, start, is_one_enough=True)
         return int(np.append(close >= 0, True).argmax())
+
+    def is_path_free(self, pairs: Pairs, bases: Pose2 | FloatArray, joints: FloatArray, arms: Index) -> bool:
+        """Return whether no pair touches along a path: in its postures, and on the lines from one to the next.
+
+        Lines on which a pair may touch, by how far its parts move, are halved until it cannot, or they are very short.
+        The postures between are estimates, so there pairs need keep no margin and may overlap by `_LENIENT_M`.
+        """
+        asked, stands, ways = pairs, rows(bases), joints
+        is_end = np.zeros(len(joints), dtype=np.bool_)  # of a line of its own
+        for halvings in range(_HALVINGS + 1):
+            start = np.zeros(len(ways), dtype=np.int64)
+            close, _, may_touch = self.first_close(asked, stands, ways, arms, start, is_one_enough=True, is_path=True)
+            if (close >= 0).any():
+                return False
+            ends = np.flatnonzero(may_touch & ~is_end)
+            if not len(ends) or halvings == _HALVINGS:
+                break
+            asked = Pairs(pairs.numbers, np.full(len(pairs.numbers), -_LENIENT_M))
+            ways, is_end = _halved(ways, ends), np.tile([True, False, False], len(ends))
+            stands = _halved(stands, ends) if len(stands) > 1 else stands
+        return True
 
     def first_close(
         self,
@@ -80,7 +108,8 @@ class Bodies:
         start: Index,
         *,
         is_one_enough: bool = False,
-    ) -> tuple[Index, FloatArray]:
+        is_path: bool = False,
+    ) -> tuple[Index, FloatArray, BoolArray]:
         """Return for every posture the first pair from a start that is not apart; see `first_close`."""
         return first_close(
             self.kinematics,
@@ -95,6 +124,7 @@ class Bodies:
             start,
             pairs.margins,
             is_one_enough,
+            is_path,
         )
 
     def depth_m(self, pairs: Pairs, pair: int, poses: FloatArray) -> float:
@@ -118,6 +148,12 @@ class Bodies:
         """Return a body's pose for coal, with left-handed frames made right-handed."""
         is_mirrored = part < len(self.is_mirrored) and self.is_mirrored[part]
         return coal.Transform3s(pose[:PLACE] * _MIRROR if is_mirrored else pose[:PLACE], pose[PLACE])
+
+
+def _halved(path: FloatArray, ends: Index) -> FloatArray:
+    """Return start, middle and end of some lines of a path, those that end at given rows, line after line."""
+    first, last = path[ends - 1], path[ends]
+    return np.stack([first, 0.5 * (first + last), last], axis=1).reshape(3 * len(ends), -1)
 
 
 def rows(bases: Pose2 | FloatArray) -> FloatArray:

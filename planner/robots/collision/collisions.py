@@ -173,9 +173,9 @@ class Collisions:
         """Return the number of postures of all arms before the first one in which something collides."""
         return self._bodies.free_until(self._all, bases, _rows(joints), np.array(self._every_arm))
 
-    def are_all_free(self, bases: Pose2 | FloatArray, joints: FloatArray) -> bool:
-        """Return whether nothing collides in any posture of all arms."""
-        return self.free_until(bases, joints) == len(joints)
+    def is_path_free(self, bases: Pose2 | FloatArray, joints: FloatArray) -> bool:
+        """Return whether nothing collides along a path of all arms, from posture to posture."""
+        return self._bodies.is_path_free(self._all, bases, _rows(joints), np.array(self._every_arm))
 
     def arm_free(self, arm: int, bases: Pose2 | FloatArray, joints: FloatArray) -> BoolArray:
         """Return in which postures, shape (n, joints), an arm is clear of body, table and itself, shape (n,)."""
@@ -183,6 +183,12 @@ class Collisions:
             # Mirrored to the left arm, so that answers agree on both sides to the last digit.
             return self.arm_free(0, rows(bases) * np.array([1.0, -1.0, -1.0]), joints * self._robot.mirror)
         return self._bodies.are_free(self._of_arm[arm], bases, joints, np.array([arm]))
+
+    def is_arm_path_free(self, arm: int, bases: Pose2 | FloatArray, joints: FloatArray) -> bool:
+        """Return whether an arm is clear of body, table and itself along a path, from posture to posture."""
+        if arm == 1 and self._robot.mirror is not None:
+            return self.is_arm_path_free(0, rows(bases) * np.array([1.0, -1.0, -1.0]), joints * self._robot.mirror)
+        return self._bodies.is_path_free(self._of_arm[arm], bases, joints, np.array([arm]))
 
     def arms_apart(self, arms: tuple[int, ...], joints: FloatArray) -> BoolArray:
         """Return in which postures of some arms these are clear of each other, shape (n,); see `arm_free`.
@@ -221,7 +227,7 @@ class Collisions:
         base, start, arms = rows(base_in_table), np.zeros(1, dtype=np.int64), np.array(self._every_arm)
         found: list[Contact] = []
         while True:
-            (pair,), (poses,) = self._bodies.first_close(self._all, base, joints.reshape(1, -1), arms, start)
+            (pair,), (poses,), _ = self._bodies.first_close(self._all, base, joints.reshape(1, -1), arms, start)
             if pair < 0:
                 return max(found, key=lambda contact: contact.depth_m, default=None)
             if (depth_m := self._bodies.depth_m(self._all, int(pair), poses)) >= 0.0:

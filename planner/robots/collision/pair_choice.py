@@ -122,7 +122,7 @@ class _Sample:
         joints, numbers = self._of(arms)
         some = joints[touching[:MESH_SAMPLES]]
         pairs, start = Pairs(_pairs([pair]), np.zeros(1)), np.zeros(len(some), dtype=np.int64)
-        _, poses = self._bodies.first_close(pairs, rows(_ORIGIN), some, numbers, start)
+        _, poses, _ = self._bodies.first_close(pairs, rows(_ORIGIN), some, numbers, start)
         return any(self._solids_touch(pair, both) for both in poses)
 
     def _of(self, arms: tuple[int, ...]) -> tuple[FloatArray, Index]:

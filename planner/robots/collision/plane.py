@@ -153,10 +153,12 @@ def _nearest_along(
 
 
 @kernel
-def room_at_plane(corners: FloatArray, spans: Index, r: FloatArray, a: int, b: int, gap: float, way: Vector) -> float:
+def room_at_plane(
+    corners: FloatArray, spans: Index, r: FloatArray, a: int, b: int, gap: float, way: Vector, wanted: float
+) -> float:
     """Return by how much more than a gap parts b and a are apart at a separating plane (m); -1 if there is none.
 
-    The search starts along `way`.
+    The search starts along `way`, and ends once they are apart by as much as is wanted, or no plane is better.
 
     Args:
         corners: the corners of all hulls, each in its part's frame (m), shape (c, 3).
@@ -166,6 +168,7 @@ def room_at_plane(corners: FloatArray, spans: Index, r: FloatArray, a: int, b: i
         b: the second part.
         gap: the distance that their hulls should keep (m).
         way: the rough direction from b to a (m); zero if nothing is known.
+        wanted: by how much more (m), at least 0.
     """
     dx, dy, dz = way
     if dx == 0.0 and dy == 0.0 and dz == 0.0:
@@ -174,7 +177,7 @@ def room_at_plane(corners: FloatArray, spans: Index, r: FloatArray, a: int, b: i
             r[a, MIDDLE, 1] - r[b, MIDDLE, 1],
             r[a, MIDDLE, 2] - r[b, MIDDLE, 2],
         )
-    points, count, least = np.empty((4, 3)), 0, math.inf
+    points, count, least, best = np.empty((4, 3)), 0, math.inf, -1.0
     for _ in range(_DIRECTIONS):
         length = math.sqrt(dx * dx + dy * dy + dz * dz)
         if length == 0.0:
@@ -182,8 +185,9 @@ def room_at_plane(corners: FloatArray, spans: Index, r: FloatArray, a: int, b: i
         dx, dy, dz = dx / length, dy / length, dz / length
         wx, wy, wz = _nearest_along(corners, spans, r, a, b, gap, dx, dy, dz)
         along: float = wx * dx + wy * dy + wz * dz
-        if along > 0.0:
-            return along
+        best = max(best, along) if along > 0.0 else best
+        if best > wanted:
+            return best
         points[count, 0], points[count, 1], points[count, 2] = wx, wy, wz
         count += 1
         if count == 4 and are_round_origin(points):
@@ -193,4 +197,4 @@ def room_at_plane(corners: FloatArray, spans: Index, r: FloatArray, a: int, b: i
         if squared >= (1.0 - _NEARER) * least:
             break
         least = squared
-    return -1.0
+    return best

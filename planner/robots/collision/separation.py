@@ -66,19 +66,29 @@ def _towards(bounds: FloatArray, poses: FloatArray, a: int, b: int) -> tuple[flo
 
 @inlined
 def _room_between(
-    corners: FloatArray, spans: Index, bounds: FloatArray, poses: FloatArray, a: int, b: int, margin: float
+    corners: FloatArray,
+    spans: Index,
+    bounds: FloatArray,
+    poses: FloatArray,
+    a: int,
+    b: int,
+    margin: float,
+    wanted: float,
 ) -> float:
-    """Return by how much more than a margin two parts are apart (m), at least; negative where they are not."""
+    """Return by how much more than a margin two parts are apart (m), at least; negative where they are not.
+
+    The search for it ends once it is more than what is wanted (m), which is at least 0.
+    """
     wx, wy, wz = _towards(bounds, poses, a, b)
     room: float = math.sqrt(wx * wx + wy * wy + wz * wz) - bounds[a, RADIUS] - margin
-    if room > 0.0:
+    if room > wanted:
         return room
     x, y, z = _towards(bounds, poses, b, a)
     room = math.sqrt(x * x + y * y + z * z) - bounds[b, RADIUS] - margin
-    if room > 0.0:
+    if room > wanted:
         return room
     gap = margin + bounds[a, ROUNDING] + bounds[b, ROUNDING]
-    return room_at_plane(corners, spans, poses, a, b, gap, (wx, wy, wz))
+    return room_at_plane(corners, spans, poses, a, b, gap, (wx, wy, wz), wanted)
 
 
 @kernel
@@ -87,7 +97,7 @@ def first_close_pair(
 ) -> int:
     """Return the first pair, from a start, that is not apart by a margin (m); -1 if all are."""
     for pair in range(start, len(pairs)):
-        if _room_between(corners, spans, bounds, poses, pairs[pair, 0], pairs[pair, 1], margin) < 0.0:
+        if _room_between(corners, spans, bounds, poses, pairs[pair, 0], pairs[pair, 1], margin, 0.0) < 0.0:
             return pair
     return -1
 
@@ -141,7 +151,8 @@ def first_close(
     start: Index,
     margins: FloatArray,
     is_one_enough: bool,
-) -> tuple[Index, FloatArray]:
+    is_path: bool,
+) -> tuple[Index, FloatArray, BoolArray]:
     """Return for every posture the first pair, from a start, that is not apart.
 
     Args:
@@ -158,12 +169,15 @@ def first_close(
         start: the pair with which to start, shape (n,).
         margins: the distance that each pair should keep (m), shape (q,).
         is_one_enough: stop at the first posture with such a pair; those after it get -1.
+        is_path: whether it matters what is between postures.
 
     Returns:
-        The pair, -1 if all are apart, shape (n,); and the poses of its two parts, shape (n, 2, 5, 3).
+        The pair, -1 if all are apart, shape (n,); the poses of its two parts, shape (n, 2, 5, 3); and for a path
+        whether the parts of some pair may touch on the way from the posture before, shape (n,).
     """
     corners, spans, bounds, _ = parts
     found, places = np.full(len(joints), -1, dtype=np.int64), np.empty((len(joints), 2, 5, 3))
+    may_touch = np.zeros(len(joints), dtype=np.bool_)
     first = len(poses) - len(tables)
     poses = poses.copy()
     before, gone, apart_until = poses.copy(), np.zeros(len(poses)), np.zeros(len(pairs))
@@ -179,17 +193,20 @@ def first_close(
             a, b = pairs[pair, 0], pairs[pair, 1]
             if gone[a] + gone[b] < apart_until[pair]:
                 continue
-            room = _room_between(corners, spans, bounds, poses, a, b, margins[pair])
+            # What is apart now may have touched on the way if it has come further than it was and is apart together.
+            wanted = max(gone[a] + gone[b] - apart_until[pair] - 2.0 * margins[pair], 0.0) if is_path and i else 0.0
+            room = _room_between(corners, spans, bounds, poses, a, b, margins[pair], wanted)
             if room < 0.0:
                 found[i] = pair
                 break
+            may_touch[i] |= room < wanted
             apart_until[pair] = gone[a] + gone[b] + room
         if found[i] >= 0:
             for side in range(2):
                 places[i, side] = poses[pairs[found[i], side]]
             if is_one_enough:
                 break
-    return found, places
+    return found, places, may_touch
 
 
 _UNKNOWN = -1
