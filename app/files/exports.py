@@ -84,7 +84,7 @@ def _sheet_pdf(state: DocumentState, _: float, __: ShouldStop) -> bytes:
 
 def _sheet_svg(state: DocumentState, _: float, __: ShouldStop) -> bytes:
     from app.files.instruction_sheet import instruction_sheet
-    from app.files.sheet_svg import page_svg
+    from app.files.sheet_page import page_svg
 
     return page_svg(instruction_sheet(plan_in(state), state.language))
 

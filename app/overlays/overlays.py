@@ -10,8 +10,7 @@ import numpy as np
 from app.document_state import DocumentState
 from app.overlays.moment import Moment
 from app.overlays.motions import base_overlay, paths_overlay
-from app.overlays.reach_region import reach_regions
-from app.overlays.region_json import region_to_dict
+from app.overlays.reach_region import reach_regions, region_to_dict
 from app.overlays.shortfall import shortfall_overlay
 from app.overlays.slip import slip_overlay
 from planner.geometry.isometry import Isometry

@@ -12,7 +12,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache, partial
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -191,3 +191,15 @@ def _cell(grid: FloatArray, inside: BoolArray, along_x: FloatArray, along_y: Flo
         if inside[corner] != inside[following]:
             points.append(crossing)
     return Region.polygon(points)
+
+
+def rings_of(part: Region) -> tuple[FloatArray, ...]:
+    """Return the rings of a connected region, shape (n, 2) each, m: the outer one, then those of its holes."""
+    holes = Region.polygon(part.ring).difference(part)
+    return (part.ring, *(hole.ring for hole in holes.pieces))
+
+
+def region_to_dict(part: Region) -> dict[str, Any]:
+    """Return a connected region as its outer ring and those of its holes."""
+    outer, *holes = (ring.tolist() for ring in rings_of(part))
+    return {"outer": outer, "holes": holes}

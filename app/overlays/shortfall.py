@@ -17,8 +17,7 @@ from typing import Any
 import numpy as np
 
 from app.overlays.moment import Moment
-from app.overlays.reach_region import Grid, in_approach, region_where, runs
-from app.overlays.region_json import region_to_dict, rings_of
+from app.overlays.reach_region import Grid, in_approach, region_to_dict, region_where, rings_of, runs
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Approach, FloatArray, Point2, Point3, Pose2
 from planner.geometry.region import Region

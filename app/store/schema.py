@@ -123,7 +123,7 @@ class ShareRow(Table):
 
 
 class RobotRow(Table):
-    """A robot of the user's own: its folder as an archive, and a digest of its files (`app.store.robot_folder`).
+    """A robot of the user's own: its folder as an archive, and a digest of its files (`app.store.robot_repository`).
 
     A robot that was removed keeps its row without content, so that other servers on the database remove theirs.
     """

@@ -11,9 +11,8 @@ from contextlib import contextmanager
 from app.distribution import require
 from app.studies.answer import Answer, MakePlan, answered
 from app.studies.cell import Cell
-from app.studies.handing_out import answers_of
-from app.studies.study_error import StudyError
-from app.studies.workers import planner
+from app.studies.fields import StudyError
+from app.studies.workers import answers_of, planner
 
 BATCH = 4
 """Cells in a batch: some tenths of a second of work."""

@@ -4,7 +4,15 @@ import math
 from collections.abc import Collection, Mapping
 from typing import Any
 
-from app.studies.study_error import StudyError
+from planner.errors import FieldError, FoldingError
+
+
+class StudyError(FieldError):
+    """A study that is not valid; names the field of its file."""
+
+
+class StudyFolderError(FoldingError):
+    """A folder whose results cannot be used."""
 
 
 def table(field: str, given: object) -> Mapping[str, Any]:

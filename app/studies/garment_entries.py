@@ -7,10 +7,9 @@ from pathlib import Path
 from typing import Any
 
 from app.studies.axis import number_axis
-from app.studies.fields import pair, require_known, required, table, text, whole
-from app.studies.garment_case import GarmentCase
+from app.studies.cell import GarmentCase
+from app.studies.fields import StudyError, pair, require_known, required, table, text, whole
 from app.studies.random_garment import RandomShape, random_garment
-from app.studies.study_error import StudyError
 from app.templates.catalogue import TEMPLATES, find_template
 from app.templates.measure import MeasureError
 from app.templates.template import Template

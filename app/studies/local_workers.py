@@ -5,8 +5,7 @@ from concurrent.futures import Future, ThreadPoolExecutor
 
 from app.studies.answer import Answer, MakePlan, answered, failed
 from app.studies.cell import Cell
-from app.studies.handing_out import answers_of
-from app.studies.workers import planner
+from app.studies.workers import answers_of, planner
 from app.worker.process import Caller
 from app.worker.stop import LimitedStop, Stop, StoppedError
 from app.worker.workers import Workers

@@ -8,11 +8,10 @@ from typing import Any
 
 from app.studies.axis import Axis, number_axis
 from app.studies.cell import CARD, LIMITS, MIDDLE, MOVED, PLACEMENT, ROBOT, SCENE, START, TABLE
-from app.studies.fields import require_known, table, text, truth, whole
+from app.studies.fields import StudyError, require_known, table, text, truth, whole
 from app.studies.garment_entries import Sources, read_garments
 from app.studies.rehearsed import StudyRehearsal, read_rehearsal
 from app.studies.study import Sample, Study
-from app.studies.study_error import StudyError
 from app.studies.study_fields import FIELDS
 from planner.errors import FieldError
 from planner.geometry.given import GivenPose

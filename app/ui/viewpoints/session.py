@@ -11,8 +11,7 @@ from app.drawing.ring import ring_of
 from app.ui.opening import opening as opening_of
 from app.ui.viewpoint import Viewpoint
 from app.ui.viewpoints.following import Following, work_of
-from app.ui.viewpoints.ground import Ground, on_table
-from app.ui.viewpoints.presets import Preset, robots_eye, side, top
+from app.ui.viewpoints.presets import Ground, Preset, on_table, robots_eye, side, top
 from app.ui.viewpoints.viewpoint_choice import ViewpointChoice
 from planner.geometry.pose import Pose2
 

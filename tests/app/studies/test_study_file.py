@@ -9,9 +9,9 @@ import pytest
 
 from app.job_kinds.studies import STUDIES
 from app.jobs.job_kind import Stores
+from app.studies.fields import StudyError
 from app.studies.garment_entries import Sources
 from app.studies.study import Study
-from app.studies.study_error import StudyError
 from app.studies.study_fields import FIELDS
 from app.studies.study_file import read_study, study_of
 from planner import load_garment

@@ -5,10 +5,11 @@ from typing import Any
 
 import pytest
 
-from app.studies import executor_workers, handing_out, local_workers
+from app.studies import executor_workers, local_workers
+from app.studies import workers as study_workers
 from app.studies.executor_workers import ExecutorWorkers, cluster
+from app.studies.fields import StudyError
 from app.studies.local_workers import LocalWorkers
-from app.studies.study_error import StudyError
 from app.studies.workers import InProcess, Workers
 from tests.app.studies.planners import deadly, deadly_once, fake_plan, hanging, raising
 from tests.app.studies.study_samples import study
@@ -54,13 +55,13 @@ def test_cells_are_made_only_as_they_are_needed() -> None:
 
     running = LocalWorkers(1, fake_plan).answers(cells())
     next(running)
-    assert len(taken) <= 2 + handing_out.AHEAD
+    assert len(taken) <= 2 + study_workers.AHEAD
     running.close()
 
 
 def test_workers_that_all_die_end_the_study(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(handing_out, "LOST_MAX", 2)
-    with pytest.raises(handing_out.WorkersLostError, match="-9"):
+    monkeypatch.setattr(study_workers, "LOST_MAX", 2)
+    with pytest.raises(study_workers.WorkersLostError, match="-9"):
         answers(LocalWorkers(1, deadly), study(table={"height_m": 0.75}, scene={"friction": [0.1, 0.2, 0.3]}))
 
 
