@@ -4,7 +4,7 @@ from typing import Literal
 
 from pydantic import BaseModel
 
-from app.api.answers import GarmentAnswer, LayerAnswer, Point, Point3, Says
+from app.api.answers import GarmentAnswer, LayerAnswer, Point, Says
 from app.drawing.drawing import Drawing, End
 from planner.geometry.pose import Pose2
 
@@ -134,126 +134,6 @@ class QuickFixesAnswer(BaseModel):
 
     version: int
     quick_fixes: list[QuickFixAnswer]
-
-
-class RegionAnswer(BaseModel):
-    """A connected region (m)."""
-
-    outer: Ring
-    holes: list[Ring]
-
-
-class RobotAnswer(BaseModel):
-    """The base's pose (m, rad)."""
-
-    station: str | None
-    back_off_m: float
-    pose: Pose2
-    outline: Ring
-    radius_m: float
-
-
-class ReachAnswer(BaseModel):
-    """The region in which an arm can take cloth on the table, within the comfort radius and without it (m)."""
-
-    arm: str
-    comfort_m: float
-    regions: list[RegionAnswer]
-    bare: list[RegionAnswer]
-
-
-class LimitAnswer(BaseModel):
-    """The line to which the cloth may hang over an edge of the table (m)."""
-
-    edge: str
-    line: tuple[Point, Point]
-    at_m: float
-    now_m: float
-
-
-class SlipAnswer(BaseModel):
-    """The cloth that hangs over the table's edges, and how much may (m^2, layers counted)."""
-
-    friction: float
-    pull_m2: float
-    lying_m2: float
-    hanging_m2: dict[str, float]
-    holds: bool
-    limits: list[LimitAnswer]
-
-
-class StandAnswer(BaseModel):
-    """The base's pose after a primitive (m, rad)."""
-
-    primitive: int
-    point: Point
-    yaw_rad: float
-
-
-class BaseWayAnswer(BaseModel):
-    """The base's path, and how many of its points have been passed (m)."""
-
-    way: list[Point]
-    stands: list[StandAnswer]
-    gone: int
-
-
-class PathGripAnswer(BaseModel):
-    """The path of one hand, seen from above and in space, with the height over the table (m)."""
-
-    arm: str
-    pick: Point
-    apex: Point | None
-    place: Point
-    points: list[Point3]
-
-
-class PathsAnswer(BaseModel):
-    """The hands' paths of a primitive, in the article frame as the garment lies when the primitive begins."""
-
-    primitive: int
-    kind: str
-    fold: int | None
-    grips: list[PathGripAnswer]
-
-
-class ShortfallAnswer(BaseModel):
-    """The part of the surroundings of a point out of reach that the hand, in its orientation, cannot reach (m, rad).
-
-    `beyond` is a part of a disc of `radius_m` at the point's height, `edge` the lines at which it ends; heading and
-    pitch are in the base frame.
-    """
-
-    fold: int | None
-    arm: str
-    station: str
-    back_off_m: float
-    comfort_m: float
-    point: Point3
-    heading_rad: float
-    pitch_rad: float
-    radius_m: float
-    beyond: list[RegionAnswer]
-    edge: list[list[Point]]
-
-
-class OverlaysAnswer(BaseModel):
-    """The overlays at one moment, in the article frame as the garment lies then."""
-
-    version: int
-    plan_version: int | None
-    t_s: float | None
-    primitive: int | None
-    done: list[int]
-    fold_step: int | None
-    placement: Pose2
-    robot: RobotAnswer
-    table: Ring
-    reach: list[ReachAnswer] | None
-    slip: SlipAnswer | None
-    base: BaseWayAnswer | None
-    paths: list[PathsAnswer] | None
-    shortfall: ShortfallAnswer | None
 
 
 class PlaceAnswer(BaseModel):

@@ -8,7 +8,6 @@ from app.api.answers import PictureAnswer, PlanAnswer
 from app.api.document_answers import (
     CreaseAnswer,
     DocumentAnswer,
-    OverlaysAnswer,
     PlacesAnswer,
     PlaybackAnswer,
     QuickFixesAnswer,
@@ -17,6 +16,7 @@ from app.api.document_answers import (
 from app.api.document_messages import Sent
 from app.api.problems import Problem
 from app.held_folds import FoldChecks
+from app.overlays.overlays import OverlaysAnswer
 from planner.task.world_state import WorldState
 
 

@@ -12,9 +12,10 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache, partial
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
+from pydantic import BaseModel
 
 from planner.folds.fold_path import REST_HEIGHT_M
 from planner.geometry.pose import BoolArray, FloatArray, Point2
@@ -199,7 +200,14 @@ def rings_of(part: Region) -> tuple[FloatArray, ...]:
     return (part.ring, *(hole.ring for hole in holes.pieces))
 
 
-def region_to_dict(part: Region) -> dict[str, Any]:
-    """Return a connected region as its outer ring and those of its holes."""
-    outer, *holes = (ring.tolist() for ring in rings_of(part))
-    return {"outer": outer, "holes": holes}
+class RegionAnswer(BaseModel):
+    """A connected region (m)."""
+
+    outer: list[Point2]
+    holes: list[list[Point2]]
+
+    @staticmethod
+    def of(part: Region) -> "RegionAnswer":
+        """Return a connected region by its outer ring and those of its holes."""
+        outer, *holes = (ring.tolist() for ring in rings_of(part))
+        return RegionAnswer(outer=outer, holes=holes)
