@@ -43,8 +43,7 @@ class Recording:
 
     def mcap(self, about: dict[str, Any]) -> bytes:
         """Return all of it as a file; `about` says what it is of."""
-        from app.files.ros_bag import mcap_of
-        from app.files.ros_messages import JointMessages, RosMessage, RosMotion, message_types
+        from app.files.ros_bag import JointMessages, RosMessage, RosMotion, mcap_of, message_types
 
         written, messages = JointMessages(message_types()), list[RosMessage]()
         for stamp_ns, kept in self._kept:

@@ -20,7 +20,7 @@ from pydantic import BaseModel, WithJsonSchema
 from app.overlays.moment import Moment
 from app.overlays.reach_region import Grid, RegionAnswer, in_approach, region_where, rings_of, runs
 from planner.geometry.isometry import Isometry
-from planner.geometry.pose import Approach, FloatArray, Point2, Point3, Pose2
+from planner.geometry.pose import Approach, FloatArray, Point2, Point3, Pose2, point3
 from planner.geometry.region import Region
 from planner.geometry.tolerance import LENGTH_M
 from planner.robots.armed_robot import ArmedRobot
@@ -154,7 +154,7 @@ def _lack(moment: Moment, reason: Reason) -> Lack | None:
     base = stations[reason.station].ahead(-(reason.back_off_m or 0.0))
     over_floor = np.array(point) + np.array([0.0, 0.0, moment.scene.table.height_m])
     dx, dy = offset_m
-    return Lack(arms.index(reason.arm), _point(base.to_inner(over_floor)), approach, short_by_m, base.moved(-dx, -dy))
+    return Lack(arms.index(reason.arm), point3(base.to_inner(over_floor)), approach, short_by_m, base.moved(-dx, -dy))
 
 
 def _disc(middle: Point2, radius_m: float) -> Region:
@@ -172,7 +172,3 @@ def _edge(beyond: Region, disc: Region) -> tuple[FloatArray, ...]:
         closed = np.roll(ring, -first, axis=0)
         lines += [np.vstack([closed, closed[:1]])[start : end + 1] for start, end in runs(np.roll(is_edge, -first))]
     return tuple(lines)
-
-
-def _point(row: FloatArray) -> Point3:
-    return (float(row[0]), float(row[1]), float(row[2]))

@@ -54,7 +54,7 @@ def carried_along(motion: StepMotion, seen: StepSeen) -> StepMotion:
             there = points + (1.0 - way_done(points)[:, None]) * (there[0] - points[0])
         return grip.along(there)
 
-    return replace(motion, grips=tuple(map(moved, motion.grips)))
+    return motion.with_grips(moved)
 
 
 _TAUT_SHARE = 0.5
@@ -138,7 +138,7 @@ def laid_short(motion: StepMotion, seen: StepSeen) -> StepMotion:
         points[:, :2] += SHORT_M * late * way / max(float(np.hypot(*way)), SHORT_M)
         return grip.along(points)
 
-    return replace(motion, grips=tuple(moved(grip) if grip.arm in held else grip for grip in motion.grips))
+    return motion.with_grips(moved, held)
 
 
 def beside_grips(motion: StepMotion, seen: StepSeen) -> StepMotion:
@@ -152,7 +152,7 @@ def beside_grips(motion: StepMotion, seen: StepSeen) -> StepMotion:
         points[:, :2] += (1.0 - share) * np.array(offset) + share * np.array(landed)
         return grip.along(points)
 
-    return replace(motion, grips=tuple(moved(grip) if grip.arm in seen.offsets else grip for grip in motion.grips))
+    return motion.with_grips(moved, seen.offsets)
 
 
 def over_edge(motion: StepMotion, seen: StepSeen) -> StepMotion:
@@ -176,7 +176,7 @@ def over_edge(motion: StepMotion, seen: StepSeen) -> StepMotion:
         laid = laid_over(hangs_at + points[-1, :2] - end[:2], top, clear_m)
         return grip.along(points + late * (laid - points[-1]))
 
-    return replace(motion, grips=tuple(map(moved, motion.grips))) if motion.is_fold else motion
+    return motion.with_grips(moved) if motion.is_fold else motion
 
 
 def laid_over(place: FloatArray, top: TableTop, clear_m: float) -> FloatArray:
@@ -213,7 +213,7 @@ def aimed(motion: StepMotion, hands: Mapping[str, Point2]) -> StepMotion:
         points[:, :2] -= share[:, None] * np.array(hands[grip.arm])
         return grip.along(points)
 
-    return replace(motion, grips=tuple(moved(grip) if grip.arm in hands else grip for grip in motion.grips))
+    return motion.with_grips(moved, hands)
 
 
 def regrasps(seen: StepSeen, arms: frozenset[str]) -> Iterator[dict[str, Point2]]:

@@ -15,7 +15,7 @@ from app.rehearsal.vision.seen_stack import SeenStack
 from planner.cloth.cloth_state import ClothState
 from planner.cloth.layer import Layer
 from planner.geometry.isometry import Isometry
-from planner.geometry.pose import FloatArray, Point2
+from planner.geometry.pose import FloatArray, Point2, point2
 from planner.geometry.tolerance import LENGTH_M
 
 _INSIDE_M, _OUTSIDE_M = 0.09, 0.03
@@ -100,8 +100,8 @@ def laid_edges(seen: StepSeen, after: SeenStack | None = None) -> Iterator[LaidE
             beyond_m = float((after.beside(place[None]) + after.edge_beside(place[None]))[0] @ way)
         yield LaidEdge(
             one.arm,
-            to_table.apply_point(_point(place + beyond_m * way)),
-            np.array(seen.to_table(_point(way))),
+            to_table.apply_point(point2(place + beyond_m * way)),
+            np.array(seen.to_table(point2(way))),
             to_table.apply(points[rays, 0]),
             to_table.apply(points[rays, -1]),
             _STEP_M * (ends[rays] - 0.5) + beyond_m,
@@ -125,7 +125,3 @@ def _on_top(layers: Sequence[Layer], points: FloatArray) -> FloatArray:
     for number, layer in enumerate(layers):
         found[layer.region.distances_to(flat) <= LENGTH_M] = number
     return found.reshape(points.shape[:2])
-
-
-def _point(row: FloatArray) -> Point2:
-    return float(row[0]), float(row[1])

@@ -30,6 +30,13 @@ class Pose3:
     position: Point3 = (0.0, 0.0, 0.0)
     wxyz: Quaternion = IDENTITY
 
+    @property
+    def matrix(self) -> FloatArray:
+        """The transform to the parent's frame, shape (4, 4)."""
+        found = np.eye(4)
+        found[:3, :3], found[:3, 3] = to_matrix(self.wxyz), self.position
+        return found
+
 
 @dataclass(frozen=True, slots=True)
 class Visual:

@@ -11,12 +11,12 @@ from app.api.answers import GarmentAnswer, PlanAnswer, RobotEntry
 from app.api.document_answers import (
     CreaseAnswer,
     DocumentAnswer,
+    LiveMessage,
     PlaybackAnswer,
     QuickFixesAnswer,
     StepsAnswer,
 )
 from app.api.file_routes import FileEntry, ImportAnswer
-from app.api.live_answers import LiveMessage
 from app.api.problems import Problem
 from app.api.suggestion_routes import DoneEvent, SuggestionEvent, TryingEvent
 from app.api.template_routes import MadeAnswer, TemplateAnswer

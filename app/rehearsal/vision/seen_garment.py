@@ -12,7 +12,7 @@ from app.rehearsal.vision.like import Like, liken
 from app.rehearsal.vision.on_table import OnTable, outline_on_table
 from app.rehearsal.vision.picture import read_picture
 from app.rehearsal.vision.scale_said import read_scale
-from app.rehearsal.vision.stack_fit import pose_json, unknown_json
+from app.rehearsal.vision.stack_fit import unknown_json
 from app.rehearsal.vision.straighten import Straightened, near_m, size_m, straighten
 from app.rehearsal.vision.symmetry import find_mirror, symmetric
 from app.rehearsal.vision.vision_errors import NothingToldError
@@ -77,7 +77,7 @@ class Seen:
         """Return it as JSON."""
         return {
             "garment": self.garment.to_dict(),
-            "placement": pose_json(self.placement),
+            "placement": self.placement.to_dict(),
             "frame": self.frame,
             "scale_from": self.scale_from,
             "sure": self.sure.to_dict(),

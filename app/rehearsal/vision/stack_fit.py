@@ -70,13 +70,13 @@ class StackFit:
     def to_dict(self) -> dict[str, Any]:
         """Return the fit as JSON."""
         return {
-            "placement": pose_json(self.placement),
+            "placement": self.placement.to_dict(),
             "error_m": self.error_m,
             "residual_m": self.residual_m,
             "share_on_outline": self.share_on_outline,
             "share_seen": self.share_seen,
             "overlap": self.overlap,
-            "others": [pose_json(pose) for pose in self.others],
+            "others": [pose.to_dict() for pose in self.others],
             **unknown_json(self.unknown),
         }
 
@@ -112,11 +112,6 @@ class FoldFit:
             "crease_turn_error_rad": self.turn_error_rad,
             "off_m": self.off_m,
         }
-
-
-def pose_json(pose: Pose2) -> dict[str, float]:
-    """Return a pose as JSON."""
-    return {"x_m": pose.x_m, "y_m": pose.y_m, "yaw_rad": pose.yaw_rad}
 
 
 def unknown_json(unknown: Message | None) -> dict[str, Any]:

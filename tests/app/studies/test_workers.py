@@ -5,12 +5,9 @@ from typing import Any
 
 import pytest
 
-from app.studies import executor_workers, local_workers
 from app.studies import workers as study_workers
-from app.studies.executor_workers import ExecutorWorkers, cluster
 from app.studies.fields import StudyError
-from app.studies.local_workers import LocalWorkers
-from app.studies.workers import InProcess, Workers
+from app.studies.workers import ExecutorWorkers, InProcess, LocalWorkers, Workers, cluster
 from tests.app.studies.planners import deadly, deadly_once, fake_plan, hanging, raising
 from tests.app.studies.study_samples import study
 
@@ -39,7 +36,7 @@ def test_a_cell_that_kills_its_worker_twice_is_a_row_and_the_others_are_answered
 
 
 def test_a_cell_that_hangs_is_ended(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(local_workers, "_GRACE_S", 0.0)
+    monkeypatch.setattr(study_workers, "_GRACE_S", 0.0)
     found = answers(LocalWorkers(2, hanging), study(limits={"time_limit_s": 0.5}))
     assert [found[index]["status"] for index in range(4)] == ["solved", "failed", "infeasible", "infeasible"]
     assert "time limit" in found[1]["error"]
@@ -86,7 +83,7 @@ def test_a_batch_whose_worker_is_lost_comes_back_cell_by_cell() -> None:
 
 
 def test_a_scheduler_that_does_not_answer_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(executor_workers, "_CONNECT_S", 0.1)
+    monkeypatch.setattr(study_workers, "_CONNECT_S", 0.1)
     with pytest.raises(StudyError, match=r"127\.0\.0\.1:1"), cluster("tcp://127.0.0.1:1"):
         pass
 
