@@ -1,10 +1,15 @@
-"""Reading a study's TOML file, strictly: every error names the field, and the file is named by who asked."""
+"""A study as it is written down, in a TOML file or a request of JSON (docs/studies.md), and how it is read.
+
+It is read strictly: every error names the field, and the file is named by who asked.
+"""
 
 import tomllib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
+
+from pydantic import Field, WithJsonSchema
 
 from app.studies.axis import Axis, number_axis
 from app.studies.cell import CARD, LIMITS, MIDDLE, MOVED, PLACEMENT, ROBOT, SCENE, START, TABLE
@@ -12,12 +17,11 @@ from app.studies.fields import StudyError, require_known, table, text, truth, wh
 from app.studies.garment_entries import Sources, read_garments
 from app.studies.rehearsed import StudyRehearsal, read_rehearsal
 from app.studies.study import Sample, Study
-from app.studies.study_fields import FIELDS
 from planner.errors import FieldError
 from planner.geometry.given import GivenPose
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
-from planner.json_form import JsonForm
+from planner.json_form import STRICT, JsonForm
 from planner.robots.load_robot import load_robot, robot_card_file
 from planner.robots.varied_card import changed
 from planner.task.scene import Scene
@@ -35,6 +39,52 @@ WORK_LIMIT_S = 10.0
 _STATIONS = "stations"
 _POSE = tuple(field.name for field in fields(Pose2))
 _POSES: JsonForm[tuple[Pose2, ...]] = JsonForm(tuple[GivenPose, ...], StudyError)
+
+_Text = Annotated[str, Field(json_schema_extra={"minLength": 1})]
+_Names = Annotated[list[_Text], Field(json_schema_extra={"minItems": 1})]
+
+_PLACEMENTS = {
+    "anyOf": [
+        {"const": "own"},
+        {"type": "array", "minItems": 1, "items": {"type": "object", "required": list(_POSE)}},
+        {"type": "object", "oneOf": [{"required": ["moved"]}, {"required": ["middle"]}]},
+    ]
+}
+_ENTRY = {"type": "object", "oneOf": [{"required": [kind]} for kind in ("name", "garment", "template", "random")]}
+
+
+@dataclass(frozen=True, slots=True)
+class StudyFields:
+    """A study as it is written down; null and left out are the same.
+
+    `app.studies.study_file` reads what is in the fields. In a request garments are named or drawn, not read from files.
+    """
+
+    __pydantic_config__ = STRICT
+
+    garments: Annotated[list[dict[str, Any]], Field(json_schema_extra={"minItems": 1, "items": _ENTRY})]
+    title: _Text | None = None
+    robots: _Names | None = None
+    card: dict[str, Any] | None = None
+    start_stations: _Names | None = None
+    table: dict[str, Any] | None = None
+    scene: dict[str, Any] | None = None
+    placements: Annotated[str | list[Any] | dict[str, Any], WithJsonSchema(_PLACEMENTS)] | None = None
+    limits: dict[str, Any] | None = None
+    sample: dict[str, Any] | None = None
+    comfort_margin: bool | None = None
+    rehearsal: dict[str, Any] | None = None
+    cells_max: Annotated[int, Field(json_schema_extra={"minimum": 1})] | None = None
+
+    @property
+    def content(self) -> dict[str, Any]:
+        """The fields that are given, by name, as a file has them."""
+        given = {name: getattr(self, name) for name in FIELDS}
+        return {name: value for name, value in given.items() if value is not None}
+
+
+FIELDS = tuple(field.name for field in fields(StudyFields))
+"""The names of all fields."""
 
 
 @dataclass(frozen=True, slots=True)

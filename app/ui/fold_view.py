@@ -29,7 +29,6 @@ _NOTHING = np.zeros((0, 2, 3))
 _Seen = tuple[Pose2, ClothSurface, TableTop, frozenset[int], int | None]
 """The inputs of the lines: the garment's placement, its cloth, the top; the folds done and the fold under way."""
 
-
 _ROUND_M = 1e-3  # cloth counts up to this far beyond its edge, as fold lines run along edges of folded cloth
 
 

@@ -1,6 +1,6 @@
 /** Numbers at the selection: a corner's place, an edge's length, a fold's ends on their edges, the placement. */
 
-import { button, byId, element } from "../dom.js";
+import { button, byId, element, field } from "../dom.js";
 import { say } from "../language/say.js";
 import { NumberFields } from "./number_fields.js";
 import { unit } from "./units.js";
@@ -82,10 +82,7 @@ export class Numbers {
 
   /** @param {Field} field @param {number} index */
   row({ label, name }, index) {
-    const input = /** @type {HTMLInputElement} */ (element("input", "field"));
-    input.type = "text";
-    input.autocomplete = "off";
-    input.setAttribute("aria-label", name);
+    const input = field({ ariaLabel: name });
     input.addEventListener("focus", () => input.select());
     input.addEventListener("change", () => this.take(index, input));
     input.addEventListener("keydown", (event) => this.key(event, index, input));

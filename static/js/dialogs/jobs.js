@@ -4,7 +4,7 @@
  */
 
 import { capital } from "../dock/words.js";
-import { button, element, sayable } from "../dom.js";
+import { button, element, progressBar, sayable, toldAloud } from "../dom.js";
 import { times } from "../language/language.js";
 import { say } from "../language/say.js";
 import { percent } from "../messages/lengths.js";
@@ -50,8 +50,7 @@ export function showJobs() {
 class JobList {
   constructor() {
     this.root = element("ul", "jobs");
-    this.said = element("p", "dialog-problem");
-    this.said.setAttribute("role", "alert");
+    this.said = toldAloud("dialog-problem", "alert");
     /** @type {Map<string, JobRow>} the rows stay, so that the focus does */
     this.rows = new Map();
   }
@@ -110,8 +109,7 @@ class JobRow {
     const when = new Date(job.created).toLocaleString(times, { dateStyle: "short", timeStyle: "short" });
     this.status = element("span", "job-status");
     this.status.setAttribute("role", "status");
-    this.bar = /** @type {HTMLProgressElement} */ (element("progress", "job-progress"));
-    this.bar.setAttribute("aria-label", say("jobs.progress", { name }));
+    this.bar = progressBar(say("jobs.progress", { name }));
     this.message = element("span", "dialog-text");
     this.stop = button("quiet", () => cancel(job.id), say("search.stop"));
     this.stop.setAttribute("aria-label", say("jobs.stop_one", { name, when }));

@@ -1,11 +1,10 @@
 /** The Fold-DAG as a graph: folds in columns by depth, done, available or waiting as the time goes. */
 
-import { element } from "../dom.js";
+import { element, svg } from "../dom.js";
 import { say } from "../language/say.js";
 import { listed } from "../messages/lengths.js";
 import { columns, wayOf } from "./dag_layout.js";
 import { before, waitsFor } from "./fold_states.js";
-import { svg } from "./icons.js";
 import { foldName } from "./step_kinds.js";
 
 /** @import { Fold, Plan } from "pleat" */

@@ -1,12 +1,12 @@
 /** One fold in the list `Folds`: how far it is, its name, what it waits for; while selected, what can be changed. */
 
 import { assumptionChip } from "../assumptions.js";
-import { button, element } from "../dom.js";
+import { button, element, input } from "../dom.js";
+import { smallIcon } from "../icons.js";
 import { say } from "../language/say.js";
 import { length, listed } from "../messages/lengths.js";
 import { iconButton, relabel } from "./buttons.js";
 import { FoldFields } from "./fold_fields.js";
-import { icon } from "./icons.js";
 import { foldName } from "./step_kinds.js";
 import { movedBy } from "./words.js";
 
@@ -107,7 +107,7 @@ export class FoldRow {
     this.state = state;
     this.root.dataset.state = state;
     this.root.setAttribute("aria-current", String(state === "current"));
-    this.mark.replaceChildren(this.problem ? "\u2715" : state === "done" ? icon("tick") : String(this.index + 1));
+    this.mark.replaceChildren(this.problem ? "\u2715" : state === "done" ? smallIcon("tick") : String(this.index + 1));
     const told = [
       `${this.index + 1}`,
       this.fold && movedBy(this.fold.kind),
@@ -133,11 +133,8 @@ export class FoldRow {
   /** Turn the name into a field until Enter, Escape or leaving it. */
   rename() {
     if (this.field || !this.fold) return;
-    const field = /** @type {HTMLInputElement} */ (element("input", "field fold-rename"));
-    field.value = this.fold.name;
-    field.maxLength = 200;
-    field.placeholder = foldName({}, this.index);
-    field.setAttribute("aria-label", say("fold.name"));
+    const about = { placeholder: foldName({}, this.index), ariaLabel: say("fold.name") };
+    const field = input("field fold-rename", { value: this.fold.name, maxLength: 200, ...about });
     this.field = field;
     this.name.hidden = true;
     this.name.after(field);
