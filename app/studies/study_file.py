@@ -13,7 +13,7 @@ from pydantic import Field, WithJsonSchema
 
 from app.studies.axis import Axis, number_axis
 from app.studies.cell import CARD, LIMITS, MIDDLE, MOVED, PLACEMENT, ROBOT, SCENE, START, TABLE
-from app.studies.fields import StudyError, require_known, table, text, truth, whole
+from app.studies.fields import StudyError, reported_at, require_known, table, text, truth, whole
 from app.studies.garment_entries import Sources, read_garments
 from app.studies.rehearsed import StudyRehearsal, read_rehearsal
 from app.studies.study import Sample, Study
@@ -102,7 +102,8 @@ class _Numbers:
         for name, value in given.items():
             axis = number_axis(f"{field}.{name}", value, whole=name in self.whole)
             for number in axis.values:
-                _told(field, self.check, name, number)
+                with reported_at(field):
+                    self.check(name, number)
             yield Axis(f"{self.prefix}{name}", axis.values)
 
 
@@ -220,7 +221,8 @@ def _scene(given: Mapping[str, Any]) -> tuple[Scene, tuple[Axis, ...]]:
     """Return the scene with the stations given, and an axis for each other field."""
     numbers = {name: value for name, value in given.items() if name != _STATIONS}
     stations = {_STATIONS: given[_STATIONS]} if _STATIONS in given else {}
-    scene: Scene = _told("scene", Scene.from_dict, stations)
+    with reported_at("scene"):
+        scene = Scene.from_dict(stations)
     return scene, tuple(_SCENE.axes("scene", numbers))
 
 
@@ -229,7 +231,8 @@ def _placements(given: object) -> tuple[tuple[Pose2, ...], tuple[Axis, ...]]:
     if given == "own":
         return (), ()
     if isinstance(given, list):
-        poses: tuple[Pose2, ...] = _told("placements", _POSES.read, given)
+        with reported_at("placements"):
+            poses = _POSES.read(given)
         return poses, (Axis(PLACEMENT, tuple(range(len(poses))), is_ordered=False),)
     kinds = {"moved": MOVED, "middle": MIDDLE}
     found = table("placements", given)
@@ -267,15 +270,6 @@ def _sample(content: Mapping[str, Any]) -> Sample | None:
     return Sample(
         whole("sample.cells", given.get("cells"), 1, CELLS_LIMIT), whole("sample.seed", given.get("seed", 0), 0, 2**53)
     )
-
-
-def _told(field: str, read: Callable[..., Any], *given: object) -> Any:  # noqa: ANN401
-    """Return what a function reads; report its error as the study's, at a field."""
-    try:
-        return read(*given)
-    except FieldError as error:
-        within = error.within(field)
-        raise StudyError(within.field, within.message) from None
 
 
 def _numbers_of(kind: type, but: tuple[str, ...] = ()) -> tuple[str, ...]:

@@ -66,10 +66,17 @@ export function toldAloud(className, role = "status") {
   return made;
 }
 
-/** Let the arrow keys lead from button to button of a group. @param {HTMLElement} group @param {KeyboardEvent} event */
-export function arrowsLead(group, event) {
+/** Have screen readers tell some controls as a group. @param {HTMLElement} made @param {string} label */
+export function group(made, label) {
+  made.setAttribute("role", "group");
+  made.setAttribute("aria-label", label);
+  return made;
+}
+
+/** Let the arrow keys lead from button to button of a group. @param {HTMLElement} within @param {KeyboardEvent} event */
+export function arrowsLead(within, event) {
   const by = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
-  const buttons = [...group.querySelectorAll("button")];
+  const buttons = [...within.querySelectorAll("button")];
   const index = buttons.indexOf(/** @type {HTMLButtonElement} */ (document.activeElement));
   if (!by || index < 0) return;
   event.preventDefault();

@@ -1,7 +1,7 @@
 """Where a stack is expected before it is looked for, and the result of fitting its outline to one that was seen."""
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 from planner.geometry.pose import Pose2
@@ -69,16 +69,9 @@ class StackFit:
 
     def to_dict(self) -> dict[str, Any]:
         """Return the fit as JSON."""
-        return {
-            "placement": self.placement.to_dict(),
-            "error_m": self.error_m,
-            "residual_m": self.residual_m,
-            "share_on_outline": self.share_on_outline,
-            "share_seen": self.share_seen,
-            "overlap": self.overlap,
-            "others": [pose.to_dict() for pose in self.others],
-            **unknown_json(self.unknown),
-        }
+        fit = asdict(self)
+        del fit["unknown"]
+        return {**fit, **unknown_json(self.unknown)}
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,6 +1,6 @@
 /** Numbers at the selection: a corner's place, an edge's length, a fold's ends on their edges, the placement. */
 
-import { button, byId, element, field } from "../dom.js";
+import { button, byId, element, field, group } from "../dom.js";
 import { say } from "../language/say.js";
 import { NumberFields } from "./number_fields.js";
 import { unit } from "./units.js";
@@ -13,8 +13,7 @@ export class Numbers {
   constructor(board) {
     this.board = board;
     this.root = element("div", "numbers-at");
-    this.root.setAttribute("role", "group");
-    this.root.setAttribute("aria-label", say("numbers.label"));
+    group(this.root, say("numbers.label"));
     this.root.hidden = true;
     this.shown = "";
     this.known = new NumberFields(board);

@@ -5,7 +5,7 @@ import { OFFLINE, openDialog, sentenceOf } from "../dialogs/dialog.js";
 import { goTo, goToNew } from "../dialogs/documents.js";
 import { showNew } from "../dialogs/new.js";
 import { askTitle, fileName } from "../dialogs/rename.js";
-import { button, element, input, toldAloud } from "../dom.js";
+import { button, element, group, input, toldAloud } from "../dom.js";
 import { listed } from "../garments.js";
 import { icon } from "../icons.js";
 import { inEnglish, say, translated } from "../language/say.js";
@@ -186,8 +186,7 @@ class Gallery {
 function row(title) {
   const list = element("div", "tiles");
   const root = element("section", "gallery-row", element("h3", "", title), list);
-  list.setAttribute("role", "group");
-  list.setAttribute("aria-label", title);
+  group(list, title);
   return { root, list };
 }
 

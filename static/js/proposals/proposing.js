@@ -8,7 +8,7 @@ import { freshId } from "../board/ids.js";
 import { number, parsed, unit } from "../board/units.js";
 import { toggle } from "../dock/buttons.js";
 import { request } from "../dock/suggestion_search.js";
-import { button, element, field, progressBar, toldAloud } from "../dom.js";
+import { button, element, field, group, progressBar, toldAloud } from "../dom.js";
 import { icon } from "../icons.js";
 import { inEnglish, say } from "../language/say.js";
 import { inWords, ProposalCards } from "./cards.js";
@@ -57,8 +57,7 @@ export class Proposing {
     const close = button("icon-button is-small", () => board.choose("select"), icon("close"));
     close.setAttribute("aria-label", say("dialog.close"));
     const chips = element("div", "proposal-chips", ...this.presets.map(({ made }) => made), size, this.like.root, this.keep);
-    chips.setAttribute("role", "group");
-    chips.setAttribute("aria-label", say("proposal.sizes"));
+    group(chips, say("proposal.sizes"));
     const head = element("header", "proposal-head", element("h2", "", say("proposal.do")), chips, close);
     const wait = element("div", "proposal-wait", this.note, this.bar, this.stop);
     this.root = element("section", "proposing", head, wait, this.cards.root);

@@ -1,6 +1,6 @@
 /** The button `Rehearse` and what is said below it: how far the rehearsal is, whether the plan holds, all runs in small. */
 
-import { button, element, progressBar, toldAloud } from "../dom.js";
+import { button, element, group, progressBar, toldAloud } from "../dom.js";
 import { numeral } from "../language/numeral.js";
 import { say } from "../language/say.js";
 import { fateInAWord, summary, worstOf } from "./words.js";
@@ -57,8 +57,7 @@ class Histogram {
   constructor(onChosen) {
     this.onChosen = onChosen;
     this.columns = element("div", "runs-columns");
-    this.columns.setAttribute("role", "group");
-    this.columns.setAttribute("aria-label", say("rehearsal.runs"));
+    group(this.columns, say("rehearsal.runs"));
     this.about = element("p", "hint");
     this.root = element("div", "runs", this.columns, this.about);
     /** @type {Result|null} */
