@@ -13,7 +13,7 @@ Joints = Mapping[str, float]
 """Joints by their names in the robot's URDF (rad, m)."""
 
 Seen = Callable[[float, Joints], None]
-"""Is told how long a motion has gone on (s), and the joints as read then."""
+"""Called with the time since a motion began (s) and the joints read at that time."""
 
 
 class DriverError(FoldingError):

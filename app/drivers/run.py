@@ -88,13 +88,13 @@ class Ended:
 
 
 Confirm = Callable[[Leg], bool]
-"""Asks whether a part is to be performed."""
+"""Returns whether to perform a part."""
 
 Look = Callable[[Joints], int]
-"""Returns the step that is next, from where the joints are; raises `LostError` where that is not to be told."""
+"""Returns the index of the next step for the joints as read; raises `LostError` if they match no step."""
 
 Progress = Callable[[Leg, float], None]
-"""Is told how far a part is (s)."""
+"""Called with a part and the time since it began (s)."""
 
 
 def run_plan(

@@ -22,14 +22,14 @@ _INSIDE_M, _OUTSIDE_M = 0.09, 0.03
 """How far inside and outside of its place an edge is looked for (m)."""
 
 _BESIDE_M = np.linspace(-0.1, 0.1, 21)
-"""How far beside a hand it is looked for (m), since hands hide what is at them."""
+"""How far beside a hand an edge is looked for (m): hands hide the cloth at them."""
 
 _STEP_M = 0.002
 _IN_HAND_M = 0.011
-"""A layer nearer to a hand than that is in it (m)."""
+"""The largest distance from a hand to a layer that it holds (m)."""
 
 _ON_EDGE_M = 0.002
-"""Edges nearer to each other than that should lie on one another (m)."""
+"""The largest distance between edges that should lie on one another (m)."""
 
 _LEAST_RAYS = 3
 

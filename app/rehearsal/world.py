@@ -69,7 +69,7 @@ WITHDRAW, REACH = "withdraw", "reach"
 where they are to close."""
 
 LAY = "lay"
-"""The kind of a motion in which hands lay down again what a step has laid down elsewhere than it should."""
+"""The kind of a motion in which hands lay down again, in its place, what a step has laid down beside it."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -25,13 +25,13 @@ SQUARE_M = 0.035
 """The side of a square of the board as it is printed (m)."""
 
 PICTURES_MIN = 3
-"""So many pictures tell a lens at least."""
+"""The least number of pictures from which a lens can be calibrated."""
 
 _COLUMNS, _ROWS, _MARKER = 7, 5, 0.74
 _DPI, _PAPER_M = 300, (0.297, 0.210)
 _CORNERS_MIN = 8
 _WORST_PX = 2.0
-"""A fit that is worse is of something else: another board, or a lens that is no pinhole (pixels)."""
+"""The largest error of a valid fit (pixels); more means another board, or a lens unlike a pinhole."""
 
 Image = np.ndarray[Any, np.dtype[np.uint8]]
 _Pixels = Annotated[float, Interval(ge=1.0, le=1e5)]

@@ -16,10 +16,10 @@ from planner.geometry.pose import FloatArray
 from planner.geometry.table import Table
 
 _FLAT = 0.2
-"""How far from folded flat a hinge has its whole moment (rad): flat, it does not know which way it opens."""
+"""The angle from folded flat up to which the moment fades out (rad): folded flat, a hinge has no side to open to."""
 
 _MOST = (math.pi - _FLAT) / math.sin(_FLAT)
-"""The largest factor, which is that of a hinge so far from flat."""
+"""The largest factor: that of a hinge at this angle from folded flat."""
 
 _TINY_M4 = 1e-24
 

@@ -156,7 +156,7 @@ def _likened(seen: OnTable, title: str, like: Like) -> Seen:
 _LEAST_SHARE = 0.85
 
 _MOST_AREA_OFF = 0.05
-"""An outline whose area is so much off that of the points seen lacks a corner, though most points are near it."""
+"""The largest relative error of an outline's area; more means that a corner is missing, however near the points are."""
 
 
 def _area_off(corners: FloatArray, contour: FloatArray) -> float:

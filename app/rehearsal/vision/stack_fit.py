@@ -29,10 +29,10 @@ class Expected:
 
 
 LOOKS_ALIKE = "looks_alike"
-"""The code of what is said where several placements fit equally well."""
+"""The code of the message that several placements fit equally well."""
 
 TOO_UNCERTAIN = "too_uncertain"
-"""The code of what is said where the outline fits, but leaves the placement too uncertain."""
+"""The code of the message that the outline fits but leaves the placement too uncertain."""
 
 
 @dataclass(frozen=True, slots=True)
