@@ -177,11 +177,11 @@ def _waypoints(step: PlanStep) -> list[Pose2]:
     return [step.before.base.pose, *(Pose2(*pose) for pose in step.details.get("waypoints", ())), step.base.pose]
 
 
-def _bent(start: Spot, end: Spot, points: int = 12) -> list[Spot]:
+def _bent(start: Spot, end: Spot) -> list[Spot]:
     """Return an arc from one place to another: the hand goes over the cloth, not along it."""
     (x0, y0), (x1, y1) = start, end
     dx, dy = x1 - x0, y1 - y0
-    bends = [(n / points, 0.72 * n / points * (1 - n / points)) for n in range(points + 1)]
+    bends = [(share, 0.72 * share * (1 - share)) for share in (n / 12 for n in range(13))]
     return [(x0 + s * dx + bend * dy, y0 + s * dy - bend * dx) for s, bend in bends]
 
 

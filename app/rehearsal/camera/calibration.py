@@ -181,10 +181,10 @@ def _corners(number: int, picture: Image, square_m: float) -> tuple[FloatArray, 
     return (at - middle) * [1.0, -1.0, 1.0], np.asarray(found, float).reshape(-1, 2)
 
 
-def board_picture(dots_per_m: float, square_m: float = SQUARE_M) -> Image:
+def board_picture(dots_per_m: float) -> Image:
     """Return the board alone, grey, so many dots to the metre."""
-    size = (round(_COLUMNS * square_m * dots_per_m), round(_ROWS * square_m * dots_per_m))
-    return np.asarray(_board(square_m).generateImage(size), np.uint8)
+    size = (round(_COLUMNS * SQUARE_M * dots_per_m), round(_ROWS * SQUARE_M * dots_per_m))
+    return np.asarray(_board(SQUARE_M).generateImage(size), np.uint8)
 
 
 def board_page(kind: Literal["pdf", "png"]) -> bytes:
