@@ -13,8 +13,7 @@ from app.rehearsal.vision.on_table import OnTable, outline_on_table
 from app.rehearsal.vision.picture import read_picture
 from app.rehearsal.vision.scale_said import read_scale
 from app.rehearsal.vision.stack_fit import unknown_json
-from app.rehearsal.vision.straighten import Straightened, near_m, size_m, straighten
-from app.rehearsal.vision.symmetry import find_mirror, symmetric
+from app.rehearsal.vision.straighten import Straightened, find_mirror, near_m, size_m, straighten, symmetric
 from app.rehearsal.vision.vision_errors import NothingToldError
 from planner.cloth.garment import Garment
 from planner.errors import GarmentError

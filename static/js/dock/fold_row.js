@@ -7,18 +7,12 @@ import { say } from "../language/say.js";
 import { length, listed } from "../messages/lengths.js";
 import { iconButton, relabel } from "./buttons.js";
 import { FoldFields } from "./fold_fields.js";
+import { STATE_WORDS } from "./fold_states.js";
 import { foldName } from "./step_kinds.js";
 import { movedBy } from "./words.js";
 
 /** @import { Fold, FoldKind } from "pleat" */
 
-const STATES = {
-  done: say("fold_state.done"),
-  current: say("fold_state.current"),
-  available: say("fold_state.available"),
-  waiting: say("fold_state.waiting"),
-  none: "",
-};
 const DONE_BEFORE = say("fold_state.before");
 
 /**
@@ -68,7 +62,7 @@ export class FoldRow {
     this.isDoneBefore = false;
     /** The names of what it waits for. */
     this.waiting = "";
-    /** @type {keyof typeof STATES} */
+    /** @type {import("./fold_states.js").FoldState|"none"} */
     this.state = "none";
     /** @type {HTMLInputElement|null} in which it is being renamed */
     this.field = null;
@@ -101,7 +95,7 @@ export class FoldRow {
     this.showState(this.state, true);
   }
 
-  /** @param {keyof typeof STATES} state @param {boolean} always */
+  /** @param {import("./fold_states.js").FoldState|"none"} state @param {boolean} always */
   showState(state, always = false) {
     if (state === this.state && !always) return;
     this.state = state;
@@ -111,7 +105,7 @@ export class FoldRow {
     const told = [
       `${this.index + 1}`,
       this.fold && movedBy(this.fold.kind),
-      this.problem || (this.isDoneBefore ? DONE_BEFORE : STATES[state]),
+      this.problem || (this.isDoneBefore ? DONE_BEFORE : STATE_WORDS[state]),
       this.waiting && say("fold.after", { folds: this.waiting }),
     ];
     this.name.setAttribute("aria-description", told.filter(Boolean).join(", "));
