@@ -17,14 +17,12 @@ from time import perf_counter
 
 from app.studies.answer import Answer
 from app.studies.cell import Cell
-from app.studies.executor_workers import cluster
 from app.studies.garment_entries import Sources
-from app.studies.local_workers import LocalWorkers
 from app.studies.results import Results
 from app.studies.run_study import run_study
 from app.studies.study import Study
 from app.studies.study_file import study_of
-from app.studies.workers import Workers, planner
+from app.studies.workers import LocalWorkers, Workers, cluster, planner
 from bench.processes import cpu_s, family, memory_mb
 from bench.report import Report, Row
 from planner.task.task import Task

@@ -28,8 +28,8 @@ from app.api import (
 )
 from app.api.client_limits import ClientLimits
 from app.api.described import describe
+from app.api.document_answers import LiveCommand, LiveMessage
 from app.api.guard import OwnNamesOnly
-from app.api.live_answers import LiveCommand, LiveMessage
 from app.api.middleware import BelowPrefix, HeadAsGet, WholeRequests
 from app.api.problems import FailuresAsProblems, Problem, install_problems
 from app.api.shared import Shared

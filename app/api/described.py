@@ -1,5 +1,6 @@
 """Additions to the description at /docs that FastAPI cannot read from signatures: bodies, problems, messages, links."""
 
+import json
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -172,3 +173,28 @@ def _links(parameter: str, operations: list[Operation]) -> Iterator[tuple[str, d
         for begins, (taken, field) in _IN_BODIES.items():
             if taken == parameter and name.startswith(begins):
                 yield name, {"operationId": name, "requestBody": {field: whole}}
+
+
+def event_stream(kinds: Mapping[str, tuple[type[BaseModel], Mapping[str, Any]]], says: str) -> dict[str, Any]:
+    """Return the description of an answer that is a stream of events.
+
+    `itemSchema` describes one event, as OpenAPI 3.2 has it and as FastAPI does for 3.1; a schema of the whole stream
+    would be one of a list. The models must be among those that `describe` adds. Tools that know of no `itemSchema`
+    have the example, an event of each kind.
+
+    Args:
+        kinds: by an event's name, the model of its data and an example of it.
+        says: what the stream tells, as a sentence.
+    """
+    item = {"required": ["event", "data"], "anyOf": [_event(name, model) for name, (model, _) in kinds.items()]}
+    example = "".join(f"event: {name}\ndata: {json.dumps(data)}\n\n" for name, (_, data) in kinds.items())
+    return {"description": says, "content": {"text/event-stream": {"itemSchema": item, "example": example}}}
+
+
+def _event(name: str, model: type[BaseModel]) -> dict[str, Any]:
+    data = {
+        "type": "string",
+        "contentMediaType": "application/json",
+        "contentSchema": {"$ref": f"#/components/schemas/{model.__name__}"},
+    }
+    return {"title": name, "properties": {"event": {"const": name}, "data": data}}

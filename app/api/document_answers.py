@@ -1,12 +1,17 @@
-"""Response models of documents and their overlays, which describe the interface at /docs."""
+"""Response models of documents and of the messages over their websockets, which describe the interface at /docs."""
 
 from typing import Literal
 
-from pydantic import BaseModel
+from pydantic import BaseModel, RootModel
 
-from app.api.answers import GarmentAnswer, LayerAnswer, Point, Point3, Says
+from app.api.answers import GarmentAnswer, LayerAnswer, PictureAnswer, PlanAnswer, Point, Says
+from app.api.document_messages import Sent
+from app.api.problems import Problem
 from app.drawing.drawing import Drawing, End
+from app.held_folds import FoldChecks
+from app.overlays.overlays import OverlaysAnswer
 from planner.geometry.pose import Pose2
+from planner.task.world_state import WorldState
 
 Ring = list[Point]
 
@@ -136,126 +141,6 @@ class QuickFixesAnswer(BaseModel):
     quick_fixes: list[QuickFixAnswer]
 
 
-class RegionAnswer(BaseModel):
-    """A connected region (m)."""
-
-    outer: Ring
-    holes: list[Ring]
-
-
-class RobotAnswer(BaseModel):
-    """The base's pose (m, rad)."""
-
-    station: str | None
-    back_off_m: float
-    pose: Pose2
-    outline: Ring
-    radius_m: float
-
-
-class ReachAnswer(BaseModel):
-    """The region in which an arm can take cloth on the table, within the comfort radius and without it (m)."""
-
-    arm: str
-    comfort_m: float
-    regions: list[RegionAnswer]
-    bare: list[RegionAnswer]
-
-
-class LimitAnswer(BaseModel):
-    """The line to which the cloth may hang over an edge of the table (m)."""
-
-    edge: str
-    line: tuple[Point, Point]
-    at_m: float
-    now_m: float
-
-
-class SlipAnswer(BaseModel):
-    """The cloth that hangs over the table's edges, and how much may (m^2, layers counted)."""
-
-    friction: float
-    pull_m2: float
-    lying_m2: float
-    hanging_m2: dict[str, float]
-    holds: bool
-    limits: list[LimitAnswer]
-
-
-class StandAnswer(BaseModel):
-    """The base's pose after a primitive (m, rad)."""
-
-    primitive: int
-    point: Point
-    yaw_rad: float
-
-
-class BaseWayAnswer(BaseModel):
-    """The base's path, and how many of its points have been passed (m)."""
-
-    way: list[Point]
-    stands: list[StandAnswer]
-    gone: int
-
-
-class PathGripAnswer(BaseModel):
-    """The path of one hand, seen from above and in space, with the height over the table (m)."""
-
-    arm: str
-    pick: Point
-    apex: Point | None
-    place: Point
-    points: list[Point3]
-
-
-class PathsAnswer(BaseModel):
-    """The hands' paths of a primitive, in the article frame as the garment lies when the primitive begins."""
-
-    primitive: int
-    kind: str
-    fold: int | None
-    grips: list[PathGripAnswer]
-
-
-class ShortfallAnswer(BaseModel):
-    """The part of the surroundings of a point out of reach that the hand, in its orientation, cannot reach (m, rad).
-
-    `beyond` is a part of a disc of `radius_m` at the point's height, `edge` the lines at which it ends; heading and
-    pitch are in the base frame.
-    """
-
-    fold: int | None
-    arm: str
-    station: str
-    back_off_m: float
-    comfort_m: float
-    point: Point3
-    heading_rad: float
-    pitch_rad: float
-    radius_m: float
-    beyond: list[RegionAnswer]
-    edge: list[list[Point]]
-
-
-class OverlaysAnswer(BaseModel):
-    """The overlays at one moment, in the article frame as the garment lies then."""
-
-    version: int
-    plan_version: int | None
-    t_s: float | None
-    primitive: int | None
-    done: list[int]
-    fold_step: int | None
-    placement: Pose2
-    robot: RobotAnswer
-    table: Ring
-    reach: list[ReachAnswer] | None
-    slip: SlipAnswer | None
-    base: BaseWayAnswer | None
-    paths: list[PathsAnswer] | None
-    shortfall: ShortfallAnswer | None
-
-
 class PlaceAnswer(BaseModel):
     """A placement, as a displacement of the garment (article frame, m), and the cost of the plan there (s)."""
 
@@ -272,3 +157,70 @@ class PlacesAnswer(BaseModel):
     cells: list[PlaceAnswer]
     best: PlaceAnswer | None
     complete: bool
+
+
+class PlanOnShow(PlanAnswer):
+    """A plan that the page shows, with the version it belongs to.
+
+    `version` is the document's, `is_stale` whether the document has changed since, `is_final` whether the search for a
+    quicker plan has ended, `at_least_s` a lower bound on the cost of any plan: null if this one is known to be optimal.
+    """
+
+    version: int
+    is_stale: bool
+    is_final: bool
+    at_least_s: float | None
+
+
+class PlanBefore(BaseModel):
+    """The figures of the previous plan."""
+
+    version: int
+    status: Literal["solved", "infeasible", "budget_exceeded"]
+    cost_s: float | None
+
+
+class PlanMessage(BaseModel):
+    """The answer to the drawing; while it is being planned, `plan` is the previous one.
+
+    `start` is the state from which the drawing is planned, null if that is before all folds, as drawn.
+    """
+
+    kind: Literal["plan"]
+    version: int
+    status: Literal["planning", "solved", "infeasible", "budget_exceeded", "illegal", "failed"]
+    text: str
+    plan: PlanOnShow | None
+    prepared: float | None
+    is_compiling: bool
+    may_look_longer: bool
+    start: WorldState | None
+    before: PlanBefore | None
+    checks: FoldChecks | None
+
+
+class Result(BaseModel):
+    """The answer to what the page has sent with a number, `ask`.
+
+    `version` is the one that a change has made, `result` the answer to a question; null for a change.
+    """
+
+    kind: Literal["answer"]
+    ask: int
+    version: int
+    result: CreaseAnswer | StepsAnswer | QuickFixesAnswer | OverlaysAnswer | PlacesAnswer | list[PictureAnswer] | None
+
+
+class Refusal(Problem):
+    """A refusal: the problem, and the number of the page's message, null if it has no number."""
+
+    kind: Literal["problem"]
+    ask: int | None
+
+
+class LiveMessage(RootModel[DocumentAnswer | PlanMessage | PlaybackAnswer | Result | Refusal]):
+    """A message to the page over the websocket."""
+
+
+class LiveCommand(RootModel[Sent]):
+    """What the page sends over the websocket; with a number, `ask`, it is answered with the same number."""

@@ -17,7 +17,6 @@ from app.api.disconnect import answer_of
 from app.api.document_answers import (
     CreaseAnswer,
     DocumentAnswer,
-    OverlaysAnswer,
     PlacesAnswer,
     PlaybackAnswer,
     QuickFixesAnswer,
@@ -50,7 +49,7 @@ from app.drawing.drawing import Drawing
 from app.drawing.edit import StaleVersionError
 from app.drawing.garment_drawing import blank_drawing, drawing_of
 from app.open_document import OpenDocument
-from app.overlays.overlays import OVERLAYS
+from app.overlays.overlays import OVERLAYS, OverlaysAnswer
 from app.store.document_repository import DocumentEntry
 from app.workspace import Workspace
 from planner.errors import RequestError

@@ -5,7 +5,7 @@ from typing import Any
 
 from pydantic import BaseModel, ConfigDict
 
-from app.api.event_streams import event_stream
+from app.api.described import event_stream
 from app.store.job_repository import JobStatus, StoredJob
 
 

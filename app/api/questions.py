@@ -118,7 +118,7 @@ def _overlays(state: DocumentState, time_s: float, asked: AskOverlays, shown: fr
     else:
         moment = moment_as_drawn(state, asked.station, asked.back_off_m)
     try:
-        return overlays(state, moment, shown)
+        return overlays(state, moment, shown).model_dump()
     except SceneError as error:
         raise error.within("scene") from None
 

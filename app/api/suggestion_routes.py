@@ -19,9 +19,8 @@ from app import searches
 from app.api.answers import Change, Says
 from app.api.asker import workspace_of
 from app.api.body import JsonBody
-from app.api.described import DescribedRoute, answering, problems
+from app.api.described import DescribedRoute, answering, event_stream, problems
 from app.api.disconnect import answer_of, until
-from app.api.event_streams import event_stream
 from app.api.messages import PlacementsRequest, PlanRequest
 from app.api.request_parsing import TimeLimit, requested_places, requested_task, within_request
 from app.jobs.job_pool import Job

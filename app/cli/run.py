@@ -55,8 +55,7 @@ def run(
 
     Ctrl-C stops the arms.
     """
-    from app.drivers.recording import Recording
-    from app.drivers.run import run_plan
+    from app.drivers.run import Recording, run_plan
     from app.files.slowed import require_speed
     from planner.robots.load_robot import load_robot
     from planner.task.plan_files import read_plan

@@ -11,15 +11,13 @@ from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeElapsed
 from rich.progress import Progress as Bar
 
 from app.cli.program import blaming, cli, errors, failure, output, refusing
-from app.studies.executor_workers import cluster
-from app.studies.local_workers import LocalWorkers
 from app.studies.report import FILE as REPORT
 from app.studies.results import Results
 from app.studies.run_study import Progress, run_study
 from app.studies.study import Study
 from app.studies.study_file import read_study
 from app.studies.table import written_files
-from app.studies.workers import InProcess, Workers, planner
+from app.studies.workers import InProcess, LocalWorkers, Workers, cluster, planner
 from planner.task.plan_files import write_plan
 
 INTERRUPTED = 130

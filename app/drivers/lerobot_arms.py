@@ -6,8 +6,7 @@ from functools import partial
 from typing import Any, Protocol
 
 from app.distribution import missing
-from app.drivers.driver import Clock, DriverError, Joints, LostError, RealClock
-from app.drivers.streamed import StreamedDriver
+from app.drivers.driver import Clock, DriverError, Joints, LostError, RealClock, StreamedDriver
 from app.files.lerobot_dataset import FPS
 from app.files.lerobot_features import parts_of
 from planner.robots.card import RobotCard

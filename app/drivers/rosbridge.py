@@ -12,8 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from app.drivers.driver import DriverError, Joints, LostError, RealClock, Seen
-from app.drivers.streamed import FINGERS_S
+from app.drivers.driver import FINGERS_S, DriverError, Joints, LostError, RealClock, Seen
 from app.files.joint_motion import JointMotion, controller_name, controllers
 from planner.robots.card import RobotCard
 

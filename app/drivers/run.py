@@ -3,10 +3,9 @@
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
-from typing import Literal
+from typing import Any, Literal
 
-from app.drivers.driver import Driver, Joints, LostError
-from app.drivers.recording import Recording
+from app.drivers.driver import Clock, Driver, Joints, LostError, RealClock
 from app.files.joint_motion import JointMotion
 from app.files.slowed import slowed
 from app.step_kinds import step_words
@@ -20,6 +19,42 @@ THERE = 0.01
 
 OFF = 0.1
 """Arms with a joint that is farther from where a motion begins or ends are lost (rad, m)."""
+
+
+class Recording:
+    """Messages in the order of their times, which count from its beginning.
+
+    Each motion is a `JointTrajectory` for each controller on the topics of the exports, logged when it was sent; what
+    was read are `JointState`s on ``/joint_states``.
+    """
+
+    def __init__(self, card: RobotCard, clock: Clock | None = None) -> None:
+        """Begin a recording of a robot."""
+        self._card, self._clock = card, clock or RealClock()
+        self._start_s, self._kept = self._clock.now_s(), list[tuple[int, JointMotion | Joints]]()
+
+    def sent(self, motion: JointMotion) -> None:
+        """Keep a motion."""
+        self._kept.append((self._now_ns(), motion))
+
+    def read(self, joints: Joints) -> None:
+        """Keep joints as they were read."""
+        self._kept.append((self._now_ns(), dict(joints)))
+
+    def mcap(self, about: dict[str, Any]) -> bytes:
+        """Return all of it as a file; `about` says what it is of."""
+        from app.files.ros_bag import JointMessages, RosMessage, RosMotion, mcap_of, message_types
+
+        written, messages = JointMessages(message_types()), list[RosMessage]()
+        for stamp_ns, kept in self._kept:
+            if isinstance(kept, JointMotion):
+                messages.extend(written.trajectories(kept, self._card, stamp_ns))
+            else:
+                messages.append(written.state(kept, stamp_ns))
+        return mcap_of(RosMotion(tuple(messages), about))
+
+    def _now_ns(self) -> int:
+        return round((self._clock.now_s() - self._start_s) * 1e9)
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,13 +88,13 @@ class Ended:
 
 
 Confirm = Callable[[Leg], bool]
-"""Asks whether a part is to be performed."""
+"""Returns whether to perform a part."""
 
 Look = Callable[[Joints], int]
-"""Returns the step that is next, from where the joints are; raises `LostError` where that is not to be told."""
+"""Returns the index of the next step for the joints as read; raises `LostError` if they match no step."""
 
 Progress = Callable[[Leg, float], None]
-"""Is told how far a part is (s)."""
+"""Called with a part and the time since it began (s)."""
 
 
 def run_plan(

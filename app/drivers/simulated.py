@@ -1,7 +1,6 @@
 """A robot that is not there: its joints are where they are sent to be."""
 
-from app.drivers.driver import Clock, Joints, RealClock
-from app.drivers.streamed import StreamedDriver
+from app.drivers.driver import Clock, Joints, RealClock, StreamedDriver
 from planner.robots.card import RobotCard
 
 _RATE_HZ = 50.0

@@ -6,8 +6,7 @@ from contextlib import suppress
 from typing import Any, Protocol
 
 from app.distribution import missing
-from app.drivers.driver import Clock, DriverError, Joints, LostError, RealClock
-from app.drivers.streamed import StreamedDriver
+from app.drivers.driver import Clock, DriverError, Joints, LostError, RealClock, StreamedDriver
 from planner.robots.card import ArmCard, RobotCard
 
 _RATE_HZ = 125.0

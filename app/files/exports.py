@@ -6,6 +6,7 @@ How a file is made is imported when it is made: a list of the kinds takes none o
 from __future__ import annotations
 
 import json
+from functools import partial
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
@@ -84,13 +85,14 @@ def _sheet_pdf(state: DocumentState, _: float, __: ShouldStop) -> bytes:
 
 def _sheet_svg(state: DocumentState, _: float, __: ShouldStop) -> bytes:
     from app.files.instruction_sheet import instruction_sheet
-    from app.files.sheet_svg import page_svg
+    from app.files.sheet_page import page_svg
 
     return page_svg(instruction_sheet(plan_in(state), state.language))
 
 
-def _of_plan(module: str, function: str, *, may_stop: bool = False) -> Make:
-    """Return what makes a file of a plan alone: a function of a module of `app.files`, which may be told to stop."""
+def _of_plan(name: str, *, may_stop: bool = False) -> Make:
+    """Return what makes a file of a plan alone: a function, named by its module in `app.files`, that may be stopped."""
+    module, _, function = name.partition(".")
 
     def make(state: DocumentState, _: float, should_stop: ShouldStop) -> bytes:
         told = (plan_in(state), should_stop) if may_stop else (plan_in(state),)
@@ -100,87 +102,54 @@ def _of_plan(module: str, function: str, *, may_stop: bool = False) -> Make:
     return make
 
 
+_to_look_at = partial(Export, why_not=no_plan, group="look")
+_for_robots = partial(Export, why_not=no_plan, group="robot")
+_HTML, _ZIP, _BYTES = "text/html; charset=utf-8", "application/zip", "application/octet-stream"
+_PICTURES = ("matplotlib",)
+
 EXPORTS = (
     Export("garment.json", ".json", "application/json", no_outline, _garment_json),
     Export("garment.svg", ".svg", "image/svg+xml", no_outline, _garment_svg),
     Export("garment.fold", ".fold", "application/json", not_legal, _garment_fold),
     Export("plan.json", ".plan.json", "application/json", no_answer, _plan_json),
-    Export("plan.csv", "-plan.csv", "text/csv; charset=utf-8", no_plan, _plan_csv, group="robot"),
-    Export("sheet.pdf", "-steps.pdf", "application/pdf", no_plan, _sheet_pdf, group="look", needs=("matplotlib",)),
-    Export("sheet.svg", "-steps.svg", "image/svg+xml", no_plan, _sheet_svg, group="look"),
-    Export("recording.html", ".html", "text/html; charset=utf-8", no_plan, _recording, group="look", is_slow=True),
-    Export("mp4", ".mp4", "video/mp4", no_plan, _mp4, group="look", is_slow=True, needs=("matplotlib", "av")),
-    Export("gif", ".gif", "image/gif", no_plan, _gif, group="look", is_slow=True, needs=("matplotlib",)),
-    Export("picture.png", ".png", "image/png", no_plan, _picture, group="look", is_slow=True, needs=("matplotlib",)),
-    Export(
-        "mcap",
-        ".mcap",
-        "application/octet-stream",
-        no_plan,
-        _of_plan("ros_bag", "mcap_file"),
-        group="robot",
-        is_slow=True,
-        needs=("rosbags",),
-    ),
-    Export(
+    _for_robots("plan.csv", "-plan.csv", "text/csv; charset=utf-8", make=_plan_csv),
+    _to_look_at("sheet.pdf", "-steps.pdf", "application/pdf", make=_sheet_pdf, needs=_PICTURES),
+    _to_look_at("sheet.svg", "-steps.svg", "image/svg+xml", make=_sheet_svg),
+    _to_look_at("recording.html", ".html", _HTML, make=_recording, is_slow=True),
+    _to_look_at("mp4", ".mp4", "video/mp4", make=_mp4, is_slow=True, needs=(*_PICTURES, "av")),
+    _to_look_at("gif", ".gif", "image/gif", make=_gif, is_slow=True, needs=_PICTURES),
+    _to_look_at("picture.png", ".png", "image/png", make=_picture, is_slow=True, needs=_PICTURES),
+    _for_robots("mcap", ".mcap", _BYTES, make=_of_plan("ros_bag.mcap_file"), is_slow=True, needs=("rosbags",)),
+    _for_robots(
         "rosbag2",
         "-rosbag2.zip",
-        "application/zip",
-        no_plan,
-        _of_plan("ros_bag", "rosbag2_folder"),
-        group="robot",
+        _ZIP,
+        make=_of_plan("ros_bag.rosbag2_folder"),
         is_slow=True,
         is_folder=True,
         needs=("rosbags",),
     ),
-    Export(
-        "poses.json", "-poses.json", "application/json", no_plan, _of_plan("grasp_poses", "poses_json"), group="robot"
+    _for_robots("poses.json", "-poses.json", "application/json", make=_of_plan("grasp_poses.poses_json")),
+    _for_robots(
+        "poses.yaml", "-poses.yaml", "application/yaml", make=_of_plan("grasp_poses.poses_yaml"), needs=("ruamel",)
     ),
-    Export(
-        "poses.yaml",
-        "-poses.yaml",
-        "application/yaml",
-        no_plan,
-        _of_plan("grasp_poses", "poses_yaml"),
-        group="robot",
-        needs=("ruamel",),
+    _to_look_at(
+        "glb", ".glb", "model/gltf-binary", make=_of_plan("gltf_animation.animation_glb", may_stop=True), is_slow=True
     ),
-    Export(
-        "glb",
-        ".glb",
-        "model/gltf-binary",
-        no_plan,
-        _of_plan("gltf_animation", "animation_glb", may_stop=True),
-        group="look",
-        is_slow=True,
-    ),
-    Export(
-        "mjcf",
-        "-mjcf.zip",
-        "application/zip",
-        no_plan,
-        _of_plan("mujoco_scene", "mujoco_scene"),
-        group="robot",
-        is_slow=True,
-        is_folder=True,
-    ),
-    Export(
+    _for_robots("mjcf", "-mjcf.zip", _ZIP, make=_of_plan("mujoco_scene.mujoco_scene"), is_slow=True, is_folder=True),
+    _for_robots(
         "usd",
         ".usd",
         "model/vnd.usd",
-        no_plan,
-        _of_plan("usd_scene", "usd_scene", may_stop=True),
-        group="robot",
+        make=_of_plan("usd_scene.usd_scene", may_stop=True),
         is_slow=True,
         needs=("pxr",),
     ),
-    Export(
+    _for_robots(
         "lerobot",
         "-lerobot.zip",
-        "application/zip",
-        no_plan,
-        _of_plan("lerobot_dataset", "lerobot_folder"),
-        group="robot",
+        _ZIP,
+        make=_of_plan("lerobot_dataset.lerobot_folder"),
         is_slow=True,
         is_folder=True,
         needs=("pyarrow",),

@@ -12,6 +12,7 @@ from app.files.gltf_writer import GltfWriter
 from app.files.scene_animation import add_table_and_robot
 from app.jobs.job_pool import ShouldStop
 from app.ui.colours import LIGHT
+from app.ui.robot_model import Pose3
 from app.ui.thick_cloth import ThickCloth
 from planner.motion.cloth_surface import ClothSurface
 from planner.motion.timeline import Timeline
@@ -20,7 +21,7 @@ from planner.task.plan import Plan
 CLOTH_HZ = 15.0
 """The most shapes of the cloth in a second."""
 
-_UPRIGHT = (math.sqrt(0.5), -math.sqrt(0.5), 0.0, 0.0)
+_UPRIGHT = Pose3(wxyz=(math.sqrt(0.5), -math.sqrt(0.5), 0.0, 0.0))
 """Turns z up, as robots have it, to y up, as glTF has it."""
 
 
@@ -32,7 +33,7 @@ def animation_glb(plan: Plan, should_stop: ShouldStop) -> bytes:
     """
     timeline = Timeline.of(plan)
     writer = GltfWriter(plan.garment.title)
-    world = writer.node("table frame", None, wxyz=_UPRIGHT)
+    world = writer.node("table frame", None, _UPRIGHT)
     add_table_and_robot(writer, world, plan, timeline.trajectory)
     if not _cloth(writer, world, timeline, should_stop):
         return b""

@@ -6,15 +6,16 @@ keyframes. Whatever is given as an array here is in its numbers and its order.
 
 import json
 import struct
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from app.files.scene_animation import Moved
+from app.files.scene_animation import AT_PARENT, FULL_SIZE, Moved
 from app.ui.colours import Rgb, linear
-from planner.geometry.pose import FloatArray
+from app.ui.robot_model import Pose3
+from planner.geometry.pose import FloatArray, Point3
 
 _KINDS: Final = {1: "SCALAR", 3: "VEC3", 4: "VEC4"}
 _FLOAT, _UNSIGNED_INT, _ELEMENT_ARRAY_BUFFER = 5126, 5125, 34963
@@ -60,17 +61,11 @@ class GltfWriter:
         )
 
     def node(
-        self,
-        name: str,
-        parent: int | None,
-        position: Sequence[float] = (0.0, 0.0, 0.0),
-        wxyz: Sequence[float] = (1.0, 0.0, 0.0, 0.0),
-        scale: Sequence[float] = (1.0, 1.0, 1.0),
-        mesh: int | None = None,
+        self, name: str, parent: int | None, pose: Pose3 = AT_PARENT, scale: Point3 = FULL_SIZE, mesh: int | None = None
     ) -> int:
         """Add a node below another, or to the scene, and return it."""
-        w, x, y, z = wxyz
-        made = {"name": name, "translation": list(position), "rotation": [x, y, z, w], "scale": list(scale)}
+        w, x, y, z = pose.wxyz
+        made = {"name": name, "translation": list(pose.position), "rotation": [x, y, z, w], "scale": list(scale)}
         added = self._add("nodes", made if mesh is None else made | {"mesh": mesh})
         above = self._scene if parent is None else self._lists["nodes"][parent]
         above.setdefault("nodes" if parent is None else "children", []).append(added)

@@ -14,7 +14,7 @@ from app.files.sheet_page import Disc, Outline, Page, Shape, Spot, Words
 from app.language import ENGLISH, Language, named, numeral, say, translated
 from app.step_kinds import step_kind
 from planner.errors import UnsolvedPlanError
-from planner.geometry.pose import FloatArray, Pose2
+from planner.geometry.pose import FloatArray, Pose2, point2
 from planner.task.plan import Plan, PlanStep
 from planner.task.world_state import WorldState
 
@@ -168,24 +168,20 @@ def _robot(base: Pose2, view: _View, frame: Frame) -> Iterator[Shape]:
     ring = [at + u * ahead + v * aside for u, v in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
     arms = [(at + 0.2 * ahead + v * aside, at + 1.7 * ahead + 0.6 * v * aside) for v in (0.7, -0.7)]
     for shoulder, hand in arms:
-        yield Outline((_pair(shoulder), _pair(hand)), stroke=_FAINT, width=2.4)
-    yield Outline(tuple(_pair(corner) for corner in ring), "ffffff", _FAINT, 1.0)
-    yield Disc(_pair(at + 0.15 * ahead), 0.36 * _ROBOT, "ffffff", _FAINT)
-
-
-def _pair(spot: FloatArray) -> Spot:
-    return (float(spot[0]), float(spot[1]))
+        yield Outline((point2(shoulder), point2(hand)), stroke=_FAINT, width=2.4)
+    yield Outline(tuple(point2(corner) for corner in ring), "ffffff", _FAINT, 1.0)
+    yield Disc(point2(at + 0.15 * ahead), 0.36 * _ROBOT, "ffffff", _FAINT)
 
 
 def _waypoints(step: PlanStep) -> list[Pose2]:
     return [step.before.base.pose, *(Pose2(*pose) for pose in step.details.get("waypoints", ())), step.base.pose]
 
 
-def _bent(start: Spot, end: Spot, points: int = 12) -> list[Spot]:
+def _bent(start: Spot, end: Spot) -> list[Spot]:
     """Return an arc from one place to another: the hand goes over the cloth, not along it."""
     (x0, y0), (x1, y1) = start, end
     dx, dy = x1 - x0, y1 - y0
-    bends = [(n / points, 0.72 * n / points * (1 - n / points)) for n in range(points + 1)]
+    bends = [(share, 0.72 * share * (1 - share)) for share in (n / 12 for n in range(13))]
     return [(x0 + s * dx + bend * dy, y0 + s * dy - bend * dx) for s, bend in bends]
 
 

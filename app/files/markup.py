@@ -50,9 +50,10 @@ class Element:
         """Return the text in this element and all its descendants."""
         return " ".join(" ".join(element.text for element in self.walk()).split())
 
-    def child_text(self, tag: str) -> str | None:
-        """Return the text of the first child with a tag; None without such a child or text."""
-        found = next((child.text.strip() for child in self.children if child.tag == tag), "")
+    @property
+    def title(self) -> str | None:
+        """The text of the element's title; None without one."""
+        found = next((child.text for child in self.children if child.tag == "title"), "")
         return " ".join(found.split()) or None
 
 

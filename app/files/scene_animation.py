@@ -5,17 +5,17 @@ between them.
 """
 
 import math
-from collections.abc import Hashable, Iterable, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Mapping
 from typing import Literal, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from app.ui.colours import LIGHT, Rgb
-from app.ui.robot_model import Link, Visual, load_robot_model
+from app.ui.robot_model import Link, Pose3, Visual, load_robot_model
 from app.ui.robot_view import link_colour
 from app.ui.rotation import yaw
-from planner.geometry.pose import FloatArray
+from planner.geometry.pose import FloatArray, Point3, point3
 from planner.geometry.table import table_parts
 from planner.robots.card import RobotCard
 from planner.robots.load_robot import load_robot
@@ -30,6 +30,9 @@ _APART_S = 1e-3
 
 Moved = Literal["translation", "rotation", "scale"]
 
+AT_PARENT, FULL_SIZE = Pose3(), (1.0, 1.0, 1.0)
+"""The pose of a node that is where its parent is, and the scale along x, y and z of one that is as large."""
+
 
 class SceneWriter(Protocol):
     """A 3-D file being built: nodes below one another, with meshes, and keyframes that move them."""
@@ -43,13 +46,7 @@ class SceneWriter(Protocol):
         """Add a mesh, shapes (n, 3), m, and (m, 3), and return it; without normals it is shaded flat."""
 
     def node(
-        self,
-        name: str,
-        parent: int | None,
-        position: Sequence[float] = (0.0, 0.0, 0.0),
-        wxyz: Sequence[float] = (1.0, 0.0, 0.0, 0.0),
-        scale: Sequence[float] = (1.0, 1.0, 1.0),
-        mesh: int | None = None,
+        self, name: str, parent: int | None, pose: Pose3 = AT_PARENT, scale: Point3 = FULL_SIZE, mesh: int | None = None
     ) -> int:
         """Add a node below another, or to the scene, and return it."""
 
@@ -68,7 +65,7 @@ def _table(writer: SceneWriter, world: int | None, plan: Plan) -> None:
         material = writer.material(part.name, LIGHT.table if part.name == "table top" else LIGHT.table_foot)
         corners = np.array(np.meshgrid([-0.5, 0.5], [-0.5, 0.5], [-0.5, 0.5], indexing="ij")).reshape(3, -1).T
         box = writer.mesh(corners[_BOX], _BOX_TRIANGLES, material)
-        writer.node(part.name, world, part.center, scale=part.size, mesh=box)
+        writer.node(part.name, world, Pose3(part.center), part.size, box)
 
 
 _BOX = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]).reshape(-1)
@@ -87,7 +84,7 @@ def _robot(writer: SceneWriter, world: int | None, plan: Plan, path: Trajectory,
         joint = link.joint or ""
         at_rest = link.pose_at(float(tracks[joint][1][0]) if joint in tracks else still.get(joint, 0.0))
         above = nodes[link.node.rpartition("/")[0]]
-        node = nodes[link.node] = writer.node(link.name, above, at_rest.position, at_rest.wxyz)
+        node = nodes[link.node] = writer.node(link.name, above, at_rest)
         _visuals(writer, node, link, meshes)
         if joint in tracks:
             _move(writer, node, link, *tracks[joint])
@@ -120,7 +117,7 @@ def _base(writer: SceneWriter, world: int | None, path: Trajectory, floor_m: flo
     flip = np.cumprod(np.append(1.0, np.where((turned[1:] * turned[:-1]).sum(axis=1) < 0.0, -1.0, 1.0)))
     quaternions = np.column_stack([np.zeros((len(poses), 2)), turned * flip[:, None]])
     places = np.array([(pose.x_m, pose.y_m, floor_m) for pose in poses])
-    root = writer.node("robot", world, places[0].tolist(), yaw(poses[0].yaw_rad))
+    root = writer.node("robot", world, Pose3(point3(places[0]), yaw(poses[0].yaw_rad)))
     writer.animate(root, "translation", np.array(times), places)
     writer.animate(root, "rotation", np.array(times), quaternions)
     return root
@@ -134,7 +131,7 @@ def _visuals(writer: SceneWriter, node: int, link: Link, meshes: dict[Hashable, 
         if key not in meshes:
             material = writer.material("robot", colour)
             meshes[key] = writer.mesh(visual.vertices, visual.triangles, material, _normals(visual))
-        writer.node(f"{link.name} visual {number}", node, visual.pose.position, visual.pose.wxyz, mesh=meshes[key])
+        writer.node(f"{link.name} visual {number}", node, visual.pose, mesh=meshes[key])
 
 
 def _normals(visual: Visual) -> FloatArray:

@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -12,7 +12,6 @@ from app.files.markup import Element
 from app.files.svg_lengths import Sides, numbers_in, user_units, viewport
 from app.files.svg_paint import is_hidden, is_invisible
 from app.files.svg_style import StyleSheet
-from app.files.svg_transform import transform_of
 from planner.geometry.pose import FloatArray
 
 SHAPES_MAX, VISITS_MAX, CHARACTERS_MAX = 5_000, 20_000, 8_000_000
@@ -211,3 +210,71 @@ def _rounded(cx: float, cy: float, width: float, height: float, rx: float, ry: f
 
 def _translation(x: float, y: float) -> FloatArray:
     return np.array([[1.0, 0.0, x], [0.0, 1.0, y], [0.0, 0.0, 1.0]])
+
+
+_STEP = re.compile(r"[\s,]*([A-Za-z]+)\s*\(([^()]*)\)")
+
+
+def transform_of(element: Element) -> FloatArray:
+    """Return the matrix of an element's transform attribute, shape (3, 3).
+
+    Raises:
+        ImportedFileError: it is not a list of transforms, or its numbers are too large.
+    """
+    text = element.attributes.get("transform", "")
+    matrix = np.eye(3)
+    if _STEP.sub("", text).strip(" \t\r\n,"):
+        raise _unread(element, text)
+    for name, numbers in _STEP.findall(text):
+        try:
+            a, b, c, d, e, f = _ENTRIES[name](*numbers_in(numbers, element))
+        except (KeyError, TypeError):  # no such transform, or not with so many numbers
+            raise _unread(element, f"{name}({numbers})") from None
+        with np.errstate(all="ignore"):
+            matrix = matrix @ np.array([[a, c, e], [b, d, f], [0.0, 0.0, 1.0]])
+    if not np.all(np.isfinite(matrix)):
+        raise broken(f"line {element.line}: transform={text[:60]!r} is too large")
+    return matrix
+
+
+def _unread(element: Element, text: str) -> Exception:
+    return broken(f"line {element.line}: transform={text[:60]!r} is not understood")
+
+
+_Entries = tuple[float, float, float, float, float, float]
+"""The six numbers of a matrix, column by column, as `matrix(...)` takes them."""
+
+
+def _matrix(a: float, b: float, c: float, d: float, e: float, f: float) -> _Entries:
+    return a, b, c, d, e, f
+
+
+def _translate(x: float, y: float = 0.0) -> _Entries:
+    return 1.0, 0.0, 0.0, 1.0, x, y
+
+
+def _scale(x: float, y: float | None = None) -> _Entries:
+    return x, 0.0, 0.0, x if y is None else y, 0.0, 0.0
+
+
+def _rotate(angle_deg: float, x: float = 0.0, y: float = 0.0) -> _Entries:
+    cos, sin = math.cos(math.radians(angle_deg)), math.sin(math.radians(angle_deg))
+    return cos, sin, -sin, cos, x - cos * x + sin * y, y - sin * x - cos * y
+
+
+def _skew_x(angle_deg: float) -> _Entries:
+    return 1.0, 0.0, math.tan(math.radians(angle_deg)), 1.0, 0.0, 0.0
+
+
+def _skew_y(angle_deg: float) -> _Entries:
+    return 1.0, math.tan(math.radians(angle_deg)), 0.0, 1.0, 0.0, 0.0
+
+
+_ENTRIES: Mapping[str, Callable[..., _Entries]] = {
+    "matrix": _matrix,
+    "translate": _translate,
+    "scale": _scale,
+    "rotate": _rotate,
+    "skewX": _skew_x,
+    "skewY": _skew_y,
+}

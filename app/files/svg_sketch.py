@@ -144,7 +144,7 @@ class _Reading:
             (),
             self._sheet.unit_m,
             why,
-            self._root.child_text("title"),
+            self._root.title,
             self._kept,
             notes,
             says_fold=self._kept is None and (bool(self._texts) or self._names_fold()),
@@ -235,7 +235,7 @@ def labels_of(element: Element) -> list[str]:
     """Return the names that an element has: its label, title and id, and classes that name a size."""
     named = [element.attributes.get(name, "") for name in ("label", "id", "data-name", "name")]
     classes = [name for name in element.attributes.get("class", "").split() if "size" in name.lower()]
-    return [label for label in (element.child_text("title") or "", *named, *classes) if label]
+    return [label for label in (element.title or "", *named, *classes) if label]
 
 
 def _others(count: int) -> str:
@@ -292,7 +292,7 @@ def _unread(shape: Shape, why: str) -> FieldError:
 
 
 def _name(element: Element) -> str | None:
-    return element.child_text("title") or element.attributes.get("label") or element.attributes.get("id")
+    return element.title or element.attributes.get("label") or element.attributes.get("id")
 
 
 def _grip_radius(element: Element) -> float | None:

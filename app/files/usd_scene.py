@@ -5,7 +5,6 @@ that a rehearsal simulates, the triangles always the same.
 """
 
 import tempfile
-from collections.abc import Sequence
 from itertools import count
 from pathlib import Path
 
@@ -13,11 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Gf, Sdf, Tf, Usd, UsdGeom, UsdShade, Vt
 
-from app.files.scene_animation import Moved, add_table_and_robot
+from app.files.scene_animation import AT_PARENT, FULL_SIZE, Moved, add_table_and_robot
 from app.jobs.job_pool import ShouldStop
 from app.rehearsal.physics.fabric import Resolution
 from app.ui.colours import LIGHT, Rgb, linear
-from planner.geometry.pose import FloatArray
+from app.ui.robot_model import Pose3
+from planner.geometry.pose import FloatArray, Point3
 from planner.geometry.woven_mesh import woven_mesh
 from planner.motion.cloth_surface import ClothPoints
 from planner.motion.timeline import Timeline
@@ -96,18 +96,12 @@ class _UsdWriter:
         return len(self._meshes) - 1
 
     def node(
-        self,
-        name: str,
-        parent: int | None,
-        position: Sequence[float] = (0.0, 0.0, 0.0),
-        wxyz: Sequence[float] = (1.0, 0.0, 0.0, 0.0),
-        scale: Sequence[float] = (1.0, 1.0, 1.0),
-        mesh: int | None = None,
+        self, name: str, parent: int | None, pose: Pose3 = AT_PARENT, scale: Point3 = FULL_SIZE, mesh: int | None = None
     ) -> int:
         path = self._free(_ROOT if parent is None else self._nodes[parent].GetPath(), name)
         node = UsdGeom.Xform.Define(self._stage, path)
-        node.AddTranslateOp().Set(Gf.Vec3d(*position))
-        node.AddOrientOp().Set(Gf.Quatf(*map(float, wxyz)))
+        node.AddTranslateOp().Set(Gf.Vec3d(*pose.position))
+        node.AddOrientOp().Set(Gf.Quatf(*map(float, pose.wxyz)))
         node.AddScaleOp().Set(Gf.Vec3f(*scale))
         if mesh is not None:
             shown = self._stage.DefinePrim(path.AppendChild("mesh"))

@@ -6,8 +6,7 @@ from typing import Annotated, Any
 from annotated_types import Interval
 from pydantic import Field
 
-from app.drivers.recording import Recording
-from app.drivers.run import Leg, run_plan
+from app.drivers.run import Leg, Recording, run_plan
 from app.drivers.simulated import SimulatedDriver
 from app.files.import_file import LARGEST_PLAN_FILE
 from app.files.slowed import SPEEDS, require_speed

@@ -10,10 +10,9 @@ from app.store.storage_error import storing
 from app.store.study_store import StudyStore
 from app.studies.garment_entries import Sources
 from app.studies.results import Results
+from app.studies.run_study import do_study
 from app.studies.study import Study
-from app.studies.study_fields import StudyFields
-from app.studies.study_file import study_of
-from app.studies.study_job import do_study
+from app.studies.study_file import StudyFields, study_of
 from app.studies.table import CSV, PARQUET, TIMING, written_files
 from planner.errors import RequestError
 from planner.robots.known_robots import require_name

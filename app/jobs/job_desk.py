@@ -15,9 +15,8 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
 
-from app.jobs.job_kind import AnyKind, Stores
+from app.jobs.job_kind import AnyKind, Progressed, Stores, do_job
 from app.jobs.job_pool import Job, JobPool
-from app.jobs.job_work import Progressed, do_job
 from app.jobs.limits import TooManyError
 from app.store.job_repository import JobRepository, JobStatus, StoredJob
 from app.store.storage_error import StorageError

@@ -16,6 +16,7 @@ from app.store.plan_store import PlanStore
 from app.store.robot_repository import RobotRepository
 from app.store.study_store import StudyStore
 from app.store.trace_store import TraceStore
+from app.worker.process import Caller
 from planner.json_form import JsonForm
 
 Body = TypeVar("Body")
@@ -116,3 +117,21 @@ class JobKind(Generic[Body, Asked, Answer]):
 
 
 AnyKind: TypeAlias = JobKind[Any, Any, Any]
+
+
+@dataclass(frozen=True, slots=True)
+class Progressed:
+    """News of a job: the share that is done, what is being done, and what was just found."""
+
+    share: float
+    message: str
+    found: object = None
+
+
+def do_job(caller: Caller, work: Callable[[Asked, Progress], Answer], asked: Asked) -> Answer:
+    """Do the work of a job in its own process, and send its progress on."""
+
+    def progress(share: float, message: str, found: object = None) -> None:
+        caller.tell(Progressed(min(max(share, 0.0), 1.0), message, found))
+
+    return work(asked, progress)

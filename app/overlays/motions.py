@@ -2,46 +2,78 @@
 
 from collections.abc import Sequence
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
+from pydantic import BaseModel
 
 from app.overlays.moment import Moment
-from planner.geometry.pose import FloatArray, wrapped_angle
+from planner.geometry.pose import FloatArray, Point2, Point3, Pose2, wrapped_angle
 from planner.geometry.segment import Segment
 from planner.geometry.tolerance import LENGTH_M
 from planner.task.plan import Plan, PlanStep
 from planner.task.trajectory import Phase
 
 
-def base_overlay(moment: Moment) -> dict[str, Any] | None:
-    """Return the base's path over all primitives, as JSON, article frame; None without a plan."""
+class StandAnswer(BaseModel):
+    """The base's pose after a primitive (m, rad)."""
+
+    primitive: int
+    point: Point2
+    yaw_rad: float
+
+
+class BaseWayAnswer(BaseModel):
+    """The base's path, and how many of its points have been passed (m)."""
+
+    way: list[Point2]
+    stands: list[StandAnswer]
+    gone: int
+
+
+class PathGripAnswer(BaseModel):
+    """The path of one hand, seen from above and in space, with the height over the table (m)."""
+
+    arm: str
+    pick: Point2
+    apex: Point2 | None
+    place: Point2
+    points: list[Point3]
+
+
+class PathsAnswer(BaseModel):
+    """The hands' paths of a primitive, in the article frame as the garment lies when the primitive begins."""
+
+    primitive: int
+    kind: str
+    fold: int | None
+    grips: list[PathGripAnswer]
+
+
+def base_overlay(moment: Moment) -> BaseWayAnswer | None:
+    """Return the base's path over all steps, article frame; None without a plan."""
     if moment.plan is None or moment.frame is None:
         return None
     parts = [_base_points(moment.plan, number) for number in range(len(moment.plan.steps))]
     way = _without_stops(np.concatenate(parts))
     passed = _without_stops(np.concatenate(parts[: moment.frame.primitive + 1]))
     first = len(_without_stops(np.concatenate(parts[: moment.frame.primitive]))) if moment.frame.primitive else 1
-    return {
-        "way": moment.to_article(way).tolist(),
-        "stands": [_stand(moment, number, step) for number, step in enumerate(moment.plan.steps)],
-        "gone": _gone(passed, first, np.array([moment.base.x_m, moment.base.y_m])),
-    }
+    return BaseWayAnswer(
+        way=moment.to_article(way).tolist(),
+        stands=[_stand(moment, number, step) for number, step in enumerate(moment.plan.steps)],
+        gone=_gone(passed, first, np.array([moment.base.x_m, moment.base.y_m])),
+    )
 
 
-def paths_overlay(moment: Moment) -> list[dict[str, Any]] | None:
-    """Return the paths of the hands, as JSON; None without a plan.
-
-    Each path is in the article frame as it lies when its primitive starts.
-    """
-    if moment.plan is None:
+def paths_overlay(moment: Moment) -> list[PathsAnswer] | None:
+    """Return the paths of the hands in each step that has grips; None without a plan."""
+    plan = moment.plan
+    if plan is None:
         return None
-    found = []
-    for number, step in enumerate(moment.plan.steps):
-        if step.grips:
-            grips = _grips(moment.plan, number)
-            found.append({"primitive": number, "kind": step.kind, "fold": step.fold, "grips": grips})
-    return found
+    return [
+        PathsAnswer(primitive=number, kind=step.kind, fold=step.fold, grips=_grips(plan, number))
+        for number, step in enumerate(plan.steps)
+        if step.grips
+    ]
 
 
 def _base_points(plan: Plan, number: int) -> FloatArray:
@@ -71,14 +103,14 @@ def _gone(passed: FloatArray, first: int, base: FloatArray) -> int:
     return gone
 
 
-def _stand(moment: Moment, number: int, step: PlanStep) -> dict[str, Any]:
+def _stand(moment: Moment, number: int, step: PlanStep) -> StandAnswer:
     pose = step.base.pose
     x, y = moment.to_article(np.array([pose.x_m, pose.y_m]))
     yaw_rad = wrapped_angle(pose.yaw_rad - moment.placement.yaw_rad)
-    return {"primitive": number, "point": [float(x), float(y)], "yaw_rad": yaw_rad}
+    return StandAnswer(primitive=number, point=(float(x), float(y)), yaw_rad=yaw_rad)
 
 
-def _grips(plan: Plan, number: int) -> list[dict[str, Any]]:
+def _grips(plan: Plan, number: int) -> list[PathGripAnswer]:
     assert plan.trajectory is not None, "a plan that is played is solved"
     step, arms = plan.steps[number], [track.arm for track in plan.trajectory.grippers]
     found = []
@@ -86,16 +118,22 @@ def _grips(plan: Plan, number: int) -> list[dict[str, Any]]:
         arm, place = arms.index(grip.arm), step.before.placement
         hands = [phase.hands[arm] for phase in _phases(plan, number)]
         points = [point for hand in hands if hand is not None and hand.is_closed for point in hand.points]
-        ends = {
-            name: None if point is None else _plane(place.to_inner(np.array(point)))
-            for name, point in (("pick", grip.pick), ("apex", grip.apex), ("place", grip.place))
-        }
-        found.append({"arm": grip.arm, **ends, "points": place.to_inner(_bends(np.array(points))).tolist()})
+        found.append(
+            PathGripAnswer(
+                arm=grip.arm,
+                pick=_plane(place, grip.pick),
+                apex=None if grip.apex is None else _plane(place, grip.apex),
+                place=_plane(place, grip.place),
+                points=place.to_inner(_bends(np.array(points))).tolist(),
+            )
+        )
     return found
 
 
-def _plane(point: Sequence[float] | FloatArray) -> list[float]:
-    return [float(point[0]), float(point[1])]
+def _plane(placement: Pose2, point: Sequence[float]) -> Point2:
+    """Return a point of the table frame in the article frame, seen from above."""
+    x, y, *_ = placement.to_inner(np.array(point)).tolist()
+    return x, y
 
 
 def _bends(path: FloatArray) -> FloatArray:

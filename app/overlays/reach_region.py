@@ -15,6 +15,7 @@ from functools import lru_cache, partial
 from typing import TypeAlias
 
 import numpy as np
+from pydantic import BaseModel
 
 from planner.folds.fold_path import REST_HEIGHT_M
 from planner.geometry.pose import BoolArray, FloatArray, Point2
@@ -191,3 +192,22 @@ def _cell(grid: FloatArray, inside: BoolArray, along_x: FloatArray, along_y: Flo
         if inside[corner] != inside[following]:
             points.append(crossing)
     return Region.polygon(points)
+
+
+def rings_of(part: Region) -> tuple[FloatArray, ...]:
+    """Return the rings of a connected region, shape (n, 2) each, m: the outer one, then those of its holes."""
+    holes = Region.polygon(part.ring).difference(part)
+    return (part.ring, *(hole.ring for hole in holes.pieces))
+
+
+class RegionAnswer(BaseModel):
+    """A connected region (m)."""
+
+    outer: list[Point2]
+    holes: list[list[Point2]]
+
+    @staticmethod
+    def of(part: Region) -> "RegionAnswer":
+        """Return a connected region by its outer ring and those of its holes."""
+        outer, *holes = (ring.tolist() for ring in rings_of(part))
+        return RegionAnswer(outer=outer, holes=holes)

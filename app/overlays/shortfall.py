@@ -12,15 +12,15 @@ The region comes from a grid about the point, finer for a smaller shortfall; the
 
 from dataclasses import dataclass
 from functools import lru_cache, partial
-from typing import Any
+from typing import Annotated
 
 import numpy as np
+from pydantic import BaseModel, WithJsonSchema
 
 from app.overlays.moment import Moment
-from app.overlays.reach_region import Grid, in_approach, region_where, runs
-from app.overlays.region_json import region_to_dict, rings_of
+from app.overlays.reach_region import Grid, RegionAnswer, in_approach, region_where, rings_of, runs
 from planner.geometry.isometry import Isometry
-from planner.geometry.pose import Approach, FloatArray, Point2, Point3, Pose2
+from planner.geometry.pose import Approach, FloatArray, Point2, Point3, Pose2, point3
 from planner.geometry.region import Region
 from planner.geometry.tolerance import LENGTH_M
 from planner.robots.armed_robot import ArmedRobot
@@ -71,29 +71,50 @@ class NearReach:
     edge: tuple[FloatArray, ...]
 
 
-def shortfall_overlay(moment: Moment) -> dict[str, Any] | None:
-    """Return the reach near the point of the moment's reason, as JSON, article frame; None if it is not about reach."""
+class ShortfallAnswer(BaseModel):
+    """The part of the surroundings of a point out of reach that the hand, in its orientation, cannot reach (m, rad).
+
+    `beyond` is a part of a disc of `radius_m` at the point's height, `edge` the lines at which it ends; heading and
+    pitch are in the base frame.
+    """
+
+    fold: int | None
+    arm: str
+    station: Annotated[str | None, WithJsonSchema({"type": "string"})]  # a robot that stands fast has no station
+    back_off_m: Annotated[float | None, WithJsonSchema({"type": "number"})]
+    comfort_m: float
+    point: Point3
+    heading_rad: float
+    pitch_rad: float
+    radius_m: float
+    beyond: list[RegionAnswer]
+    edge: list[list[Point2]]
+
+
+def shortfall_overlay(moment: Moment) -> ShortfallAnswer | None:
+    """Return the reach near the point of the moment's reason, article frame; None if it is not about reach."""
     reason = moment.reason
     lack = None if reason is None else _lack(moment, reason)
     if reason is None or lack is None:
         return None
-    near = near_reach(load_robot(moment.robot), moment.scene.torso_m, moment.comfort_m, lack)
+    robot = load_robot(moment.robot)
+    near = near_reach(robot, moment.scene.torso_m, moment.comfort_m, lack)
     base = moment.in_article(lack.base)
     to_article = Isometry.rotation(base.yaw_rad, base.x_m, base.y_m)
     x, y = base.to_outer(np.array(lack.seen[:2]))
-    return {
-        "fold": reason.fold,
-        "arm": reason.arm,
-        "station": reason.station,
-        "back_off_m": reason.back_off_m,
-        "comfort_m": moment.comfort_m,
-        "point": [float(x), float(y), lack.seen[2] - moment.scene.table.height_m],
-        "heading_rad": lack.approach.heading_rad,
-        "pitch_rad": lack.approach.pitch_rad,
-        "radius_m": lack.radius_m,
-        "beyond": [region_to_dict(part) for part in near.beyond.moved(to_article).pieces],
-        "edge": [base.to_outer(line).tolist() for line in near.edge],
-    }
+    return ShortfallAnswer(
+        fold=reason.fold,
+        arm=robot.card.arms[lack.arm].name,
+        station=reason.station,
+        back_off_m=reason.back_off_m,
+        comfort_m=moment.comfort_m,
+        point=(float(x), float(y), lack.seen[2] - moment.scene.table.height_m),
+        heading_rad=lack.approach.heading_rad,
+        pitch_rad=lack.approach.pitch_rad,
+        radius_m=lack.radius_m,
+        beyond=[RegionAnswer.of(part) for part in near.beyond.moved(to_article).pieces],
+        edge=[base.to_outer(line).tolist() for line in near.edge],
+    )
 
 
 @lru_cache(maxsize=16)
@@ -133,7 +154,7 @@ def _lack(moment: Moment, reason: Reason) -> Lack | None:
     base = stations[reason.station].ahead(-(reason.back_off_m or 0.0))
     over_floor = np.array(point) + np.array([0.0, 0.0, moment.scene.table.height_m])
     dx, dy = offset_m
-    return Lack(arms.index(reason.arm), _point(base.to_inner(over_floor)), approach, short_by_m, base.moved(-dx, -dy))
+    return Lack(arms.index(reason.arm), point3(base.to_inner(over_floor)), approach, short_by_m, base.moved(-dx, -dy))
 
 
 def _disc(middle: Point2, radius_m: float) -> Region:
@@ -151,7 +172,3 @@ def _edge(beyond: Region, disc: Region) -> tuple[FloatArray, ...]:
         closed = np.roll(ring, -first, axis=0)
         lines += [np.vstack([closed, closed[:1]])[start : end + 1] for start, end in runs(np.roll(is_edge, -first))]
     return tuple(lines)
-
-
-def _point(row: FloatArray) -> Point3:
-    return (float(row[0]), float(row[1]), float(row[2]))

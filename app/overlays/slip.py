@@ -7,14 +7,14 @@ from (t, h) to (t', h'), t along the line and h beyond it, add the integral of m
 """
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
+from pydantic import BaseModel
 
 from app.overlays.moment import Moment
 from planner.cloth.cloth_state import ClothState
 from planner.cloth.g_state import EDGE_NAMES, is_held
-from planner.geometry.pose import FloatArray
+from planner.geometry.pose import FloatArray, Point2
 from planner.geometry.segment import Segment
 from planner.geometry.tolerance import GRID_M
 
@@ -58,22 +58,42 @@ class CutCloth:
         return float(along.min()), float(along.max())
 
 
-def slip_overlay(moment: Moment) -> dict[str, Any]:
-    """Return how far the cloth may hang over each edge and the area hanging now, as JSON, article frame."""
+class LimitAnswer(BaseModel):
+    """The line to which the cloth may hang over an edge of the table (m)."""
+
+    edge: str
+    line: tuple[Point2, Point2]
+    at_m: float
+    now_m: float
+
+
+class SlipAnswer(BaseModel):
+    """The cloth that hangs over the table's edges, and how much may (m^2, layers counted)."""
+
+    friction: float
+    pull_m2: float
+    lying_m2: float
+    hanging_m2: dict[str, float]
+    holds: bool
+    limits: list[LimitAnswer]
+
+
+def slip_overlay(moment: Moment) -> SlipAnswer:
+    """Return how far the cloth may hang over each edge and the area hanging now, article frame."""
     cloth, friction = CutCloth.of(moment.cloth), moment.scene.friction
     edges = dict(zip(EDGE_NAMES, moment.table.edges, strict=True))
     hanging = {name: cloth.area_beyond(edge) for name, edge in edges.items()}
     lying = max(moment.cloth.area - sum(hanging.values()), 0.0)
     outwards = np.array([-np.array(edge.left) for edge in edges.values()])
     pull = float(np.hypot(*(np.array(list(hanging.values())) @ outwards)))
-    return {
-        "friction": friction,
-        "pull_m2": pull,
-        "lying_m2": lying,
-        "hanging_m2": hanging,
-        "holds": is_held(pull, lying, friction),
-        "limits": [_limit(cloth, name, edge, friction) for name, edge in edges.items()],
-    }
+    return SlipAnswer(
+        friction=friction,
+        pull_m2=pull,
+        lying_m2=lying,
+        hanging_m2=hanging,
+        holds=is_held(pull, lying, friction),
+        limits=[_limit(cloth, name, edge, friction) for name, edge in edges.items()],
+    )
 
 
 def limit_m(cloth: CutCloth, edge: Segment, friction: float) -> float:
@@ -90,9 +110,9 @@ def limit_m(cloth: CutCloth, edge: Segment, friction: float) -> float:
     return high
 
 
-def _limit(cloth: CutCloth, name: str, edge: Segment, friction: float) -> dict[str, Any]:
+def _limit(cloth: CutCloth, name: str, edge: Segment, friction: float) -> LimitAnswer:
     at_m = limit_m(cloth, edge, friction)
     outermost = cloth.reach_beyond(edge)[1]
     out = -np.array(edge.left) * at_m
-    line = [[float(value) for value in np.array(edge.at(along)) + out] for along in cloth.span_along(edge)]
-    return {"edge": name, "line": line, "at_m": outermost - at_m, "now_m": max(outermost, 0.0)}
+    start, end = (edge.at(along) + out for along in cloth.span_along(edge))
+    return LimitAnswer(edge=name, line=(tuple(start), tuple(end)), at_m=outermost - at_m, now_m=max(outermost, 0.0))

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from app.rehearsal.camera.look import PLAIN, Look
+from app.rehearsal.camera.look import PLAIN
 from app.rehearsal.camera.mounted import camera_of, overhead
 from app.rehearsal.camera.picture import ClothSeen, picture
 from app.rehearsal.camera.posture import Posture
@@ -15,7 +15,7 @@ from planner.task.task import Task
 class CameraWorld:
     """Another world, seen by the camera of the robot's card, or by one over the table where it names none."""
 
-    def __init__(self, world: World, task: Task, posture: Posture, seed: int, look: Look = PLAIN) -> None:
+    def __init__(self, world: World, task: Task, posture: Posture, seed: int) -> None:
         """Take a world that knows where its cloth is.
 
         Args:
@@ -23,9 +23,8 @@ class CameraWorld:
             task: robot and table.
             posture: how the robot stands at first.
             seed: of textures, light and noise.
-            look: colours and light.
         """
-        self._world, self._posture, self._seed, self._look = world, posture, seed, look
+        self._world, self._posture, self._seed = world, posture, seed
         self._table = task.scene.table
         self._shape = robot_shape(load_robot(task.robot).card, -self._table.height_m)
         self._given = robot_card_file(task.robot).camera or overhead(self._table)
@@ -40,7 +39,7 @@ class CameraWorld:
         camera = camera_of(self._given, self._shape, self._posture)
         cloth = ClothSeen(truth.pattern, truth.positions, truth.triangles)
         parts = self._shape.parts(self._posture)
-        image = picture(camera, self._table, cloth, parts, self._look, self._seed, self._moment)
+        image = picture(camera, self._table, cloth, parts, PLAIN, self._seed, self._moment)
         return Observation(np.ascontiguousarray(image[..., ::-1]), camera)
 
     def perform(self, motion: StepMotion) -> Performed:

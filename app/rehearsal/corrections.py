@@ -13,13 +13,14 @@ import numpy as np
 from app.rehearsal.grasp_points import inwards_at
 from app.rehearsal.judge import carry
 from app.rehearsal.step_seen import StepSeen
-from app.rehearsal.table_edge import over_edge
-from app.rehearsal.taut_way import taut
 from app.rehearsal.trailing_flaps import trailing
 from app.rehearsal.vision.look_at_stack import Sight
 from app.rehearsal.world import GripMotion, StepMotion, way_done
+from planner.folds.fold_path import REST_HEIGHT_M
 from planner.geometry.isometry import Isometry
-from planner.geometry.pose import Point2, Point3, Pose2
+from planner.geometry.pose import FloatArray, Point2, Point3, Pose2
+from planner.geometry.table import TableTop
+from planner.geometry.tolerance import LENGTH_M
 
 _TRIED = ((1 / 3, 0), (1 / 3, 1), (1 / 3, -1), (2 / 3, 0), (1, 0), (1, 1), (1, -1), (1, 4))
 """How far from the grip, as a share of the radius, and at how many eighths of a turn from inwards it is tried.
@@ -53,7 +54,66 @@ def carried_along(motion: StepMotion, seen: StepSeen) -> StepMotion:
             there = points + (1.0 - way_done(points)[:, None]) * (there[0] - points[0])
         return grip.along(there)
 
-    return replace(motion, grips=tuple(map(moved, motion.grips)))
+    return motion.with_grips(moved)
+
+
+_TAUT_SHARE = 0.5
+"""How far hands go from their planned paths to those of a stiff sheet, at most."""
+
+_POINTS = 61
+"""How many points a path has once it has left the planned one."""
+
+
+def taut(motion: StepMotion, most_m: float) -> StepMotion:
+    """Return a fold in which hands keep the cloth between them and the line longer; other steps as they are.
+
+    On a plan's path a hand halfway down is nearer to the fold line than its cloth is long, by .29 of it, and two hands
+    at different distances from the line come nearer to each other. Cloth bends in loops and does not lie down behind
+    them: the slack stands up, draws the crease inside of its line, and springs back when it is let go. A flap that
+    turned about the line as a stiff sheet would have no slack, but a long one hangs through and would pull at the
+    stack. So hands go half of the way from the one to the other, as far as that is in reach.
+
+    The fold begins and ends as planned. Hands that hold cloth before or after it, and those that do not cross a line,
+    keep their paths.
+
+    Args:
+        motion: the step.
+        most_m: how far hands may leave their paths (m).
+    """
+    if not motion.is_fold or not all(grip.closes and grip.opens for grip in motion.grips):
+        return motion
+    farthest = max(motion.grips, key=_crossed_m, default=None)
+    if farthest is None or min(map(_crossed_m, motion.grips)) <= LENGTH_M:
+        return motion
+    times_s = np.linspace(farthest.times_s[0], farthest.times_s[-1], _POINTS)
+    done = np.interp(times_s, farthest.times_s, way_done(np.array(farthest.points)))
+    planned = [np.array([grip.at(t_s) for t_s in times_s.tolist()]) for grip in motion.grips]
+    beside = [_turned_over(points, done) - points for points in planned]
+    furthest_m = max(float(np.linalg.norm(offsets, axis=1).max()) for offsets in beside)
+    share = min(_TAUT_SHARE, max(0.0, most_m) / max(furthest_m, LENGTH_M))
+    grips = zip(motion.grips, planned, beside, strict=True)
+    return replace(
+        motion, grips=tuple(_along(grip, times_s, points + share * offsets) for grip, points, offsets in grips)
+    )
+
+
+def _crossed_m(grip: GripMotion) -> float:
+    """Return how far a hand goes over the table from its first point to its last (m)."""
+    return math.dist(grip.points[0][:2], grip.points[-1][:2])
+
+
+def _turned_over(points: FloatArray, done: FloatArray) -> FloatArray:
+    """Return a half circle from the first to the last of some points, shape (n, 3), reached as far as is done, (n,)."""
+    start, end = points[0], points[-1]
+    angles = math.pi * done[:, None]
+    on_table = (start + end) / 2.0 + np.cos(angles) * (start - end) / 2.0
+    up = np.array([0.0, 0.0, math.dist(start[:2], end[:2]) / 2.0])
+    return np.asarray(on_table + np.sin(angles) * up)
+
+
+def _along(grip: GripMotion, times_s: FloatArray, points: FloatArray) -> GripMotion:
+    turned_rad = tuple(grip.turned_at(t_s) for t_s in times_s.tolist()) if grip.turned_rad else ()
+    return replace(grip.along(points), times_s=tuple(times_s.tolist()), turned_rad=turned_rad)
 
 
 def kept_taut(motion: StepMotion, seen: StepSeen) -> StepMotion:
@@ -78,7 +138,7 @@ def laid_short(motion: StepMotion, seen: StepSeen) -> StepMotion:
         points[:, :2] += SHORT_M * late * way / max(float(np.hypot(*way)), SHORT_M)
         return grip.along(points)
 
-    return replace(motion, grips=tuple(moved(grip) if grip.arm in held else grip for grip in motion.grips))
+    return motion.with_grips(moved, held)
 
 
 def beside_grips(motion: StepMotion, seen: StepSeen) -> StepMotion:
@@ -92,7 +152,44 @@ def beside_grips(motion: StepMotion, seen: StepSeen) -> StepMotion:
         points[:, :2] += (1.0 - share) * np.array(offset) + share * np.array(landed)
         return grip.along(points)
 
-    return replace(motion, grips=tuple(moved(grip) if grip.arm in seen.offsets else grip for grip in motion.grips))
+    return motion.with_grips(moved, seen.offsets)
+
+
+def over_edge(motion: StepMotion, seen: StepSeen) -> StepMotion:
+    """Lay cloth down over the table's edge as far beyond it as it should hang.
+
+    A plan's hand ends as low as the cloth is to hang, and clear of the edge's plane. From the edge to there is further
+    than the cloth hangs, which draws it out of the stack by the difference; and a hand that follows cloth sideways
+    would still end as low. So hands end as far from the edge as the cloth is to hang, straight out where that is less
+    than tools keep clear.
+    """
+    top, clear_m = TableTop.of(seen.plan.scene.table), seen.plan.scene.edge_clear_m
+    planned = {grip.arm: np.array(grip.points[-1]) for grip in seen.planned.grips}
+
+    def moved(grip: GripMotion) -> GripMotion:
+        points, end = np.array(grip.points), planned[grip.arm]
+        if not grip.opens or top.covers(end[None]):
+            return grip
+        nearest, outwards, _ = top.edge_beside(end)
+        hangs_at = nearest + (REST_HEIGHT_M - end[2]) * outwards  # if the table went on
+        late = np.clip(2.0 * way_done(points) - 1.0, 0.0, 1.0)[:, None]
+        laid = laid_over(hangs_at + points[-1, :2] - end[:2], top, clear_m)
+        return grip.along(points + late * (laid - points[-1]))
+
+    return motion.with_grips(moved) if motion.is_fold else motion
+
+
+def laid_over(place: FloatArray, top: TableTop, clear_m: float) -> FloatArray:
+    """Return where a hand lays cloth down that would be at a place if the table went on, shape (2,) -> (3,), m.
+
+    Args:
+        place: the place.
+        top: the table's top.
+        clear_m: how far outside of an edge's plane a tool keeps at most (m).
+    """
+    nearest, outwards, beyond = top.edge_beside(place)
+    out_m = min(float(beyond), clear_m)
+    return np.array([*(nearest + out_m * outwards), REST_HEIGHT_M - math.sqrt(float(beyond) ** 2 - out_m**2)])
 
 
 WITHOUT_LOOKING: tuple[Correction, ...] = (over_edge,)
@@ -116,7 +213,7 @@ def aimed(motion: StepMotion, hands: Mapping[str, Point2]) -> StepMotion:
         points[:, :2] -= share[:, None] * np.array(hands[grip.arm])
         return grip.along(points)
 
-    return replace(motion, grips=tuple(moved(grip) if grip.arm in hands else grip for grip in motion.grips))
+    return motion.with_grips(moved, hands)
 
 
 def regrasps(seen: StepSeen, arms: frozenset[str]) -> Iterator[dict[str, Point2]]:

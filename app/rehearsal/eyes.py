@@ -29,7 +29,7 @@ PICTURE_BYTES_MAX = 60_000
 """Largest size of a picture that is kept (bytes)."""
 
 _BESIDE_ARM_PX = 4
-"""How far beside its arms a robot still expects to see them: base and camera are not quite where it believes."""
+"""How far beside its arms a robot still expects to see them (pixels): base and camera are slightly off."""
 
 _FOLDED, _DRIVEN = (0.003, 0.003), (0.01, 0.01)
 """How far a fold moves what it leaves on the table, and how far beside its place a base stops (m, rad).

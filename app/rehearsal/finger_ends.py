@@ -18,7 +18,7 @@ from app.rehearsal.physics.pinch import PAD_M
 from app.rehearsal.world import GripMotion, StepMotion
 
 _LEAST_WAY_M = 4.0 * PAD_M
-"""The least way of a hand for which there is room to land short (m)."""
+"""The shortest horizontal path of a hand on which there is room to land short (m)."""
 
 
 def round_finger_ends(

@@ -22,7 +22,7 @@ _ARM_M = 0.005
 assumption."""
 
 _UNLIKELY = 13.8
-"""The square of a distance in standard deviations that one in a thousand exceeds in the plane."""
+"""The squared distance, in standard deviations, that one sample in a thousand exceeds in the plane."""
 
 
 class HandEye:

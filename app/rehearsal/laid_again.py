@@ -21,13 +21,13 @@ from planner.geometry.reach_query import ReachQuery
 from planner.robots.load_robot import load_robot
 
 SHORT_M = 0.012
-"""An edge further short of its place is laid down again (m)."""
+"""How far short of its place an edge is laid down again (m)."""
 
 _INSIDE_M = 0.01
 """How far inside of an edge fingers pinch it (m)."""
 
 _POINTS = 121
-"""Points of its way from which is measured how far a hand leaves it."""
+"""The number of points of its planned path from which the distance of a hand is measured."""
 
 _SPEED_M_S, _LEAST_S = 0.05, 0.5
 """How fast hands pull an edge (m/s), and for how long at least (s)."""

@@ -15,21 +15,21 @@ from app.rehearsal.vision.seen_stack import SeenStack
 from planner.cloth.cloth_state import ClothState
 from planner.cloth.layer import Layer
 from planner.geometry.isometry import Isometry
-from planner.geometry.pose import FloatArray, Point2
+from planner.geometry.pose import FloatArray, Point2, point2
 from planner.geometry.tolerance import LENGTH_M
 
 _INSIDE_M, _OUTSIDE_M = 0.09, 0.03
 """How far inside and outside of its place an edge is looked for (m)."""
 
 _BESIDE_M = np.linspace(-0.1, 0.1, 21)
-"""How far beside a hand it is looked for (m), since hands hide what is at them."""
+"""How far beside a hand an edge is looked for (m): hands hide the cloth at them."""
 
 _STEP_M = 0.002
 _IN_HAND_M = 0.011
-"""A layer nearer to a hand than that is in it (m)."""
+"""The largest distance from a hand to a layer that it holds (m)."""
 
 _ON_EDGE_M = 0.002
-"""Edges nearer to each other than that should lie on one another (m)."""
+"""The largest distance between edges that should lie on one another (m)."""
 
 _LEAST_RAYS = 3
 
@@ -100,8 +100,8 @@ def laid_edges(seen: StepSeen, after: SeenStack | None = None) -> Iterator[LaidE
             beyond_m = float((after.beside(place[None]) + after.edge_beside(place[None]))[0] @ way)
         yield LaidEdge(
             one.arm,
-            to_table.apply_point(_point(place + beyond_m * way)),
-            np.array(seen.to_table(_point(way))),
+            to_table.apply_point(point2(place + beyond_m * way)),
+            np.array(seen.to_table(point2(way))),
             to_table.apply(points[rays, 0]),
             to_table.apply(points[rays, -1]),
             _STEP_M * (ends[rays] - 0.5) + beyond_m,
@@ -125,7 +125,3 @@ def _on_top(layers: Sequence[Layer], points: FloatArray) -> FloatArray:
     for number, layer in enumerate(layers):
         found[layer.region.distances_to(flat) <= LENGTH_M] = number
     return found.reshape(points.shape[:2])
-
-
-def _point(row: FloatArray) -> Point2:
-    return float(row[0]), float(row[1])

@@ -102,10 +102,10 @@ class NoisyWorld:
 
 
 _TURN_RAD = 1e-4
-"""The turn of a joint by which its effect is told (rad)."""
+"""The turn of a joint by which its effect on the tool is measured (rad)."""
 
 _WEAK = 0.05
-"""Ways in which joints move a tool so much less than in the best one count as ways in which they do not."""
+"""Directions in which joints move a tool less than this share of the best one are ignored."""
 
 
 def deflected(robot_name: str, posture: Posture, beside: Mapping[str, FloatArray]) -> Posture:

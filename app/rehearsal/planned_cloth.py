@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from planner.cloth.layer import Layer, nearest_layers
 from planner.folds.fold_sequence import FoldSequence
-from planner.geometry.pose import FloatArray, Point2, Pose2
+from planner.geometry.pose import FloatArray, Pose2, point2
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 from planner.geometry.table import Table, TableTop
@@ -45,8 +45,8 @@ def creases(layer: Layer, pattern: Region) -> Iterator[Segment]:
     """Yield the edges of a layer at which its cloth goes on in another one, pattern's frame."""
     ring = layer.pattern_piece.whole_ring
     for start, end in zip(ring, np.roll(ring, -1, axis=0), strict=True):
-        if pattern.boundary_distance(_point((start + end) / 2.0)) > LENGTH_M:
-            yield Segment(_point(start), _point(end))
+        if pattern.boundary_distance(point2((start + end) / 2.0)) > LENGTH_M:
+            yield Segment(point2(start), point2(end))
 
 
 def crease_distances(sequence: FoldSequence, pattern: FloatArray, done: int) -> FloatArray:
@@ -63,7 +63,3 @@ def crease_distances(sequence: FoldSequence, pattern: FloatArray, done: int) -> 
         for crease in creases(layer, whole):
             nearest = np.minimum(nearest, crease.distances(pattern))
     return nearest
-
-
-def _point(row: FloatArray) -> Point2:
-    return float(row[0]), float(row[1])

@@ -23,7 +23,7 @@ UNIT_M = 1e-4
 """The unit in which positions are kept as whole numbers (m)."""
 
 _NUMBERS_MAX = 2_000_000
-"""Coordinates of all frames of a run at most, two bytes each; of longer runs frames are left out evenly."""
+"""The most coordinates of all frames of a run, two bytes each; longer runs keep evenly spaced frames."""
 
 Frames = NDArray[np.int16]
 

@@ -8,7 +8,6 @@ it lays the crease down: the free edge stays behind, and the flap lies down inwa
 
 import math
 from collections.abc import Iterator
-from dataclasses import replace
 
 import numpy as np
 
@@ -16,7 +15,7 @@ from app.rehearsal.planned_cloth import creases
 from app.rehearsal.step_seen import StepSeen
 from app.rehearsal.world import GripMotion, StepMotion, way_done
 from planner.cloth.layer import Layer
-from planner.geometry.pose import FloatArray, Point2
+from planner.geometry.pose import FloatArray, Point2, point2
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 from planner.geometry.tolerance import LENGTH_M
@@ -57,7 +56,7 @@ def flaps_beside(seen: StepSeen) -> dict[str, Point2]:
                 inwards[beside] += _inwards(crease, line, folded.moving)
     lengths = np.hypot(*inwards.T)  # of a hand between two such creases 0: it cannot go both ways
     return {
-        step.holdings[number].arm: seen.to_table(_point(inwards[number] / lengths[number]))
+        step.holdings[number].arm: seen.to_table(point2(inwards[number] / lengths[number]))
         for number in np.flatnonzero(lengths > LENGTH_M).tolist()
     }
 
@@ -79,7 +78,7 @@ def trailing(motion: StepMotion, seen: StepSeen) -> StepMotion:
         points[:, :2] += _reach_m((points - path)[:, :2], way, seen.radius_m) * share[:, None] * way
         return grip.along(points)
 
-    return replace(motion, grips=tuple(moved(grip) if grip.arm in flaps else grip for grip in motion.grips))
+    return motion.with_grips(moved, flaps)
 
 
 def _reach_m(beside: FloatArray, way: FloatArray, radius_m: float) -> float:
@@ -106,9 +105,5 @@ def _inwards(crease: Segment, line: Segment, moving: Region) -> FloatArray:
     """Return the direction along a fold line from a crease at the side of the part that moves into it."""
     across, normal = np.array(line.direction), np.array(crease.left)
     beside = np.array(crease.at(crease.length / 2.0)) + 2.0 * LENGTH_M * normal
-    inwards = normal if moving.contains(_point(beside)) else -normal
+    inwards = normal if moving.contains(point2(beside)) else -normal
     return np.asarray(across * np.sign(inwards @ across))
-
-
-def _point(row: FloatArray) -> Point2:
-    return float(row[0]), float(row[1])

@@ -28,10 +28,10 @@ from planner.task.task import Task
 from planner.task.world_state import WorldState
 
 BLIND_MAX = 1
-"""Steps in a row that are made as planned though it is not known where the cloth lies."""
+"""The most steps in a row that are made as planned while the placement of the cloth is unknown."""
 
 FOLDED_OVERLAP = 0.9
-"""The overlap of the outline seen with a folded stack's; with less a fold counts as failed."""
+"""The least overlap of the outline seen with the folded stack's; below it a fold counts as failed."""
 
 WITHDRAW_S = 3.0
 """The time that arms take to get out of the way (s)."""

@@ -1,6 +1,6 @@
 """The port to a world in which a plan is performed: simulated, recorded, or a laboratory's own robot."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Container, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Protocol
@@ -69,7 +69,7 @@ WITHDRAW, REACH = "withdraw", "reach"
 where they are to close."""
 
 LAY = "lay"
-"""The kind of a motion in which hands lay down again what a step has laid down elsewhere than it should."""
+"""The kind of a motion in which hands lay down again, in its place, what a step has laid down beside it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,6 +94,11 @@ class StepMotion:
     needs_all: bool = False
     base: Pose2 | None = None
     ends: Posture | None = None
+
+    def with_grips(self, moved: Callable[[GripMotion], GripMotion], arms: Container[str] | None = None) -> "StepMotion":
+        """Return the same step with other motions of the hands of these arms; None: of all."""
+        grips = (moved(grip) if arms is None or grip.arm in arms else grip for grip in self.grips)
+        return replace(self, grips=tuple(grips))
 
     @property
     def is_drag(self) -> bool:

@@ -20,8 +20,7 @@ from sqlalchemy.orm import Session
 
 from app.distribution import require
 from app.store.database_error import database_error
-from app.store.engines import IS_SYNCED, IS_WRITING, copied_engine, postgresql_engine, sqlite_engine
-from app.store.presence import Presence
+from app.store.engines import IS_SYNCED, IS_WRITING, Presence, copied_engine, postgresql_engine, sqlite_engine
 from app.store.schema import Table
 from app.store.storage_error import ForbiddenStorageError, StorageError, storing
 from planner.errors import FoldingError

@@ -5,6 +5,7 @@ So sessions say at the start whether they write, and writers wait for each other
 """
 
 import os
+import secrets
 import shutil
 import sqlite3
 import tempfile
@@ -12,7 +13,9 @@ from contextlib import closing, suppress
 from pathlib import Path
 from typing import Any
 
-from sqlalchemy import URL, Connection, Engine, create_engine, event, text
+from sqlalchemy import URL, Connection, Engine, NullPool, create_engine, event, text
+from sqlalchemy.exc import DBAPIError
+from sqlalchemy.orm import Session
 from sqlalchemy.pool import StaticPool
 
 IS_WRITING, IS_SYNCED = "pleat_is_writing", "pleat_is_synced"
@@ -98,3 +101,37 @@ def _set_up_for_sqlite(engine: Engine, *pragmas: str) -> Engine:
             connection.exec_driver_sql("BEGIN")
 
     return engine
+
+
+_NUMBERS = 1 << 62
+
+
+class Presence:
+    """The sign that this server on a PostgreSQL database is alive.
+
+    A server holds an advisory lock with a number of its own for as long as its connection lasts, so a lock that can be
+    had tells that its server has ended, however it ended.
+
+    Attributes:
+        number: the server's number.
+    """
+
+    def __init__(self, url: URL) -> None:
+        """Take a number; raise `DBAPIError` if the database refuses."""
+        self.number = 1 + secrets.randbelow(_NUMBERS)
+        engine = create_engine(url, poolclass=NullPool, isolation_level="AUTOCOMMIT")
+        self._connection = engine.connect()
+        self._connection.execute(text("SELECT pg_advisory_lock(:number)"), {"number": self.number})
+
+    def end(self) -> None:
+        """Let others know that this server has ended."""
+        with suppress(DBAPIError), self._connection:  # the lock of a connection that was lost is free already
+            self._connection.execute(text("SELECT pg_advisory_unlock(:number)"), {"number": self.number})
+
+
+def has_ended(session: Session, number: int) -> bool:
+    """Return whether a server has ended; only one server learns it within a transaction."""
+    if number == 0:
+        return True
+    lock = text("SELECT pg_try_advisory_xact_lock(:number)")
+    return bool(session.scalar(lock, {"number": number}))

@@ -10,7 +10,7 @@ from typing import Any, Literal, TypeAlias
 from sqlalchemy import and_, delete, func, not_, select, update
 
 from app.store.database import Database
-from app.store.presence import has_ended
+from app.store.engines import has_ended
 from app.store.schema import JobRow
 from planner.errors import FoldingError
 

@@ -13,9 +13,8 @@ from dataclasses import dataclass
 from sqlalchemy import delete, insert, select
 
 from app.store.database import Database
-from app.store.newest import drop_oldest
 from app.store.packed_plan import Answers, PackedPlan, unpacked
-from app.store.schema import PlanRow
+from app.store.schema import PlanRow, drop_oldest
 from planner.errors import FoldingError
 from planner.task.plan import Plan
 

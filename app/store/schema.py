@@ -1,7 +1,7 @@
 """The tables of the database; `migrations` has the steps that lead to them."""
 
-from sqlalchemy import BigInteger, ForeignKey, Index, LargeBinary, Text
-from sqlalchemy.orm import DeclarativeBase, Mapped, mapped_column
+from sqlalchemy import BigInteger, ForeignKey, Index, LargeBinary, Text, delete, select
+from sqlalchemy.orm import DeclarativeBase, Mapped, Session, mapped_column
 
 
 class Table(DeclarativeBase):
@@ -123,7 +123,7 @@ class ShareRow(Table):
 
 
 class RobotRow(Table):
-    """A robot of the user's own: its folder as an archive, and a digest of its files (`app.store.robot_folder`).
+    """A robot of the user's own: its folder as an archive, and a digest of its files (`app.store.robot_repository`).
 
     A robot that was removed keeps its row without content, so that other servers on the database remove theirs.
     """
@@ -154,3 +154,13 @@ class StudyFileRow(Table):
     study_id: Mapped[str] = mapped_column(ForeignKey("studies.id", ondelete="CASCADE"), primary_key=True)
     name: Mapped[str] = mapped_column(primary_key=True)
     content: Mapped[bytes] = mapped_column(LargeBinary)
+
+
+def drop_oldest(session: Session, table: type[SizedRow], most: int, most_bytes: int) -> None:
+    """Drop the oldest rows of a table beyond a number of rows, and beyond their size in all (bytes)."""
+    kept, total = 0, 0
+    for number, size in session.execute(select(table.number, table.size).order_by(table.number.desc())):
+        kept, total = kept + 1, total + size
+        if kept > most or total > most_bytes:
+            session.execute(delete(table).where(table.number <= number))
+            return

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from sqlalchemy import insert, select
 
 from app.store.database import Database
-from app.store.newest import drop_oldest
-from app.store.schema import TraceRow
+from app.store.schema import TraceRow, drop_oldest
 from planner.errors import FoldingError
 
 CAPACITY, CAPACITY_BYTES = 1000, 64 << 20

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from app.studies.study_error import StudyError
+from app.studies.fields import StudyError
 
 AXIS_MAX = 100_000
 """The most values of one axis."""

@@ -2,14 +2,13 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
 import numpy as np
 
 from app.rehearsal.rehearse import RehearsalOptions
 from app.studies.axis import Value
-from app.studies.garment_case import GarmentCase
 from planner.cloth.garment import Garment
 from planner.errors import FoldingError
 from planner.geometry.pose import Pose2
@@ -23,6 +22,25 @@ ROBOT, PLACEMENT, START = "robot", "placement", "start_station"
 TABLE, SCENE, LIMITS, CARD = "table.", "scene.", "limits.", "card."
 MOVED, MIDDLE = "placement.moved.", "placement.middle."
 """The prefixes of the axes' names."""
+
+
+@dataclass(frozen=True, slots=True)
+class GarmentCase:
+    """A garment as one value of a study's garment axis.
+
+    Attributes:
+        label: its name in the table, unique in the study.
+        garment: the garment; None where its measures do not fit each other.
+        seed: the seed of a random garment.
+        measures: the measures that its template was given (m).
+        error: why there is no garment.
+    """
+
+    label: str
+    garment: Garment | None
+    seed: int | None = None
+    measures: Mapping[str, float] = field(default_factory=dict)
+    error: str | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,10 +1,29 @@
 """Strict reading of the plain fields of a study's file."""
 
 import math
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping
+from contextlib import contextmanager
 from typing import Any
 
-from app.studies.study_error import StudyError
+from planner.errors import FieldError, FoldingError
+
+
+class StudyError(FieldError):
+    """A study that is not valid; names the field of its file."""
+
+
+class StudyFolderError(FoldingError):
+    """A folder whose results cannot be used."""
+
+
+@contextmanager
+def reported_at(field: str) -> Iterator[None]:
+    """Report an error of a field, raised within, as the study's, at a field of its file."""
+    try:
+        yield
+    except FieldError as error:
+        within = error.within(field)
+        raise StudyError(within.field, within.message) from None
 
 
 def table(field: str, given: object) -> Mapping[str, Any]:

@@ -7,10 +7,9 @@ from pathlib import Path
 from typing import Any
 
 from app.studies.axis import number_axis
-from app.studies.fields import pair, require_known, required, table, text, whole
-from app.studies.garment_case import GarmentCase
+from app.studies.cell import GarmentCase
+from app.studies.fields import StudyError, pair, reported_at, require_known, required, table, text, whole
 from app.studies.random_garment import RandomShape, random_garment
-from app.studies.study_error import StudyError
 from app.templates.catalogue import TEMPLATES, find_template
 from app.templates.measure import MeasureError
 from app.templates.template import Template
@@ -80,11 +79,8 @@ def _named(field: str, entry: Mapping[str, Any], sources: Sources) -> Iterator[G
 
 def _drawn(field: str, entry: Mapping[str, Any], _: Sources) -> Iterator[GarmentCase]:
     drawing = table(f"{field}.garment", entry["garment"])
-    try:
+    with reported_at(f"{field}.garment"):
         garment = Garment.from_dict(drawing)
-    except FieldError as error:
-        within = error.within(f"{field}.garment")
-        raise StudyError(within.field, within.message) from None
     yield GarmentCase(garment.name, garment)
 
 

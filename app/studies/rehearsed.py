@@ -9,8 +9,7 @@ from app.rehearsal.noise import NOISE
 from app.rehearsal.rehearse import RUNS_MAX, RehearsalOptions, rehearse, require_physics
 from app.rehearsal.result import success_bounds
 from app.studies.axis import Axis
-from app.studies.fields import require_known, text, truth, whole
-from app.studies.study_error import StudyError
+from app.studies.fields import StudyError, require_known, text, truth, whole
 from planner.errors import RequestError
 from planner.task.plan import Plan
 

@@ -13,8 +13,8 @@ from pathlib import Path
 from typing import Any
 
 from app.studies.answer import FAILED, Answer
+from app.studies.fields import StudyFolderError
 from app.studies.study import Study
-from app.studies.study_error import StudyFolderError
 
 FILE = "results.sqlite"
 PLANS = "plans"

@@ -3,13 +3,17 @@
 from collections.abc import Callable, Generator
 from contextlib import closing
 from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
 
 from app.studies.answer import FAILED, SOLVED, Answer
+from app.studies.fields import StudyError, StudyFolderError
+from app.studies.findings import STATUSES, Findings
 from app.studies.report import write_report
 from app.studies.results import Results
 from app.studies.study import Study
 from app.studies.table import write_tables
-from app.studies.workers import Workers
+from app.studies.workers import InProcess, Workers
 
 OnProgress = Callable[["Progress"], None]
 
@@ -82,3 +86,40 @@ def run_study(
 def _nothing() -> Generator[Answer]:
     """Yield no answers, so that no workers are started where all are known."""
     yield from ()
+
+
+_ID_LETTERS = 32
+
+
+def study_id(study: Study) -> str:
+    """Return the id of a study: the same study asked for again has the same."""
+    return study.digest[:_ID_LETTERS]
+
+
+def do_study(asked: tuple[Study, Path], progress: Callable[[float, str], None]) -> dict[str, Any]:
+    """Plan the cells that have no answer yet, one after the other, in the job's own process.
+
+    Args:
+        asked: the study, and the folder of all studies.
+        progress: told the share that is done.
+
+    Returns:
+        The study's id, and how many cells have which status.
+
+    Raises:
+        StudyError: the same study is under way already.
+    """
+    study, folder = asked
+
+    def tell(now: Progress) -> None:
+        progress(now.done / now.count, f"{now.done:,} of {now.count:,} cells")
+
+    try:
+        results = Results(folder / study_id(study))
+    except StudyFolderError:
+        raise StudyError("", "the same study is under way already") from None
+    with results:
+        results.begin(study, resume=True)
+        run_study(study, results, InProcess(), tell)
+        counts = Findings(study, results).counts
+    return {"study_id": study_id(study), "cells": study.count, "statuses": dict(zip(STATUSES, counts, strict=True))}

@@ -9,8 +9,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from app.studies.axis import Axis, Value
-from app.studies.cell import Cell, cell_of
-from app.studies.garment_case import GarmentCase
+from app.studies.cell import Cell, GarmentCase, cell_of
 from app.studies.rehearsed import NOISE_AXIS, StudyRehearsal
 from planner.geometry.pose import Pose2
 from planner.json_form import STRICT, JsonForm

@@ -1,24 +1,27 @@
-"""Reading a study's TOML file, strictly: every error names the field, and the file is named by who asked."""
+"""A study as it is written down, in a TOML file or a request of JSON (docs/studies.md), and how it is read.
+
+It is read strictly: every error names the field, and the file is named by who asked.
+"""
 
 import tomllib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
+
+from pydantic import Field, WithJsonSchema
 
 from app.studies.axis import Axis, number_axis
 from app.studies.cell import CARD, LIMITS, MIDDLE, MOVED, PLACEMENT, ROBOT, SCENE, START, TABLE
-from app.studies.fields import require_known, table, text, truth, whole
+from app.studies.fields import StudyError, reported_at, require_known, table, text, truth, whole
 from app.studies.garment_entries import Sources, read_garments
 from app.studies.rehearsed import StudyRehearsal, read_rehearsal
 from app.studies.study import Sample, Study
-from app.studies.study_error import StudyError
-from app.studies.study_fields import FIELDS
 from planner.errors import FieldError
 from planner.geometry.given import GivenPose
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
-from planner.json_form import JsonForm
+from planner.json_form import STRICT, JsonForm
 from planner.robots.load_robot import load_robot, robot_card_file
 from planner.robots.varied_card import changed
 from planner.task.scene import Scene
@@ -37,6 +40,52 @@ _STATIONS = "stations"
 _POSE = tuple(field.name for field in fields(Pose2))
 _POSES: JsonForm[tuple[Pose2, ...]] = JsonForm(tuple[GivenPose, ...], StudyError)
 
+_Text = Annotated[str, Field(json_schema_extra={"minLength": 1})]
+_Names = Annotated[list[_Text], Field(json_schema_extra={"minItems": 1})]
+
+_PLACEMENTS = {
+    "anyOf": [
+        {"const": "own"},
+        {"type": "array", "minItems": 1, "items": {"type": "object", "required": list(_POSE)}},
+        {"type": "object", "oneOf": [{"required": ["moved"]}, {"required": ["middle"]}]},
+    ]
+}
+_ENTRY = {"type": "object", "oneOf": [{"required": [kind]} for kind in ("name", "garment", "template", "random")]}
+
+
+@dataclass(frozen=True, slots=True)
+class StudyFields:
+    """A study as it is written down; null and left out are the same.
+
+    `app.studies.study_file` reads what is in the fields. In a request garments are named or drawn, not read from files.
+    """
+
+    __pydantic_config__ = STRICT
+
+    garments: Annotated[list[dict[str, Any]], Field(json_schema_extra={"minItems": 1, "items": _ENTRY})]
+    title: _Text | None = None
+    robots: _Names | None = None
+    card: dict[str, Any] | None = None
+    start_stations: _Names | None = None
+    table: dict[str, Any] | None = None
+    scene: dict[str, Any] | None = None
+    placements: Annotated[str | list[Any] | dict[str, Any], WithJsonSchema(_PLACEMENTS)] | None = None
+    limits: dict[str, Any] | None = None
+    sample: dict[str, Any] | None = None
+    comfort_margin: bool | None = None
+    rehearsal: dict[str, Any] | None = None
+    cells_max: Annotated[int, Field(json_schema_extra={"minimum": 1})] | None = None
+
+    @property
+    def content(self) -> dict[str, Any]:
+        """The fields that are given, by name, as a file has them."""
+        given = {name: getattr(self, name) for name in FIELDS}
+        return {name: value for name, value in given.items() if value is not None}
+
+
+FIELDS = tuple(field.name for field in fields(StudyFields))
+"""The names of all fields."""
+
 
 @dataclass(frozen=True, slots=True)
 class _Numbers:
@@ -53,7 +102,8 @@ class _Numbers:
         for name, value in given.items():
             axis = number_axis(f"{field}.{name}", value, whole=name in self.whole)
             for number in axis.values:
-                _told(field, self.check, name, number)
+                with reported_at(field):
+                    self.check(name, number)
             yield Axis(f"{self.prefix}{name}", axis.values)
 
 
@@ -171,7 +221,8 @@ def _scene(given: Mapping[str, Any]) -> tuple[Scene, tuple[Axis, ...]]:
     """Return the scene with the stations given, and an axis for each other field."""
     numbers = {name: value for name, value in given.items() if name != _STATIONS}
     stations = {_STATIONS: given[_STATIONS]} if _STATIONS in given else {}
-    scene: Scene = _told("scene", Scene.from_dict, stations)
+    with reported_at("scene"):
+        scene = Scene.from_dict(stations)
     return scene, tuple(_SCENE.axes("scene", numbers))
 
 
@@ -180,7 +231,8 @@ def _placements(given: object) -> tuple[tuple[Pose2, ...], tuple[Axis, ...]]:
     if given == "own":
         return (), ()
     if isinstance(given, list):
-        poses: tuple[Pose2, ...] = _told("placements", _POSES.read, given)
+        with reported_at("placements"):
+            poses = _POSES.read(given)
         return poses, (Axis(PLACEMENT, tuple(range(len(poses))), is_ordered=False),)
     kinds = {"moved": MOVED, "middle": MIDDLE}
     found = table("placements", given)
@@ -218,15 +270,6 @@ def _sample(content: Mapping[str, Any]) -> Sample | None:
     return Sample(
         whole("sample.cells", given.get("cells"), 1, CELLS_LIMIT), whole("sample.seed", given.get("seed", 0), 0, 2**53)
     )
-
-
-def _told(field: str, read: Callable[..., Any], *given: object) -> Any:  # noqa: ANN401
-    """Return what a function reads; report its error as the study's, at a field."""
-    try:
-        return read(*given)
-    except FieldError as error:
-        within = error.within(field)
-        raise StudyError(within.field, within.message) from None
 
 
 def _numbers_of(kind: type, but: tuple[str, ...] = ()) -> tuple[str, ...]:

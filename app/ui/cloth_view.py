@@ -25,18 +25,18 @@ _NO_TRIANGLES = np.zeros((1, 3), dtype=np.int64)
 class ClothView:
     """Shows one cloth surface at a time."""
 
-    def __init__(self, scene: viser.SceneApi, root: str = ROOT) -> None:
-        """Build the nodes of the cloth below a root, without cloth yet."""
+    def __init__(self, scene: viser.SceneApi) -> None:
+        """Build the nodes of the cloth, without cloth yet."""
         add_mesh = scene.add_mesh_simple
-        self._front = add_mesh(f"{root}/front", _NO_POINTS, _NO_TRIANGLES, side="front", cast_shadow=False)
-        self._back = add_mesh(f"{root}/back", _NO_POINTS, _NO_TRIANGLES, side="back", cast_shadow=False)
-        self._hem = add_mesh(f"{root}/hem", _NO_POINTS, _NO_TRIANGLES, side="double", cast_shadow=False)
+        self._front = add_mesh(f"{ROOT}/front", _NO_POINTS, _NO_TRIANGLES, side="front", cast_shadow=False)
+        self._back = add_mesh(f"{ROOT}/back", _NO_POINTS, _NO_TRIANGLES, side="back", cast_shadow=False)
+        self._hem = add_mesh(f"{ROOT}/hem", _NO_POINTS, _NO_TRIANGLES, side="double", cast_shadow=False)
         self._shade = add_mesh(
-            f"{root}/shade", _NO_POINTS, _NO_TRIANGLES, side="double", opacity=0.0, position=_SHADE_M
+            f"{ROOT}/shade", _NO_POINTS, _NO_TRIANGLES, side="double", opacity=0.0, position=_SHADE_M
         )
-        self._pattern = add_mesh(f"{root}/pattern", _NO_POINTS, _NO_TRIANGLES, visible=False)
+        self._pattern = add_mesh(f"{ROOT}/pattern", _NO_POINTS, _NO_TRIANGLES, visible=False)
         self._edges = scene.add_line_segments(
-            f"{root}/edges", np.zeros((1, 2, 3)), (0, 0, 0), thickness=_EDGE_PX, thickness_units="screen"
+            f"{ROOT}/edges", np.zeros((1, 2, 3)), (0, 0, 0), thickness=_EDGE_PX, thickness_units="screen"
         )
         self._shown: ClothSurface | None = None
 

@@ -1,6 +1,7 @@
 """The remaining fold lines, drawn on the cloth where it lies; dashes tell kinds apart without colour, too."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from itertools import cycle
 
 import numpy as np
@@ -10,11 +11,11 @@ from numpy.typing import NDArray
 from app.fold_looks import FOLD_LOOKS
 from app.ui.colours import LIGHT, Palette
 from app.ui.lighting import ink
-from app.ui.relief import Relief
 from planner.cloth.garment import DrawnFold, Garment
 from planner.geometry.drape import bent_at, draped
 from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.table import TableTop
+from planner.geometry.tolerance import LENGTH_M
 from planner.motion.cloth_surface import ClothSurface
 
 ROOT = "/folds"
@@ -27,6 +28,51 @@ _NOTHING = np.zeros((0, 2, 3))
 
 _Seen = tuple[Pose2, ClothSurface, TableTop, frozenset[int], int | None]
 """The inputs of the lines: the garment's placement, its cloth, the top; the folds done and the fold under way."""
+
+_ROUND_M = 1e-3  # cloth counts up to this far beyond its edge, as fold lines run along edges of folded cloth
+
+
+@dataclass(frozen=True, slots=True)
+class Relief:
+    """The height of lying cloth under a point: drawings on the cloth follow its steps from layer to layer.
+
+    It depends on one moment's surface alone, so it does not matter how the moment was reached. Hanging cloth has its
+    place in the unrolled plane; cloth that stands or is in the air is left out.
+
+    Attributes:
+        triangles: in the unrolled plane, table frame, counter-clockwise, shape (n, 3, 2), m.
+        heights: each triangle's height over the table (m), shape (n,).
+    """
+
+    triangles: FloatArray
+    heights: FloatArray
+
+    @staticmethod
+    def of(cloth: ClothSurface) -> "Relief":
+        """Return the relief of a surface."""
+        unrolled = cloth.unrolled[cloth.triangles]
+        lying = unrolled[~np.isnan(unrolled).any(axis=(1, 2))]
+        flat = lying[..., :2].copy()
+        sides = flat[:, 1:] - flat[:, :1]
+        is_turned = sides[:, 0, 0] * sides[:, 1, 1] - sides[:, 0, 1] * sides[:, 1, 0] < 0.0
+        flat[is_turned] = flat[is_turned, ::-1]
+        return Relief(flat, lying[..., 2].max(axis=1, initial=0.0))
+
+    def heights_at(self, points: FloatArray) -> FloatArray:
+        """Return the height (m) of the topmost cloth under points of the unrolled plane, shape (n, 2) -> (n,).
+
+        -inf where no cloth lies.
+        """
+        if not len(self.triangles):
+            return np.full(len(points), -np.inf)
+        sides = np.roll(self.triangles, -1, axis=1) - self.triangles
+        lengths = np.maximum(np.hypot(sides[..., 0], sides[..., 1]), LENGTH_M)
+        inwards = np.stack([-sides[..., 1], sides[..., 0]], axis=-1) / lengths[..., None]
+        offsets = (inwards * self.triangles).sum(axis=-1)
+        is_over = np.ones((len(points), len(self.triangles)), dtype=np.bool_)
+        for side in range(3):
+            is_over &= points @ inwards[:, side].T >= offsets[:, side] - _ROUND_M
+        return np.asarray(np.where(is_over, self.heights, -np.inf).max(axis=1))
 
 
 class FoldView:

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from app.ui.robot_box import waiting_box
+from app.ui.robot_model import waiting_box
 from app.ui.viewpoint import FOV_RAD, Viewpoint
 from planner.geometry.pose import FloatArray, Point3, Pose2
 from planner.robots.card import RobotCard

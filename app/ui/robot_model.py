@@ -7,6 +7,7 @@ the browser works out the poses beyond it. There is no kinematics here.
 import functools
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
@@ -15,8 +16,9 @@ import yourdfpy
 from numpy.typing import NDArray
 
 from app.ui.robot_mesh import creased, read_mesh
-from app.ui.rotation import IDENTITY, Quaternion, from_matrix, product, rotated, turn
+from app.ui.rotation import IDENTITY, Quaternion, from_matrix, product, rotated, to_matrix, turn
 from planner.geometry.pose import FloatArray, Point3
+from planner.robots.card import RobotCard
 
 _SMALLEST_SHOWN_M = 0.03
 
@@ -27,6 +29,13 @@ class Pose3:
 
     position: Point3 = (0.0, 0.0, 0.0)
     wxyz: Quaternion = IDENTITY
+
+    @property
+    def matrix(self) -> FloatArray:
+        """The transform to the parent's frame, shape (4, 4)."""
+        found = np.eye(4)
+        found[:3, :3], found[:3, 3] = to_matrix(self.wxyz), self.position
+        return found
 
 
 @dataclass(frozen=True, slots=True)
@@ -173,3 +182,29 @@ def _mesh(geometry: yourdfpy.Geometry, mesh_path: Callable[[str], str]) -> trime
         x, y, z = np.broadcast_to(1.0 if geometry.mesh.scale is None else geometry.mesh.scale, 3).tolist()
         made = read_mesh(mesh_path(geometry.mesh.filename), (x, y, z))
     return made
+
+
+@lru_cache(maxsize=8)
+def waiting_box(card: RobotCard, torso_m: float) -> FloatArray:
+    """Return the lowest and the highest corner of the box around a robot at home, shape (2, 3), base frame, m.
+
+    Args:
+        card: the robot.
+        torso_m: how far its lift is raised (m).
+    """
+    joints = card.joint_values(torso_m, [np.array(arm.home) for arm in card.arms], [0.0] * len(card.arms))
+    places: dict[str, Pose3] = {"": Pose3()}
+    corners = []
+    for link in load_robot_model(card.urdf_path, card.package_dir):
+        here = link.pose_at(joints.get(link.joint or "", 0.0))
+        place = places[link.node] = _placed(places[link.node.rpartition("/")[0]], here)
+        for visual in link.visuals:
+            shape = _placed(place, visual.pose)
+            points = visual.vertices @ to_matrix(shape.wxyz).T + np.array(shape.position)
+            corners += [points.min(axis=0), points.max(axis=0)]
+    return np.array([np.min(corners, axis=0), np.max(corners, axis=0)])
+
+
+def _placed(outer: Pose3, inner: Pose3) -> Pose3:
+    x, y, z = (a + b for a, b in zip(outer.position, rotated(outer.wxyz, inner.position), strict=True))
+    return Pose3((x, y, z), product(outer.wxyz, inner.wxyz))

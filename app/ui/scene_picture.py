@@ -16,7 +16,7 @@ from app.ui.colours import Palette, Rgb
 from app.ui.painter import Triangles, nearest
 from app.ui.robot_model import Pose3, load_robot_model
 from app.ui.robot_view import link_colour
-from app.ui.rotation import to_matrix, yaw
+from app.ui.rotation import yaw
 from app.ui.thick_cloth import ThickCloth, blended_normals
 from app.ui.viewpoint import Viewpoint
 from planner.geometry.pose import FloatArray, Pose2
@@ -84,7 +84,7 @@ class ScenePainter:
                 link,
                 [
                     (
-                        _matrix(one.pose),
+                        one.pose.matrix,
                         Part.of(
                             one.vertices,
                             one.triangles,
@@ -148,9 +148,9 @@ class ScenePainter:
         ]
 
     def _robot(self, base: Pose2, joints: dict[str, float]) -> Iterator[Part]:
-        frames = {"": _matrix(Pose3((base.x_m, base.y_m, self._floor_z_m), yaw(base.yaw_rad)))}
+        frames = {"": Pose3((base.x_m, base.y_m, self._floor_z_m), yaw(base.yaw_rad)).matrix}
         for link, parts in self._links:
-            own = frames[link.node.rpartition("/")[0]] @ _matrix(link.pose_at(joints.get(link.joint or "", 0.0)))
+            own = frames[link.node.rpartition("/")[0]] @ link.pose_at(joints.get(link.joint or "", 0.0)).matrix
             frames[link.node] = own
             for pose, part in parts:
                 yield part.moved(own @ pose)
@@ -205,9 +205,3 @@ def _brightness(normals: FloatArray) -> FloatArray:
 def _resized(plane: FloatArray, size_px: tuple[int, int]) -> NDArray[np.float32]:
     """Return a picture of one number a pixel at another size."""
     return np.asarray(Image.fromarray(plane.astype(np.float32)).resize(size_px, Image.Resampling.BILINEAR))
-
-
-def _matrix(pose: Pose3) -> FloatArray:
-    found = np.eye(4)
-    found[:3, :3], found[:3, 3] = to_matrix(pose.wxyz), pose.position
-    return found

@@ -19,7 +19,7 @@ from app.ui.fold_view import FoldView
 from app.ui.grip_view import GripView
 from app.ui.lighting import add_lights
 from app.ui.opening import opening
-from app.ui.robot_box import waiting_box
+from app.ui.robot_model import waiting_box
 from app.ui.robot_view import RobotView
 from app.ui.simulated_view import SimulatedView
 from app.ui.table_view import TableView

@@ -1,5 +1,7 @@
-/** Events that the server sends while it searches, and the pause before a search: a signal ends both. */
+/** Events that the server sends while it works, jobs that are followed by them, and searches that last until the next. */
 
+import { fetched } from "./dialogs/documents.js";
+import { sayable } from "./dom.js";
 import { say } from "./language/say.js";
 
 /**
@@ -8,7 +10,7 @@ import { say } from "./language/say.js";
  * @param {AbortSignal} signal
  * @returns {Promise<void>}
  */
-export function rest(delay_ms, signal) {
+function rest(delay_ms, signal) {
   return new Promise((resolve, reject) => {
     const timer = setTimeout(resolve, delay_ms);
     signal.addEventListener("abort", () => {
@@ -43,6 +45,23 @@ export async function* eventStream(url, sent, signal) {
   }
 }
 
+/**
+ * Begin a job and yield its events; it is cancelled once nobody waits for it.
+ * @param {string} url
+ * @param {object} asked the body of the request
+ * @param {AbortSignal} signal
+ * @returns {AsyncGenerator<{event: string, data: any}>}
+ */
+export async function* jobEvents(url, asked, signal) {
+  /** @type {import("pleat").Job} */
+  const { id } = await fetched(url, "POST", asked);
+  const path = `../api/jobs/${id}`;
+  const cancel = () => fetch(`${path}/cancel`, { method: "POST", keepalive: true }).catch(() => {});
+  if (signal.aborted) cancel();
+  signal.addEventListener("abort", cancel);
+  yield* eventStream(`${path}/events`, null, signal);
+}
+
 /** @param {string} block lines of one event; comments are passed over */
 function eventIn(block) {
   let event = "message";
@@ -61,5 +80,50 @@ async function problemOf(answer) {
     return (await answer.json()).detail;
   } catch {
     return undefined;
+  }
+}
+
+/** A search in place of which another one may begin at any time. It tells "change" whenever there is news. */
+export class Search extends EventTarget {
+  constructor() {
+    super();
+    this.isRunning = false;
+    this.fault = "";
+    /** @type {AbortController|null} of the search that is running */
+    this.abort = null;
+  }
+
+  /**
+   * Search in place of what was searched for before.
+   * @param {number} delay_ms how long to wait first
+   * @param {(signal: AbortSignal) => Promise<void>} search
+   */
+  async begin(delay_ms, search) {
+    this.forget();
+    const { signal } = (this.abort = new AbortController());
+    this.isRunning = true;
+    this.tell();
+    try {
+      await rest(delay_ms, signal);
+      await search(signal);
+    } catch (error) {
+      if (!signal.aborted) this.fault = sayable(error);
+    }
+    if (signal.aborted) return; // another search may be running by now
+    this.abort = null;
+    this.isRunning = false;
+    this.tell();
+  }
+
+  /** Search no more, and forget what was found. */
+  forget() {
+    this.abort?.abort();
+    this.abort = null;
+    this.isRunning = false;
+    this.fault = "";
+  }
+
+  tell() {
+    this.dispatchEvent(new Event("change"));
   }
 }

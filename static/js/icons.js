@@ -1,5 +1,8 @@
-/** Line drawings for buttons: 20 x 20, drawn in the text's colour. */
+/** Line drawings for buttons, in the text's colour; hidden from screen readers, as what they stand for has a name. */
 
+import { svg } from "./dom.js";
+
+/** Those of 20 x 20. */
 const PATHS = {
   select: "M5 3l10 7-4.4.9L13 16l-2 1-2.4-5.2L5 15z",
   outline:
@@ -35,14 +38,34 @@ const PATHS = {
   trash: "M4 6h12 M8 6V4h4v2 M6 6l.7 11h6.6L14 6",
 };
 
-/** @param {keyof typeof PATHS} name @returns {SVGElement} */
-export function icon(name) {
-  const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
-  svg.setAttribute("viewBox", "0 0 20 20");
-  svg.setAttribute("class", "icon");
-  svg.setAttribute("aria-hidden", "true");
-  const path = document.createElementNS("http://www.w3.org/2000/svg", "path");
-  path.setAttribute("d", PATHS[name]);
-  svg.append(path);
-  return svg;
+/** Those of 16 x 16: each as a path, and whether it is filled. @satisfies {Record<string, [string, boolean]>} */
+const SMALL = {
+  play: ["M5 3.2v9.6L13 8z", true],
+  pause: ["M4.5 3h2.6v10H4.5zM8.9 3h2.6v10H8.9z", true],
+  next: ["M4 3.2v9.6L10.5 8zM11.2 3h1.8v10h-1.8z", true],
+  previous: ["M12 3.2v9.6L5.5 8zM3 3h1.8v10H3z", true],
+  eye: ["M1.5 8S4 3.8 8 3.8 14.5 8 14.5 8 12 12.2 8 12.2 1.5 8 1.5 8zM8 6a2 2 0 1 1 0 4 2 2 0 0 1 0-4z", false],
+  bin: ["M3 4.5h10M6.5 4.5V3h3v1.5M4.3 4.5l.6 8.5h6.2l.6-8.5M6.8 7v3.6M9.2 7v3.6", false],
+  pen: ["M3 13l.7-2.9 7-7 2.2 2.2-7 7zM9.4 4.4l2.2 2.2", false],
+  up: ["M8 13V3.5M4.2 7.2 8 3.4l3.8 3.8", false],
+  down: ["M8 3v9.5M4.2 8.8 8 12.6l3.8-3.8", false],
+  tick: ["M3.5 8.4l3 3 6-6.6", false],
+};
+
+/** @param {keyof typeof PATHS} name */
+export const icon = (name) => drawn(20, PATHS[name], false);
+
+/** One of the small icons of the dock. @param {keyof typeof SMALL} name */
+export function smallIcon(name) {
+  const [path, isFilled] = SMALL[name];
+  return drawnIcon(path, isFilled);
+}
+
+/** A small icon of its own. @param {string} path @param {boolean} isFilled */
+export const drawnIcon = (path, isFilled = false) => drawn(16, path, isFilled);
+
+/** @param {number} size @param {string} path @param {boolean} isFilled */
+function drawn(size, path, isFilled) {
+  const kind = isFilled ? "icon is-filled" : "icon";
+  return svg("svg", { viewBox: `0 0 ${size} ${size}`, class: kind, "aria-hidden": "true" }, svg("path", { d: path }));
 }

@@ -1,7 +1,6 @@
 /** Menus whose options have pictures, where the browser draws such lists; elsewhere they have words alone. */
 
-import { svg } from "./board/sheet.js";
-import { element } from "./dom.js";
+import { element, svg } from "./dom.js";
 
 /** @import { RobotEntry } from "pleat" */
 

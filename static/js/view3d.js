@@ -4,11 +4,10 @@
  */
 
 import { boxOf } from "./board/geometry.js";
-import { svg } from "./board/sheet.js";
 import { Surface3D } from "./board/surface_3d.js";
-import { icon } from "./dock/icons.js";
 import { seconds } from "./dock/words.js";
-import { button, byId, element } from "./dom.js";
+import { button, byId, element, svg } from "./dom.js";
+import { smallIcon } from "./icons.js";
 import { say } from "./language/say.js";
 import { inWords } from "./proposals/cards.js";
 import { isViewOnly } from "./view_only.js";
@@ -117,7 +116,7 @@ export function mountView3DPlay(store, togglePlay) {
   const show = () => {
     const { playing = false, duration_s: duration = 0 } = store.playback ?? {};
     const name = playing ? say("play.pause") : say("play.play");
-    made.replaceChildren(icon(playing ? "pause" : "play"));
+    made.replaceChildren(smallIcon(playing ? "pause" : "play"));
     made.setAttribute("aria-label", say("play.in_view3d", { what: name }));
     made.disabled = duration <= 0 || !store.isLive;
   };

@@ -11,16 +11,16 @@ from app.api.answers import GarmentAnswer, PlanAnswer, RobotEntry
 from app.api.document_answers import (
     CreaseAnswer,
     DocumentAnswer,
-    OverlaysAnswer,
+    LiveMessage,
     PlaybackAnswer,
     QuickFixesAnswer,
     StepsAnswer,
 )
 from app.api.file_routes import FileEntry, ImportAnswer
-from app.api.live_answers import LiveMessage
 from app.api.problems import Problem
 from app.api.suggestion_routes import DoneEvent, SuggestionEvent, TryingEvent
 from app.api.template_routes import MadeAnswer, TemplateAnswer
+from app.overlays.overlays import OverlaysAnswer
 from app.store.document_repository import DocumentEntry
 from app.store.garment_repository import GarmentEntry
 from planner.robots.card_file import CardFile

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from app.ui.opening import bench, opening, whole
-from app.ui.robot_box import waiting_box
+from app.ui.robot_model import waiting_box
 from app.ui.viewpoint import FOV_RAD, Viewpoint
 from planner import Scene
 from planner.geometry.pose import FloatArray, Pose2

@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 
 from app.ui.colours import DARK, LIGHT, Palette
-from app.ui.fold_view import dashed, solid, split_at
+from app.ui.fold_view import Relief, dashed, solid, split_at
 from app.ui.lighting import ink, paint, seen, seen_line
-from app.ui.relief import Relief
 from app.ui.rotation import from_matrix, product, turn
 from app.ui.thick_cloth import ThickCloth
 from planner import Scene, load_garment

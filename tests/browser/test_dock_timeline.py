@@ -182,7 +182,7 @@ def test_each_arm_of_a_robot_has_a_lane_whatever_it_is_called(page: Page) -> Non
 def test_an_axis_has_round_times_and_not_too_many(page: Page) -> None:
     ticks = page.evaluate(
         """async () => {
-          const { axisTicks } = await import("page/dock/time_axis.js");
+          const { axisTicks } = await import("page/dock/lanes.js");
           return [0, 6, 53.6, 700].map(axisTicks);
         }"""
     )

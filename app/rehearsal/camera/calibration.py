@@ -25,13 +25,13 @@ SQUARE_M = 0.035
 """The side of a square of the board as it is printed (m)."""
 
 PICTURES_MIN = 3
-"""So many pictures tell a lens at least."""
+"""The least number of pictures from which a lens can be calibrated."""
 
 _COLUMNS, _ROWS, _MARKER = 7, 5, 0.74
 _DPI, _PAPER_M = 300, (0.297, 0.210)
 _CORNERS_MIN = 8
 _WORST_PX = 2.0
-"""A fit that is worse is of something else: another board, or a lens that is no pinhole (pixels)."""
+"""The largest error of a valid fit (pixels); more means another board, or a lens unlike a pinhole."""
 
 Image = np.ndarray[Any, np.dtype[np.uint8]]
 _Pixels = Annotated[float, Interval(ge=1.0, le=1e5)]
@@ -181,10 +181,10 @@ def _corners(number: int, picture: Image, square_m: float) -> tuple[FloatArray, 
     return (at - middle) * [1.0, -1.0, 1.0], np.asarray(found, float).reshape(-1, 2)
 
 
-def board_picture(dots_per_m: float, square_m: float = SQUARE_M) -> Image:
+def board_picture(dots_per_m: float) -> Image:
     """Return the board alone, grey, so many dots to the metre."""
-    size = (round(_COLUMNS * square_m * dots_per_m), round(_ROWS * square_m * dots_per_m))
-    return np.asarray(_board(square_m).generateImage(size), np.uint8)
+    size = (round(_COLUMNS * SQUARE_M * dots_per_m), round(_ROWS * SQUARE_M * dots_per_m))
+    return np.asarray(_board(SQUARE_M).generateImage(size), np.uint8)
 
 
 def board_page(kind: Literal["pdf", "png"]) -> bytes:

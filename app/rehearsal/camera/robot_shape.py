@@ -10,7 +10,7 @@ from app.rehearsal.camera.camera import Camera
 from app.rehearsal.camera.light_links import light_links
 from app.rehearsal.camera.posture import Posture
 from app.ui.robot_model import Link, Pose3
-from app.ui.rotation import to_matrix, yaw
+from app.ui.rotation import yaw
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.robots.card import RobotCard
 
@@ -34,15 +34,15 @@ class RobotShape:
         for link in links:
             parent = self._owners[link.node.rpartition("/")[0]]
             self._owners[link.node] = parent or wrists.get(link.joint or "", "")
-        self._parts = [[_matrix(one.pose) @ _homogeneous(one.vertices).T for one in link.visuals] for link in links]
+        self._parts = [[one.pose.matrix @ _homogeneous(one.vertices).T for one in link.visuals] for link in links]
 
     def frames(self, posture: Posture) -> dict[str, FloatArray]:
         """Return the pose of each link in the table frame by its name, shape (4, 4)."""
         base = posture.base
-        root = _matrix(Pose3((base.x_m, base.y_m, self._floor_z_m), yaw(base.yaw_rad)))
+        root = Pose3((base.x_m, base.y_m, self._floor_z_m), yaw(base.yaw_rad)).matrix
         nodes: dict[str, FloatArray] = {"": root}
         for link in self._links:
-            here = _matrix(link.pose_at(posture.joints.get(link.joint or "", 0.0)))
+            here = link.pose_at(posture.joints.get(link.joint or "", 0.0)).matrix
             nodes[link.node] = nodes[link.node.rpartition("/")[0]] @ here
         return {link.name: nodes[link.node] for link in self._links}
 
@@ -104,9 +104,3 @@ def _hull(pixels: FloatArray) -> NDArray[np.int32]:
 
 def _homogeneous(vertices: FloatArray) -> FloatArray:
     return np.column_stack([vertices, np.ones(len(vertices))])
-
-
-def _matrix(pose: Pose3) -> FloatArray:
-    found = np.eye(4)
-    found[:3, :3], found[:3, 3] = to_matrix(pose.wxyz), pose.position
-    return found

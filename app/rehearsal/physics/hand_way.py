@@ -16,7 +16,7 @@ from planner.geometry.pose import FloatArray
 from planner.geometry.table import TableTop
 
 _STILL_M = 1e-3
-"""The way on the ground below which a hand is taken to turn nothing over (m)."""
+"""The horizontal distance below which a hand counts as turning nothing over (m)."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -19,7 +19,7 @@ from planner.geometry.pose import FloatArray
 from planner.geometry.table import Table
 
 SOCKETS = 64
-"""The most vertices that all grips together hold."""
+"""The largest number of vertices that all grips hold together."""
 
 _TABLE_M = 0.05
 """The thickness of the table's top (m)."""
@@ -28,7 +28,7 @@ _CLOTH, _BOARD, _FINGER = 2, 1, 4
 """Contact classes of triangles, table and fingers; a vertex touches all, but not the triangles it is a corner of."""
 
 FREE, IN_HAND = _BOARD | _FINGER, _BOARD
-"""What a vertex touches besides triangles: one in a hand is between its fingers."""
+"""What a vertex touches besides triangles; one held in a hand is between its fingers."""
 
 _STIFF = 'solref="0.01 1" solimp="0.99 0.99 0.001"'
 _STIFFER = 'solref="0.01 1" solimp="0.99 0.9995 0.0007"'

@@ -21,7 +21,7 @@ OPENING_M = 0.03
 """Distance above and below the middle of the fingers within which cloth is pinched (m)."""
 
 _ALIKE_M = 0.003
-"""Edges of several layers that are about equally far count as one (m)."""
+"""The difference in distance up to which edges of several layers count as one (m)."""
 
 _BESIDE = 0.7
 """The cosine of the angle to the line across a hand's way up to which a vertex lies beside another."""

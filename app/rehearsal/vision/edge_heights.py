@@ -22,10 +22,10 @@ LOOP_M = 0.016
 """The height of the loop of a crease on which nothing lies: .907 bending lengths of 18 mm (m)."""
 
 _INSIDE_M = 0.01
-"""The layers that end at an edge are those so far inside of it (m)."""
+"""How far inside of an edge the layers are counted that end at it (m)."""
 
 _SLACK_M = 0.002
-"""How far the outline may be from a crease of it (m)."""
+"""The largest distance of the outline from a crease on it (m)."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -41,12 +41,12 @@ Calibrated: with it two standard deviations cover 95 of 100 looks at rendered st
 """
 
 _ALIKE = np.array([0.003, 0.003, 0.01, 0.002, 0.006, 0.004])
-"""Minima nearer to each other than that are one."""
+"""The largest distance between minima that count as one."""
 
 _UNLIKELY = 60.0
 
 _IMPOSSIBLE = 16.3
-"""The square of the distance from the expected placement, in standard deviations, that one in a thousand exceeds."""
+"""The squared distance from the expected placement, in standard deviations, that one in a thousand exceeds."""
 
 _TURNED_M = 0.1
 """How far a crease that is turned is beside its line, for each radian (m)."""

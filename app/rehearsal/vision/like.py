@@ -24,7 +24,7 @@ Like: TypeAlias = Template | Garment
 
 _TRIED, _STEPS, _SOFT_M = 2, 25, 0.008
 _STIFF_M = 0.02
-"""A measure that is e times as large as the others costs as much as a point of the outline so far off (m)."""
+"""The distance of a point of the outline that costs as much as a measure e times as large as the others (m)."""
 
 _IMPOSSIBLE_M = 0.5
 

@@ -28,13 +28,13 @@ from planner.geometry.table import Table
 from planner.message import Message
 
 _AWAY_M = 0.1
-"""How far from where the stack ought to be its surroundings count as table (m)."""
+"""The distance from the expected place of the stack beyond which the picture shows the table (m)."""
 
 _LEAST_TABLE = 0.03
-"""With less of the picture known to be table, its border counts as such."""
+"""The least share of the picture known to be table; with less, the picture's border counts as table."""
 
 _BESIDE_ARM_PX, _BESIDE_TABLE_PX = 5, 3
-"""Points of the outline that near to an arm, or to the table's edge, may be of these (pixels)."""
+"""The distances from an arm, and from the table's edge, within which outline points are left out (pixels)."""
 
 _LEAST_POINTS = 40
 

@@ -5,7 +5,7 @@ tell how well they match; an affine map, fitted to the distances, tells of them 
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
@@ -74,14 +74,7 @@ class Neatness:
 
     def to_dict(self) -> dict[str, Any]:
         """Return it as JSON."""
-        return {
-            "iou": self.iou,
-            "edge_error_m": self.edge_error_m,
-            "skewed_rad": self.skewed_rad,
-            "turned_rad": self.turned_rad,
-            "off_m": self.off_m,
-            "text": self.text,
-        }
+        return {**asdict(self), "text": self.text}
 
 
 def _skew(feet: FloatArray, distances: FloatArray, outwards: FloatArray) -> float:

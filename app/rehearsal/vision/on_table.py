@@ -33,7 +33,7 @@ _LEAST_CONTRAST = 3.0
 _WORST_SIZE_ERROR = 0.08
 
 _TABLES_MAX = 3
-"""What has the sheet within it is searched so often: a picture, a carpet, a table top."""
+"""How often the search goes on inside of what has the sheet within it, such as a table top or a carpet."""
 
 _RIM = 0.015
 """Width of the rim of a table top that is left out: its edge, blurred (as a share of the top's size)."""

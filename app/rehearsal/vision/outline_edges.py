@@ -84,13 +84,13 @@ class OutlineEdges:
 
 
 _ON_M = 1e-4
-"""An edge of a layer nearer to the pattern's border than that is one of the cloth (m)."""
+"""The largest distance from the pattern's border to a layer's edge that is an edge of the cloth (m)."""
 
 _AT_CREASE_M = 0.002
-"""A point of the outline nearer to a crease than that may be one of it (m)."""
+"""The largest distance from a crease to a point of the outline that may lie on it (m)."""
 
 _AT_EDGE_M = 0.0015
-"""A point of the outline nearer to an edge of the cloth than that is one of it (m)."""
+"""The largest distance from an edge of the cloth to a point of the outline that lies on it (m)."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

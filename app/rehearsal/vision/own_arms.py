@@ -18,16 +18,16 @@ from app.rehearsal.vision.snap import normals_of, peaks, spaced, steepness
 from planner.geometry.pose import FloatArray
 
 _MOST_M = 0.03
-"""The largest shift that is looked for, each way (m)."""
+"""The largest shift that is tried, each way (m)."""
 
 _GRID_M = 0.0015
-"""How far apart the shifts are that are tried first (m)."""
+"""The spacing of the shifts that are tried first (m)."""
 
 _AS_STEEP = 0.9
-"""Shifts with edges so much as steep as the steepest fit as well; of these the likeliest is taken."""
+"""Shifts whose edges have this share of the steepest one's slope fit as well; the likeliest of them is taken."""
 
 _STEP_PX, _APART_PX = 0.5, 2.0
-"""How far apart edges are looked for across an outline, and along it (pixels)."""
+"""The spacing of the samples across an outline, and along it (pixels)."""
 
 _NEAR_PX = 4.0
 """How far beside the best of the grid edges are looked for (pixels)."""

@@ -21,10 +21,10 @@ LEAST_SIDE, MOST_SIDE, MOST_PIXELS = 160, 12_000, 50_000_000
 """Least and most pixels of a side, and of the whole picture; more is not decoded."""
 
 WORKED_SIDE = 1400
-"""The longer side of a picture as it is worked on (pixels); finer ones tell no more of a cloth's edge."""
+"""The longer side to which pictures are reduced (pixels); finer ones show no more of an edge."""
 
 SEEN_THROUGH = (0.03, 0.999)
-"""Range of the share of transparent pixels with which a picture is a cut-out."""
+"""The range of the share of transparent pixels of a cut-out."""
 
 _BEHIND = 110
 """The grey that transparent pixels are given (of 255): paler than dark cloth, darker than paper."""
@@ -32,7 +32,7 @@ _BEHIND = 110
 _OPAQUE = 128
 
 _TAKEN = 5
-"""So many frames a camera takes until its exposure fits."""
+"""The number of frames that a camera takes until its exposure has settled."""
 
 _FOCAL_SPREAD = 0.04
 """Standard deviation of the logarithm of a focal length that EXIF tells: it is rounded, and lenses breathe."""

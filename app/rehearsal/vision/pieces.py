@@ -25,7 +25,7 @@ _CLOTH_SHARE = 0.15
 """Least share of the largest cloth that another one covers; less may be a hand or a tape measure."""
 
 _FACING, _GAP_SHARE = 0.6, 0.25
-"""Stripes face each other along such a share of the shorter one, across a gap of at most such a share of it."""
+"""The least share of the shorter stripe that faces the other, and the widest gap as a share of the longer one."""
 
 _NARROW, _BIT = 0.45, 0.1
 """A stripe is at most so wide for its length, or a bit of such a share of the largest piece (a stripe across a sleeve).

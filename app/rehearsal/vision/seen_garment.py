@@ -12,9 +12,8 @@ from app.rehearsal.vision.like import Like, liken
 from app.rehearsal.vision.on_table import OnTable, outline_on_table
 from app.rehearsal.vision.picture import read_picture
 from app.rehearsal.vision.scale_said import read_scale
-from app.rehearsal.vision.stack_fit import pose_json, unknown_json
-from app.rehearsal.vision.straighten import Straightened, near_m, size_m, straighten
-from app.rehearsal.vision.symmetry import find_mirror, symmetric
+from app.rehearsal.vision.stack_fit import unknown_json
+from app.rehearsal.vision.straighten import Straightened, find_mirror, near_m, size_m, straighten, symmetric
 from app.rehearsal.vision.vision_errors import NothingToldError
 from planner.cloth.garment import Garment
 from planner.errors import GarmentError
@@ -77,7 +76,7 @@ class Seen:
         """Return it as JSON."""
         return {
             "garment": self.garment.to_dict(),
-            "placement": pose_json(self.placement),
+            "placement": self.placement.to_dict(),
             "frame": self.frame,
             "scale_from": self.scale_from,
             "sure": self.sure.to_dict(),
@@ -156,7 +155,7 @@ def _likened(seen: OnTable, title: str, like: Like) -> Seen:
 _LEAST_SHARE = 0.85
 
 _MOST_AREA_OFF = 0.05
-"""An outline whose area is so much off that of the points seen lacks a corner, though most points are near it."""
+"""The largest relative error of an outline's area; more means that a corner is missing, however near the points are."""
 
 
 def _area_off(corners: FloatArray, contour: FloatArray) -> float:

@@ -14,21 +14,21 @@ from app.rehearsal.vision.stack_fit import Expected
 from planner.geometry.pose import FloatArray, Pose2
 
 _MOVED_M = 1e-4
-"""A point of the stack nearer to the part that moved than that is of it (m)."""
+"""The largest distance from the part that moved to a point of it (m)."""
 
 _NUDGES = np.array([1e-4, 1e-4, 1e-3, 1e-4, 1e-3, 1e-4])
 
 _AT_EDGE_M = 0.005
-"""A point of the stack nearer to its outline than that is of its edge (m)."""
+"""The largest distance from the outline to a point of the edge (m)."""
 
 _ROUND_EDGE_M = 0.03
-"""The outline seen that near to a point of the edge tells where the edge lies there (m)."""
+"""The distance from a point of the edge within which the outline seen tells where the edge lies (m)."""
 
 _EDGE_M, _CONTOUR_M = 0.008, 0.002
-"""How far an edge is beside the fitted outline, and how far what is seen of it is off, standard deviations (m)."""
+"""Standard deviations of an edge from the fitted outline, and of the outline seen from the edge (m)."""
 
 _LEAST_ERROR_M = 0.002
-"""The systematic error that no fit shows: the camera's own, or an outline that is wider or narrower all round (m)."""
+"""The systematic error that no fit shows (m): the camera's own, or an outline wider or narrower all round."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

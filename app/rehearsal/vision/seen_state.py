@@ -27,10 +27,10 @@ from planner.message import Message
 from planner.task.plan import Plan
 
 _SETS = 200
-"""Sets of folds looked at; garments whose folds hardly wait for each other have more."""
+"""The most sets of folds that are tried; garments with many independent folds have more."""
 
 _FITTED, _FITTED_WITH_CREASE = 6, 3
-"""States fitted, those of the nearest area, and of these how many with their last crease."""
+"""The number of states that are fitted, those of the nearest area first, and of those fitted with their last crease."""
 
 _CLEARLY = 0.5
 """Of two states that fit equally well, one is known if its crease is off by less than this share of the other's."""
@@ -199,7 +199,7 @@ def _misfit(outline: Region, fit: StackFit, contour: FloatArray) -> float:
 
 
 def _less_sure(found: FittedState, seen: OnTable) -> FittedState:
-    """Return a state with the error of the picture's scale in what is told of errors."""
+    """Return a state whose errors include that of the picture's scale."""
     reach_m = float(abs(seen.contour - seen.contour.mean(axis=0)).max()) * (seen.size_error or 0.0)
     stack = replace(found.stack, error_m=math.hypot(found.stack.error_m, reach_m))
     if not isinstance(found.fit, FoldFit):

@@ -12,13 +12,13 @@ from app.rehearsal.vision.table_plane import USUAL_FOCAL, Focal, Plane, clockwis
 from planner.geometry.pose import FloatArray
 
 _SHARE = (0.003, 0.25)
-"""Range of a sheet's share of the picture."""
+"""The range of a sheet's share of the picture's area."""
 
 _WORST_MISFIT = 1200.0
-"""A figure whose corners fit a sheet worse is none."""
+"""The largest misfit of the corners of a sheet."""
 
 _TELLS = 25.0
-"""A4 and Letter are told apart only if one of them fits so much better: by five standard deviations."""
+"""How much better one of A4 and Letter must fit to be told from the other: five standard deviations."""
 
 _LEAST_OF_STRONGEST = 0.2
 """The least strength of a sheet's faintest edge, as a share of its strongest."""

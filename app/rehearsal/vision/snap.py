@@ -8,11 +8,11 @@ from app.rehearsal.vision.picture import Image
 from planner.geometry.pose import FloatArray
 
 STEP = 2.0
-"""Points of the outline are so far apart (pixels)."""
+"""The spacing of the points of an outline (pixels)."""
 
 _SMOOTH = 2
 _AWAY = 0.35
-"""An edge at the end of the reach counts so much less than one at the outline itself."""
+"""By which share an edge at the end of the reach counts less than one at the outline itself."""
 
 
 def snapped(image: Image, outline: FloatArray, reach: float) -> tuple[FloatArray, float]:

@@ -186,7 +186,7 @@ class Figure:
         return kept
 
     def chosen(self, candidates: list[Fitted], seen: FloatArray, near: Pose2 | None) -> StackFit:
-        """Return what is known: the best of some placements, or of those that fit as well the one nearest to `near`."""
+        """Return the best of some placements; of several that fit as well, the one nearest to `near`."""
         best = candidates[0]
         alike = [best, *(one for one in candidates[1:] if fits_as_well(one.misfit_m, best.misfit_m))]
         is_ambiguous = len(alike) > 1
@@ -291,5 +291,5 @@ def gaps(points: FloatArray, others: FloatArray) -> FloatArray:
 
 
 def fits_as_well(misfit_m: float, least_m: float) -> bool:
-    """Return whether what fits so well cannot be told from the best by its misfit."""
+    """Return whether a misfit is too near to the least one (m) to tell which of the two fits better."""
     return misfit_m <= 1.25 * least_m + 0.0005

@@ -1,7 +1,7 @@
 """Where a stack is expected before it is looked for, and the result of fitting its outline to one that was seen."""
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 from planner.geometry.pose import Pose2
@@ -29,10 +29,10 @@ class Expected:
 
 
 LOOKS_ALIKE = "looks_alike"
-"""The code of what is said where several placements fit equally well."""
+"""The code of the message that several placements fit equally well."""
 
 TOO_UNCERTAIN = "too_uncertain"
-"""The code of what is said where the outline fits, but leaves the placement too uncertain."""
+"""The code of the message that the outline fits but leaves the placement too uncertain."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,16 +69,9 @@ class StackFit:
 
     def to_dict(self) -> dict[str, Any]:
         """Return the fit as JSON."""
-        return {
-            "placement": pose_json(self.placement),
-            "error_m": self.error_m,
-            "residual_m": self.residual_m,
-            "share_on_outline": self.share_on_outline,
-            "share_seen": self.share_seen,
-            "overlap": self.overlap,
-            "others": [pose_json(pose) for pose in self.others],
-            **unknown_json(self.unknown),
-        }
+        fit = asdict(self)
+        del fit["unknown"]
+        return {**fit, **unknown_json(self.unknown)}
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,11 +105,6 @@ class FoldFit:
             "crease_turn_error_rad": self.turn_error_rad,
             "off_m": self.off_m,
         }
-
-
-def pose_json(pose: Pose2) -> dict[str, float]:
-    """Return a pose as JSON."""
-    return {"x_m": pose.x_m, "y_m": pose.y_m, "yaw_rad": pose.yaw_rad}
 
 
 def unknown_json(unknown: Message | None) -> dict[str, Any]:

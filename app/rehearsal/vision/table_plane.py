@@ -18,16 +18,16 @@ _CORNER_PX = 0.2
 """Standard deviation of a corner found in a picture (pixels)."""
 
 _FREE = 2
-"""By so many the coordinates of four corners and the focal length exceed what is fitted to them."""
+"""The number of measurements (four corners and a focal length) beyond the number of fitted parameters."""
 
 _NEAREST_M = 0.05
-"""No camera is nearer to what it shows (m)."""
+"""The least distance from a camera to what it shows (m)."""
 
 _EDGE_PX = 0.6
 """All edges of a sheet may be seen so far outside or inside of where they are (pixels): blur and its shadow do that."""
 
 _DRAWS = 32
-"""Other cameras drawn to tell how sure sizes are."""
+"""The number of random cameras from which the uncertainty of sizes is estimated."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +44,7 @@ class Focal:
 
 
 USUAL_FOCAL = Focal(0.95, 0.3)
-"""The focal lengths that cameras have; an assumption."""
+"""The usual focal lengths of cameras; an assumption."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

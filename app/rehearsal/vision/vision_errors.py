@@ -8,7 +8,7 @@ LARGEST_PICTURE = 20 << 20
 
 
 class PictureError(FieldError):
-    """Bad input: the file is no picture that can be read, or what was said beside it is wrong.
+    """Bad input: the file is not a readable picture, or an option given with it is wrong.
 
     The field is ``file``, ``scale``, ``like`` or ``state_of``.
     """

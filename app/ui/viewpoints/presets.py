@@ -1,17 +1,18 @@
 """Preset viewpoints that show the table and what lies on it. Table frame, z up."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
 import numpy as np
 
+from app.drawing.drawing import Drawing
+from app.drawing.ring import ring_of
 from app.ui.robot_model import Link, load_robot_model
 from app.ui.viewpoint import FOV_RAD, Viewpoint
-from app.ui.viewpoints.ground import Ground
 from planner.geometry.pose import FloatArray, Point2, Point3, Pose2
-from planner.geometry.table import Table
+from planner.geometry.table import Table, TableTop
 from planner.robots.card import RobotCard
 
 _MARGIN = 1.12
@@ -23,6 +24,33 @@ _WIDEST_RAD = 1.9
 _SIDE_CENTRE: Point3 = (-0.45, 0.0, 0.1)
 _SIDE_HALF_M = (1.35, 0.85)
 _SIDE_RISE = 0.12
+
+
+@dataclass(frozen=True, slots=True)
+class Ground:
+    """The rectangle in which there may be cloth: the table, and what hangs beside it rolled out flat.
+
+    Attributes:
+        low: smallest x and y, table frame (m).
+        high: largest x and y (m).
+    """
+
+    low: Point2
+    high: Point2
+
+    @staticmethod
+    def of(drawing: Drawing) -> "Ground":
+        """Return the ground of a drawing."""
+        top = TableTop.of(drawing.scene.table)
+        corners = np.array([top.low, top.high, *on_table(drawing, ring_of(drawing.outline).points)])
+        low, high = corners.min(axis=0), corners.max(axis=0)
+        return Ground((float(low[0]), float(low[1])), (float(high[0]), float(high[1])))
+
+
+def on_table(drawing: Drawing, points: Iterable[Point2]) -> tuple[Point2, ...]:
+    """Return points of the article frame in the table frame (m)."""
+    placed = drawing.placement.to_outer(np.array(list(points), dtype=float).reshape(-1, 2))
+    return tuple((float(x), float(y)) for x, y in placed)
 
 
 class Preset(StrEnum):

@@ -1,6 +1,6 @@
 /** The drafting board: an SVG that shows the document's drawing, and the tools that change it. */
 
-import { element } from "../dom.js";
+import { element, svg } from "../dom.js";
 import { Callout } from "./callout.js";
 import { drawAll } from "./draw_all.js";
 import { FoldPaint } from "./fold_paint.js";
@@ -17,7 +17,6 @@ import { PointerInput } from "./pointer.js";
 import { drawingArea, REDRAWN_AT, sheetsOf } from "./drawing_area.js";
 import { hatches } from "./drawing_area.js";
 import { HintLine } from "./hint_line.js";
-import { svg } from "./sheet.js";
 import { Shown } from "./shown.js";
 import { Snapper } from "./snap.js";
 import { Soft } from "./snap.js";

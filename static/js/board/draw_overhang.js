@@ -7,7 +7,7 @@ import { ringOf } from "./curves.js";
 import { say } from "../language/say.js";
 import { dimension } from "./draw_dimension.js";
 import { crossAt, double } from "./draw_findings.js";
-import { between, crossings, distance, edgesOf, isInside, leftPart, toInner, toOuter } from "./geometry.js";
+import { between, cornersWithin, crossings, distance, edgesOf, isInside, leftPart, toInner, toOuter } from "./geometry.js";
 import { path } from "./sheet.js";
 import { length } from "../messages/lengths.js";
 
@@ -50,17 +50,8 @@ export function drawOverhang(board) {
 }
 
 /** The table's corners as the article sees them, counter-clockwise. @param {Drawing} drawing */
-function tableIn({ placement, scene: { table } }) {
-  const [deep, wide] = [table.depth_m / 2, table.width_m / 2];
-  /** @type {Point[]} */
-  const corners = [
-    [-deep, -wide],
-    [deep, -wide],
-    [deep, wide],
-    [-deep, wide],
-  ];
-  return corners.map((corner) => toInner(placement, corner));
-}
+export const tableIn = ({ placement, scene: { table } }) =>
+  cornersWithin(table.depth_m / 2, table.width_m / 2).map((corner) => toInner(placement, corner));
 
 /**
  * Return the stretches of a side of the table that lie under cloth.

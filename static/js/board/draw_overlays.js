@@ -3,7 +3,7 @@
 import { ringOf } from "./curves.js";
 import { say } from "../language/say.js";
 import { word } from "../messages/names.js";
-import { between, boxOf, plus, turned } from "./geometry.js";
+import { between, boxOf, cornersWithin, plus, turned } from "./geometry.js";
 import { path } from "./sheet.js";
 import { length } from "./units.js";
 import { armLetter } from "../messages/arms.js";
@@ -161,14 +161,7 @@ function costs({ view, drawing }, places) {
   const [least, most] = [Math.min(...known), Math.max(...known)];
   return places.cells.flatMap(({ move, placement, cost_s }, n) => {
     const centre = plus(middle, move);
-    /** @type {Point[]} */
-    const square = [
-      [-half, -half],
-      [half, -half],
-      [half, half],
-      [-half, half],
-    ];
-    const corners = square.map((corner) => view.toPx(plus(centre, turned(corner, -placement.yaw_rad))));
+    const corners = cornersWithin(half, half).map((corner) => view.toPx(plus(centre, turned(corner, -placement.yaw_rad))));
     const share = cost_s === null || most === least ? 0.5 : (most - cost_s) / (most - least);
     const [x, y] = view.toPx(centre);
     return [

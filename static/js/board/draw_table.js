@@ -1,7 +1,8 @@
 /** The table from above with the places where the robot may stand; only while the garment is being placed. */
 
 import { say } from "../language/say.js";
-import { toInner } from "./geometry.js";
+import { tableIn } from "./draw_overhang.js";
+import { cornersWithin } from "./geometry.js";
 import { place } from "../messages/names.js";
 import { path } from "./sheet.js";
 
@@ -16,7 +17,7 @@ export const BASE_M = 0.33;
 export function drawTable({ view, drawing }) {
   const { table, stations } = drawing.scene;
   const [deep, wide] = [table.depth_m / 2, table.width_m / 2];
-  const ring = placed(view, [-deep, -wide], [deep, -wide], [deep, wide], [-deep, wide]);
+  const ring = placed(view, ...cornersWithin(deep, wide));
   const middle = placed(view, [-deep, 0], [deep, 0]);
   const across = placed(view, [0, -wide], [0, wide]);
   return [
@@ -34,15 +35,7 @@ export function drawTable({ view, drawing }) {
 export function drawTableEdge({ store, view, drawing, isPlacing }, look) {
   const hasNoPlan = store.plan?.status === "infeasible" || store.plan?.status === "budget_exceeded";
   if (isPlacing || !drawing.outline.length || !(hasNoPlan || store.preview?.placement)) return [];
-  const [deep, wide] = [drawing.scene.table.depth_m / 2, drawing.scene.table.width_m / 2];
-  /** @type {Point[]} */
-  const corners = [
-    [-deep, -wide],
-    [deep, -wide],
-    [deep, wide],
-    [-deep, wide],
-  ];
-  const ring = corners.map((corner) => view.toPx(toInner(drawing.placement, corner)));
+  const ring = tableIn(drawing).map((corner) => view.toPx(corner));
   return [{ key: "edge", tag: "path", class: look, d: path(ring) }];
 }
 

@@ -1,8 +1,9 @@
 /** The element that the board draws on, and its layers. */
 
+import { svg } from "../dom.js";
 import { say } from "../language/say.js";
 import { LAYERS } from "./draw_all.js";
-import { Sheet, svg } from "./sheet.js";
+import { Sheet } from "./sheet.js";
 
 /** @import { LayerName } from "./draw_all.js" */
 

@@ -153,3 +153,6 @@ export const toOuter = (pose, p) => plus(turned(p, pose.yaw_rad), [pose.x_m, pos
 
 /** The way back. @param {Pose} pose @param {Point} p */
 export const toInner = (pose, p) => turned(minus(p, [pose.x_m, pose.y_m]), -pose.yaw_rad);
+
+/** The corners of a rectangle round the origin, counter-clockwise. @param {number} x half its width @param {number} y half its height @returns {Point[]} */
+export const cornersWithin = (x, y) => [[-x, -y], [x, -y], [x, y], [-x, y]];

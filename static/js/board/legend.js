@@ -1,14 +1,13 @@
 /** What the overlays' shades and lines mean, in the corner of the board where the least cloth is. */
 
 import { seconds } from "../dock/words.js";
-import { element } from "../dom.js";
+import { element, svg } from "../dom.js";
 import { say } from "../language/say.js";
 import { armLetter } from "../messages/arms.js";
 import { present } from "../present.js";
 import { drawChecks } from "./draw_findings.js";
 import { fullness } from "./draw_overlays.js";
 import { isInside } from "./geometry.js";
-import { svg } from "./sheet.js";
 import { length } from "./units.js";
 
 /** @import { Overlays, Places, Point } from "pleat" */

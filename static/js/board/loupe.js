@@ -1,6 +1,6 @@
 /** Above a finger, what is under it: the board once more, larger, in a circle. */
+import { svg } from "../dom.js";
 
-import { svg } from "./sheet.js";
 
 const SIZE_PX = 116;
 const LIFT_PX = 34;

@@ -1,6 +1,6 @@
 /** Numbers at the selection: a corner's place, an edge's length, a fold's ends on their edges, the placement. */
 
-import { button, byId, element } from "../dom.js";
+import { button, byId, element, field, group } from "../dom.js";
 import { say } from "../language/say.js";
 import { NumberFields } from "./number_fields.js";
 import { unit } from "./units.js";
@@ -13,8 +13,7 @@ export class Numbers {
   constructor(board) {
     this.board = board;
     this.root = element("div", "numbers-at");
-    this.root.setAttribute("role", "group");
-    this.root.setAttribute("aria-label", say("numbers.label"));
+    group(this.root, say("numbers.label"));
     this.root.hidden = true;
     this.shown = "";
     this.known = new NumberFields(board);
@@ -82,10 +81,7 @@ export class Numbers {
 
   /** @param {Field} field @param {number} index */
   row({ label, name }, index) {
-    const input = /** @type {HTMLInputElement} */ (element("input", "field"));
-    input.type = "text";
-    input.autocomplete = "off";
-    input.setAttribute("aria-label", name);
+    const input = field({ ariaLabel: name });
     input.addEventListener("focus", () => input.select());
     input.addEventListener("change", () => this.take(index, input));
     input.addEventListener("keydown", (event) => this.key(event, index, input));

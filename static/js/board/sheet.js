@@ -1,25 +1,12 @@
 /** SVG elements kept from one drawing to the next by their keys, so that focus and listeners outlive a change. */
 
+import { svg } from "../dom.js";
 import { present } from "../present.js";
 
 /** @import { Point } from "pleat" */
 
-const SVG = "http://www.w3.org/2000/svg";
-
 /** @typedef {{key: string, tag: string, text?: string, [attribute: string]: unknown}} Item */
 /** @typedef {(Item|null|false|undefined)[]} Items some of which may be missing */
-
-/**
- * @template {keyof SVGElementTagNameMap} T
- * @param {T} tag
- * @param {Record<string, unknown>} attributes
- * @returns {SVGElementTagNameMap[T]}
- */
-export function svg(tag, attributes = {}) {
-  const made = document.createElementNS(SVG, tag);
-  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, String(value));
-  return made;
-}
 
 export class Sheet {
   /** @param {SVGElement} parent @param {string} className */

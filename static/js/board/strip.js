@@ -1,6 +1,6 @@
 /** The strip over the board: which moment of the folds is shown; how folds are drawn; units; fit. */
 
-import { button, element } from "../dom.js";
+import { button, element, group } from "../dom.js";
 import { FOLD_KINDS, KIND_NAMES } from "../fold_kinds.js";
 import { icon } from "../icons.js";
 import { say, translated } from "../language/say.js";
@@ -41,9 +41,9 @@ export class Strip {
       element(
         "div",
         "strip",
-        group(say("strip.moment"), this.back, this.moment, this.next),
-        group(say("strip.fold"), ...this.paints.map(({ made }) => made), this.flip, this.grab),
-        group(say("strip.view"), this.unit, this.fit),
+        partOf(say("strip.moment"), this.back, this.moment, this.next),
+        partOf(say("strip.fold"), ...this.paints.map(({ made }) => made), this.flip, this.grab),
+        partOf(say("strip.view"), this.unit, this.fit),
       ),
     );
   }
@@ -85,12 +85,7 @@ export class Strip {
 }
 
 /** @param {string} name @param {...Node} parts */
-function group(name, ...parts) {
-  const made = element("div", "strip-group", ...parts);
-  made.setAttribute("role", "group");
-  made.setAttribute("aria-label", name);
-  return made;
-}
+const partOf = (name, ...parts) => group(element("div", "strip-group", ...parts), name);
 
 /** @param {Parameters<typeof icon>[0]} name @param {string} label @param {() => void} onClick */
 function iconButton(name, label, onClick) {

@@ -4,10 +4,10 @@
  * Where the tool has nothing to take, the pointer moves the camera.
  */
 
+import { svg } from "../dom.js";
 import { say } from "../language/say.js";
 import { isViewOnly } from "../view_only.js";
 import { distance } from "./geometry.js";
-import { svg } from "./sheet.js";
 import { after, applied, asTransform, back, laid, tablePicture } from "./table_picture.js";
 import { View } from "./view.js";
 

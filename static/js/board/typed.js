@@ -1,6 +1,6 @@
 /** The field that opens beside the pointer when a number is typed while something is drawn: it beats every snap. */
 
-import { element } from "../dom.js";
+import { field } from "../dom.js";
 import { say } from "../language/say.js";
 import { parsed, unit } from "./units.js";
 
@@ -8,11 +8,7 @@ export class TypedLength {
   /** @param {import("./board.js").Board} board */
   constructor(board) {
     this.board = board;
-    this.input = /** @type {HTMLInputElement} */ (element("input", "field typed"));
-    this.input.type = "text";
-    this.input.setAttribute("aria-label", say("typed.length"));
-    this.input.autocomplete = "off";
-    this.input.hidden = true;
+    this.input = field({ className: "field typed", ariaLabel: say("typed.length"), hidden: true });
     this.input.addEventListener("input", () => this.tell());
     this.input.addEventListener("keydown", (event) => this.key(event));
     board.root.append(this.input);

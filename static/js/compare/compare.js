@@ -1,9 +1,9 @@
 /** The dialog `Compare`: two plans side by side, with one play button and one clock for both. */
 
 import { openDialog } from "../dialogs/dialog.js";
-import { icon } from "../dock/icons.js";
 import { briefly, seconds } from "../dock/words.js";
-import { button, element, sayable } from "../dom.js";
+import { button, element, input, sayable } from "../dom.js";
+import { smallIcon } from "../icons.js";
 import { numeral } from "../language/numeral.js";
 import { say } from "../language/say.js";
 import { documentsBeside, versionsOf } from "./choices.js";
@@ -43,9 +43,7 @@ class Comparison {
       side.offer(choices);
     }
     this.play = button("main-button", () => this.clock.toggle());
-    this.slider = /** @type {HTMLInputElement} */ (element("input", "compare-slider"));
-    Object.assign(this.slider, { type: "range", min: "0", step: "0.1" });
-    this.slider.setAttribute("aria-label", say("time.label"));
+    this.slider = input("compare-slider", { type: "range", min: "0", step: "0.1", ariaLabel: say("time.label") });
     this.slider.addEventListener("input", () => this.clock.go(Number(this.slider.value)));
     this.time = element("span", "compare-time");
     this.steps = element("table", "compare-steps");
@@ -110,7 +108,7 @@ class Comparison {
     this.slider.value = String(t_s);
     this.slider.disabled = end_s <= 0;
     this.play.disabled = end_s <= 0;
-    this.play.replaceChildren(icon(isRunning ? "pause" : "play"), `${say(isRunning ? "play.pause" : "play.play")}`);
+    this.play.replaceChildren(smallIcon(isRunning ? "pause" : "play"), `${say(isRunning ? "play.pause" : "play.play")}`);
     this.time.textContent = `${numeral(t_s, 1)} / ${seconds(end_s)}`;
     for (const { row, steps } of this.rows) {
       steps.forEach((step, side) => {

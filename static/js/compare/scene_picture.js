@@ -1,9 +1,10 @@
 /** Table, cloth and base from above at a moment of a plan; the robot's usual side of the table is on the left. */
 
 import { between, toOuter, turned } from "../board/geometry.js";
-import { path, svg } from "../board/sheet.js";
+import { path } from "../board/sheet.js";
 import { primitiveAt } from "../dock/lane_blocks.js";
 import { kindOf } from "../dock/step_kinds.js";
+import { svg } from "../dom.js";
 
 /** @import { Point, Pose, StepPicture } from "pleat" */
 /** @import { Compared } from "./compared_plan.js" */

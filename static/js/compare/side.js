@@ -1,9 +1,8 @@
 /** One of the two sides: what is chosen for it, its picture, and what its plan takes. */
 
-import { svg } from "../board/sheet.js";
 import { primitiveAt } from "../dock/lane_blocks.js";
 import { briefly, seconds } from "../dock/words.js";
-import { button, element, sayable } from "../dom.js";
+import { button, element, field, input, sayable, svg, toldAloud } from "../dom.js";
 import { say } from "../language/say.js";
 import { planById, planOfFile } from "./choices.js";
 import { drawScene } from "./scene_picture.js";
@@ -33,8 +32,7 @@ export class Side extends EventTarget {
     this.select.setAttribute("aria-label", name);
     this.select.addEventListener("change", () => this.pick());
     this.picture = svg("svg", { class: "compare-picture", role: "img" });
-    this.cost = element("p", "compare-cost");
-    this.cost.setAttribute("role", "status");
+    this.cost = toldAloud("compare-cost");
     this.another = this.form();
     this.root = element("section", "compare-side", this.select, this.another, this.picture, this.cost);
     this.root.addEventListener("drop", (event) => this.drop(event));
@@ -42,13 +40,9 @@ export class Side extends EventTarget {
 
   /** A plan by its id or its file. */
   form() {
-    const id = /** @type {HTMLInputElement} */ (element("input", "field"));
-    id.autocomplete = "off";
-    id.placeholder = say("compare.plan_id");
-    id.setAttribute("aria-label", say("compare.plan_id"));
-    const file = /** @type {HTMLInputElement} */ (element("input", "unseen"));
-    Object.assign(file, { type: "file", accept: ".json", tabIndex: -1 });
-    file.setAttribute("aria-label", say("compare.plan_file"));
+    const id = field({ placeholder: say("compare.plan_id"), ariaLabel: say("compare.plan_id") });
+    const ofFile = { accept: ".json", tabIndex: -1, ariaLabel: say("compare.plan_file") };
+    const file = input("unseen", { type: "file", ...ofFile });
     file.addEventListener("change", () => file.files?.[0] && this.take(planOfFile(file.files[0])));
     const form = /** @type {HTMLFormElement} */ (element("form", "compare-another"));
     const choose = button("plain-button", () => file.click(), say("compare.plan_file"));

@@ -2,7 +2,7 @@
 
 import { boxOf } from "../board/geometry.js";
 import { length, parsed, problemOf, unit } from "../board/units.js";
-import { button, element } from "../dom.js";
+import { button, element, field, input, toldAloud } from "../dom.js";
 import { titleOf } from "../gallery/tile.js";
 import { inEnglish, say, translated } from "../language/say.js";
 import { inWords } from "../messages/in_words.js";
@@ -48,20 +48,17 @@ export function acceptDrops(store) {
 
 /** @param {Store} store @param {HTMLElement} body @param {string} problem */
 function ask(store, body, problem = "") {
-  const input = /** @type {HTMLInputElement} */ (element("input", ""));
-  input.type = "file";
-  input.accept = KINDS;
-  input.setAttribute("aria-label", say("import.file"));
-  input.addEventListener("change", () => input.files?.[0] && read(store, body, input.files[0], {}));
-  const said = element("p", "dialog-problem", problem);
-  said.setAttribute("role", "alert");
+  const chosen = input("", { type: "file", accept: KINDS, ariaLabel: say("import.file") });
+  chosen.addEventListener("change", () => chosen.files?.[0] && read(store, body, chosen.files[0], {}));
+  const said = toldAloud("dialog-problem", "alert");
+  said.textContent = problem;
   body.replaceChildren(
     element(
       "label",
       "drop",
       element("strong", "", say("import.choose")),
       element("span", "", say("import.drop")),
-      input,
+      chosen,
     ),
     element("p", "dialog-text", say("import.about")),
     said,
@@ -261,10 +258,8 @@ function askLength({ body, filename, how, why, read }) {
  * @param {(metres: number) => void} onLength
  */
 function lengthForm(name, verb, onLength) {
-  const said = element("p", "dialog-problem");
-  said.setAttribute("role", "alert");
-  const input = /** @type {HTMLInputElement} */ (element("input", "field"));
-  input.autocomplete = "off";
+  const said = toldAloud("dialog-problem", "alert");
+  const input = field({});
   const form = /** @type {HTMLFormElement} */ (element("form", "width-form"));
   const label = element("label", "measure", element("span", "measure-name", name), input);
   label.append(element("span", "measure-unit", unit.name));
@@ -347,10 +342,9 @@ const whichPiece = ({ piece, pieces }, onChoice) =>
  */
 function choices(name, legend, texts, chosen, onChoice) {
   const made = /** @type {[T, string][]} */ (Object.entries(texts)).map(([value, text]) => {
-    const input = /** @type {HTMLInputElement} */ (element("input", ""));
-    Object.assign(input, { type: "radio", name, value, checked: value === chosen });
-    input.addEventListener("change", () => onChoice(value));
-    return element("label", "choice", input, text);
+    const radio = input("", { type: "radio", name, value, checked: value === chosen });
+    radio.addEventListener("change", () => onChoice(value));
+    return element("label", "choice", radio, text);
   });
   return element("fieldset", "choices", element("legend", "", legend), ...made);
 }

@@ -4,21 +4,26 @@
  */
 
 import { capital } from "../dock/words.js";
-import { button, element, sayable } from "../dom.js";
+import { button, element, progressBar, sayable, toldAloud } from "../dom.js";
 import { times } from "../language/language.js";
+import { numeral } from "../language/numeral.js";
 import { say } from "../language/say.js";
 import { percent } from "../messages/lengths.js";
 import { word } from "../messages/names.js";
 import { openDialog } from "./dialog.js";
 import { fetched } from "./documents.js";
-import { showResult } from "./result_view.js";
 import { isViewOnly } from "../view_only.js";
 
 /** @import { Job } from "pleat" */
+/** @typedef {Record<string, unknown>} Fields */
 
 const JOBS = "../api/jobs";
 const LISTED = 50;
 const LOOK_EVERY_MS = 1000;
+const DIGITS = 3;
+const ROWS_MAX = 100;
+/** Names end in their unit. */
+const UNIT = /_(s|m|m2|mm|kg|rad|hz)$/;
 
 const WORDS = {
   queued: say("job.queued"),
@@ -50,8 +55,7 @@ export function showJobs() {
 class JobList {
   constructor() {
     this.root = element("ul", "jobs");
-    this.said = element("p", "dialog-problem");
-    this.said.setAttribute("role", "alert");
+    this.said = toldAloud("dialog-problem", "alert");
     /** @type {Map<string, JobRow>} the rows stay, so that the focus does */
     this.rows = new Map();
   }
@@ -110,8 +114,7 @@ class JobRow {
     const when = new Date(job.created).toLocaleString(times, { dateStyle: "short", timeStyle: "short" });
     this.status = element("span", "job-status");
     this.status.setAttribute("role", "status");
-    this.bar = /** @type {HTMLProgressElement} */ (element("progress", "job-progress"));
-    this.bar.setAttribute("aria-label", say("jobs.progress", { name }));
+    this.bar = progressBar(say("jobs.progress", { name }));
     this.message = element("span", "dialog-text");
     this.stop = button("quiet", () => cancel(job.id), say("search.stop"));
     this.stop.setAttribute("aria-label", say("jobs.stop_one", { name, when }));
@@ -136,3 +139,60 @@ class JobRow {
     this.isDone = status === "done";
   }
 }
+
+/**
+ * What a job has come to: its numbers by name, what there is several of as a table. The JSON is one link away.
+ * @param {string} title
+ * @param {string} path of the job
+ */
+async function showResult(title, path) {
+  const { result } = await fetched(path);
+  const link = element("a", "", say("jobs.as_json"));
+  link.setAttribute("href", path);
+  openDialog(title, "is-wide result", shown(result), element("p", "dialog-note", link));
+}
+
+/** @param {unknown} value @returns {Node} */
+function shown(value) {
+  if (Array.isArray(value)) return several(value);
+  if (isFields(value)) {
+    const entries = Object.entries(value).map(([name, one]) => [
+      element("dt", "", named(name)),
+      element("dd", "", shown(one)),
+    ]);
+    return element("dl", "result-fields", ...entries.flat());
+  }
+  return document.createTextNode(inShort(value));
+}
+
+/** Short ones in a row, those with fields as a table. @param {unknown[]} values */
+function several(values) {
+  if (!values.length || !values.every(isFields)) return document.createTextNode(inShort(values));
+  const names = Object.keys(values[0]);
+  const head = element("tr", "", ...names.map((name) => element("th", "", named(name))));
+  const rows = values
+    .slice(0, ROWS_MAX)
+    .map((fields) => element("tr", "", ...names.map((name) => element("td", "", inShort(fields[name])))));
+  const table = element("table", "result-table", element("thead", "", head), element("tbody", "", ...rows));
+  const left = values.length - rows.length;
+  const more = element("p", "hint", left ? say("repair.more", { count: left }) : "");
+  return element("div", "result-scroll", table, more);
+}
+
+/** A value in a cell: of what is long only how much there is. @param {unknown} value @returns {string} */
+function inShort(value) {
+  if (value === null || value === undefined) return "–";
+  if (typeof value === "number") return numeral(value, DIGITS, 0);
+  if (typeof value === "boolean") return value ? "✓" : "–";
+  if (typeof value === "string") return value;
+  if (isFields(value)) return String(value.title ?? Object.values(value).map(inShort).join(", "));
+  const values = /** @type {unknown[]} */ (value);
+  const isShort = values.length <= 3 && values.every((one) => typeof one !== "object");
+  return isShort ? values.map(inShort).join(", ") : say("jobs.entries", { count: values.length });
+}
+
+/** @param {unknown} value @returns {value is Fields} */
+const isFields = (value) => typeof value === "object" && value !== null && !Array.isArray(value);
+
+/** A field's name, with its unit. @param {string} name */
+const named = (name) => name.replace(UNIT, " ($1)").replaceAll("_", " ");

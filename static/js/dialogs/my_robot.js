@@ -4,7 +4,7 @@
  */
 
 import { number, parsed, unit } from "../board/units.js";
-import { button, element } from "../dom.js";
+import { button, element, field, toldAloud } from "../dom.js";
 import { numeral } from "../language/numeral.js";
 import { inEnglish, say } from "../language/say.js";
 import { armTitle } from "../messages/arms.js";
@@ -39,8 +39,7 @@ class MyRobot {
     /** What was corrected, by path. @type {Map<string, unknown>} */
     this.changes = new Map();
     this.title = card.title;
-    this.problem = element("p", "dialog-problem");
-    this.problem.setAttribute("role", "alert");
+    this.problem = toldAloud("dialog-problem", "alert");
     this.dialog = openDialog(
       say("my_robot.title"),
       "is-beside",
@@ -58,27 +57,26 @@ class MyRobot {
     const { scene, arms, mounts } = this.card;
     const station = `scene.stations.${Object.keys(scene.stations)[0]}`;
     /** @type {(label: string, path: string, isLength?: boolean) => Field} */
-    const field = (label, path, isLength = true) => ({ label, path, isLength });
+    const of = (label, path, isLength = true) => ({ label, path, isLength });
     return [
-      field(say("my_robot.table"), "scene.table.height_m"),
-      ...(mounts.length === 1 ? [field(say("my_robot.foot"), "mounts.0.z_m")] : []),
-      field(say("my_robot.ahead"), `${station}.x_m`),
-      field(say("my_robot.aside"), `${station}.y_m`),
-      field(say("my_robot.turned"), `${station}.yaw_rad`, false),
+      of(say("my_robot.table"), "scene.table.height_m"),
+      ...(mounts.length === 1 ? [of(say("my_robot.foot"), "mounts.0.z_m")] : []),
+      of(say("my_robot.ahead"), `${station}.x_m`),
+      of(say("my_robot.aside"), `${station}.y_m`),
+      of(say("my_robot.turned"), `${station}.yaw_rad`, false),
       ...arms.flatMap((/** @type {Card} */ { name, tool }, /** @type {number} */ index) => {
         const arm = armTitle(name);
         return [
-          field(say("my_robot.tool", { arm, link: tool.link }), `arms.${index}.tool.offset_m`),
-          field(say("my_robot.opening", { arm }), `arms.${index}.gripper.opening_max_m`),
-          field(say("my_robot.home", { arm }), `arms.${index}.home`, false),
+          of(say("my_robot.tool", { arm, link: tool.link }), `arms.${index}.tool.offset_m`),
+          of(say("my_robot.opening", { arm }), `arms.${index}.gripper.opening_max_m`),
+          of(say("my_robot.home", { arm }), `arms.${index}.home`, false),
         ];
       }),
     ];
   }
 
   titleField() {
-    const input = field(this.title);
-    input.maxLength = 200;
+    const input = field({ value: this.title, maxLength: 200 });
     input.addEventListener("change", () => (this.title = input.value.trim() || this.title));
     return labelled(say("rename.name"), input);
   }
@@ -95,7 +93,8 @@ class MyRobot {
   row({ label, path, isLength }) {
     const value = at(this.card, path);
     const numbers = Array.isArray(value) ? value : [value];
-    const input = field(numbers.map((one) => (isLength ? number(one) : numeral(one * DEGREES, 1))).join("; "));
+    const shown = numbers.map((one) => (isLength ? number(one) : numeral(one * DEGREES, 1)));
+    const input = field({ value: shown.join("; ") });
     input.addEventListener("change", () => {
       const read = input.value.split(";").map((text) => inMetresOrRadians(text, isLength));
       const isRead = read.length === numbers.length && !read.includes(null);
@@ -145,14 +144,6 @@ function put(card, path, value) {
   const names = path.split(".");
   const last = names.pop() ?? "";
   at(card, names.join("."))[last] = value;
-}
-
-/** @param {string} value */
-function field(value) {
-  const input = /** @type {HTMLInputElement} */ (element("input", "field"));
-  input.autocomplete = "off";
-  input.value = value;
-  return input;
 }
 
 /** @param {string} label @param {HTMLElement} control */

@@ -1,6 +1,6 @@
 /** `New`: a garment from a few measures, seen while they are written, or a blank board. */
 
-import { button, element } from "../dom.js";
+import { button, element, field, toldAloud } from "../dom.js";
 import { number, parsed, problemOf, unit } from "../board/units.js";
 import { say, translated } from "../language/say.js";
 import { openDialog, OFFLINE, sentenceOf } from "./dialog.js";
@@ -87,10 +87,9 @@ function blank(problem) {
 
 /** The fields of a template, with the garment that they come to. @param {Template} template */
 function measures(template) {
-  const said = element("p", "dialog-problem");
-  said.setAttribute("role", "alert");
+  const said = toldAloud("dialog-problem", "alert");
   const shown = element("div", "template-picture", picture(template.outline, template.folds));
-  const fields = template.measures.map((measure) => field(measure));
+  const fields = template.measures.map(measureField);
   /** @type {Garment|null} */
   let garment = null;
   let turn = 0;
@@ -134,10 +133,8 @@ function measures(template) {
 }
 
 /** One measure: what nobody has written keeps its proportion to what somebody has. @param {Measure} measure */
-function field({ name, label, text, default_m: first, min_m: least }) {
-  const input = /** @type {HTMLInputElement} */ (element("input", "field"));
-  input.value = number(first);
-  input.autocomplete = "off";
+function measureField({ name, label, text, default_m: first, min_m: least }) {
+  const input = field({ value: number(first) });
   const row = element(
     "label",
     "measure",

@@ -1,7 +1,8 @@
 /** A garment in small: its outline and fold lines. */
 
 import { boxOf } from "../board/geometry.js";
-import { path, svg } from "../board/sheet.js";
+import { path } from "../board/sheet.js";
+import { svg } from "../dom.js";
 
 /** @import { Point } from "pleat" */
 

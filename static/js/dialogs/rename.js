@@ -1,6 +1,6 @@
 /** What the garment is called; its file is named after that. */
 
-import { element } from "../dom.js";
+import { element, field } from "../dom.js";
 import { inEnglish, say } from "../language/say.js";
 import { openDialog } from "./dialog.js";
 
@@ -17,11 +17,7 @@ export async function showRename(store) {
 
 /** Ask what a garment is to be called. @param {string} before @returns {Promise<string>} empty if nothing was said */
 export function askTitle(before) {
-  const input = /** @type {HTMLInputElement} */ (element("input", "field title-field"));
-  input.value = before;
-  input.maxLength = LONGEST_TITLE;
-  input.required = true;
-  input.autocomplete = "off";
+  const input = field({ className: "field title-field", value: before, maxLength: LONGEST_TITLE, required: true });
   const form = element(
     "form",
     "rename",

@@ -1,17 +1,14 @@
 /** A link with which others may look at the document and play its plan. */
 
-import { button, element } from "../dom.js";
+import { button, element, input, toldAloud } from "../dom.js";
 import { say } from "../language/say.js";
 import { openDialog, sentenceOf } from "./dialog.js";
 
 /** @param {import("../store.js").Store} store */
 export function showShare(store) {
   const path = `${store.path}/share`;
-  const link = /** @type {HTMLInputElement} */ (element("input", "field title-field"));
-  link.readOnly = true;
-  link.setAttribute("aria-label", say("share.link"));
-  const said = element("p", "dialog-text", "");
-  said.setAttribute("role", "status");
+  const link = input("field title-field", { readOnly: true, ariaLabel: say("share.link") });
+  const said = toldAloud("dialog-text");
   const copy = button("main-button", async () => {
     link.select();
     await navigator.clipboard.writeText(link.value);

@@ -1,6 +1,6 @@
 /** The dialog `Who can fold this?`: the garment planned for every robot, one after the other, each at its own table. */
 
-import { button, element, sayable } from "../dom.js";
+import { button, element, sayable, toldAloud } from "../dom.js";
 import { sentence } from "../dock/reasons.js";
 import { capital, seconds } from "../dock/words.js";
 import { say } from "../language/say.js";
@@ -31,8 +31,7 @@ const LOOK_EVERY_MS = 300;
 export function showWhoFolds(store) {
   if (!store.state) return;
   const { garment, robot } = store.state;
-  const said = element("p", "dialog-problem");
-  said.setAttribute("role", "alert");
+  const said = toldAloud("dialog-problem", "alert");
   const body = element("tbody", "");
   const heads = COLUMNS.map((word) => element("th", "", word));
   heads[2].title = MARGIN;

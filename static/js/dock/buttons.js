@@ -1,17 +1,17 @@
 /** The dock's buttons. */
 
 import { button } from "../dom.js";
-import { icon } from "./icons.js";
+import { smallIcon } from "../icons.js";
 
 /**
  * A button with an icon alone.
- * @param {Parameters<typeof icon>[0]} name
+ * @param {Parameters<typeof smallIcon>[0]} name
  * @param {string} label what it does
  * @param {(event: Event) => void} onClick
  * @returns {HTMLButtonElement}
  */
 export function iconButton(name, label, onClick) {
-  const made = button("icon-button is-dense", onClick, icon(name));
+  const made = button("icon-button is-dense", onClick, smallIcon(name));
   relabel(made, label);
   return made;
 }

@@ -1,11 +1,10 @@
 /** The Fold-DAG as a graph: folds in columns by depth, done, available or waiting as the time goes. */
 
-import { element } from "../dom.js";
+import { element, svg } from "../dom.js";
 import { say } from "../language/say.js";
 import { listed } from "../messages/lengths.js";
 import { columns, wayOf } from "./dag_layout.js";
-import { before, waitsFor } from "./fold_states.js";
-import { svg } from "./icons.js";
+import { before, STATE_WORDS, waitsFor } from "./fold_states.js";
 import { foldName } from "./step_kinds.js";
 
 /** @import { Fold, Plan } from "pleat" */
@@ -14,13 +13,6 @@ import { foldName } from "./step_kinds.js";
 const NODE = { height: 34, gapX: 20, gapY: 8, edge: 8, line: 13 };
 /** Nodes are as wide as fits, within these (px); so much of that is not for letters, and a letter takes so much. */
 const WIDTH = { least: 78, most: 130, frame: 28, letter: 6.2 };
-/** @type {Record<string, string>} */
-const STATES = {
-  done: say("fold_state.done"),
-  current: say("fold_state.current"),
-  available: say("fold_state.available"),
-  waiting: say("fold_state.waiting"),
-};
 
 /** @typedef {{x: number, y: number}} Corner the upper left one of a node (px) */
 
@@ -169,7 +161,7 @@ export class Dag {
     /** @param {number[]} others */
     const names = (others) => listed(others.map((other) => foldName(folds[other], other)));
     const [after, first] = [waitsFor(this.plan, fold), before(this.plan, fold)];
-    const about = [foldName(folds[fold], fold), say(`colour.${folds[fold].kind}`), STATES[state] ?? ""];
+    const about = [foldName(folds[fold], fold), say(`colour.${folds[fold].kind}`), STATE_WORDS[state] ?? ""];
     if (after.length) about.push(say("dag.after", { folds: names(after) }));
     if (first.length) about.push(say("dag.before", { folds: names(first) }));
     return about.filter(Boolean).join(", ");

@@ -1,6 +1,6 @@
 /** The lower dock: folds, timeline, and what planning came to. */
 
-import { byId, element } from "../dom.js";
+import { byId, element, group } from "../dom.js";
 import { say } from "../language/say.js";
 import { RehearsalCard } from "../rehearsal/card.js";
 import { toggle } from "./buttons.js";
@@ -79,7 +79,6 @@ function seeWhy(store) {
   });
   const name = element("span", "see-why-name", say("overlay.title"));
   const root = element("div", "see-why", name, element("span", "chips", ...switches), wait);
-  root.setAttribute("role", "group");
-  root.setAttribute("aria-label", say("overlay.title"));
+  group(root, say("overlay.title"));
   return root;
 }

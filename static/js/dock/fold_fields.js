@@ -1,7 +1,7 @@
 /** What can be changed of the fold that is selected: colour, grip radius, name, place in the order. */
 
 import { parsed, problemOf } from "../board/units.js";
-import { button, element } from "../dom.js";
+import { button, element, input } from "../dom.js";
 import { KIND_NAMES } from "../fold_kinds.js";
 import { say } from "../language/say.js";
 import { iconButton, relabel } from "./buttons.js";
@@ -21,8 +21,7 @@ export class FoldFields {
     this.radios = element("div", "segments", ...this.colours);
     this.radios.setAttribute("role", "radiogroup");
     this.radios.addEventListener("keydown", (event) => this.turn(event));
-    this.radius = /** @type {HTMLInputElement} */ (element("input", "field fold-radius"));
-    this.radius.inputMode = "decimal";
+    this.radius = input("field fold-radius", { inputMode: "decimal" });
     this.radius.addEventListener("input", () => (this.isTyped = true));
     this.radius.addEventListener("change", () => this.grip());
     this.isTyped = false;

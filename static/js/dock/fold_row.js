@@ -1,24 +1,18 @@
 /** One fold in the list `Folds`: how far it is, its name, what it waits for; while selected, what can be changed. */
 
 import { assumptionChip } from "../assumptions.js";
-import { button, element } from "../dom.js";
+import { button, element, input } from "../dom.js";
+import { smallIcon } from "../icons.js";
 import { say } from "../language/say.js";
 import { length, listed } from "../messages/lengths.js";
 import { iconButton, relabel } from "./buttons.js";
 import { FoldFields } from "./fold_fields.js";
-import { icon } from "./icons.js";
+import { STATE_WORDS } from "./fold_states.js";
 import { foldName } from "./step_kinds.js";
 import { movedBy } from "./words.js";
 
 /** @import { Fold, FoldKind } from "pleat" */
 
-const STATES = {
-  done: say("fold_state.done"),
-  current: say("fold_state.current"),
-  available: say("fold_state.available"),
-  waiting: say("fold_state.waiting"),
-  none: "",
-};
 const DONE_BEFORE = say("fold_state.before");
 
 /**
@@ -68,7 +62,7 @@ export class FoldRow {
     this.isDoneBefore = false;
     /** The names of what it waits for. */
     this.waiting = "";
-    /** @type {keyof typeof STATES} */
+    /** @type {import("./fold_states.js").FoldState|"none"} */
     this.state = "none";
     /** @type {HTMLInputElement|null} in which it is being renamed */
     this.field = null;
@@ -101,17 +95,17 @@ export class FoldRow {
     this.showState(this.state, true);
   }
 
-  /** @param {keyof typeof STATES} state @param {boolean} always */
+  /** @param {import("./fold_states.js").FoldState|"none"} state @param {boolean} always */
   showState(state, always = false) {
     if (state === this.state && !always) return;
     this.state = state;
     this.root.dataset.state = state;
     this.root.setAttribute("aria-current", String(state === "current"));
-    this.mark.replaceChildren(this.problem ? "\u2715" : state === "done" ? icon("tick") : String(this.index + 1));
+    this.mark.replaceChildren(this.problem ? "\u2715" : state === "done" ? smallIcon("tick") : String(this.index + 1));
     const told = [
       `${this.index + 1}`,
       this.fold && movedBy(this.fold.kind),
-      this.problem || (this.isDoneBefore ? DONE_BEFORE : STATES[state]),
+      this.problem || (this.isDoneBefore ? DONE_BEFORE : STATE_WORDS[state]),
       this.waiting && say("fold.after", { folds: this.waiting }),
     ];
     this.name.setAttribute("aria-description", told.filter(Boolean).join(", "));
@@ -133,11 +127,8 @@ export class FoldRow {
   /** Turn the name into a field until Enter, Escape or leaving it. */
   rename() {
     if (this.field || !this.fold) return;
-    const field = /** @type {HTMLInputElement} */ (element("input", "field fold-rename"));
-    field.value = this.fold.name;
-    field.maxLength = 200;
-    field.placeholder = foldName({}, this.index);
-    field.setAttribute("aria-label", say("fold.name"));
+    const about = { placeholder: foldName({}, this.index), ariaLabel: say("fold.name") };
+    const field = input("field fold-rename", { value: this.fold.name, maxLength: 200, ...about });
     this.field = field;
     this.name.hidden = true;
     this.name.after(field);

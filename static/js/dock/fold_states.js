@@ -1,5 +1,6 @@
 /** How far each fold is at a time of the plan. */
 
+import { say } from "../language/say.js";
 import { foldOf } from "./step_kinds.js";
 
 /** @import { Plan } from "pleat" */
@@ -7,6 +8,15 @@ import { foldOf } from "./step_kinds.js";
 /** @typedef {"done"|"current"|"available"|"waiting"} FoldState */
 
 const INSTANT_S = 1e-9;
+
+/** What is said of a fold in each state. @type {Record<string, string>} */
+export const STATE_WORDS = {
+  done: say("fold_state.done"),
+  current: say("fold_state.current"),
+  available: say("fold_state.available"),
+  waiting: say("fold_state.waiting"),
+  none: "",
+};
 
 /**
  * @param {Plan|null} plan

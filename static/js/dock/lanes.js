@@ -1,18 +1,21 @@
 /** One lane each for the base and the arms, with the slider over them and the playhead across. */
 
 import { unit } from "../board/units.js";
-import { button, element } from "../dom.js";
+import { button, element, group } from "../dom.js";
 import { say } from "../language/say.js";
 import { Marks } from "../rehearsal/marks.js";
 import { laneBlocks, primitiveAt } from "./lane_blocks.js";
 import { markStep } from "./step_menu.js";
-import { axisTicks } from "./time_axis.js";
 import { armLetter, armTitle } from "../messages/arms.js";
 import { place } from "../messages/names.js";
 import { kindOf } from "./step_kinds.js";
 import { hands, seconds, whole } from "./words.js";
 
 /** @import { Fold, Primitive } from "pleat" */
+
+/** Where the time axis may have its numbers: so far apart (s), and so many at most. */
+const STEPS_S = [1, 2, 5, 10, 20, 30, 60, 120, 300, 600];
+const TICKS_MOST = 8;
 
 export class Lanes {
   /**
@@ -112,8 +115,7 @@ export class Lanes {
     const label = element("span", "lane-name", letter && element("b", "arm", letter), element("span", "", words));
     const lane = element("div", "lane");
     lane.dataset.lane = name;
-    lane.setAttribute("role", "group");
-    lane.setAttribute("aria-label", words);
+    group(lane, words);
     this.marks.name.before(label, lane);
     return lane;
   }
@@ -225,4 +227,11 @@ function nearest(lane, made) {
   const gap = (block) => Math.abs(parseFloat(block.style.left) - parseFloat(made.style.left));
   const blocks = /** @type {HTMLElement[]} */ ([...lane.children]);
   return blocks.reduce((best, block) => (gap(block) < gap(best) ? block : best));
+}
+
+/** @param {number} duration_s @returns {number[]} round times from 0, at most so many */
+export function axisTicks(duration_s) {
+  if (duration_s <= 0) return [];
+  const step = STEPS_S.find((candidate) => duration_s / candidate <= TICKS_MOST) ?? Math.ceil(duration_s / TICKS_MOST);
+  return Array.from({ length: Math.floor(duration_s / step) + 1 }, (_, index) => index * step);
 }

@@ -2,9 +2,9 @@
 
 import { unit } from "../board/units.js";
 import { button, element } from "../dom.js";
+import { drawnIcon } from "../icons.js";
 import { say } from "../language/say.js";
 import { present } from "../present.js";
-import { drawnIcon } from "./icons.js";
 import { primitiveAt } from "./lane_blocks.js";
 import { layersPicture } from "../repair/folded_picture.js";
 import { inAWord } from "../rehearsal/words.js";

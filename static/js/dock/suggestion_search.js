@@ -1,7 +1,6 @@
 /** A search for what would help: asks the server, and gathers its answers as they come. */
 
-import { sayable } from "../dom.js";
-import { eventStream, rest } from "../event_stream.js";
+import { eventStream, Search } from "../event_stream.js";
 
 /** @import { Preview } from "../store.js" */
 /** @import { DocumentState, GarmentFold, Pose, Says, SuggestionEvent, TryingEvent } from "pleat" */
@@ -24,51 +23,36 @@ const WORK_S = 10;
 /** So much time, so that mostly the work ends a search and what is shown does not depend on how busy the machine is. */
 const TIME_LIMIT_S = 60;
 
-export class SuggestionSearch extends EventTarget {
+export class SuggestionSearch extends Search {
   constructor() {
     super();
     /** @type {SuggestionEvent[]} in the order of arrival */
     this.found = [];
-    this.isRunning = false;
     /** What is being tried. @type {TryingEvent|null} */
     this.trying = null;
     /** Whether every change that could be tried was, before the work was done. */
     this.isComplete = false;
-    this.fault = "";
-    /** @type {AbortController|null} of the search that is running */
-    this.abort = null;
   }
 
   /**
-   * Search for a document's drawing, in place of what was searched for before. Tells "change" whenever there is news.
+   * Search for a document's drawing.
    * @param {DocumentState} state
    * @param {{delay_ms?: number, work_s?: number, known?: () => string|undefined}} how how long to wait first, the work
    *   that the search may do, and what tells the id of the answer to the drawing
    */
-  async start(state, { delay_ms = 0, work_s = WORK_S, known = () => undefined } = {}) {
-    this.forget();
-    const abort = new AbortController();
-    this.abort = abort;
-    this.isRunning = true;
-    this.tell();
-    try {
-      await rest(delay_ms, abort.signal);
+  start(state, { delay_ms = 0, work_s = WORK_S, known = () => undefined } = {}) {
+    return this.begin(delay_ms, async (signal) => {
       const asked = { ...request(state), time_limit_s: TIME_LIMIT_S, work_limit_s: work_s };
       const id = known();
       const address = id ? `${ADDRESS}?${new URLSearchParams({ known: id })}` : ADDRESS;
-      for await (const { event, data } of eventStream(address, asked, abort.signal)) {
+      for await (const { event, data } of eventStream(address, asked, signal)) {
         if (event === "done") this.isComplete = data.complete === true;
         if (event === "trying") this.trying = data;
         if (event !== "suggestion") continue;
         this.found.push(data);
         this.tell();
       }
-    } catch (error) {
-      if (!abort.signal.aborted) this.fault = sayable(error);
-    }
-    if (abort.signal.aborted) return; // another search may be running by now
-    this.isRunning = false;
-    this.tell();
+    });
   }
 
   /** Search no more, and forget what was found. */
@@ -78,16 +62,10 @@ export class SuggestionSearch extends EventTarget {
   }
 
   forget() {
-    this.abort?.abort();
+    super.forget();
     this.found = [];
     this.trying = null;
-    this.isRunning = false;
     this.isComplete = false;
-    this.fault = "";
-  }
-
-  tell() {
-    this.dispatchEvent(new Event("change"));
   }
 }
 

@@ -1,11 +1,11 @@
 /** Play and pause, from primitive to primitive, the speed, and what is going on. */
 
-import { button, element } from "../dom.js";
+import { button, element, input } from "../dom.js";
+import { smallIcon } from "../icons.js";
 import { isTyping } from "../keys.js";
 import { numeral } from "../language/numeral.js";
 import { say } from "../language/say.js";
 import { iconButton, relabel } from "./buttons.js";
-import { icon } from "./icons.js";
 import { primitiveAt } from "./lane_blocks.js";
 import { hands, seconds, whole } from "./words.js";
 
@@ -79,7 +79,7 @@ export class Transport {
     const { playing, duration_s: duration, speed } = this.clock.told;
     const name = playing ? say("play.pause") : say("play.play");
     if (this.shownName !== name) {
-      this.play.replaceChildren(icon(playing ? "pause" : "play"), element("span", "", name));
+      this.play.replaceChildren(smallIcon(playing ? "pause" : "play"), element("span", "", name));
       relabel(this.play, name);
       this.play.title = say("play.with_key", { what: name });
       this.shownName = name;
@@ -111,10 +111,8 @@ export class TimeSlider {
   constructor(store, clock) {
     this.store = store;
     this.clock = clock;
-    this.root = /** @type {HTMLInputElement} */ (element("input", "time-slider"));
-    Object.assign(this.root, { id: "time", type: "range", min: "0", max: "0", step: "any", value: "0" });
-    this.root.disabled = true;
-    this.root.setAttribute("aria-label", say("time.label"));
+    const range = { type: "range", min: "0", max: "0", step: "any", value: "0", disabled: true };
+    this.root = input("time-slider", { id: "time", ...range, ariaLabel: say("time.label") });
     this.touchedAt = -Infinity;
     /** Where the hand was last (s). */
     this.wanted = 0;

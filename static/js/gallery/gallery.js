@@ -5,7 +5,7 @@ import { OFFLINE, openDialog, sentenceOf } from "../dialogs/dialog.js";
 import { goTo, goToNew } from "../dialogs/documents.js";
 import { showNew } from "../dialogs/new.js";
 import { askTitle, fileName } from "../dialogs/rename.js";
-import { button, element } from "../dom.js";
+import { button, element, group, input, toldAloud } from "../dom.js";
 import { listed } from "../garments.js";
 import { icon } from "../icons.js";
 import { inEnglish, say, translated } from "../language/say.js";
@@ -26,16 +26,13 @@ class Gallery {
   /** @param {import("../store.js").Store} store */
   constructor(store) {
     this.store = store;
-    this.search = /** @type {HTMLInputElement} */ (element("input", "field gallery-search"));
-    this.search.type = "search";
-    this.search.placeholder = say("gallery.find");
-    this.search.setAttribute("aria-label", say("gallery.find"));
+    const find = say("gallery.find");
+    this.search = input("field gallery-search", { type: "search", placeholder: find, ariaLabel: find });
     this.search.addEventListener("input", () => this.filter());
     this.own = row(say("gallery.yours"));
     this.templates = row(say("gallery.templates"));
     this.examples = row(say("gallery.examples"));
-    this.said = element("p", "dialog-problem");
-    this.said.setAttribute("role", "alert");
+    this.said = toldAloud("dialog-problem", "alert");
     this.none = element("p", "dialog-text", say("gallery.nothing"));
     this.none.hidden = true;
     const rows = [this.own, this.templates, this.examples].map(({ root }) => root);
@@ -189,8 +186,7 @@ class Gallery {
 function row(title) {
   const list = element("div", "tiles");
   const root = element("section", "gallery-row", element("h3", "", title), list);
-  list.setAttribute("role", "group");
-  list.setAttribute("aria-label", title);
+  group(list, title);
   return { root, list };
 }
 

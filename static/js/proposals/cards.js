@@ -3,7 +3,7 @@
 import { number, unit } from "../board/units.js";
 import { fetched } from "../dialogs/documents.js";
 import { seconds } from "../dock/words.js";
-import { arrowsLead, button, element } from "../dom.js";
+import { arrowsLead, button, element, group } from "../dom.js";
 import { say } from "../language/say.js";
 import { PointedPlan } from "../pointed_plan.js";
 import { layersPicture } from "../repair/folded_picture.js";
@@ -26,8 +26,7 @@ export class ProposalCards {
     /** @type {Map<Proposal, ProposalCard>} in the order of arrival */
     this.cards = new Map();
     this.root = element("div", "proposal-cards");
-    this.root.setAttribute("role", "group");
-    this.root.setAttribute("aria-label", say("proposal.ways"));
+    group(this.root, say("proposal.ways"));
     this.root.addEventListener("keydown", (event) => arrowsLead(this.root, event));
     for (const name of ["pointerleave", "focusout"]) this.root.addEventListener(name, () => this.place());
   }

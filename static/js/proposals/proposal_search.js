@@ -1,11 +1,9 @@
 /** A search for ways to fold a garment to a size: a job that lasts as long as somebody waits for it. */
 
-import { fetched } from "../dialogs/documents.js";
 import { capital } from "../dock/words.js";
-import { sayable } from "../dom.js";
-import { eventStream, rest } from "../event_stream.js";
+import { jobEvents, Search } from "../event_stream.js";
 
-/** @import { Garment, GarmentFold, Job } from "pleat" */
+/** @import { Garment, GarmentFold } from "pleat" */
 
 /**
  * A way to fold the garment; see `POST /api/proposals`.
@@ -24,55 +22,31 @@ import { eventStream, rest } from "../event_stream.js";
 
 const UNTRIED = "untried";
 
-export class ProposalSearch extends EventTarget {
+export class ProposalSearch extends Search {
   constructor() {
     super();
     /** @type {Proposal[]} in the order of arrival */
     this.found = [];
     /** @type {Proposal[]} that are not planned yet */
     this.untried = [];
-    this.isRunning = false;
     /** Whether it has come to its end. */
     this.isDone = false;
     /** The share that is done. */
     this.progress = 0;
-    this.fault = "";
-    /** @type {AbortController|null} of the search that is running */
-    this.abort = null;
     addEventListener("pagehide", () => this.stop());
   }
 
-  /**
-   * Search in place of what was searched for before. Tells "change" whenever there is news.
-   * @param {Asked} asked
-   * @param {number} delay_ms how long to wait first
-   */
-  async start(asked, delay_ms) {
-    this.forget();
-    const { signal } = (this.abort = new AbortController());
-    this.isRunning = true;
-    this.tell();
-    try {
-      await rest(delay_ms, signal);
-      await this.follow(await begun(asked, signal), signal);
-    } catch (error) {
-      if (!signal.aborted) this.fault = sayable(error);
-    }
-    if (signal.aborted) return; // another search may be running by now
-    this.abort = null;
-    this.isRunning = false;
-    this.tell();
-  }
-
-  /** @param {string} path of the job @param {AbortSignal} signal */
-  async follow(path, signal) {
-    for await (const { event, data } of eventStream(`${path}/events`, null, signal)) {
-      if (event === "found") data.status === UNTRIED ? this.untried.push(data) : this.take(data);
-      else this.progress = data.progress;
-      this.isDone = event === "end" && data.status === "done";
-      if (event === "end" && !this.isDone) this.fault = capital(data.message || data.status);
-      this.tell();
-    }
+  /** @param {Asked} asked @param {number} delay_ms how long to wait first */
+  start(asked, delay_ms) {
+    return this.begin(delay_ms, async (signal) => {
+      for await (const { event, data } of jobEvents("../api/proposals", asked, signal)) {
+        if (event === "found") data.status === UNTRIED ? this.untried.push(data) : this.take(data);
+        else this.progress = data.progress;
+        this.isDone = event === "end" && data.status === "done";
+        if (event === "end" && !this.isDone) this.fault = capital(data.message || data.status);
+        this.tell();
+      }
+    });
   }
 
   /** A better one may come with the number of one that it stands in for. @param {Proposal} proposal */
@@ -96,34 +70,13 @@ export class ProposalSearch extends EventTarget {
   }
 
   forget() {
-    this.abort?.abort();
+    super.forget();
     this.found = [];
     this.untried = [];
     this.progress = 0;
-    this.isRunning = this.isDone = false;
-    this.fault = "";
-  }
-
-  tell() {
-    this.dispatchEvent(new Event("change"));
+    this.isDone = false;
   }
 }
 
 /** @param {Proposal} proposal */
 const looksOf = ({ folds, layers, size_m: sides }) => [folds.length, layers, ...sides.map((side) => side.toFixed(2))].join();
-
-/**
- * Begin the job; it is cancelled once nobody waits for it.
- * @param {Asked} asked
- * @param {AbortSignal} signal
- * @returns {Promise<string>} its path
- */
-async function begun(asked, signal) {
-  /** @type {Job} */
-  const { id } = await fetched("../api/proposals", "POST", asked);
-  const path = `../api/jobs/${id}`;
-  const cancel = () => fetch(`${path}/cancel`, { method: "POST", keepalive: true }).catch(() => {});
-  if (signal.aborted) cancel();
-  signal.addEventListener("abort", cancel);
-  return path;
-}

@@ -8,7 +8,7 @@ import { freshId } from "../board/ids.js";
 import { number, parsed, unit } from "../board/units.js";
 import { toggle } from "../dock/buttons.js";
 import { request } from "../dock/suggestion_search.js";
-import { button, element } from "../dom.js";
+import { button, element, field, group, progressBar, toldAloud } from "../dom.js";
 import { icon } from "../icons.js";
 import { inEnglish, say } from "../language/say.js";
 import { inWords, ProposalCards } from "./cards.js";
@@ -51,16 +51,13 @@ export class Proposing {
       this.draw();
     });
     this.keep.title = say("proposal.keep_hint");
-    this.note = element("p", "hint");
-    this.note.setAttribute("role", "status");
-    this.bar = /** @type {HTMLProgressElement} */ (element("progress", "job-progress"));
-    this.bar.setAttribute("aria-label", say("proposal.progress"));
+    this.note = toldAloud("hint");
+    this.bar = progressBar(say("proposal.progress"));
     this.stop = button("chip", () => this.search.stop(), say("search.stop"));
     const close = button("icon-button is-small", () => board.choose("select"), icon("close"));
     close.setAttribute("aria-label", say("dialog.close"));
     const chips = element("div", "proposal-chips", ...this.presets.map(({ made }) => made), size, this.like.root, this.keep);
-    chips.setAttribute("role", "group");
-    chips.setAttribute("aria-label", say("proposal.sizes"));
+    group(chips, say("proposal.sizes"));
     const head = element("header", "proposal-head", element("h2", "", say("proposal.do")), chips, close);
     const wait = element("div", "proposal-wait", this.note, this.bar, this.stop);
     this.root = element("section", "proposing", head, wait, this.cards.root);
@@ -86,10 +83,7 @@ export class Proposing {
 
   /** A field for a side; arrow keys make it longer or shorter. @param {0|1} axis @param {string} name */
   field(axis, name) {
-    const made = /** @type {HTMLInputElement} */ (element("input", "field"));
-    made.autocomplete = "off";
-    made.inputMode = "decimal";
-    made.setAttribute("aria-label", name);
+    const made = field({ inputMode: "decimal", ariaLabel: name });
     /** @param {number|null} metres */
     const put = (metres) => {
       const [wide, long] = this.tool.sides ?? [metres ?? 0, metres ?? 0];

@@ -4,9 +4,9 @@
  */
 
 import { boxOf } from "../board/geometry.js";
-import { path, svg } from "../board/sheet.js";
+import { path } from "../board/sheet.js";
 import { openDialog } from "../dialogs/dialog.js";
-import { button, byId, element } from "../dom.js";
+import { button, byId, element, svg } from "../dom.js";
 import { icon } from "../icons.js";
 import { say } from "../language/say.js";
 import { inWords } from "../messages/in_words.js";

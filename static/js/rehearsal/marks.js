@@ -1,6 +1,6 @@
 /** A lane below those of base and arms: what became of each step of the plan in the rehearsal. */
 
-import { button, element } from "../dom.js";
+import { button, element, group } from "../dom.js";
 import { say } from "../language/say.js";
 import { fateOf, inAWord } from "./words.js";
 
@@ -13,8 +13,7 @@ export class Marks {
     this.onSeek = onSeek;
     this.name = element("span", "lane-name", element("b", "arm", "\u2713"), element("span", "", say("rehearsal.lane")));
     this.lane = element("div", "lane marks");
-    this.lane.setAttribute("role", "group");
-    this.lane.setAttribute("aria-label", say("rehearsal.lane"));
+    group(this.lane, say("rehearsal.lane"));
     this.show(null, new Map());
   }
 

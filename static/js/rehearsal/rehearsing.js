@@ -1,6 +1,6 @@
 /** The button `Rehearse` and what is said below it: how far the rehearsal is, whether the plan holds, all runs in small. */
 
-import { button, element } from "../dom.js";
+import { button, element, group, progressBar, toldAloud } from "../dom.js";
 import { numeral } from "../language/numeral.js";
 import { say } from "../language/say.js";
 import { fateInAWord, summary, worstOf } from "./words.js";
@@ -16,10 +16,8 @@ export class Rehearsing {
     this.rehearsal = rehearsal;
     this.button = button("chip", () => rehearsal.begin(ONCE), say("rehearsal.do"));
     this.button.title = say("rehearsal.hint");
-    this.bar = /** @type {HTMLProgressElement} */ (element("progress", "job-progress"));
-    this.bar.setAttribute("aria-label", say("rehearsal.progress"));
-    this.note = element("p", "hint");
-    this.note.setAttribute("role", "status");
+    this.bar = progressBar(say("rehearsal.progress"));
+    this.note = toldAloud("hint");
     this.often = button("quiet", () => rehearsal.begin(OFTEN), say("rehearsal.often"));
     this.often.title = say("rehearsal.often_hint");
     this.end = button("quiet", () => rehearsal.close(), say("search.stop"));
@@ -59,8 +57,7 @@ class Histogram {
   constructor(onChosen) {
     this.onChosen = onChosen;
     this.columns = element("div", "runs-columns");
-    this.columns.setAttribute("role", "group");
-    this.columns.setAttribute("aria-label", say("rehearsal.runs"));
+    group(this.columns, say("rehearsal.runs"));
     this.about = element("p", "hint");
     this.root = element("div", "runs", this.columns, this.about);
     /** @type {Result|null} */

@@ -5,7 +5,7 @@ import { picture } from "../dialogs/picture.js";
 import { offer, suggestionWords } from "../dock/suggestion_button.js";
 import { ranked } from "../dock/suggestion_search.js";
 import { seconds } from "../dock/words.js";
-import { arrowsLead, button, element } from "../dom.js";
+import { arrowsLead, button, element, group } from "../dom.js";
 import { say } from "../language/say.js";
 import { HELP } from "../messages/changes.js";
 import { foldedPicture } from "./folded_picture.js";
@@ -23,8 +23,7 @@ export class Cards {
   constructor(store) {
     this.store = store;
     this.root = element("div", "cards");
-    this.root.setAttribute("role", "group");
-    this.root.setAttribute("aria-label", say("repair.suggestions"));
+    group(this.root, say("repair.suggestions"));
     this.root.addEventListener("keydown", (event) => arrowsLead(this.root, event));
     this.more = button("chip more-cards", () => this.showAll(!this.isAll));
     this.more.hidden = true;

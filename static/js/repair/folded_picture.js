@@ -1,7 +1,8 @@
 /** Cloth in small as a plan leaves it: its layers from bottom to top, as the robot sees them. */
 
 import { boxOf, turned } from "../board/geometry.js";
-import { path, svg } from "../board/sheet.js";
+import { path } from "../board/sheet.js";
+import { svg } from "../dom.js";
 
 /** @import { Plan, Point } from "pleat" */
 

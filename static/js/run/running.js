@@ -3,14 +3,13 @@
  * or all of them; the clock of the page follows. Whoever leaves the page stops the robot.
  */
 
-import { fetched } from "../dialogs/documents.js";
 import { primitiveAt } from "../dock/lane_blocks.js";
 import { capital, whole } from "../dock/words.js";
-import { button, element, sayable } from "../dom.js";
-import { eventStream } from "../event_stream.js";
+import { button, element, sayable, toldAloud } from "../dom.js";
+import { jobEvents } from "../event_stream.js";
 import { say } from "../language/say.js";
 
-/** @import { Job, Plan } from "pleat" */
+/** @import { Plan } from "pleat" */
 
 const INSTANT_S = 1e-3;
 
@@ -34,8 +33,7 @@ export class Running {
     this.fault = "";
     this.button = button("chip", () => this.begin(0), say("run.do"));
     this.button.title = say("run.hint");
-    this.note = element("p", "hint");
-    this.note.setAttribute("role", "status");
+    this.note = toldAloud("hint");
     this.next = button("chip", () => this.perform(this.after(this.step)));
     this.rest = button("quiet", () => this.perform(null), say("run.rest"));
     this.end = button("quiet", () => (this.abort ? this.stop() : this.close()));
@@ -80,13 +78,8 @@ export class Running {
     this.fault = "";
     this.show();
     try {
-      /** @type {Job} */
-      const { id } = await fetched("../api/runs", "POST", { plan: plan.id, from_step: step, until_step: until });
-      const path = `../api/jobs/${id}`;
-      const cancel = () => fetch(`${path}/cancel`, { method: "POST", keepalive: true }).catch(() => {});
-      if (signal.aborted) cancel();
-      signal.addEventListener("abort", cancel);
-      for await (const { event, data } of eventStream(`${path}/events`, null, signal)) {
+      const asked = { plan: plan.id, from_step: step, until_step: until };
+      for await (const { event, data } of jobEvents("../api/runs", asked, signal)) {
         if (event === "end") this.take(data);
         else this.follow(plan, Math.max(data.progress * (plan.cost_s ?? 0), plan.primitives[step].start_s));
       }

@@ -2,7 +2,7 @@
 
 import { evaluated, length, number, parsed, problemOf, unit, UNITS } from "../board/units.js";
 import { openDialog } from "../dialogs/dialog.js";
-import { byId, element } from "../dom.js";
+import { byId, element, field, toldAloud } from "../dom.js";
 import { language, LANGUAGES, ownName, speak } from "../language/language.js";
 import { shortest } from "../language/numeral.js";
 import { inEnglish, say } from "../language/say.js";
@@ -75,8 +75,7 @@ function choice(name, options, chosen, onChoice) {
 
 /** The document's numbers, changed together. @param {Store} store @param {import("pleat").Drawing} drawing */
 function documents(store, drawing) {
-  const said = element("p", "dialog-problem");
-  said.setAttribute("role", "alert");
+  const said = toldAloud("dialog-problem", "alert");
   const fields = fieldsOf(drawing);
   const groups = [...new Set(fields.map(({ group }) => group))].map((group) => {
     const rows = fields.filter((field) => field.group === group).map(({ row }) => row);
@@ -184,10 +183,10 @@ function besides({ stations, table }, to) {
   );
 }
 
-/** @typedef {ReturnType<typeof field>} Field */
+/** @typedef {ReturnType<typeof fieldOf>} Field */
 
 /** @param {Drawing} drawing */
-const fieldsOf = (drawing) => WANTED.map((wanted) => field(wanted, wanted.get(drawing)));
+const fieldsOf = (drawing) => WANTED.map((wanted) => fieldOf(wanted, wanted.get(drawing)));
 
 /** What has been written, into a drawing; the rest stays as it is to the last digit. @param {Drawing} drawing @param {Field[]} fields */
 function withValues(drawing, fields) {
@@ -195,15 +194,12 @@ function withValues(drawing, fields) {
 }
 
 /** @param {Wanted} wanted @param {number} now */
-function field({ group, name, unit: kind, limits: [least, most], put }, now) {
-  const input = /** @type {HTMLInputElement} */ (element("input", "field"));
+function fieldOf({ group, name, unit: kind, limits: [least, most], put }, now) {
   const factor = FACTORS[kind] ?? 1;
   /** @param {number} si */
   const written = (si) => shortest(Number((si / factor).toPrecision(4)));
   const shown = kind === "length" ? number(now) : written(now);
-  input.value = shown;
-  input.inputMode = "decimal";
-  input.autocomplete = "off";
+  const input = field({ value: shown, inputMode: "decimal" });
   const word = kind === "length" ? unit.name : kind === "deg/s" ? "\u00B0/s" : kind;
   const row = element("label", "setting", element("span", "", name), input, element("span", "measure-unit", word));
   const value = () => {

@@ -17,8 +17,7 @@ from app.cli import demonstrate as command
 from app.demonstrations import demonstrate as demonstrations
 from app.demonstrations.dataset import DemonstrationDataset
 from app.demonstrations.demonstrate import demonstrate
-from app.demonstrations.episode import StopError, demonstration
-from app.demonstrations.variation import PLACE_M, TURN_RAD, Variation
+from app.demonstrations.episode import PLACE_M, TURN_RAD, StopError, Variation, demonstration
 from app.files import lerobot_dataset
 from app.files.lerobot_dataset import CAMERAS, FPS, Episode, Pictures, picture_stats
 from app.worker.stop import Stop

@@ -11,8 +11,7 @@ import pytest
 from app.drivers import ur_arms
 from app.drivers.driver import DriverError, LostError
 from app.drivers.lerobot_arms import LerobotDriver, so_followers
-from app.drivers.recording import Recording
-from app.drivers.run import Ended, run_plan
+from app.drivers.run import Ended, Recording, run_plan
 from app.drivers.ur_arms import UrDriver
 from planner import Plan
 from planner.robots.card import RobotCard

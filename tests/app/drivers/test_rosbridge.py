@@ -7,9 +7,8 @@ from collections.abc import Iterator
 import pytest
 
 from app.drivers.driver import DriverError
-from app.drivers.recording import Recording
 from app.drivers.rosbridge import RosbridgeDriver
-from app.drivers.run import Ended, Leg, run_plan
+from app.drivers.run import Ended, Leg, Recording, run_plan
 from planner import Plan
 from planner.robots.card import RobotCard
 from planner.robots.load_robot import load_robot

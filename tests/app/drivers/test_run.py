@@ -11,8 +11,7 @@ from mcap.reader import make_reader
 from mcap_ros2.decoder import DecoderFactory
 
 from app.drivers.driver import Joints, LostError
-from app.drivers.recording import Recording
-from app.drivers.run import Ended, Leg, run_plan
+from app.drivers.run import Ended, Leg, Recording, run_plan
 from app.drivers.simulated import SimulatedDriver
 from planner import Plan
 from planner.errors import RequestError

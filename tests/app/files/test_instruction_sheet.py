@@ -9,9 +9,8 @@ import pytest
 from pypdf import PdfReader
 
 from app.files.instruction_sheet import HEIGHT, WIDTH, instruction_sheet
-from app.files.sheet_page import Disc, Outline, Page, Words
+from app.files.sheet_page import Disc, Outline, Page, Words, page_svg
 from app.files.sheet_pdf import page_pdf
-from app.files.sheet_svg import page_svg
 from planner import Plan, load_garment, make_plan
 from planner.errors import UnsolvedPlanError
 from tests.replay.planned import shipped_plan

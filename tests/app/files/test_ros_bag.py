@@ -15,8 +15,7 @@ from rosbags.rosbag2 import Reader
 from rosbags.typesys import Stores, get_typestore
 
 from app.files.folder_file import unpack
-from app.files.ros_bag import mcap_file, rosbag2_folder
-from app.files.ros_messages import TABLE_FRAME, ros_motion
+from app.files.ros_bag import TABLE_FRAME, mcap_file, ros_motion, rosbag2_folder
 from tests.small_plan import CARD, one_armed, small_plan
 
 JOINT_TOPICS = {

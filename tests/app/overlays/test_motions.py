@@ -50,10 +50,10 @@ def test_a_fold_takes_its_grips_from_corner_to_corner_of_the_cloth(towel: tuple[
     # The towel is 0.686 m by 0.419 m; its near corners (0, 0) and (0.686, 0) come onto the far ones. On the way they
     # stand 0.2095 m over the line, and the tools 2 cm more.
     half = required(paths_overlay(at(towel[0], 0.0)))[0]
-    left = next(grip for grip in half["grips"] if grip["arm"] == "left")
-    assert (half["primitive"], half["kind"], half["fold"]) == (0, "fold", 0)
-    assert np.allclose([left["pick"], left["apex"], left["place"]], [(0, 0), (0, 0.2095), (0, 0.419)], atol=1e-6)
-    assert np.allclose(left["points"], [(0, 0, 0.02), (0, 0.2095, 0.2295), (0, 0.419, 0.02)], atol=1e-6)
+    left = next(grip for grip in half.grips if grip.arm == "left")
+    assert (half.primitive, half.kind, half.fold) == (0, "fold", 0)
+    assert np.allclose([left.pick, required(left.apex), left.place], [(0, 0), (0, 0.2095), (0, 0.419)], atol=1e-6)
+    assert np.allclose(left.points, [(0, 0, 0.02), (0, 0.2095, 0.2295), (0, 0.419, 0.02)], atol=1e-6)
 
 
 def test_the_bases_way_begins_where_the_robot_starts_and_ends_where_the_plan_leaves_it(
@@ -62,20 +62,20 @@ def test_the_bases_way_begins_where_the_robot_starts_and_ends_where_the_plan_lea
     document, plan = shirt
     moment = at(document, 0.0)
     told = required(base_overlay(moment))
-    way = moment.placement.to_outer(np.array(told["way"]))
+    way = moment.placement.to_outer(np.array(told.way))
     last = plan.primitives[-1].base.pose
     assert np.allclose(way[0], (-0.95, 0.0), atol=1e-6)
     assert np.allclose(way[-1], (last.x_m, last.y_m), atol=1e-6)
-    assert len(told["stands"]) == len(plan.primitives)
-    assert told["gone"] == 1
+    assert len(told.stands) == len(plan.primitives)
+    assert told.gone == 1
 
 
 def test_more_and_more_of_the_way_is_gone(shirt: tuple[Document, Plan]) -> None:
     document, plan = shirt
     times_s = np.linspace(0.0, required(plan.cost_s), 40)
-    gone = [required(base_overlay(at(document, t_s)))["gone"] for t_s in times_s]
+    gone = [required(base_overlay(at(document, t_s))).gone for t_s in times_s]
     assert gone == sorted(gone)
-    assert gone[-1] >= len(required(base_overlay(at(document, 0.0)))["way"]) - 1
+    assert gone[-1] >= len(required(base_overlay(at(document, 0.0))).way) - 1
 
 
 def test_the_base_is_between_the_points_gone_and_the_next(jeans: tuple[Document, Plan]) -> None:
@@ -84,7 +84,7 @@ def test_the_base_is_between_the_points_gone_and_the_next(jeans: tuple[Document,
     moment = at(document, move.start_s + 0.5 * move.duration_s)
     told = required(base_overlay(moment))
     base = np.array([moment.base_in_article.x_m, moment.base_in_article.y_m])
-    before, after = np.array(told["way"][told["gone"] - 1]), np.array(told["way"][told["gone"]])
+    before, after = np.array(told.way[told.gone - 1]), np.array(told.way[told.gone])
     assert math.dist(before, base) + math.dist(base, after) == pytest.approx(math.dist(before, after), abs=1e-4)
 
 

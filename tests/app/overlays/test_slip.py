@@ -56,13 +56,13 @@ def test_where_the_cloth_lies_double_less_of_it_may_hang() -> None:
 def test_the_lines_are_where_the_planner_says_that_the_cloth_slips() -> None:
     # Stiff cloth, so that it is the friction alone that is asked for.
     scene, cloth = Scene(friction=0.6, support_angle_rad=1.4), folded_over(0.4, 0.5, 0.2)
-    for limit in slip_overlay(lying(cloth, Pose2(0.0, 0.0, 0.3), 0.6))["limits"]:
+    for limit in slip_overlay(lying(cloth, Pose2(0.0, 0.0, 0.3), 0.6)).limits:
         # Laid so that the line is on its edge, the cloth is about to slip: 4 mm further out it does.
         for further, is_at_rest in ((-0.004, True), (0.004, False)):
-            placement = laid(limit["edge"], limit["line"], further, scene)
+            placement = laid(limit.edge, list(limit.line), further, scene)
             top = TableInArticle.seen_from(placement, scene.table)
             found = unrest(cloth, top, scene.friction, scene.support_angle_rad)
-            assert (found is None) == is_at_rest, limit["edge"]
+            assert (found is None) == is_at_rest, limit.edge
             assert found is None or found.code == "slips"
 
 
@@ -79,17 +79,17 @@ def laid(edge: str, line: list[Point2], further_m: float, scene: Scene) -> Pose2
 def test_what_hangs_now_is_told_by_the_edge() -> None:
     # 0.4 m wide, 1 m long, article and table frames parallel: its lowest y is 0.2 m beyond the right edge at -0.49.
     told = slip_overlay(lying(spread(rectangle_points(0.4, 0.8)), Pose2(0.0, -0.69, 0.0)))
-    assert told["hanging_m2"] == pytest.approx({"right": 0.08, "far": 0.0, "left": 0.0, "near": 0.0})
-    assert (told["lying_m2"], told["pull_m2"]) == pytest.approx((0.24, 0.08))
-    assert told["holds"]
-    right = next(limit for limit in told["limits"] if limit["edge"] == "right")
-    assert (right["now_m"], right["at_m"]) == pytest.approx((0.2, 0.4), abs=1e-5)
-    assert np.allclose(sorted(right["line"]), [(0.0, 0.4), (0.4, 0.4)], atol=1e-5)
+    assert told.hanging_m2 == pytest.approx({"right": 0.08, "far": 0.0, "left": 0.0, "near": 0.0})
+    assert (told.lying_m2, told.pull_m2) == pytest.approx((0.24, 0.08))
+    assert told.holds
+    right = next(limit for limit in told.limits if limit.edge == "right")
+    assert (right.now_m, right.at_m) == pytest.approx((0.2, 0.4), abs=1e-5)
+    assert np.allclose(sorted(right.line), [(0.0, 0.4), (0.4, 0.4)], atol=1e-5)
 
 
 def test_what_hangs_over_opposite_edges_balances() -> None:
     # A runner 0.2 m wide and 1.4 m long across the table, 0.21 m over either edge.
     told = slip_overlay(lying(spread(rectangle_points(0.2, 1.4)), Pose2(0.0, -0.7, 0.0), 0.01))
-    assert told["hanging_m2"]["left"] == pytest.approx(told["hanging_m2"]["right"]) == pytest.approx(0.042)
-    assert told["pull_m2"] == pytest.approx(0.0, abs=1e-9)
-    assert told["holds"]
+    assert told.hanging_m2["left"] == pytest.approx(told.hanging_m2["right"]) == pytest.approx(0.042)
+    assert told.pull_m2 == pytest.approx(0.0, abs=1e-9)
+    assert told.holds

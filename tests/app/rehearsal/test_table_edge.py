@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from app.rehearsal.corrections import laid_over, over_edge
 from app.rehearsal.step_seen import StepSeen
-from app.rehearsal.table_edge import laid_over, over_edge
 from app.rehearsal.world import GripMotion, StepMotion
 from planner.folds.fold_path import REST_HEIGHT_M, FoldPath
 from planner.geometry.segment import Segment

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from app.rehearsal.taut_way import taut
+from app.rehearsal.corrections import taut
 from app.rehearsal.world import GripMotion, StepMotion
 from planner.geometry.pose import Point2
 

@@ -8,8 +8,7 @@ import pytest
 
 from app.drawing.draft import draft_of
 from app.drawing.garment_drawing import drawing_of
-from app.store.backup import NoBackupError, UsedFolderError, back_up, restore
-from app.store.copy_rows import UsedDatabaseError
+from app.store.backup import NoBackupError, UsedDatabaseError, UsedFolderError, back_up, restore
 from app.store.data_folder import DataFolder
 from app.store.database import Database
 from app.store.document_repository import DocumentRepository

@@ -6,14 +6,13 @@ from pyarrow import parquet
 
 from app.rehearsal.rehearse import rehearse
 from app.studies.answer import answered
+from app.studies.fields import StudyError
 from app.studies.findings import Findings
-from app.studies.local_workers import LocalWorkers
 from app.studies.results import Results
 from app.studies.run_study import run_study
 from app.studies.study import Study
-from app.studies.study_error import StudyError
 from app.studies.table import PARQUET
-from app.studies.workers import planner
+from app.studies.workers import LocalWorkers, planner
 from tests.app.rehearsal.test_rehearsal_routes import NAPKIN
 from tests.app.studies.planners import fake_plan
 from tests.app.studies.study_samples import study

@@ -12,10 +12,10 @@ from pyarrow import parquet
 
 from app.studies.answer import Answer
 from app.studies.cell import Cell
+from app.studies.fields import StudyFolderError
 from app.studies.results import FILE, Results
 from app.studies.run_study import Progress, run_study
 from app.studies.study import Study
-from app.studies.study_error import StudyFolderError
 from app.studies.table import CSV, PARQUET, TIMING
 from app.studies.workers import InProcess, Workers
 from planner.task.plan import Plan

@@ -9,11 +9,10 @@ import pytest
 
 from app.job_kinds.studies import STUDIES
 from app.jobs.job_kind import Stores
+from app.studies.fields import StudyError
 from app.studies.garment_entries import Sources
 from app.studies.study import Study
-from app.studies.study_error import StudyError
-from app.studies.study_fields import FIELDS
-from app.studies.study_file import read_study, study_of
+from app.studies.study_file import FIELDS, read_study, study_of
 from planner import load_garment
 from planner.geometry.pose import Pose2
 from planner.planning.robot_task import default_scene, task_for

@@ -12,9 +12,8 @@ from app.job_kinds.studies import keep_study
 from app.store.database import Database
 from app.store.study_store import StudyStore, UnknownStudyError
 from app.studies.results import Results
-from app.studies.run_study import run_study
+from app.studies.run_study import run_study, study_id
 from app.studies.study import Study
-from app.studies.study_job import study_id
 from app.studies.table import CSV
 from app.studies.workers import InProcess
 from planner.robots.known_robots import shipped_path

@@ -5,11 +5,9 @@ from typing import Any
 
 import pytest
 
-from app.studies import executor_workers, handing_out, local_workers
-from app.studies.executor_workers import ExecutorWorkers, cluster
-from app.studies.local_workers import LocalWorkers
-from app.studies.study_error import StudyError
-from app.studies.workers import InProcess, Workers
+from app.studies import workers as study_workers
+from app.studies.fields import StudyError
+from app.studies.workers import ExecutorWorkers, InProcess, LocalWorkers, Workers, cluster
 from tests.app.studies.planners import deadly, deadly_once, fake_plan, hanging, raising
 from tests.app.studies.study_samples import study
 
@@ -38,7 +36,7 @@ def test_a_cell_that_kills_its_worker_twice_is_a_row_and_the_others_are_answered
 
 
 def test_a_cell_that_hangs_is_ended(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(local_workers, "_GRACE_S", 0.0)
+    monkeypatch.setattr(study_workers, "_GRACE_S", 0.0)
     found = answers(LocalWorkers(2, hanging), study(limits={"time_limit_s": 0.5}))
     assert [found[index]["status"] for index in range(4)] == ["solved", "failed", "infeasible", "infeasible"]
     assert "time limit" in found[1]["error"]
@@ -54,13 +52,13 @@ def test_cells_are_made_only_as_they_are_needed() -> None:
 
     running = LocalWorkers(1, fake_plan).answers(cells())
     next(running)
-    assert len(taken) <= 2 + handing_out.AHEAD
+    assert len(taken) <= 2 + study_workers.AHEAD
     running.close()
 
 
 def test_workers_that_all_die_end_the_study(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(handing_out, "LOST_MAX", 2)
-    with pytest.raises(handing_out.WorkersLostError, match="-9"):
+    monkeypatch.setattr(study_workers, "LOST_MAX", 2)
+    with pytest.raises(study_workers.WorkersLostError, match="-9"):
         answers(LocalWorkers(1, deadly), study(table={"height_m": 0.75}, scene={"friction": [0.1, 0.2, 0.3]}))
 
 
@@ -85,7 +83,7 @@ def test_a_batch_whose_worker_is_lost_comes_back_cell_by_cell() -> None:
 
 
 def test_a_scheduler_that_does_not_answer_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(executor_workers, "_CONNECT_S", 0.1)
+    monkeypatch.setattr(study_workers, "_CONNECT_S", 0.1)
     with pytest.raises(StudyError, match=r"127\.0\.0\.1:1"), cluster("tcp://127.0.0.1:1"):
         pass
 

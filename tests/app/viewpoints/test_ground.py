@@ -2,7 +2,7 @@ import math
 
 import pytest
 
-from app.ui.viewpoints.ground import Ground, on_table
+from app.ui.viewpoints.presets import Ground, on_table
 from planner.geometry.table import Table
 from tests.app.drawing.drawings import outlined, towel_drawing
 

@@ -5,8 +5,7 @@ import numpy as np
 import pytest
 
 from app.ui.viewpoint import FOV_RAD
-from app.ui.viewpoints.ground import Ground
-from app.ui.viewpoints.presets import Lens, robots_eye, side, top
+from app.ui.viewpoints.presets import Ground, Lens, robots_eye, side, top
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
 from planner.robots.load_robot import load_robot

@@ -7,9 +7,8 @@ import numpy as np
 import pytest
 
 from app.rehearsal.physics.fabric import Fabric, Resolution
-from app.rehearsal.physics.hinges import angle_over_sine, bent_rad
 from app.rehearsal.physics.pinch import clamped, pinched
-from app.rehearsal.physics.simulation import ClothSimulation
+from app.rehearsal.physics.simulation import ClothSimulation, angle_over_sine, bent_rad
 from planner.geometry.table import Table, TableTop
 from planner.geometry.woven_mesh import woven_mesh
 from tests.builders import rectangle
