@@ -33,7 +33,7 @@ export function showImport(store, first = null) {
 /** Take files that are dropped anywhere on the page. @param {Store} store */
 export function acceptDrops(store) {
   /** @param {DragEvent} event */
-  const hasFiles = (event) => event.dataTransfer?.types.includes(say("import.files"));
+  const hasFiles = (event) => event.dataTransfer?.types.includes("Files");
   addEventListener("dragover", (event) => {
     if (hasFiles(event)) event.preventDefault();
   });
