@@ -13,7 +13,7 @@ from planner.robots.comfort_reach import Memories
 from planner.robots.pr2.arm import read_arm
 from planner.robots.pr2.mirrored_arm import MirroredArm
 from planner.robots.pr2.reach import APPROACHES, Pr2Reach
-from tests.robots.model import MODEL, limits, pin_tool_pose, random_joints, the_pr2
+from tests.robots.model import MODEL, joints_near, limits, pin_tool_pose, random_joints, the_pr2
 
 ROBOT = the_pr2()
 CARD = ROBOT.card
@@ -55,7 +55,7 @@ def test_everything_reachable_has_joints_within_limits_that_reach_it(arm: int) -
     assert 300 < answers.sum() < 2000
     low, high = limits(CARD, arm)
     for position, rotation in zip(positions[answers], rotations[answers], strict=True):
-        joints = ROBOT.joints_near(arm, position, rotation, TORSO_M, ROBOT.home(arm))
+        joints = joints_near(ROBOT, arm, position, rotation, TORSO_M, ROBOT.home(arm))
         assert joints is not None
         assert np.all((low <= joints) & (joints <= high))
         reached, turned = pin_tool_pose(CARD, arm, joints, TORSO_M)

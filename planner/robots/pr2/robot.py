@@ -96,21 +96,3 @@ class Pr2(ArmedRobot):
             torso_m: how far the torso is raised (m).
         """
         return self._arms[arm].can_reach(positions, rotations[:, :, 0], float(torso_m))
-
-    def joints_near(
-        self, arm: int, position: FloatArray, rotation: FloatArray, torso_m: float, near: FloatArray
-    ) -> FloatArray | None:
-        """Return the joints nearest to given ones that bring an arm's tool to a pose.
-
-        Args:
-            arm: the arm's index.
-            position: the tool's position (m), shape (3,).
-            rotation: the tool's axes as columns, shape (3, 3).
-            torso_m: how far the torso is raised (m).
-            near: joints to be near to (rad), shape (7,).
-
-        Returns:
-            Joints within their limits (rad), shape (7,), forearm and wrist roll within half a turn of `near`; or None
-            where the pose is out of reach.
-        """
-        return self._arms[arm].joints_near(position, rotation, float(torso_m), near)
