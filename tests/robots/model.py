@@ -3,10 +3,11 @@
 import numpy as np
 import pinocchio as pin
 
-from planner.geometry.pose import FloatArray
+from planner.geometry.pose import BoolArray, FloatArray
 from planner.robots.card import RobotCard
 from planner.robots.load_robot import load_robot
 from planner.robots.pr2.description import read_model
+from planner.robots.pr2.kernel import reachable_batch
 from planner.robots.pr2.robot import Pr2
 from planner.robots.tool_path import ToolPath
 
@@ -35,6 +36,13 @@ def limits(card: RobotCard, arm: int) -> tuple[FloatArray, FloatArray]:
     return np.array(low), np.array(high)
 
 
+def can_reach(robot: Pr2, arm: int, positions: FloatArray, rotations: FloatArray, torso_m: float) -> BoolArray:
+    """Return which tool poses an arm of the robot can take with every joint within its limits, shape (n,)."""
+    own = robot._arms[arm]
+    points = own.mirrored_places(positions) - own.shoulder(torso_m)
+    return reachable_batch(own.shape, points, own.mirrored_places(rotations[:, :, 0]))
+
+
 def joints_near(
     robot: Pr2, arm: int, position: FloatArray, rotation: FloatArray, torso_m: float, near: FloatArray
 ) -> FloatArray | None:
@@ -42,7 +50,7 @@ def joints_near(
     path = ToolPath(position[None], rotation[None], np.empty(0), (0, 1))
     found = robot.arm_path_near(arm, path, torso_m, lambda _, joints: np.ones(len(joints), dtype=bool), near[None])
     if found is not None:
-        return found[0]
+        return np.asarray(found[0])
     samples = robot.free_postures(arm, position, rotation, torso_m, lambda joints: np.ones(len(joints), dtype=bool))
     nearest = np.linalg.norm(samples - near, axis=1).argsort()
     return np.asarray(samples[nearest[0]]) if len(samples) else None

@@ -20,6 +20,7 @@ import pinocchio as pin
 from planner.geometry.pose import FloatArray
 from planner.robots.card import EDGE_OPEN_M, HELD_M, GripperCard, RobotCard
 from planner.robots.collision.part_poses import Index
+from planner.robots.collision.part_source import EDGE_ROUNDING_MAX_M, ROUNDING_MAX_M, TIPS_ROUNDING_MAX_M
 from planner.robots.collision.robot_parts import RobotParts
 from planner.robots.collision.rounded_hull import RoundedHull, hull_arrays, hull_from, rounded_hull
 from planner.robots.kept_arrays import Arrays, kept
@@ -115,13 +116,6 @@ def _turned(points: FloatArray, angle: float, further: float) -> FloatArray:
 
 OPENINGS_M = (0.0, HELD_M, EDGE_OPEN_M, 0.03, 0.06, 0.09)
 """Openings of the fingers for which there are shapes (m)."""
-
-ROUNDING_MAX_M, TIPS_ROUNDING_MAX_M, EDGE_ROUNDING_MAX_M = 0.003, 0.0003, 0.0001
-"""Limits on how far a shape may exceed the hull of its meshes, apart from being made symmetric (m).
-
-Fingertips have a tighter limit because they pass the table's top by half a millimetre, and the tightest where they are
-open so little that one may be under cloth.
-"""
 
 _FORMAT = 1
 """Version of the cache; raise it whenever shapes are made or stored differently."""
