@@ -67,11 +67,6 @@ class _Outcomes:
     _afters: dict[int, State] = field(default_factory=dict)
 
     @property
-    def afters(self) -> Iterator[State]:
-        """All of these states."""
-        return (self.after(end) for end in self.ends.tolist())
-
-    @property
     def first(self) -> State:
         """One of these states."""
         return self.after(int(self.ends[0]))
@@ -126,7 +121,7 @@ class HoldingDrags:
         return _Outcomes(state.done, offset, state.station, held, count, ends, folds)
 
     def _every_step(self, drag: _Drag) -> Iterator[DragStep]:
-        return (self._step(drag, after) for after in drag.outcomes.afters)
+        return (self._step(drag, drag.outcomes.after(end)) for end in drag.outcomes.ends.tolist())
 
     def _step(self, drag: _Drag, after: State) -> DragStep:
         return DragStep(self._context, drag.way, drag.before, after, after.standoff - drag.driven)

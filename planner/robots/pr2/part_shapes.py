@@ -64,20 +64,6 @@ def _corners(geometry: coal.CollisionGeometry) -> FloatArray:
     return corners
 
 
-def body_points(points: dict[str, FloatArray]) -> list[FloatArray]:
-    """Return the points of each part of the body, in its joint's frame."""
-    return [points[part.joint] for part in BODY_PARTS]
-
-
-def arm_points(points: dict[str, FloatArray]) -> list[FloatArray]:
-    """Return the points of the left arm's parts up to and including the palm, in their joints' frames."""
-    return [_of_both_sides(points, part.joint) for part in ARM_PARTS[:FINGERS]]
-
-
-def _of_both_sides(points: dict[str, FloatArray], joint: str) -> FloatArray:
-    return np.vstack([points[f"l_{joint}"], points[f"r_{joint}"] * _MIRROR])
-
-
 def finger_points(
     model: pin.Model, points: dict[str, FloatArray], gripper: GripperCard, opening_m: float
 ) -> tuple[FloatArray, FloatArray]:
@@ -147,8 +133,11 @@ def part_shapes(model: pin.Model, gripper: GripperCard, directory: Path | None =
 def make_shapes(model: pin.Model, gripper: GripperCard) -> PartShapes:
     """Return the shapes, made from the meshes."""
     points = points_of_joints(model)
-    body = dict(zip((part.name for part in BODY_PARTS), body_points(points), strict=True))
-    arm = dict(zip((part.name for part in ARM_PARTS[:FINGERS]), arm_points(points), strict=True))
+    body = {part.name: points[part.joint] for part in BODY_PARTS}
+    arm = {
+        part.name: np.vstack([points[f"l_{part.joint}"], points[f"r_{part.joint}"] * _MIRROR])
+        for part in ARM_PARTS[:FINGERS]
+    }
     for opening_m in OPENINGS_M:
         fingers = finger_points(model, points, gripper, opening_m)
         arm |= zip((finger_key(part, opening_m) for part in (FINGERS, FINGERTIPS)), fingers, strict=True)
