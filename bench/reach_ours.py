@@ -7,14 +7,13 @@ import numpy as np
 from bench.pin_arm import TORSO_M
 from bench.reach_method import Answering, Joints, Method
 from bench.reach_queries import Queries
-from planner.geometry.pose import BoolArray
+from planner.geometry.pose import BoolArray, FloatArray
 from planner.geometry.reach_query import ReachQuery
 from planner.robots.pr2.arm import read_arm
 from planner.robots.pr2.description import read_model
 from planner.robots.pr2.kernel import reachable_batch
 from planner.robots.pr2.mirrored_arm import MirroredArm
 from planner.robots.pr2.reach import APPROACHES, Pr2Reach
-from planner.robots.pr2.robot import Pr2
 
 BATCHES = (1, 10, 100, 1000)
 
@@ -74,10 +73,11 @@ def _asked_again(queries: Queries) -> Answering:
 
 
 def _joints(queries: Queries, answers: BoolArray) -> Joints:
-    """Return the joints that Pleat finds for its answers; nan where it says yes and then finds none."""
-    robot = Pr2()
-    found = []
+    """Return the cheapest of the joints that Pleat samples for its answers; nan where it says yes and finds none."""
+    arm = MirroredArm(read_arm(read_model()), is_mirrored=False)
+    found: list[FloatArray | None] = []
     for point, rotation, answer in zip(queries.points, queries.rotations, answers, strict=True):
-        near = robot.joints_near(0, point, rotation, TORSO_M, robot.home(0)) if answer else None
-        found.append(np.full(7, np.nan) if answer and near is None else near)
+        (joints,), (costs,) = arm.samples(point[None], rotation[None], TORSO_M, -np.inf)
+        best = joints[costs.argmin()] if np.isfinite(costs).any() else np.full(7, np.nan)
+        found.append(best if answer else None)
     return found

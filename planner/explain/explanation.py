@@ -45,7 +45,7 @@ def explained(obstacles: Obstacles) -> Iterator[tuple[Reason, ...]]:
         return try_folds(tried[-1], budget, folds, may_collide=relaxed.may_collide)
 
     try:
-        base = RelaxedProblem.of(obstacles.problem)
+        base = RelaxedProblem(obstacles.problem)
         yield confirmed_reasons(base, Trial.failed(obstacles), met, ask, lambda: budget.is_over)
     finally:
         for problem in tried:
@@ -218,7 +218,7 @@ class _RelaxationSets:
         return tuple(other.kind for other in others if self._trials.is_enough(other.change, base, amount))
 
     def _least(self, relaxation: Relaxation) -> tuple[float | None, Reason | None]:
-        """Return the least sufficient amount, and what the arms touch with it; None where there is none.
+        """Return the least sufficient amount and what the arms touch with it, each None if there is none.
 
         Where collisions are what is left in the way, the amount is the least that brings all places into reach.
         """
@@ -367,7 +367,7 @@ class _JointSets:
 
 
 def _further(members: _Members) -> Iterator[_Members]:
-    """Yield causes removed by their amounts, and then by their larger amounts, as long as there are any."""
+    """Yield the members with their amounts, then with each larger amount that they have."""
     most = max((len(member.relaxation.amounts) for member in members), default=0)
     for number in range(most):
         amounts = (member.relaxation.amounts for member in members)

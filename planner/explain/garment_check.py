@@ -25,7 +25,7 @@ from planner.primitives.context import Context
 from planner.primitives.fold_trial import grips_obstacle
 from planner.primitives.grasping import held_covers
 from planner.primitives.obstacle import Obstacle
-from planner.primitives.state import Held, State
+from planner.primitives.state import UNDRAGGED, Held, State
 from planner.robots.load_robot import load_robot
 from planner.task.reason import Code, Reason
 from planner.task.scene import Scene
@@ -200,7 +200,7 @@ def _checks(context: Context) -> Iterator[FoldCheck]:
             obstacle = None if covers else _not_held(context, done, fold.index, left_held)
         else:
             covers = list(found.covers)
-            obstacle = grips_obstacle(context, State(done, (0.0, 0.0), 0, 0), fold.index)
+            obstacle = grips_obstacle(context, State(done, UNDRAGGED, 0, 0), fold.index)
         over = Isometry.reflection(fold.line)
         left_held = [tuple(over.apply_point(grip) for grip in cover) for cover in covers]
         yield FoldCheck(
@@ -214,9 +214,9 @@ def _checks(context: Context) -> Iterator[FoldCheck]:
 
 
 def _not_held(context: Context, done: int, fold: int, left_held: list[tuple[Point2, ...]]) -> Obstacle:
-    """Return the obstacle that nothing that the fold before may leave held suffices, for the first such grips."""
+    """Return the obstacle that no grips left held by the fold before hold all that this fold needs."""
     held = _as_held(left_held[0]) if left_held else ()
-    return Obstacle(fold, Code.RED_NEEDS_HOLD, None, 1.0, State(done, (0.0, 0.0), 0, 0, held))
+    return Obstacle(fold, Code.RED_NEEDS_HOLD, None, 1.0, State(done, UNDRAGGED, 0, 0, held))
 
 
 def _as_held(grips: tuple[Point2, ...]) -> tuple[Held, ...]:

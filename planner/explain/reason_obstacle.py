@@ -24,7 +24,7 @@ from planner.primitives.fold_way import can_follow
 from planner.primitives.grasping import lifted_points, nearest_pair_m
 from planner.primitives.obstacle import BlockingContact, Obstacle
 from planner.primitives.primitive import Step
-from planner.primitives.state import State
+from planner.primitives.state import UNDRAGGED, State
 from planner.task.reason import Code, Reason
 from planner.words.catalogue import worded
 
@@ -33,9 +33,6 @@ _MOVE_STEP_M, _MOVES = 0.02, 50
 
 _UNKNOWN_M, _SLACK_M = 1.0, 1e-3
 """Severity of an obstacle of unknown size, and how much further cloth is moved when a direction is checked (m)."""
-
-_START = (0.0, 0.0)
-"""The offset of cloth that has not been dragged (m)."""
 
 
 def of_obstacle(context: Context, obstacle: Obstacle) -> Reason:
@@ -220,7 +217,7 @@ def _offset_then(context: Context, obstacle: Obstacle, state: State) -> Point2:
     """
     if obstacle.contact is None or obstacle.dragged_to is None or obstacle.point is None:
         return state.offset
-    return point2(np.array(obstacle.contact.point[:2]) - context.placed(_START).to_outer(np.array(obstacle.point)))
+    return point2(np.array(obstacle.contact.point[:2]) - context.placed(UNDRAGGED).to_outer(np.array(obstacle.point)))
 
 
 def _held_by(context: Context, step: Step, contact: BlockingContact | None) -> Point2 | None:

@@ -131,7 +131,7 @@ def _advised(reason: Reason, context: Context, values: Mapping[str, Any], **same
 
 
 def dragged(state: State) -> dict[str, Any]:
-    """Return where drags had brought the cloth, as values of a message."""
+    """Return where drags had brought the cloth, as values for a message."""
     return {"dragged": list(state.offset), "is_held": state.is_dragged}
 
 

@@ -28,7 +28,7 @@ from planner.primitives.fold_trial import fold_trials
 from planner.primitives.fold_way import away_from_shoulders
 from planner.primitives.g_drag import GDrag
 from planner.primitives.obstacle import Attempt, Situation, situation
-from planner.primitives.state import State
+from planner.primitives.state import UNDRAGGED, State
 
 CANDIDATES_MAX = 1000
 """Candidates examined; of more, only those that are roughly nearest to the arms' reach."""
@@ -41,9 +41,6 @@ _UNSURE_MAX = 8
 
 _EXTREMES = np.array([0.0, 1.0, 2.0])
 """The sweeps at start, apex and end of a fold."""
-
-_START = (0.0, 0.0)
-"""The offset of cloth that has not been dragged (m)."""
 
 _Place = tuple[int, int]
 """A place of the cloth in steps of the grid."""
@@ -62,7 +59,7 @@ class Places:
         self._drags = GDrag(context)
         counts = np.arange(1, longest_drag(context) + 1)[:, None]
         self._shifts = tuple(
-            grid_keys(counts * np.array(dragged(context, _START, station, 1)))
+            grid_keys(counts * np.array(dragged(context, UNDRAGGED, station, 1)))
             for station in range(len(context.scene.stations))
         )
         self._origins_at: dict[int, dict[_Place, Point2]] = {}
@@ -93,7 +90,7 @@ class Places:
         reached = self._reached_in(state).get(_key(state.offset), 0)
         if state.held:
             return reached | self._left_by_drags(state.station, state)
-        if reached or _key(state.offset) == _key(_START):
+        if reached or _key(state.offset) == _key(UNDRAGGED):
             return self._everywhere
         stations = range(len(self._context.scene.stations))
         return self._everywhere if any(self._left_by_drags(station, state) for station in stations) else 0
@@ -106,7 +103,7 @@ class Places:
     def _origins(self, done: int) -> dict[_Place, Point2]:
         """Return where the cloth may lie free before a drag, on the grid and in m, the start first."""
         if done not in self._origins_at:
-            free = [_key(_START), *self._reached.get((done, (), False), {})]
+            free = [_key(UNDRAGGED), *self._reached.get((done, (), False), {})]
             self._origins_at[done] = {(x, y): (x * LENGTH_M, y * LENGTH_M) for x, y in free}
         return self._origins_at[done]
 
@@ -128,7 +125,7 @@ class Places:
         key = (state.done, state.station)
         if key not in self._taken:
             towards = towards_robot(self._context, state.station)
-            covers = drag_covers(self._context, state.done, _START, towards).covers
+            covers = drag_covers(self._context, state.done, UNDRAGGED, towards).covers
             self._taken[key] = frozenset(tuple(sorted(_key(grip) for grip in cover)) for cover in covers)
         return tuple(sorted(_key(held.point) for held in state.held)) in self._taken[key]
 

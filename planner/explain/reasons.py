@@ -33,7 +33,7 @@ from planner.primitives.fold_trial import fold_trials, grips_obstacle
 from planner.primitives.fold_way import can_follow
 from planner.primitives.obstacle import BlockingContact, Obstacle, Situation
 from planner.primitives.primitive import Step
-from planner.primitives.state import State
+from planner.primitives.state import UNDRAGGED, State
 from planner.task.reason import Code, Reason
 from planner.words.catalogue import worded
 
@@ -208,7 +208,7 @@ class _Causes:
     def _together(self, met: list[Obstacle]) -> Iterator[Reason]:
         """Yield all that stands against the way that comes nearest, if several things stand against each way."""
         states = [o.state for code in _GEOMETRY for o in self._mildest(met, code) if o.state is not None]
-        states = states or [State(done, (0.0, 0.0), 0, 0) for done in sorted(self.dones)]
+        states = states or [State(done, UNDRAGGED, 0, 0) for done in sorted(self.dones)]
         ways = [self._all_in(state) for state in states]
         if ways:
             against, miss = min(ways, key=self._repair)

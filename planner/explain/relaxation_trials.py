@@ -34,11 +34,6 @@ class RelaxedProblem:
     problem: Problem
     liberties: Liberties = NO_LIBERTIES
 
-    @staticmethod
-    def of(problem: Problem) -> "RelaxedProblem":
-        """Return a problem as it is."""
-        return RelaxedProblem(problem)
-
     @property
     def may_collide(self) -> bool:
         """Whether the arms may pass through anything."""

@@ -119,7 +119,7 @@ def _of_place(context: Context, reason: Reason) -> Iterator[Relaxation]:
 
 
 def _onto_table(context: Context, reason: Reason) -> Iterator[Relaxation]:
-    """Yield a move of the cloth until all of it lies on the table, or as far towards that as is enough."""
+    """Yield the move that brings all of the cloth onto the table; less of it may be enough."""
     room = Room.of(context.sequence.garment, context.placement, context.scene.table)
     x, y = room.nearest
     length = math.hypot(x, y)
@@ -151,7 +151,7 @@ def _of_reach(context: Context, reason: Reason) -> Iterator[Relaxation]:
 
 
 def _less_comfort(context: Context, reason: Reason) -> Iterator[Relaxation]:
-    """Yield a smaller comfort radius, combined with others where a point lacks more than all of it."""
+    """Yield a smaller comfort radius; where a point lacks more than the whole radius, other changes must be added."""
     now_m = context.reach.comfort_m
     if now_m > 0.0:
         amounts = (now_m,) if reason.comfort_m is None else (now_m - reason.comfort_m, now_m)

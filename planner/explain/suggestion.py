@@ -239,12 +239,12 @@ class TrialBudget:
 
     @property
     def is_late(self) -> bool:
-        """Whether the time is up, whatever work is left, or the search was told to stop."""
+        """Whether the time is up, even if work is left, or the search was stopped."""
         return self._whole.deadline.is_over
 
     @property
     def is_stopped(self) -> bool:
-        """Whether the search was told to stop."""
+        """Whether the search was stopped."""
         return self._whole.deadline.is_stopped
 
     def while_left(self, things: Iterable[T], needed_s: float) -> Iterator[T]:
@@ -278,11 +278,9 @@ class TrialBudget:
         this is asked second, since most trials have no plan at all.
         """
         self.spent_s += _SETTING_UP_S
-        problem = (
-            Problem.of(task, self._whole.deadline).without_arm_drags()
-            if by_folds_alone
-            else Problem.of(task, self._whole.deadline)
-        )
+        problem = Problem.of(task, self._whole.deadline)
+        if by_folds_alone:
+            problem = problem.without_arm_drags()
         plan = self._searched(problem, work_s, with_reasons=with_reasons, is_patient=with_reasons)
         if not plan.is_solved:
             return plan

@@ -348,7 +348,7 @@ def sizes(task: Task) -> Search:
 
 
 def _smaller(task: Task, share: float) -> SuggestionTrial | None:
-    """Return the trial with all lengths of the garment multiplied by a share; None where that is no garment."""
+    """Return the trial with all lengths of the garment multiplied by a share; None if that gives no valid garment."""
     try:
         garment = _scaled(task.garment, share)
     except FieldError:
@@ -368,7 +368,7 @@ def _scaled(garment: Garment, share: float) -> Garment:
 
 
 def _kept_near(task: Task, garment: Garment) -> Pose2:
-    """Return the placement with which a garment has its near side, and the middle of it, where the task's has them."""
+    """Return the placement that keeps the garment's near side, and its middle, where they are in the task."""
     before = task.start.placement
     old, new = (before.to_outer(np.array(one.outline)) for one in (task.garment, garment))
     dx = old[:, 0].min() - new[:, 0].min()

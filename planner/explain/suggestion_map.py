@@ -95,7 +95,7 @@ def placement_map(
     here = task.start.placement
     moves = Room.of(task.garment, here, task.scene.table).moves(step_m)
     poses = [here.moved(i * step_m, j * step_m) for i, j in sorted(moves, key=_coarse_first)]
-    cells = _planned(task, poses, budget, on_place or _ignore)
+    cells = _planned(task, poses, budget, on_place or (lambda _, __: None))
     cells.sort(key=lambda cell: (cell.placement.x_m, cell.placement.y_m))
     return PlacementMap(step_m, tuple(cells), len(cells) == len(poses))
 
@@ -104,10 +104,6 @@ def _coarse_first(move: tuple[int, int]) -> tuple[int, int, int]:
     """Return a sort key for coarse places first, so that a map cut short still shows the whole table."""
     i, j = move
     return (i % 2 + j % 2, i, j)
-
-
-def _ignore(_: int, __: int) -> None:
-    """Ignore how far the map is."""
 
 
 def _planned(task: Task, poses: list[Pose2], budget: TrialBudget, on_place: Callable[[int, int], None]) -> list[Cell]:

@@ -88,7 +88,7 @@ def suggestions(
     budget = TrialBudget(whole)
     known = plan or budget.plan(task, _FIRST_PLAN_SHARE * whole.work_limit_s, with_reasons=True)
     names = () if known.is_solved else sorted(other_robots, key=needs_maps)
-    return _searched(task, known, budget, on_trial or _ignore, names)
+    return _searched(task, known, budget, on_trial or (lambda _: None), names)
 
 
 def _searched(
@@ -133,7 +133,7 @@ def _searched(
 
 
 def _blocking(plan: Plan) -> tuple[int, ...]:
-    """Return the folds to blame, a few at most; those that only wait for others count only if there are no others."""
+    """Return at most a few folds to blame; folds that only wait for others count only if all of them do."""
     about = [reason for reason in plan.reasons if reason.fold is not None]
     to_blame = [r for r in about if r.code is not Code.WAITS_FOR_FOLD] or about
     folds = {r.fold: None for r in to_blame if r.fold is not None} or range(len(plan.garment.folds))
@@ -142,10 +142,6 @@ def _blocking(plan: Plan) -> tuple[int, ...]:
 
 def _lanes(*searches: Search) -> list["_Lane"]:
     return [_Lane(search) for search in searches]
-
-
-def _ignore(_: SuggestionTrial) -> None:
-    """Tell nobody of a trial."""
 
 
 def _by_turns(
@@ -194,7 +190,7 @@ class _Lane:
             yield from self._resumed(partial(self._search.send, plan))
 
     def last_words(self) -> Iterator[Suggestion]:
-        """Yield the suggestions left when there is no time for trials."""
+        """Yield the remaining suggestions once no time is left for trials."""
         while self._trial is not None and not self.is_done:
             yield from self._resumed(partial(self._search.throw, SpentError()))
 

@@ -40,12 +40,10 @@ def _bounded(source: Any, schema: GetCoreSchemaHandler) -> CoreSchema:  # noqa: 
     return core_schema.no_info_after_validator_function(
         lambda given: source(**given),
         core_schema.typed_dict_schema(members, extra_behavior="forbid", config=_STRICT),
-        serialization=core_schema.plain_serializer_function_ser_schema(_same, return_schema=schema(source)),
+        serialization=core_schema.plain_serializer_function_ser_schema(
+            lambda value: value, return_schema=schema(source)
+        ),
     )
-
-
-def _same(value: object) -> object:
-    return value
 
 
 GivenPose = Annotated[Pose2, GetPydanticSchema(_bounded)]

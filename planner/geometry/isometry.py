@@ -47,7 +47,7 @@ class Isometry:
 
     @property
     def matrix(self) -> FloatArray:
-        """The matrix and the translation beside it, shape (2, 3), m."""
+        """The matrix with the translation as third column, shape (2, 3), m."""
         return np.array([[self.a, self.b, self.x], [self.c, self.d, self.y]])
 
     def apply(self, points: FloatArray) -> FloatArray:

@@ -99,7 +99,7 @@ def _through_corners(region: Region, segment: Segment) -> Segment:
 
 
 def _corner_at(region: Region, point: Point2) -> Point2:
-    """Return the region's corner at a point, or the point itself where there is none."""
+    """Return the region's corner at a point; the point itself if no corner is there."""
     gaps = np.hypot(*(region.coordinates - point).T)
     nearest = int(np.argmin(gaps))
     x, y = region.coordinates[nearest]

@@ -102,7 +102,7 @@ def fanned(triangles: FloatArray, line: Segment, places_m: FloatArray) -> Parts:
 
 
 def _repeated(counts: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Return each index as often as is asked for, in order, and for each the number of its repetition."""
+    """Repeat each index a given number of times, in order; also return the number of each repetition."""
     sources = np.repeat(np.arange(len(counts)), counts)
     return sources, np.arange(len(sources)) - np.repeat(np.cumsum(counts) - counts, counts)
 

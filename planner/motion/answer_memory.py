@@ -1,4 +1,4 @@
-"""Keep answers by all that they depend on: the last ones used, or many short answers to long questions."""
+"""Keep the answers used last, by all that they depend on, or by a digest of it where that is long."""
 
 from collections import OrderedDict
 from collections.abc import Callable, Hashable
@@ -8,7 +8,6 @@ from typing import Generic, TypeVar
 
 K = TypeVar("K", bound=Hashable)
 V = TypeVar("V")
-T = TypeVar("T", bool, float)
 
 _DIGEST_BYTES = 16
 
@@ -40,37 +39,10 @@ class RecentAnswers(Generic[K, V]):
         return found
 
 
-class AnswerMemory(Generic[T]):
-    """Short answers by a digest of long questions, which are not kept; once there are many, all are forgotten.
-
-    May be shared between threads.
-    """
-
-    def __init__(self, most: int) -> None:
-        """Start without answers.
-
-        Args:
-            most: the number of answers kept, some 100 bytes each.
-        """
-        self._most = most
-        self._known: dict[bytes, T] = {}
-
-    def answer(self, ask: Callable[[], T], *about: bytes) -> T:
-        """Return the answer to a question about some data; `ask` is called unless the answer is known."""
-        key = _digest(about)
-        found = self._known.get(key)
-        if found is None:
-            found = ask()
-            if len(self._known) >= self._most:
-                self._known.clear()
-            self._known[key] = found
-        return found
-
-
-def _digest(parts: tuple[bytes, ...]) -> bytes:
-    """Return a short key; the lengths are in it, so that no byte passes from one part to the next."""
-    digest = blake2b(digest_size=_DIGEST_BYTES)
+def digest(*parts: bytes) -> bytes:
+    """Return a short key of a long question; the parts' lengths are in it, so that no byte passes to the next part."""
+    found = blake2b(digest_size=_DIGEST_BYTES)
     for part in parts:
-        digest.update(len(part).to_bytes(8, "little"))
-        digest.update(part)
-    return digest.digest()
+        found.update(len(part).to_bytes(8, "little"))
+        found.update(part)
+    return found.digest()

@@ -117,10 +117,10 @@ class JointTrajectory:
     _openings_m: list[list[float]] = field(default_factory=list)
 
     @staticmethod
-    def at_rest(joints: FloatArray, arms: int, start_s: float = 0.0) -> "JointTrajectory":
+    def at_rest(joints: FloatArray, arms: int) -> "JointTrajectory":
         """Return a trajectory of some arms that begins at their joints, shape (joints,), with all grippers open."""
         times, openings = [[0.0] for _ in range(arms)], [[OPEN_M] for _ in range(arms)]
-        return JointTrajectory([start_s], [joints], [np.zeros_like(joints)], times, openings)
+        return JointTrajectory([0.0], [joints], [np.zeros_like(joints)], times, openings)
 
     @property
     def last(self) -> FloatArray:

@@ -53,7 +53,7 @@ class LyingCloth:
         *,
         opening_m: float = OPENING_M,
     ) -> BoolArray:
-        """Return at which joints of an empty arm all of it is high enough above the cloth, shape (n,).
+        """Return at which joints of an empty arm the whole arm is high enough above the cloth, shape (n,).
 
         Args:
             arm: the arm.
@@ -67,7 +67,7 @@ class LyingCloth:
 
 @dataclass(frozen=True, slots=True)
 class _Above:
-    """The space above cloth; the same cloth on another table or beside another robot is another one."""
+    """The space above cloth, which depends on the cloth, the table and the robot."""
 
     key: bytes
     over_m: float

@@ -63,7 +63,11 @@ def positions_at(path: Trajectory, times_s: FloatArray) -> FloatArray:
 def velocities_at(path: Trajectory, times_s: FloatArray) -> FloatArray:
     """Return their velocities just after some times, shape (n, names): rad/s, m/s."""
     rows = [
-        (*path.arms.velocities_at(t), *(track.velocity_at(t) for track in path.grippers), *_velocity(path, t))
+        (
+            *path.arms.velocities_at(t),
+            *(track.velocity_at(t) for track in path.grippers),
+            *path.segment_at(t).base_velocity_at(t),
+        )
         for t in times_s.tolist()
     ]
     return np.array(rows)
@@ -88,7 +92,3 @@ def accelerations_at(path: Trajectory, times_s: FloatArray, end_s: float) -> Flo
 def _pose(path: Trajectory, t_s: float) -> tuple[float, float, float]:
     pose = path.segment_at(t_s).base_at(t_s)
     return pose.x_m, pose.y_m, pose.yaw_rad
-
-
-def _velocity(path: Trajectory, t_s: float) -> FloatArray:
-    return path.segment_at(t_s).base_velocity_at(t_s)

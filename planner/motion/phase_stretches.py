@@ -17,7 +17,7 @@ from planner.task.trajectory import Hand, Phase
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Stretch:
-    """Moments of one phase, of its turning in the grips or of its path.
+    """Waypoints of one phase, in which hands turn in their grips or follow their paths.
 
     Attributes:
         number: index of the phase.

@@ -93,7 +93,7 @@ class SampledPaths:
         return None
 
     def _grow(self, tree: "_Tree", towards: FloatArray) -> int | None:
-        """Grow a tree by at most one stride; return its new node, None if there is no room."""
+        """Grow a tree by at most one stride; return its new node, None if it is blocked."""
         near = tree.nearest(towards)
         away = towards - tree.nodes[near]
         stride = float(np.abs(away).max())
@@ -113,7 +113,7 @@ class SampledPaths:
         return None
 
     def _led(self, start: FloatArray, end: FloatArray) -> FloatArray | None:
-        """Return the last free configuration on a line, its end if all of it is free; None if there is none."""
+        """Return the last configuration before a line is blocked, or its end; None if it is blocked at once."""
         line = sampled(start, end, self._step_rad)[1:]
         count = self._free(line)
         if count == len(line):
@@ -121,7 +121,7 @@ class SampledPaths:
         return None if count == 0 else line[count - 1]
 
     def _shortened(self, way: FloatArray) -> FloatArray:
-        """Return a path with the corners left out that a free line between two random points of it spares."""
+        """Return a shorter path: free lines between random pairs of its points replace the corners in between."""
         most = self.tested + _SHORTCUT_TESTED_MAX
         for _ in range(_SHORTCUTS):
             if len(way) < 3 or self.tested >= most:

@@ -75,23 +75,21 @@ class TransitTime:
 
     Attributes:
         timed_phases: the timed phases of base and cloth, one after the other.
-        start_s: when it begins (s).
         cloth: the cloth on the table meanwhile.
     """
 
     timed_phases: list[TimedPhase]
-    start_s: float
     cloth: LyingCloth
 
     @property
     def end_s(self) -> float:
-        """The time at which it ends (s)."""
-        return self.start_s + sum(timed.duration_s for timed in self.timed_phases)
+        """The time at which it ends, if it begins at 0 (s)."""
+        return sum(timed.duration_s for timed in self.timed_phases)
 
     @property
     def borders_s(self) -> tuple[float, ...]:
         """The times at which one step of the plan ends and the next begins (s)."""
-        ends = np.cumsum([self.start_s, *(timed.duration_s for timed in self.timed_phases)]).tolist()
+        ends = np.cumsum([0.0, *(timed.duration_s for timed in self.timed_phases)]).tolist()
         return tuple(
             end
             for end, (one, other) in zip(ends[1:], pairwise(self.timed_phases), strict=False)
@@ -109,18 +107,13 @@ class TransitTime:
         return self.timed_phases[-1].duration_s
 
     @property
-    def first(self) -> Pose2:
-        """The base's pose at the beginning."""
-        return self.timed_phases[0].phase.base[0]
-
-    @property
     def last(self) -> Pose2:
         """The base's pose at the end."""
         return self.timed_phases[-1].phase.base[1]
 
     def bases_at(self, times_s: FloatArray) -> FloatArray:
         """Return the base at each of some times: x (m), y (m), yaw (rad), shape (n,) -> (n, 3)."""
-        ends = np.cumsum([self.start_s, *(timed.duration_s for timed in self.timed_phases)])
+        ends = np.cumsum([0.0, *(timed.duration_s for timed in self.timed_phases)])
         which = np.searchsorted(ends[1:-1], times_s)
         bases = np.empty((len(times_s), 3))
         for number, timed in enumerate(self.timed_phases):
@@ -132,7 +125,7 @@ class TransitTime:
         """Return the transit with a longer reach at its end (s)."""
         *driving, reach = self.timed_phases
         longer = TimedPhase.even(reach.primitive, reach.phase, reach.duration_s + by_s)
-        return TransitTime([*driving, longer], self.start_s, self.cloth)
+        return TransitTime([*driving, longer], self.cloth)
 
     def after_waiting(self, wait_s: float) -> "TransitTime":
         """Return the transit with a wait of the base before it (s), taken from the reach at its end.
@@ -143,7 +136,7 @@ class TransitTime:
         first = self.timed_phases[0]
         waiting = TimedPhase.even(first.primitive, _resting(first.phase), wait_s)
         shorter = TimedPhase.even(reach.primitive, reach.phase, reach.duration_s - wait_s)
-        return TransitTime([waiting, *driving, shorter], self.start_s, self.cloth)
+        return TransitTime([waiting, *driving, shorter], self.cloth)
 
 
 def _resting(phase: Phase) -> Phase:

@@ -117,7 +117,7 @@ class _TrajectoryBuilder:
                 moves.clear()  # they were part of the transit
                 continue
             for number, step in enumerate(plan_segment.steps, start=plan_segment.first):
-                lasting = (phase for phase in step.phases() if phase.duration_s > 0.0)
+                lasting = (phase for phase in step.phases if phase.duration_s > 0.0)
                 moves += [TimedPhase.driven(number, phase, self._time) for phase in lasting]
         self._timed_phases += moves
         if not self._timed_phases:

@@ -61,7 +61,7 @@ class Transfer:
     @property
     def free_phases(self) -> tuple[Phase, ...]:
         """The phases before the hands reach the grips: the base drives, the hands reach."""
-        return tuple(p for p in self.steps[0].phases() if p.duration_s > 0.0 and not is_carrying(p))
+        return tuple(p for p in self.steps[0].phases if p.duration_s > 0.0 and not is_carrying(p))
 
     @property
     def is_late(self) -> bool:
@@ -123,7 +123,7 @@ def transit_between(
     lost_s = transfer.timing.borrowed_s
     planned_s, timed_phases = -lost_s, []
     for number, step in enumerate(moves, start=-len(moves)):
-        for phase in step.phases():
+        for phase in step.phases:
             if phase.duration_s > 0.0:
                 timed_phases.append(TimedPhase.driven(number, phase, time))
                 planned_s += phase.duration_s
@@ -136,11 +136,11 @@ def transit_between(
             lost_s += timed_phases[-1].duration_s - phase.duration_s
     retreat = None if before is None else before.retreat
     going = None if before is None else before.going
-    times = TransitTime(timed_phases, 0.0, cloth)
+    times = TransitTime(timed_phases, cloth)
     if late is None:
         free, keyframes = planner.keyframes(times, retreat, transfer.approach, going, transfer.coming)
     else:
-        before_s = TransitTime(list(late.timed_phases), 0.0, cloth)
+        before_s = TransitTime(list(late.timed_phases), cloth)
         free, keyframes = planner.sooner(times, retreat, transfer.approach, (before_s, late.keyframes))
     late_s = free.end_s - planned_s
     return Transit(tuple(free.timed_phases), keyframes, late_s if late_s > TIME_S else 0.0)

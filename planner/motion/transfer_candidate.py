@@ -104,7 +104,7 @@ class BlockedWaypoints:
             self._shares[candidate.kind] = float(middle) / (len(candidate.waypoints) - 1)
 
     def suspects(self, candidate: "Candidate") -> list[int]:
-        """Return the moment of a candidate at which the last one of its kind was blocked, if any was."""
+        """Return the waypoint of a candidate at which the last one of its kind was blocked, if one was."""
         share = self._shares.get(candidate.kind)
         return [] if share is None else [round(share * (len(candidate.waypoints) - 1))]
 

@@ -42,7 +42,7 @@ class TransferPath:
 
     @property
     def settles(self) -> bool:
-        """Whether fingers close a step before the hands are at the grips, and open a step after their last moment."""
+        """Whether fingers close a step before the hands are at the grips, and open a step after their last waypoint."""
         return settles(self.lines.holds)
 
     @property

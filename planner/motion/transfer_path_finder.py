@@ -3,7 +3,6 @@
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import partial
-from hashlib import blake2b
 from itertools import combinations
 from typing import TypeAlias
 
@@ -12,7 +11,7 @@ from numpy.typing import NDArray
 
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M
-from planner.motion.answer_memory import RecentAnswers
+from planner.motion.answer_memory import RecentAnswers, digest
 from planner.motion.hand_holds import HandHold, Holds, edge_holds, opening_of, settles, wide_holds
 from planner.motion.lying_cloth import LyingCloth
 from planner.motion.opened_collisions import OpenedCollisions
@@ -82,7 +81,7 @@ class FreePostures:
         return all(any(self._can_hold(arms, waypoints, waypoint, holds) for holds in ways) for waypoint in which)
 
     def _can_hold(self, arms: list[int], waypoints: Waypoints, waypoint: int, holds: Holds) -> bool:
-        """Return whether the arms have free postures at a moment, each alone and all together, as hands hold.
+        """Return whether the arms have free postures at a waypoint, each alone and all together, given how hands hold.
 
         An arm that takes no part in the transfer is at home.
         """
@@ -149,8 +148,6 @@ class FreePostures:
 _TRANSFERS_KEPT = 64
 """Size of the cache of transfers, some 45 kB each. While three garments are drawn, more save nothing (measured)."""
 
-_DIGEST_BYTES = 16
-
 
 @dataclass(frozen=True, slots=True)
 class _TransferKey:
@@ -163,11 +160,9 @@ class _TransferKey:
     @staticmethod
     def of(waypoints: Waypoints, cloths: Cloths) -> "_TransferKey":
         parts = (waypoints.positions, waypoints.rotations, waypoints.bases, waypoints.nominal_s, waypoints.is_driving)
-        digest = blake2b(digest_size=_DIGEST_BYTES)  # the arrays are there once already, in the waypoints
-        for part in parts:
-            digest.update(f"{part.dtype}{part.shape}".encode())
-            digest.update(part.tobytes())
-        return _TransferKey(digest.digest(), cloths, waypoints)
+        # The arrays are there once already, in the waypoints.
+        told = (text for part in parts for text in (f"{part.dtype}{part.shape}".encode(), part.tobytes()))
+        return _TransferKey(digest(*told), cloths, waypoints)
 
 
 class TransferPathFinder:

@@ -143,7 +143,7 @@ class TransferPlanner:
         return self._candidates[key]
 
     def _candidate(self, steps: tuple[Step, ...], key: tuple[object, ...]) -> "Candidate":
-        phases = [(n, phase) for n, step in enumerate(steps) for phase in step.phases() if phase.duration_s > 0.0]
+        phases = [(n, phase) for n, step in enumerate(steps) for phase in step.phases if phase.duration_s > 0.0]
         carrying = tuple((n, phase) for n, phase in phases if is_carrying(phase))
         before = None if steps[0].before.held else self._cloths.of(steps[0].before)
         cloths = (before, self._cloths.of(steps[-1].after))
@@ -201,14 +201,14 @@ class TransferPlanner:
         timing = TransferTiming.of(candidate.carrying, candidate.waypoints, joints[first : last + 1], self._limits)
         if not is_clear_between(transfer_path, timing, self._collisions):
             return None
-        lead, tail = transfer_path.approach, transfer_path.retreat
+        coming, leaving = transfer_path.approach, transfer_path.retreat
         if transfer_path.settles:
-            lines = np.array([lead[-1], joints[first]]), np.array([joints[last], tail[0]])
+            lines = np.array([coming[-1], joints[first]]), np.array([joints[last], leaving[0]])
             if max(float(self.transits.needed_s(line)[0]) for line in lines) > settling_s(self.dwell_s):
                 return None
         at_grips = joints[first] if transfer_path.settles else None
         openings_m = np.array([opening_of(hold) for hold in transfer_path.lines.holds])
-        approach, retreat = self.transits.line(lead, openings_m, at_grips), self.transits.line(tail, openings_m)
+        approach, retreat = self.transits.line(coming, openings_m, at_grips), self.transits.line(leaving, openings_m)
         ways = self._ways_home(candidate.steps, transfer_path, approach, retreat, like)
         return None if ways is None else Transfer(candidate.steps, transfer_path, timing, approach, retreat, *ways)
 
@@ -217,13 +217,13 @@ class TransferPlanner:
 
     def contact(self, steps: Sequence[Step]) -> BlockingContact | None:
         """Return the contact that blocks a transfer; None if free postures exist but no path connects them."""
-        phases = [phase for step in steps for phase in step.phases() if phase.duration_s > 0.0 and is_carrying(phase)]
+        phases = [phase for step in steps for phase in step.phases if phase.duration_s > 0.0 and is_carrying(phase)]
         return self._contacts.of(self._waypoints(phases))
 
     def _ways_home(
         self, steps: Sequence[Step], transfer_path: TransferPath, approach: Line, retreat: Line, like: Transfer | None
     ) -> tuple[FloatArray | None, FloatArray | None] | None:
-        """Return how hands come from home and how they go there, beside a base that stands; None if they cannot.
+        """Return the paths of hands from home and to home while the base stands; None if one is blocked.
 
         They need not come where they hold the cloth already, nor go after the last fold. The ways of a similar transfer
         are tried first.
@@ -253,7 +253,7 @@ class TransferPlanner:
         spared: Spared,
         near: FloatArray | None,
     ) -> FloatArray | None:
-        """Return a way of empty hands beside a base that stands; sampled while that is worth a try."""
+        """Return a path of empty hands while the base stands; paths are sampled as long as that helps."""
         found = None if near is None else self.transits.way_near(base, start, goal, cloth, spared, near)
         if found is None:
             samples = self.known.sampling.is_worth_a_try

@@ -1,4 +1,4 @@
-"""Time a transfer: the time of every moment, and the rests in which fingers open.
+"""Time a transfer: the time of every waypoint, and the rests in which fingers open.
 
 Fingers close and open while everything rests, and cloth is released only once it lies. A rest is part of the arm motion
 before it, which becomes that much quicker; if there is none before it, as in a drag, the rest is part of the reach. All
@@ -76,7 +76,7 @@ class TransferTiming:
         Args:
             carrying: the phases.
             waypoints: their waypoints.
-            joints: the arms' joints at each moment, shape (waypoints, joints), rad.
+            joints: the arms' joints at each waypoint, shape (waypoints, joints), rad.
             limits: what the motion keeps.
         """
         is_last = np.asarray(waypoints.is_last_held.any(axis=0))
@@ -97,7 +97,7 @@ class TransferTiming:
         return TransferTiming(times, rows, path.velocities[rows, : joints.shape[1]], timed_phases, borrowed_s)
 
     def first_s(self, waypoint: int) -> float:
-        """Return when a moment is reached (s)."""
+        """Return when a waypoint is reached (s)."""
         return float(self.times_s[np.searchsorted(self.waypoints, waypoint)])
 
 
@@ -124,7 +124,7 @@ def _motions(carrying: Carrying) -> list[tuple[int, int | None]]:
 def _paced(
     carrying: Carrying, waypoints: Waypoints, least_s: FloatArray, rests: dict[tuple[int, int | None], float]
 ) -> FloatArray:
-    """Return the duration of each step from moment to moment (s), as speeds alone allow, shape (waypoints - 1,).
+    """Return the duration of each step from waypoint to waypoint (s), as speeds alone allow, shape (waypoints - 1,).
 
     The phases of one arm motion share its time, less its rests; a drive keeps its nominal speed, even in parts.
     """

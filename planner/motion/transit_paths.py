@@ -14,7 +14,7 @@ import numpy as np
 from planner.geometry.keyframes import ramps
 from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.tolerance import EDGE_RAD
-from planner.motion.answer_memory import AnswerMemory, RecentAnswers
+from planner.motion.answer_memory import RecentAnswers, digest
 from planner.motion.joint_trajectory import Keyframes, Line
 from planner.motion.lying_cloth import NEAR_GRIP_M, LyingCloth
 from planner.motion.opened_collisions import OpenedCollisions
@@ -52,7 +52,7 @@ _ANSWERS_KEPT = 4096
 
 @dataclass(frozen=True, slots=True)
 class _WayKey:
-    """A path that is wanted, identified by all that it depends on."""
+    """The key of a path: all that it depends on."""
 
     key: tuple[bytes, ...]
     base: Pose2
@@ -76,8 +76,8 @@ class TransitPaths:
         self.layout = JointLayout.of(machine.card)
         self.home = self.layout.home
         self._searched = RecentAnswers[_WayKey, FloatArray | None](_WAYS_KEPT)
-        self._tested = AnswerMemory[bool](_ANSWERS_KEPT)
-        self._lengths_m = AnswerMemory[float](_ANSWERS_KEPT)
+        self._tested = RecentAnswers[bytes, bool](_ANSWERS_KEPT)
+        self._lengths_m = RecentAnswers[bytes, float](_ANSWERS_KEPT)
 
     @property
     def at_grips(self) -> Spared:
@@ -234,14 +234,11 @@ class TransitPaths:
             openings_m: how far each arm's fingers are open at most then (m), shape (n, arms).
         """
         return self._tested.answer(
-            lambda: (
+            digest(cloth.key, bases.tobytes(), joints.tobytes(), openings_m.tobytes()),
+            lambda _: (
                 self._opened.is_path_free(bases, joints, openings_m)
                 and self.are_clear(cloth, bases, joints, self.at_grips, openings_m)
             ),
-            cloth.key,
-            bases.tobytes(),
-            joints.tobytes(),
-            openings_m.tobytes(),
         )
 
     def are_clear(
@@ -284,9 +281,8 @@ class TransitPaths:
     def _length_m(self, arm: int, line: FloatArray) -> float:
         """Return the way of an arm's tool along a line of configurations, shape (n, joints), m. Cached."""
         joints = line[:, self.layout.spans[arm]]
-        return self._lengths_m.answer(
-            lambda: float(self._gone_m(arm, np.zeros((1, 3)), line)[-1]), str(arm).encode(), joints.tobytes()
-        )
+        key = digest(str(arm).encode(), joints.tobytes())
+        return self._lengths_m.answer(key, lambda _: float(self._gone_m(arm, np.zeros((1, 3)), line)[-1]))
 
     def _gone_m(self, arm: int, bases: FloatArray, joints: FloatArray) -> FloatArray:
         """Return the way of an arm's tool in the table's frame up to each of some configurations, shape (n,), m."""

@@ -1,10 +1,10 @@
 """Plan transits: keyframes for hands that let go and come to their next grips in time, while the base drives.
 
-The hands withdraw straight from where they let go (the *tail* of the transfer before), travel, and come straight to the
-next grips (the *lead* of the next transfer). If the straight path is not clear beside the moving base, the base waits
-until they have withdrawn, or they go home first; if that is not clear either, the base waits until they are there.
-Where hands come late nevertheless, their lines are smoothed, without the kinks that slow them down and without stops at
-corners, and `sooner` takes shortcuts, one arm at a time.
+The hands withdraw straight from where they let go (the *retreat* of the transfer before), travel, and come straight to
+the next grips (the *approach* of the next transfer). If the straight path is not clear beside the moving base, the base
+waits until they have withdrawn, or they go home first; if that is not clear either, the base waits until they are
+there. Where hands come late nevertheless, their lines are smoothed, without the kinks that slow them down and without
+stops at corners, and `sooner` takes shortcuts, one arm at a time.
 """
 
 from collections.abc import Callable, Iterator
@@ -24,7 +24,7 @@ from planner.motion.timed_phase import TransitTime
 from planner.motion.transit_paths import TransitPaths
 from planner.robots.card import EDGE_OPEN_M, HELD_M, OPENING_M
 
-_LEAD_S, _TAIL_S = 0.8, 0.6
+_APPROACH_S, _RETREAT_S = 0.8, 0.6
 """The time in which hands come straight to their grips and withdraw, if there is enough of it (s)."""
 
 _CHECK_S = 0.02
@@ -49,7 +49,7 @@ class _Late(NamedTuple):
     Attributes:
         late_s: by how much (s).
         run: returns its keyframes in a transit that lasts so much longer, None if that is not clear.
-        way: its path between tail and lead, shape (n, joints), rad.
+        way: its path between retreat and approach, shape (n, joints), rad.
         along: returns the run that is made alike along another path.
     """
 
@@ -60,12 +60,12 @@ class _Late(NamedTuple):
 
 
 class _Homeward(NamedTuple):
-    """The way home from a tail and the way from home to a lead.
+    """The way home from a retreat and the way from home to an approach.
 
     Attributes:
         away, back: the two paths, shape (n, joints), rad.
         leave_s, back_s: the least time for each of their lines (s).
-        wait_s: the time after which the hands are home, the tail included (s).
+        wait_s: the time after which the hands are home, the retreat included (s).
         late_s: the time by which the hands come late if the base waits for them (s).
     """
 
@@ -97,17 +97,17 @@ class TransitPlanner:
         going: FloatArray | None,
         coming: FloatArray | None,
     ) -> tuple[TransitTime, Keyframes]:
-        """Return the hands' keyframes from a tail, or from home, to a lead, and the transit's time.
+        """Return the hands' keyframes from a retreat, or from home, to an approach, and its time.
 
         That has changed where the base must wait, or where the hands need longer: then by as little as was found. They
-        may end whole turns of endless joints away from the lead.
+        may end whole turns of endless joints away from the approach.
 
         Args:
             free: the time of the transit.
-            retreat: the tail; None: the hands are at home.
-            approach: the lead.
-            going: the way home from the tail, shape (n, joints), rad; None where there is no tail.
-            coming: the way from home to the lead, alike.
+            retreat: where they come from; None: the hands are at home.
+            approach: where they go to.
+            going: the way home from the retreat, shape (n, joints), rad; None where there is no retreat.
+            coming: the way from home to the approach, alike.
         """
         if retreat is None:
             retreat = self._transits.line(self._transits.home[None])
@@ -141,8 +141,8 @@ class TransitPlanner:
 
         Args:
             free: the time of the transit.
-            retreat: the tail; None: the hands are at home.
-            approach: the lead.
+            retreat: where they come from; None: the hands are at home.
+            approach: where they go to.
             late: what `keyframes` has returned.
         """
         if free.borders_s:
@@ -175,7 +175,7 @@ class TransitPlanner:
     def _first_clear(
         self, free: TransitTime, retreat: Line, approach: Line, run: Callable[[TransitTime], Keyframes | None]
     ) -> tuple[TransitTime, Keyframes] | None:
-        """Return a run's time and keyframes, beside a base that drives at once or once the hands have withdrawn.
+        """Return time and keyframes of a clear run, with a base that drives at once or after the hands withdrew.
 
         A base that drives at once may sweep hands along that are still low. The wait is taken from the reach, of which
         enough must be left for coming to the grips. None if neither is clear.
@@ -208,7 +208,11 @@ class TransitPlanner:
 
     def _quicker(self, free: TransitTime, retreat: Line, way: FloatArray, approach: Line) -> Iterator["_Late"]:
         """Yield runs along a path that takes too long: as it is, with smooth lines, and without stops at corners."""
-        for ends in ((retreat, approach), smoothed_ends(self._transits, retreat, approach)):
+        smoothed_ends = (
+            _smoothed(self._transits, retreat, _STRAIGHT, 0),
+            _smoothed(self._transits, approach, 0, _STRAIGHT),
+        )
+        for ends in ((retreat, approach), smoothed_ends):
             yield self._stopping(free, *ends, way)
         if not free.borders_s:
             for passes in BLENDED:
@@ -223,7 +227,8 @@ class TransitPlanner:
         )
 
     def _blended(self, free: TransitTime, retreat: Line, approach: Line, passes: int, way: FloatArray) -> "_Late":
-        line = blended(self._transits, retreat, way, approach, passes)
+        path = joined(retreat.joints, way, approach.joints)
+        line = smoothed_line(self._transits, path, retreat, approach, passes)
         return _Late(
             max(line.shortest_s - self._time_s(free), 0.0),
             partial(self._along, line, retreat, approach),
@@ -232,15 +237,15 @@ class TransitPlanner:
         )
 
     def _along(self, line: Line, retreat: Line, approach: Line, free: TransitTime) -> Keyframes | None:
-        """Return keyframes along one line that joins a tail and a lead; None if that is not clear."""
-        run = line.over(self._time_s(free)).later(free.start_s)
-        times = np.append(free.start_s, run.times_s)
+        """Return keyframes along one line that joins a retreat and an approach; None if that is not clear."""
+        run = line.over(self._time_s(free))
+        times = np.append(0.0, run.times_s)
         ends_s = (float(times[len(retreat.joints) - 1]), float(times[-len(approach.joints)]))
         keyframes = Keyframes.joined([run, self._still(approach, line.joints[-1], free.end_s)])
         return keyframes if self._is_clear(free, retreat, keyframes, approach, ends_s) else None
 
     def _still(self, approach: Line, joints: FloatArray, end_s: float) -> Keyframes:
-        """Return keyframes of hands at rest at the end of a lead, which at last go on to their grips."""
+        """Return keyframes of hands at rest at the end of an approach, which at last go on to their grips."""
         if approach.at_grips is None:
             return Keyframes.still(joints, end_s)
         begins_s = end_s - settling_s(self.dwell_s)
@@ -249,13 +254,13 @@ class TransitPlanner:
 
     def _time_s(self, free: TransitTime) -> float:
         """Return the time in which hands can move (s)."""
-        return free.end_s - self.dwell_s - free.start_s
+        return free.end_s - self.dwell_s
 
     def _overlapping(self, retreat: Line, way: FloatArray, approach: Line, free: TransitTime) -> Keyframes | None:
         """Return keyframes of hands that travel along a path while the base drives; None if that is not clear."""
         # Beside a base that drives at once, hands that withdraw quickly are high before they have been swept along.
-        for tail_s in (_TAIL_S, 0.0):
-            timed = self._timed(free, retreat, way, approach, tail_s)
+        for retreat_s in (_RETREAT_S, 0.0):
+            timed = self._timed(free, retreat, way, approach, retreat_s)
             if timed is not None and self._is_clear(free, retreat, timed[0], approach, timed[1]):
                 return timed[0]
         return None
@@ -266,7 +271,7 @@ class TransitPlanner:
         return max(needed_s - self._time_s(free), 0.0)
 
     def _ways(self, free: TransitTime, retreat: Line, approach: Line) -> Iterator[FloatArray]:
-        """Yield paths from a tail to a lead: straight, free where the base will stand, by way of home.
+        """Yield paths from a retreat to an approach: straight, free where the base will stand, by way of home.
 
         The second is looked for only once the first has failed, since that takes the most time.
         """
@@ -279,7 +284,7 @@ class TransitPlanner:
         yield np.array([start, self._transits.unwound(self._transits.home, start), goal])
 
     def _timed(
-        self, free: TransitTime, retreat: Line, way: FloatArray, approach: Line, tail_s: float
+        self, free: TransitTime, retreat: Line, way: FloatArray, approach: Line, retreat_s: float
     ) -> tuple[Keyframes, tuple[float, float]] | None:
         """Return keyframes that withdraw, travel and come to the grips in time, and when the travel begins and ends.
 
@@ -287,24 +292,24 @@ class TransitPlanner:
         """
         needed = self._transits.needed_s(way)
         arrives = free.end_s - self.dwell_s
-        spare = max(arrives - free.start_s - (retreat.shortest_s + approach.shortest_s + float(needed.sum())), 0.0)
-        leaves = free.start_s + max(retreat.shortest_s, min(tail_s, retreat.shortest_s + spare / 4))
-        comes = arrives - max(approach.shortest_s, min(_LEAD_S, approach.shortest_s + spare / 4))
+        spare = max(arrives - (retreat.shortest_s + approach.shortest_s + float(needed.sum())), 0.0)
+        leaves = max(retreat.shortest_s, min(retreat_s, retreat.shortest_s + spare / 4))
+        comes = arrives - max(approach.shortest_s, min(_APPROACH_S, approach.shortest_s + spare / 4))
         travel = led_along(self._transits, way, needed, (leaves, comes), free.borders_s)
         if travel is None:
             return None
-        out, down = retreat.over(leaves - free.start_s), approach.over(arrives - comes)
+        out, down = retreat.over(leaves), approach.over(arrives - comes)
         still = self._still(approach, approach.joints[-1], free.end_s)
-        return _joined(free.start_s, out, travel, comes, down, still), (leaves, comes)
+        return _joined(out, travel, comes, down, still), (leaves, comes)
 
     def _is_clear(
         self, free: TransitTime, retreat: Line, keyframes: Keyframes, approach: Line, ends_s: tuple[float, float]
     ) -> bool:
-        """Return whether hands that go on from a tail touch nothing while the base drives, nor pass low over cloth."""
-        track = JointTrajectory.at_rest(retreat.joints[0], len(self._transits.layout.arms), free.start_s)
+        """Return whether hands after a retreat touch nothing while the base drives, and do not pass low over cloth."""
+        track = JointTrajectory.at_rest(retreat.joints[0], len(self._transits.layout.arms))
         track.add(keyframes)
-        count = min(int(np.ceil((free.end_s - free.start_s) / _CHECK_S)), _CHECKS_MAX)
-        waypoints = np.linspace(free.start_s, free.end_s, count + 1)
+        count = min(int(np.ceil(free.end_s / _CHECK_S)), _CHECKS_MAX)
+        waypoints = np.linspace(0.0, free.end_s, count + 1)
         bases, there = free.bases_at(waypoints), track.joints_at(waypoints)
         is_out, is_in = (waypoints <= ends_s[0])[:, None], (waypoints >= ends_s[1])[:, None]
         openings_m = np.where(is_out, retreat.openings_m, np.where(is_in, approach.openings_m, OPENING_M))
@@ -316,7 +321,7 @@ class TransitPlanner:
     def _homeward(
         self, free: TransitTime, retreat: Line, approach: Line, going: FloatArray | None, coming: FloatArray | None
     ) -> "_Homeward":
-        """Return the ways home and from there, beside a base that stands."""
+        """Return the paths home and from home, while the base stands."""
         home = self._transits.unwound(self._transits.home, retreat.joints[-1])
         away = np.array([home, home]) if going is None else going
         assert coming is not None, "a transfer that was validated can be reached by way of home"
@@ -337,24 +342,22 @@ class TransitPlanner:
         comes = waited.end_s - self.dwell_s - approach.shortest_s
         begins = comes - float(ways.back_s.sum())
         travel = [
-            *quickest_lines(self._transits, ways.away, ways.leave_s, waited.start_s + retreat.shortest_s),
+            *quickest_lines(self._transits, ways.away, ways.leave_s, retreat.shortest_s),
             Keyframes.still(ways.away[-1], begins),
             *quickest_lines(self._transits, ways.back, ways.back_s, begins),
         ]
         still = self._still(approach, approach.joints[-1], waited.end_s)
         out, down = retreat.over(retreat.shortest_s), approach.over(approach.shortest_s)
-        return waited, _joined(waited.start_s, out, travel, comes, down, still)
+        return waited, _joined(out, travel, comes, down, still)
 
 
-def _joined(
-    start_s: float, out: Keyframes, travel: list[Keyframes], comes_s: float, down: Keyframes, still: Keyframes
-) -> Keyframes:
-    """Return keyframes on a tail, on the path from it to a lead, on that, and once more at its end."""
-    return Keyframes.joined([out.later(start_s), *travel, down.later(comes_s), still])
+def _joined(out: Keyframes, travel: list[Keyframes], comes_s: float, down: Keyframes, still: Keyframes) -> Keyframes:
+    """Return keyframes on a retreat, on the path from it to an approach, on that, and once more at its end."""
+    return Keyframes.joined([out, *travel, down.later(comes_s), still])
 
 
 def _path(retreat: Line, approach: Line, keyframes: Keyframes, arrives_s: float) -> FloatArray:
-    """Return the path of keyframes, up to when the hands are there, with small steps between tail and lead."""
+    """Return the path of keyframes, up to when the hands are there, with small steps between retreat and approach."""
     rows = keyframes.joints[keyframes.times_s <= arrives_s + TIME_S]
     out, down = len(retreat.joints) - 1, len(rows) - len(approach.joints)
     start = np.concatenate([retreat.joints[:1], rows[:out]])
@@ -432,34 +435,25 @@ _CUT_RAD = 0.1
 """The largest angle from one keyframe to the next on such a path (rad)."""
 
 
-def smoothed_ends(transits: TransitPaths, retreat: Line, approach: Line) -> tuple[Line, Line]:
-    """Return the lines from grips and to grips, smoothed but for some steps at the grips."""
-    return _smoothed(transits, retreat, _STRAIGHT, 0), _smoothed(transits, approach, 0, _STRAIGHT)
-
-
-def blended(transits: TransitPaths, retreat: Line, way: FloatArray, approach: Line, passes: int) -> Line:
-    """Return a line that joins a tail, a path of shape (n, joints) and a lead, smoothed so many times over."""
-    return smoothed_line(transits, joined(retreat.joints, way, approach.joints), retreat, approach, passes)
-
-
 def joined(retreat: FloatArray, way: FloatArray, approach: FloatArray) -> FloatArray:
-    """Return a tail, a path and a lead, of shape (n, joints) each, as one path with small steps."""
+    """Return a retreat, a path and an approach, of shape (n, joints) each, as one path with small steps."""
     return np.concatenate([retreat, *(_cut(a, b)[1:] for a, b in pairwise(way)), approach[1:]])
 
 
 def smoothed_line(transits: TransitPaths, path: FloatArray, retreat: Line, approach: Line, passes: int) -> Line:
-    """Return a line along a path from a tail to a lead, smoothed so many times over but for some steps at the grips."""
+    """Return a line along a path from a retreat to an approach, smoothed but for some steps at the grips."""
     first, last = free_rows(path, retreat, approach)
     return transits.line(smoothed(path, passes, _may_move(path, first, len(path) - 1 - last)))
 
 
 def free_rows(path: FloatArray, retreat: Line, approach: Line) -> tuple[int, int]:
-    """Return the rows of a path from a tail to a lead between which it may be changed."""
+    """Return the rows of a path from a retreat to an approach between which it may be changed."""
     first, last = (_STRAIGHT if len(line.joints) > 1 else 0 for line in (retreat, approach))
     return first, len(path) - 1 - last
 
 
 def _smoothed(transits: TransitPaths, line: Line, first: int, last: int) -> Line:
+    """Return a line from grips or to grips, smoothed but for some steps at the grips."""
     joints = smoothed(line.joints, _SMOOTHING_PASSES, _may_move(line.joints, first, last))
     return transits.line(joints, line.openings_m, line.at_grips)
 

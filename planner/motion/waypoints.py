@@ -2,7 +2,7 @@
 
 A *transfer* is what happens between two times at which all hands are empty: a fold, a drag, or several primitives that
 follow one another without letting go. Its phases are cut so finely that the base and the tools move and turn only a
-little from one moment to the next.
+little from one waypoint to the next.
 """
 
 import math
@@ -21,7 +21,7 @@ from planner.task.trajectory import Phase
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Waypoints:
-    """Moments in the order of time; n of them.
+    """Waypoints in the order of time; n of them.
 
     Attributes:
         phases: index of the phase that each belongs to, shape (n,).
@@ -29,7 +29,7 @@ class Waypoints:
         bases: the base in the table frame: x (m), y (m), yaw (rad), shape (n, 3).
         positions: each arm's tool in the base frame, shape (arms, n, 3), m; nan while the hand is empty.
         rotations: the tool's axes as columns in the base frame, shape (arms, n, 3, 3); nan while the hand is empty.
-        nominal_s: the time since the moment before at an even pace (s), shape (n,).
+        nominal_s: the time since the waypoint before at an even pace (s), shape (n,).
         is_driving: whether the base drives on the way to each, which cannot be hurried, shape (n,).
     """
 
@@ -43,7 +43,7 @@ class Waypoints:
 
     @property
     def is_held(self) -> BoolArray:
-        """Whether each hand holds cloth at each moment, shape (arms, n)."""
+        """Whether each hand holds cloth at each waypoint, shape (arms, n)."""
         return ~np.isnan(self.positions[:, :, 0])
 
     @property
@@ -53,14 +53,14 @@ class Waypoints:
 
     @property
     def is_last_held(self) -> BoolArray:
-        """Whether each hand holds for the last time at each moment, shape (arms, n)."""
+        """Whether each waypoint is the last at which a hand holds, shape (arms, n)."""
         return np.asarray(
             self.is_held & ~np.append(self.is_held[:, 1:], np.zeros((len(self.is_held), 1), bool), axis=1)
         )
 
     @property
     def is_still(self) -> BoolArray:
-        """Whether no tool moves in the base frame from the moment before to the moment after, shape (n,)."""
+        """Whether no tool moves in the base frame from the waypoint before to the waypoint after, shape (n,)."""
         moved_m, turned = (np.abs(np.nan_to_num(np.diff(each, axis=1))) for each in (self.positions, self.rotations))
         stays = (moved_m.max(axis=(0, 2)) < LENGTH_M) & (turned.max(axis=(0, 2, 3)) < LENGTH_M)
         stays &= (self.is_held[:, 1:] == self.is_held[:, :-1]).all(axis=0)
@@ -77,7 +77,7 @@ class Waypoints:
 
 
 _MOMENTS_KEPT = 128
-"""Moments kept, some 35 kB each. While three garments are drawn, more save nothing (measured)."""
+"""Waypoints kept, by phases, some 35 kB each. While three garments are drawn, more save nothing (measured)."""
 
 _NOWHERE: Point3 = (math.nan, math.nan, math.nan)
 """Where an empty hand counts as being."""
@@ -126,7 +126,7 @@ def _known_waypoints(phases: tuple[Phase, ...], height_m: float, only_ends: bool
 
 
 def _paces(shares: FloatArray) -> FloatArray:
-    """Return the fraction of its phase that is done since the moment before, shape (n,)."""
+    """Return the fraction of its phase that is done since the waypoint before, shape (n,)."""
     paces = shares.copy()
     paces[1:] -= shares[:-1]
     return paces

@@ -56,7 +56,7 @@ class Budget:
 
     @staticmethod
     def endless(should_stop: Callable[[], bool] | None = None) -> "Budget":
-        """Return a budget that is over only when the search is told to stop."""
+        """Return a budget that is over only when the search is stopped."""
         return Budget.of(math.inf, math.inf, should_stop)
 
     def part(self, work_s: float) -> "Budget":
@@ -69,7 +69,7 @@ class Budget:
         self.deadline.put_off(whole.deadline)
 
     def narrow(self, work_s: float) -> None:
-        """Allow no more than that work, and nothing beside it once it is done."""
+        """Allow no more than that work, and nothing further once it is done."""
         self.work_limit_s, self.is_strict = min(self.work_limit_s, work_s), math.isfinite(work_s)
 
     def watch(self, problem: Problem) -> Problem:
@@ -104,7 +104,7 @@ class Budget:
 
     @property
     def is_over(self) -> bool:
-        """Whether the work or the time is used up, or the search was told to stop."""
+        """Whether the work or the time is used up, or the search was stopped."""
         if math.isfinite(self.work_limit_s) and self.spent_s > self.work_limit_s:
             return True
         return self.deadline.is_over

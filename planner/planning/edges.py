@@ -20,7 +20,7 @@ class Judge(Protocol):
         ...
 
     def is_in_doubt(self, held: State) -> bool:
-        """Return whether spare steps to the grasp of a state are wanted by now."""
+        """Return whether spare steps to the grasp of a state are needed by now."""
         ...
 
 

@@ -10,7 +10,6 @@ from planner.motion.trajectory_maker import trajectory
 from planner.planning.problem import Problem
 from planner.primitives.context import DRAGS_PER_M, Context
 from planner.primitives.primitive import Step
-from planner.primitives.state import State
 from planner.task.plan import Plan, PlanStep, Statistics
 from planner.task.reason import Reason
 from planner.task.task import Task
@@ -121,11 +120,6 @@ def _world_after(context: Context, step: Step, before: WorldState) -> WorldState
         before.folds_done + new,
         context.placed(state.offset),
         context.base_stop(state),
-        held_points(context, state),
+        tuple(HeldPoint(context.reach.arm_names[held.arm], held.point) for held in state.held),
         state.dragged / DRAGS_PER_M,
     )
-
-
-def held_points(context: Context, state: State) -> tuple[HeldPoint, ...]:
-    """Return the points held in a state of the search."""
-    return tuple(HeldPoint(context.reach.arm_names[held.arm], held.point) for held in state.held)

@@ -89,7 +89,7 @@ class _Greedy:
             if not path:
                 return None
             with self._effort.on_joints():
-                found = self._real(path)
+                found = self._validated(path)
             if found is not None:
                 return found
         return None
@@ -119,11 +119,11 @@ class _Greedy:
         self._effort.explored += result.explored
         return [edge.action for edge in result.path]
 
-    def _real(self, steps: Sequence[Step]) -> tuple[PlanSegment, ...] | None:
+    def _validated(self, steps: Sequence[Step]) -> tuple[PlanSegment, ...] | None:
         """Validate steps, transfer by transfer; where a transfer fails, reject its last step."""
         plan_segments = []
         for first, part in transfers_of(steps):
-            plan_segment = None if self._budget.is_over else self._act(first, part)
+            plan_segment = None if self._budget.is_over else self._segment(first, part)
             if plan_segment is None:
                 self._struck.add(_ends(part[-1]))
                 self._doubted.update(step.after.grasp for step in part if step.after.held)
@@ -131,7 +131,7 @@ class _Greedy:
             plan_segments.append(plan_segment)
         return tuple(plan_segments)
 
-    def _act(self, first: int, steps: tuple[Step, ...]) -> PlanSegment | None:
+    def _segment(self, first: int, steps: tuple[Step, ...]) -> PlanSegment | None:
         if not is_transfer(steps):
             return PlanSegment(first, steps, None)
         key = (steps[0].before.key, *(step.after.key for step in steps))

@@ -17,8 +17,10 @@ and the rest are found only once no path is left that takes no longer than the o
 """
 
 import math
+from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
+from dataclasses import dataclass
 from itertools import islice
 
 from planner.geometry.tolerance import TIME_S
@@ -28,14 +30,69 @@ from planner.motion.transfer import Transfer
 from planner.motion.transfer_candidate import QUICK, Candidate, SearchLimits, ways_of
 from planner.motion.transfer_planner import TransferPlanner
 from planner.planning.budget import Budget, OutOfTimeError
-from planner.planning.failure_memory import FailureMemory
-from planner.planning.rejection import Rejection
 from planner.planning.sequence_costs import SequenceCosts, step_key
 from planner.primitives.primitive import Step
 from planner.primitives.state import State
 
 _EDGES_TRIED = 2
 """Transfers in which hands hold edges that are tried for each part of a path; more are once a plan is found."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Rejection:
+    """A rejected step, and the other ways to do the same.
+
+    Attributes:
+        culprit: the step.
+        before: the steps before it in its transfer.
+        elsewhere: a spread of other ways to do the same.
+        path_s: the time that the path on which it was rejected seemed to take (s).
+    """
+
+    culprit: Step
+    before: tuple[Step, ...]
+    elsewhere: tuple[Step, ...]
+    path_s: float
+
+    def as_good(self) -> Iterator[tuple[Step, ...]]:
+        """Yield those ways to the same state that seem to take no longer, each with the steps before it."""
+        most_s = self.culprit.duration_s + TIME_S
+        for other in self.elsewhere:
+            if other.duration_s <= most_s and other.after.key == self.culprit.after.key:
+                yield (*self.before, other)
+
+
+class _FailureMemory:
+    """The tasks given up in one search, wherever the cloth lies.
+
+    The same arms failed at them several times from one station, and never succeeded.
+    """
+
+    def __init__(self, failures_max: int) -> None:
+        """Start without any; a task is given up after so many failures."""
+        self._failures_max = failures_max
+        self._failures: Counter[tuple[object, ...]] = Counter()
+        self._succeeded: set[tuple[object, ...]] = set()
+        self._stations: dict[tuple[object, ...], int] = {}
+
+    def __contains__(self, step: Step) -> bool:
+        """Return whether the step's task is given up."""
+        return bool(self._stations) and step.task in self._stations
+
+    def is_given_up_from(self, station: int) -> bool:
+        """Return whether some task is given up from a station."""
+        return station in self._stations.values()
+
+    def fail(self, step: Step) -> None:
+        """Note that a step failed."""
+        self._failures[step.task] += 1
+        if self._failures[step.task] >= self._failures_max and step.task not in self._succeeded:
+            self._stations[step.task] = step.before.station
+
+    def succeed(self, step: Step) -> None:
+        """Note that a step succeeded: its task is not given up, or no longer."""
+        self._succeeded.add(step.task)
+        self._stations.pop(step.task, None)
 
 
 class MotionValidator:
@@ -76,9 +133,9 @@ class MotionValidator:
         self._least_s: dict[object, float] = {}
         self._others: dict[object, tuple[Step, ...]] = {}
         self._real_steps: set[object] = set()
-        self._given_up = FailureMemory(search_limits.failures)
+        self._given_up = _FailureMemory(search_limits.failures)
         self._doubted: set[tuple[object, ...]] = set()
-        self._postponed: list[Rejection] = []
+        self._postponed: list[_Rejection] = []
         self.rejected: list[tuple[Step, ...]] = []
         self.slower: tuple[PlanSegment, ...] = ()
         self.sequence_costs = SequenceCosts()
@@ -232,7 +289,7 @@ class MotionValidator:
         self.rejected.append(steps[: number + 1])
         self._least_s[step_key(culprit)] = math.inf
         self._doubt(steps)
-        rejection = Rejection(culprit, before, tuple(culprit.elsewhere(self._search_limits.spread)), path_s)
+        rejection = _Rejection(culprit, before, tuple(culprit.elsewhere(self._search_limits.spread)), path_s)
         found = self._as_good(rejection)
         if found:
             self._postponed.append(rejection)
@@ -243,7 +300,7 @@ class MotionValidator:
             self._given_up.succeed(culprit)
         self._given_up.fail(culprit)
 
-    def _as_good(self, rejection: Rejection) -> tuple[Step, ...]:
+    def _as_good(self, rejection: _Rejection) -> tuple[Step, ...]:
         """Return a valid way to the same state that takes no longer than the rejected step; empty if none is found."""
         for candidate in islice(self.maker.candidates(self._in_time(rejection.as_good())), self._search_limits.enough):
             made = self._noted(candidate)
@@ -251,7 +308,7 @@ class MotionValidator:
                 return (candidate.steps[-1],)
         return ()
 
-    def _replace(self, rejection: Rejection) -> None:
+    def _replace(self, rejection: _Rejection) -> None:
         """Set the ways that replace a rejected step in every state of its situation."""
         search_limits, situation = self._search_limits, rejection.culprit.situation
         others = {step_key(other): other for other in self._others.get(situation, ()) if rejection in self._postponed}

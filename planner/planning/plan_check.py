@@ -7,14 +7,14 @@ and nothing touches.
 
 import math
 from collections.abc import Iterator
+from itertools import pairwise
 
 import numpy as np
 
 from planner.errors import FieldError, RequestError
-from planner.geometry.pose import FloatArray, Pose2
+from planner.geometry.pose import FloatArray, Pose2, wrapped_angle
 from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M, TIME_S
 from planner.motion.opened_collisions import OpenedCollisions
-from planner.planning.base_check import require_drive
 from planner.planning.limits_check import require_limits
 from planner.planning.problem import Problem
 from planner.primitives.fold_obstacles import geometric_obstacle
@@ -80,9 +80,43 @@ def _require_step(
     tools = _tools(problem, step, before, after)
     for segment in segments:
         times_s = list(_moments(segment))
-        require_drive(problem, segment, times_s)
+        _require_drive(problem, segment, times_s)
         for t_s in times_s:
             _require_arms(problem, segment, path, t_s, tools, collisions)
+
+
+def _require_drive(problem: Problem, segment: Segment, times_s: list[float]) -> None:
+    """Require that the base drives as it can in a segment of a trajectory.
+
+    A differential base drives straight ahead or back, or turns where it stands; a fixed one does neither.
+
+    Args:
+        problem: the problem of the plan.
+        segment: a segment of its trajectory.
+        times_s: rising times, the segment's ends included (s).
+
+    Raises:
+        RequestError: says what the base would have to do, and when.
+    """
+    poses = [segment.base_at(t_s) for t_s in times_s]
+    for (t_s, here), (_, there) in pairwise(zip(times_s, poses, strict=True)):
+        told = _undrivable(problem, here, there)
+        if told is not None:
+            raise RequestError("trajectory", f"at {t_s:.2f} s the base {told}")
+
+
+def _undrivable(problem: Problem, here: Pose2, there: Pose2) -> str | None:
+    """Return what is wrong with a stretch of the base's way; None if nothing is."""
+    kind = problem.robot.card.base_kind
+    x, y = there.x_m - here.x_m, there.y_m - here.y_m
+    driven_m, turned_rad = math.hypot(x, y), abs(wrapped_angle(there.yaw_rad - here.yaw_rad))
+    aside_m = abs(x * math.sin(here.yaw_rad) - y * math.cos(here.yaw_rad))
+    moves, turns = driven_m > LENGTH_M, turned_rad > LENGTH_M
+    if kind == "fixed" and (moves or turns):
+        return "moves, and it is fixed"
+    if kind == "differential" and aside_m > LENGTH_M:
+        return f"drives {aside_m:.3f} m sideways, which a differential base cannot"
+    return None
 
 
 def _moments(segment: Segment) -> Iterator[float]:

@@ -181,7 +181,7 @@ class _PlanSearch:
         return search.budget.spent_s - begun_s
 
     def restricted(self) -> Iterator[Event]:
-        """Look for a quicker plan with larger comfort radii, and with narrower cones; nothing is told meanwhile."""
+        """Look for a quicker plan with larger comfort radii, and with narrower cones; yield nothing meanwhile."""
         spent_s = self.budget.spent_s
         for problem in with_more_comfort(self.problem):
             self.restrict(problem, MORE_COMFORT_SHARE * spent_s)
@@ -247,7 +247,7 @@ def _lacks_plan(search: _PlanSearch, pause: Pause, after_s: float) -> bool:
 
 
 def _keep_arms_apart(search: _PlanSearch, pause: Pause) -> Iterator[Event] | None:
-    """Allow hands only where there is room beside the other arm at home, with limited work.
+    """Allow hands only where the other arm at home leaves room, with limited work.
 
     Where a way was rejected, mostly the arms were in each other's way. Such a plan is found soon and limits what else
     is worth a try.

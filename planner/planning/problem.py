@@ -1,6 +1,7 @@
 """A planning problem: a task made ready for planning."""
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 from planner.cloth.cloth_state import spread_out
 from planner.cloth.g_state import Unrest
@@ -15,7 +16,7 @@ from planner.geometry.tolerance import LENGTH_M, nearest_whole
 from planner.motion.transfer_candidate import KnownTransfers
 from planner.motion.transfer_planner import TransferPlanner
 from planner.primitives.context import DRAGS_PER_M, Context, cloth_memory
-from planner.primitives.reach import Reach, UnlimitedReach
+from planner.primitives.reach import UnlimitedReach
 from planner.primitives.state import Held, State
 from planner.robots.armed_robot import ArmedRobot
 from planner.robots.load_robot import load_robot
@@ -102,20 +103,14 @@ class Problem:
         wanted, start = _searched(changed, sequence, machine)
         is_alike = (wanted.torso_m, comfort) == (context.scene.torso_m, context.reach.comfort_m) and not minds_arms
         reach = context.reach if is_alike else machine.reach(wanted.torso_m, comfort, minds_arms=minds_arms)
-        behind = context.behind_max_m if behind_max_m is None else behind_max_m
-        apart = context.grips_apart_m if grips_apart_m is None else grips_apart_m
-        limits = (context.circle_m, behind, apart)
-        fresh = Context(
-            sequence,
-            wanted,
-            reach,
-            changed.start.placement,
-            *limits,
-            start,
-            is_fixed=context.is_fixed,
-            is_firm=context.is_firm,
-            base_acceleration_m_s2=context.base_acceleration_m_s2,
-            deadline=context.deadline,
+        fresh = context.anew(
+            sequence=sequence,
+            scene=wanted,
+            reach=reach,
+            placement=changed.start.placement,
+            behind_max_m=context.behind_max_m if behind_max_m is None else behind_max_m,
+            grips_apart_m=context.grips_apart_m if grips_apart_m is None else grips_apart_m,
+            start=start,
         )
         known = KnownTransfers(sampling=self.maker.known.sampling)
         return Problem(changed, fresh, machine, TransferPlanner(fresh, machine, known))
@@ -140,40 +135,28 @@ class Problem:
 
     def let_go(self) -> "Problem":
         """Return this problem with free hands at the start and nothing computed yet."""
-        fresh = replace(self.anew().context, start=replace(self.start, held=(), dragged=0))
-        return Problem(self.task, fresh, self.robot, TransferPlanner(fresh, self.robot))
+        return self.anew(start=replace(self.start, held=(), dragged=0))
 
     def firm(self) -> "Problem":
         """Return this problem for hands that hold firmly wherever they can, with nothing computed yet."""
-        fresh = replace(self.anew().context, is_firm=True)
-        return Problem(self.task, fresh, self.robot, TransferPlanner(fresh, self.robot))
+        return self.anew(is_firm=True)
 
     def without_arm_drags(self) -> "Problem":
         """Return this problem for arms that do not drag, with nothing computed yet."""
-        fresh = replace(self.anew().context, is_fixed=False)
-        return Problem(self.task, fresh, self.robot, TransferPlanner(fresh, self.robot))
+        return self.anew(is_fixed=False)
 
-    def with_long_arms(self, more_hands: int = 0) -> "Problem":
+    def with_long_arms(self, more_hands: int) -> "Problem":
         """Return this problem for a robot with unlimited reach and more hands; it has no joint paths."""
-        return self._with_reach(UnlimitedReach(self.context.reach, more_hands))
+        return self._with(self.context.anew(reach=UnlimitedReach(self.context.reach, more_hands)))
 
-    def anew(self) -> "Problem":
-        """Return this problem with nothing computed yet but the answers to reach queries."""
+    def anew(self, **changes: Any) -> "Problem":  # noqa: ANN401
+        """Return this problem with changes to its context, with nothing computed yet but answers to reach queries."""
         self.context.reach.memory.share()
-        return self._with_reach(self.robot.reach(self.context.scene.torso_m, self.context.reach.comfort_m))
+        reach = self.robot.reach(self.context.scene.torso_m, self.context.reach.comfort_m)
+        return self._with(self.context.anew(reach=reach, **changes))
 
-    def _with_reach(self, reach: Reach) -> "Problem":
-        context = self.context
-        limits = (context.circle_m, context.behind_max_m, context.grips_apart_m)
-        given = (context.sequence, context.scene, reach, context.placement, *limits, context.start)
-        fresh = Context(
-            *given,
-            is_fixed=context.is_fixed,
-            is_firm=context.is_firm,
-            base_acceleration_m_s2=context.base_acceleration_m_s2,
-            deadline=context.deadline,
-        )
-        return Problem(self.task, fresh, self.robot, TransferPlanner(fresh, self.robot))
+    def _with(self, context: Context) -> "Problem":
+        return replace(self, context=context, maker=TransferPlanner(context, self.robot))
 
     @staticmethod
     def of(task: Task, deadline: Deadline = ENDLESS) -> "Problem":

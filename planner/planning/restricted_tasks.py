@@ -18,7 +18,7 @@ _CONES_RAD = (0.0, 0.5, 1.0)
 
 
 def with_arms_apart(problem: Problem) -> Iterator[Problem]:
-    """Yield the problem with hands only where there is room beside the other arm at home, if the robot minds it."""
+    """Yield the problem with hands only where the other arm at home leaves room, if the robot can check that."""
     if problem.robot.can_mind_arms:
         yield problem.restricted(minds_arms=True)
 

@@ -26,7 +26,7 @@ START: Since = (None,)
 
 
 def step_key(step: Step) -> StepKey:
-    """Return the key by which the search tells a step from others: it knows one way between two states."""
+    """Return the search's key of a step: it knows one way between two states."""
     return (step.kind, step.before.key, step.after.key)
 
 

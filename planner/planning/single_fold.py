@@ -28,7 +28,7 @@ from planner.primitives.drag_way import drag_offsets, dragged, longest_drag
 from planner.primitives.fold_obstacles import geometric_obstacle, geometric_obstacles
 from planner.primitives.fold_trial import FoldTrial, fold_trials
 from planner.primitives.fold_way import attempt_of, can_follow
-from planner.primitives.state import State
+from planner.primitives.state import UNDRAGGED, State
 
 _SETS_MAX = 64
 """Sets of folds that may precede a fold; a fold with more sets is left to the search."""
@@ -106,7 +106,7 @@ class SingleFold:
         A quick check before all cases are checked.
         """
         steps = min(longest_drag(self._context), _GUESSED_DRAGS)
-        places = [dragged(self._context, (0.0, 0.0), self._station, count) for count in range(steps + 1)]
+        places = [dragged(self._context, UNDRAGGED, self._station, count) for count in range(steps + 1)]
         station = self._station if case.station is None else case.station
         states = [case.state(station, np.array(place)) for place in places]
         return any(
@@ -119,7 +119,7 @@ class SingleFold:
         line = self._context.sequence.folds[fold].line
         moves = Pose2(0.0, 0.0, self._context.placement.yaw_rad).to_inner(self._offsets)
         lines = np.array([line.start, line.end]) + moves[:, None]
-        return np.asarray(self._offsets[self._context.table_in_article((0.0, 0.0)).region.touches(lines)])
+        return np.asarray(self._offsets[self._context.table_in_article(UNDRAGGED).region.touches(lines)])
 
     def _note_lines_off(self, fold: int, sets: tuple[int, ...]) -> None:
         """Note the place at which a fold line that is never on the table is nearest to it."""

@@ -14,7 +14,7 @@ from planner.primitives.context import Context
 from planner.primitives.drag_way import drag_covers, hangs_ahead, towards_robot
 from planner.primitives.fold_trial import grips_obstacle
 from planner.primitives.grasping import held_covers
-from planner.primitives.state import Held, State
+from planner.primitives.state import UNDRAGGED, Held, State
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,7 +49,7 @@ class Cases:
 
     def of(self, done: int, fold: int) -> Iterator[Case]:
         """Yield free hands, then whatever a drag that starts anywhere may leave held."""
-        obstacle = grips_obstacle(self._context, State(done, (0.0, 0.0), self._station, 0), fold)
+        obstacle = grips_obstacle(self._context, State(done, UNDRAGGED, self._station, 0), fold)
         if obstacle is None:
             yield Case(done)
         else:

@@ -180,8 +180,9 @@ class MoveStep:
         """Return nothing: the hands are empty."""
         return ()
 
+    @property
     def phases(self) -> tuple[Phase, ...]:
-        """Return one phase for each leg, with empty hands."""
+        """One phase for each leg, with empty hands."""
         placement = self.context.placed(self.before.offset)
         still = ClothMotion(self.before.done, placement, placement, TableTop.of(self.context.scene.table))
         free: tuple[Hand | None, ...] = (None,) * len(self.context.reach.arm_names)

@@ -6,9 +6,9 @@ names) is how far the base stands back from its station; the search knows it in 
 
 import math
 from collections.abc import Callable, Hashable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
-from typing import NamedTuple, TypeVar, cast
+from typing import Any, NamedTuple, TypeVar, cast
 
 import numpy as np
 
@@ -25,7 +25,7 @@ from planner.geometry.tolerance import LENGTH_M, grid_key
 from planner.primitives.drive_time import ACCELERATION_M_S2, DriveTime
 from planner.primitives.obstacle import Obstacles
 from planner.primitives.reach import Reach
-from planner.primitives.state import State
+from planner.primitives.state import UNDRAGGED, State
 from planner.task.scene import Scene
 from planner.task.world_state import BaseStop
 
@@ -90,7 +90,7 @@ class ClothMemory:
 def cloth_memory(
     _garment: Garment, _placement: Pose2, _table: Table, _friction: float, _support_angle_rad: float
 ) -> ClothMemory:
-    """Return the memory of a garment at a place on a table; all that its answers depend on tells it from others."""
+    """Return the memory of a garment at a place on a table; its key is all that its answers depend on."""
     return ClothMemory()
 
 
@@ -105,7 +105,7 @@ DRAGS_PER_M = 10
 _RANK_M = 1e-4
 """The resolution at which folds are ordered by where they are (m): another frame moves them by less."""
 
-_START = State(0, (0.0, 0.0), 0, 0)
+_START = State(0, UNDRAGGED, 0, 0)
 """The usual start: no fold done, nothing dragged, the base at the first station."""
 
 
@@ -142,9 +142,13 @@ class Context:
     is_fixed: bool = False
     is_firm: bool = False
     base_acceleration_m_s2: float = ACCELERATION_M_S2
-    _bases: dict[tuple[int, float], Pose2] = field(default_factory=dict)
-    _kept: dict[Callable[["Context"], object], object] = field(default_factory=dict)
-    _available: dict[int, tuple[int, ...]] = field(default_factory=dict)
+    _bases: dict[tuple[int, float], Pose2] = field(default_factory=dict, init=False)
+    _kept: dict[Callable[["Context"], object], object] = field(default_factory=dict, init=False)
+    _available: dict[int, tuple[int, ...]] = field(default_factory=dict, init=False)
+
+    def anew(self, **changes: Any) -> "Context":  # noqa: ANN401
+        """Return this context with some of its attributes changed, with no obstacles met and nothing computed yet."""
+        return replace(self, obstacles=Obstacles(), **changes)
 
     def kept(self, kind: "Callable[[Context], T]") -> T:
         """Return the context's one shared value of a kind, made at the first request."""

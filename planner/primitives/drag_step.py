@@ -68,11 +68,10 @@ class DragStep:
         """Each hand's pick and place, from the leftmost arm to the rightmost."""
         names = self.context.reach.arm_names
         ends = self._ends()
-        found = [
-            (arm, Grip(names[arm], point3(self.way.picks[i]), None, point3(ends[i])))
-            for i, arm in enumerate(self.way.arms)
-        ]
-        return tuple(grip for _, grip in sorted(found, key=lambda pair: pair[0]))
+        return tuple(
+            Grip(names[arm], point3(self.way.picks[i]), None, point3(ends[i]))
+            for arm, i in sorted(zip(self.way.arms, range(len(ends)), strict=True))
+        )
 
     @property
     def details(self) -> dict[str, Any]:
@@ -84,13 +83,9 @@ class DragStep:
         covers = drag_covers(self.context, self.before.done, self.before.offset, self.towards)
         return holdings(self.way.taken, covers.vertices, self.context.reach.arm_names)
 
-    def phases(self) -> tuple[Phase, ...]:
-        """Return the phases: drive, reach, back off with the cloth."""
-        return self._phases
-
     def extremes(self) -> tuple[Phase, ...]:
         """Return the phase of the drag itself."""
-        return self._phases[-1:]
+        return self.phases[-1:]
 
     @property
     def hands(self) -> dict[int, Approach]:
@@ -98,7 +93,8 @@ class DragStep:
         return {arm: self._approach(grip) for grip, arm in enumerate(self.way.arms)}
 
     @cached_property
-    def _phases(self) -> tuple[Phase, ...]:
+    def phases(self) -> tuple[Phase, ...]:
+        """The phases: drive, reach, back off with the cloth."""
         context = self.context
         begin, stand, end = (
             context.base_pose(self.before.station, b)
@@ -224,7 +220,7 @@ class DragStep:
 
 
 def _best_first(able: Sequence[Sequence[int]]) -> Iterator[tuple[int, ...]]:
-    """Yield the combinations of one approach for each hand by rising sum of their ranks; mostly only a few are wanted.
+    """Yield the combinations of one approach for each hand by rising sum of their ranks; mostly a few are enough.
 
     Those of one sum come in the order of their ranks.
     """

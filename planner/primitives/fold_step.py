@@ -57,11 +57,10 @@ class FoldStep:
         """Each hand's pick, apex and place, from the leftmost arm to the rightmost."""
         picks, apexes, places = (self._tools(sweep) for sweep in (0.0, 1.0, 2.0))
         names = self.context.reach.arm_names
-        found = [
-            (arm, Grip(names[arm], point3(picks[i]), point3(apexes[i]), point3(places[i])))
-            for i, arm in enumerate(self.way.trial.arms)
-        ]
-        return tuple(grip for _, grip in sorted(found, key=lambda pair: pair[0]))
+        return tuple(
+            Grip(names[arm], point3(picks[i]), point3(apexes[i]), point3(places[i]))
+            for arm, i in sorted(zip(self.way.trial.arms, range(len(picks)), strict=True))
+        )
 
     @property
     def details(self) -> dict[str, Any]:
@@ -74,9 +73,10 @@ class FoldStep:
         covers = context.sequence.covers(trial.fold, context.scene.support_angle_rad, len(context.reach.arm_names))
         return holdings(trial.taken, covers.vertices, context.reach.arm_names)
 
+    @cached_property
     def phases(self) -> tuple[Phase, ...]:
-        """Return the phases: drive, reach, follow the path with the base's legs in between."""
-        return self._phases
+        """The phases: drive, reach, follow the path with the base's legs in between."""
+        return self._motion.phases()
 
     def extremes(self) -> tuple[Phase, ...]:
         """Return one phase from the picks to the places."""
@@ -87,10 +87,6 @@ class FoldStep:
         """The orientation in which each arm's hand takes hold, by the arm's number."""
         approaches = self.context.reach.approaches
         return {arm: approaches[one] for arm, one in zip(self.way.trial.arms, self.way.approaches, strict=True)}
-
-    @cached_property
-    def _phases(self) -> tuple[Phase, ...]:
-        return self._motion.phases()
 
     @property
     def _motion(self) -> FoldMotion:

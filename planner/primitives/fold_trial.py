@@ -32,10 +32,8 @@ from planner.primitives.grasping import (
 )
 from planner.primitives.obstacle import Obstacle
 from planner.primitives.reach import Following
-from planner.primitives.state import State
+from planner.primitives.state import UNDRAGGED, State
 from planner.task.reason import Code
-
-_UNDRAGGED: Point2 = (0.0, 0.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -184,7 +182,7 @@ class _OnTable:
         """Return the paths over an endless table before any drag, and the corners of the rectangle that they cover."""
         context = self._context
         endless = TableTop((-math.inf, -math.inf), (math.inf, math.inf))
-        path = _over(context, _UNDRAGGED, fold, (endless, endless))
+        path = _over(context, UNDRAGGED, fold, (endless, endless))
         points = context.placement.to_outer(np.array(cover))
         sweeps = path.sweeps(points)
         tools = path.tool_paths(points, sweeps)

@@ -34,18 +34,18 @@ class _Drag(NamedTuple):
         before: the state it starts in.
         way: grips and arms.
         driven: the steps of the grid of standoffs that the base drives with the cloth.
-        leads: where it leads.
+        outcomes: the states in which it may end.
     """
 
     before: State
     way: DragWay
     driven: int
-    leads: "_Leads"
+    outcomes: "_Outcomes"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Leads:
-    """Where a drag by given hands leads from all states that differ in their standoff alone.
+class _Outcomes:
+    """The states in which a drag by given hands may end, begun in states that differ in their standoff alone.
 
     Attributes:
         done: the folds done, as a bit mask.
@@ -67,17 +67,12 @@ class _Leads:
     _afters: dict[int, State] = field(default_factory=dict)
 
     @property
-    def afters(self) -> Iterator[State]:
-        """The states it may lead to."""
-        return (self.after(end) for end in self.ends.tolist())
-
-    @property
     def first(self) -> State:
         """One of these states."""
         return self.after(int(self.ends[0]))
 
     def after(self, end: int) -> State:
-        """Return the state with the base at a standoff; most of them are never asked for."""
+        """Return the state with the base at a standoff, made on demand: most are never needed."""
         if end not in self._afters:
             self._afters[end] = State(self.done, self.offset, self.station, end, self.held, self.count)
         return self._afters[end]
@@ -90,12 +85,12 @@ class HoldingDrags:
         self._context = context
         self._queries = context.kept(FoldQueries)
         self._moves = context.kept(MoveTimes)
-        self._leads: dict[tuple[object, ...], _Leads] = {}
+        self._outcomes: dict[tuple[object, ...], _Outcomes] = {}
 
     def every(self, state: State, way: DragWay, count: int, offset: Point2) -> Iterator[DragStep]:
         """Yield the drags by `count` steps of the grid of drags that leave grips of use to some fold."""
         drag = self._drag(state, way, count, offset)
-        if drag.leads.folds:
+        if drag.outcomes.folds:
             yield from self._every_step(drag)
 
     def successors(
@@ -103,7 +98,7 @@ class HoldingDrags:
     ) -> Iterator[DragStep | Deferred[DragStep]]:
         """Yield the drags of `every`, those first that are cheapest together with a fold; defer the rest as spare."""
         drag = self._drag(state, way, count, offset)
-        folds = drag.leads.folds
+        folds = drag.outcomes.folds
         if any(self._context.sequence.dag.follows_at_once(fold) for fold in folds):
             yield from self._every_step(drag)
         elif folds:
@@ -114,19 +109,19 @@ class HoldingDrags:
 
     def _drag(self, state: State, way: DragWay, count: int, offset: Point2) -> _Drag:
         key = (state.done, state.place, state.station, way, count)
-        if key not in self._leads:
-            self._leads[key] = self._leads_of(state, way, count, offset)
-        return _Drag(state, way, count * STEPS_PER_DRAG, self._leads[key])
+        if key not in self._outcomes:
+            self._outcomes[key] = self._outcomes_of(state, way, count, offset)
+        return _Drag(state, way, count * STEPS_PER_DRAG, self._outcomes[key])
 
-    def _leads_of(self, state: State, way: DragWay, count: int, offset: Point2) -> _Leads:
+    def _outcomes_of(self, state: State, way: DragWay, count: int, offset: Point2) -> _Outcomes:
         held = tuple(Held(arm, grip) for arm, grip in sorted(zip(way.arms, way.grips, strict=True)))
         ends = np.array(way.stands, dtype=np.int64) + count * STEPS_PER_DRAG
         ends = ends[ends < self._context.standoffs]
         folds = self._served(state, held) if len(ends) else ()
-        return _Leads(state.done, offset, state.station, held, count, ends, folds)
+        return _Outcomes(state.done, offset, state.station, held, count, ends, folds)
 
     def _every_step(self, drag: _Drag) -> Iterator[DragStep]:
-        return (self._step(drag, after) for after in drag.leads.afters)
+        return (self._step(drag, drag.outcomes.after(end)) for end in drag.outcomes.ends.tolist())
 
     def _step(self, drag: _Drag, after: State) -> DragStep:
         return DragStep(self._context, drag.way, drag.before, after, after.standoff - drag.driven)
@@ -142,9 +137,9 @@ class HoldingDrags:
         begun = self._begun(drag)
         # The limit grows geometrically, so that a fold far away is queried only a few times.
         most = drag.driven + 3 * (least - drag.driven)
-        ends, more = self._queries.of(drag.leads.first, fold).ends(begun, least, most)
+        ends, more = self._queries.of(drag.outcomes.first, fold).ends(begun, least, most)
         for end in ends:
-            step = self._step(drag, drag.leads.after(end.first))
+            step = self._step(drag, drag.outcomes.after(end.first))
             yield self._later(drag, end.steps, partial(iter, (step,)))
         if more < IMPOSSIBLE:
             yield self._later(drag, more, partial(self._serving, drag, fold, more))
@@ -152,7 +147,7 @@ class HoldingDrags:
     def _begun(self, drag: _Drag) -> NDArray[np.int64]:
         """Return the steps in which the base can be at each standoff when a fold after the drag begins."""
         begun = np.full(self._context.standoffs, IMPOSSIBLE)
-        at = drag.leads.ends
+        at = drag.outcomes.ends
         begun[at] = np.abs(drag.before.standoff + drag.driven - at) + drag.driven
         return begun
 
@@ -169,9 +164,9 @@ class HoldingDrags:
         yield self._with_move(drag, float(least_s.min()), partial(self._to_move, drag, fold))
 
     def _to_move(self, drag: _Drag, fold: int) -> Iterator[Deferred[DragStep]]:
-        query, least_s = self._queries.of(drag.leads.first, fold), self._moves.least_s(drag.before.station)
+        query, least_s = self._queries.of(drag.outcomes.first, fold), self._moves.least_s(drag.before.station)
         for end in query.ends_before_moves(self._begun(drag), self._moves.onward(drag.before.station)):
-            step = self._step(drag, drag.leads.after(end.first))
+            step = self._step(drag, drag.outcomes.after(end.first))
             seconds = self._context.drive_s(end.steps) + float(least_s[end.standoff])
             yield self._with_move(drag, seconds, partial(iter, (step,)))
 
@@ -181,7 +176,7 @@ class HoldingDrags:
         """Return deferred drags; driving, were it all at top speed, and the move take at least so many seconds."""
         dragging_s = self._context.drag_s(drag.driven) - self._context.drive_s(drag.driven)
         duration_s = self._context.scene.arm_motion_s + dragging_s + seconds
-        return Deferred(duration_s, drag.leads.first, steps)
+        return Deferred(duration_s, drag.outcomes.first, steps)
 
     def _later(
         self,
@@ -193,4 +188,4 @@ class HoldingDrags:
         """Return deferred steps that drive `driven` steps in all: before, with and after the drag."""
         dragging_s, other_s = self._context.drag_s(drag.driven), self._context.drive_s(driven - drag.driven)
         duration_s = self._context.scene.arm_motion_s + dragging_s + other_s
-        return Deferred(duration_s, drag.leads.first, steps, is_spare)
+        return Deferred(duration_s, drag.outcomes.first, steps, is_spare)

@@ -55,8 +55,9 @@ class Step(Protocol):
         """Return what each arm holds, from the leftmost to the rightmost, and which vertices had to be held."""
         ...
 
+    @property
     def phases(self) -> tuple[Phase, ...]:
-        """Return the phases of the motion; their durations add up to those of the step."""
+        """The phases of the motion; their durations add up to those of the step."""
         ...
 
     def extremes(self) -> tuple[Phase, ...]:

@@ -219,7 +219,7 @@ class _NoMemory:
 def _driven_anywhere(
     hands: int, begun: NDArray[np.int64], most: int = IMPOSSIBLE - 1, wanted: Wanted = "unbeaten"
 ) -> Driving:
-    """Keep the base where it is when the hands begin, or drive it from there to every end if that is wanted."""
+    """Keep the base where it is when the hands begin, or drive it from there to every end if `wanted` says so."""
     places = np.arange(len(begun))
     steps, first = begun.copy(), places
     if wanted == "every":

@@ -18,7 +18,7 @@ from planner.primitives.drag_way import dragged, longest_drag, towards_robot
 from planner.primitives.fold_obstacles import is_line_on_table
 from planner.primitives.holding_drags import STEPS_PER_DRAG
 from planner.primitives.relaxed_sites import NOWHERE, OUTSIDE, Sites
-from planner.primitives.state import State
+from planner.primitives.state import UNDRAGGED, State
 
 
 class Service:
@@ -169,7 +169,7 @@ class SiteMap:
     def _move_s(self, station: int, goal: int) -> FloatArray:
         """Return the duration of a move from each standoff (s). Cached."""
         if (station, goal) not in self._moves_s:
-            starts = (State(0, (0.0, 0.0), station, standoff) for standoff in range(self._context.standoffs))
+            starts = (State(0, UNDRAGGED, station, standoff) for standoff in range(self._context.standoffs))
             steps = (step for start in starts for step in self._moves.to(start, goal))
             self._moves_s[station, goal] = np.array([step.duration_s for step in steps])
         return self._moves_s[station, goal]

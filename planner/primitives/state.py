@@ -17,6 +17,10 @@ ANYWHERE = -1
 """A station or standoff that is not fixed, in a state that stands for many."""
 
 
+UNDRAGGED: Point2 = (0.0, 0.0)
+"""The offset of cloth that has not been dragged (m)."""
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Held:
     """A grip that has not been let go.

@@ -70,7 +70,7 @@ class ArmSearch:
         self.has_dropped = False
 
     def found(self, stride: int | None = None) -> FloatArray | NoPath:
-        """Return the calmest joints that keep the tool on the path , shape (n, joints), or that there are none.
+        """Return the joints of least movement that keep the tool on the path, shape (n, joints), or why there are none.
 
         Joints that turn without end are unwound.
 

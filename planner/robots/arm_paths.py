@@ -60,7 +60,7 @@ def arm_searches(
 
 
 def arm_paths(searches: Mapping[int, ArmSearch], together: Together) -> FloatArray | NoPath:
-    """Return the calmest joints that keep all tools on their paths, which have equally many poses.
+    """Return the joints of least movement that keep all tools on their paths, which have equally many poses.
 
     Args:
         searches: the search for each arm's path, in rising order of the arms.

@@ -148,7 +148,7 @@ class ArmedRobot(ABC):
         are_free: Mapping[int, IsFree],
         together: Together,
     ) -> FloatArray | NoPath:
-        """Return the calmest joints that keep arms' tools on their paths, or that there are none (see `arm_paths`).
+        """Return the joints of least movement that keep arms' tools on their paths, or why there are none.
 
         Args:
             paths: each arm's tool path, in rising order of the arms, with equally many poses.

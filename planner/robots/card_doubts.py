@@ -14,7 +14,7 @@ import numpy as np
 from planner.geometry.pose import Pose2
 from planner.geometry.table import Table
 from planner.robots.chain import length_of
-from planner.robots.collision.link_shapes import LinkShape, link_shapes
+from planner.robots.collision.link_shapes import link_shapes
 from planner.robots.collision.rigid_groups import BODY, Skeleton
 from planner.robots.described_robot import DescribedRobot
 
@@ -104,17 +104,13 @@ def _odd_parts(robot: DescribedRobot) -> Iterator[OddPart]:
     robot_m = longest + max(float(np.linalg.norm(arm.root)) for arm in robot.arms)
     found: dict[str, OddPart] = {}
     for shape in link_shapes(skeleton.model, robot.urdf):
-        size_m = _size_m(shape)
+        size_m = float(np.ptp(shape.corners, axis=0).max())
         is_carried = skeleton.carrier(shape.joint).arm != BODY
         if size_m < _SMALL_M or size_m > (longest if is_carried else robot_m):
             known = found.get(shape.link)
             if known is None or size_m > known.size_m:
                 found[shape.link] = OddPart(shape.link, size_m, longest if is_carried else robot_m)
     yield from found.values()
-
-
-def _size_m(shape: LinkShape) -> float:
-    return float(np.ptp(shape.corners, axis=0).max())
 
 
 def _arms(robot: DescribedRobot) -> Iterator[ArmsTogether | ArmsCrossed]:

@@ -1,4 +1,4 @@
-"""A robot as people describe it: a JSON card beside a URDF, or one that names a URDF of an installed package.
+"""A robot described by a JSON card, which names a URDF in its folder or in an installed package.
 
 Lengths are in m, angles in rad, times in s. The base frame is on the floor under the robot, x ahead, z up. A URDF
 stands in it once for each of the card's mounts; its links and joints are then called by the mount's name, `_`, and

@@ -91,7 +91,7 @@ def set_joint(model: pin.Model, q: FloatArray, name: str, value: float) -> None:
 
 
 def _rows(chain: Chain) -> int:
-    """Return what the arm is asked of a pose where the roll does not matter to the cloth."""
+    """Return which rows of a pose the arm must meet where the roll does not matter to the cloth."""
     if len(chain.low) <= 5:
         return PITCH
     gives_roll = not chain.is_prismatic[-1] and abs(chain.tool_rotation[2, 0]) >= _ALONG
@@ -99,7 +99,7 @@ def _rows(chain: Chain) -> int:
 
 
 def _limit(model: pin.Model, joint: int, end: str) -> float:
-    """Return a joint's limit; that of a joint without limits is half a turn."""
+    """Return a joint's lower or upper limit; half a turn if it has none."""
     kind = model.joints[joint]
     if kind.nq != 1:
         return -math.pi if end == "lower" else math.pi

@@ -159,7 +159,7 @@ class ComfortReach(ABC):
     """
 
     def __init__(self, asked: QueriedArms, torso_m: float, comfort_m: float, memories: Memories | None) -> None:
-        """Start with nothing asked.
+        """Start with nothing remembered.
 
         Args:
             asked: the arms.
@@ -275,7 +275,7 @@ class ComfortReach(ABC):
     def _shortfall_of(
         self, places: ReachQuery, number: int, approaches: NDArray[np.int64], at_most_m: float, deadline: Deadline
     ) -> Shortfall | None:
-        """Return the least shortfall of one of some places, whatever the others need; None where there is none."""
+        """Return the least shortfall of the place with a number, alone; None if it is within the comfort radius."""
         place = ReachQuery(places.arm, places.points[number], approaches)
         if self.from_anywhere(place).any():
             return None

@@ -15,9 +15,8 @@ from planner.robots.card_file import ArmFile, CardFile
 from planner.robots.card_parts import GripperFile, ParallelogramDrive
 from planner.robots.chain_reader import keep_soft_limits, limits_of
 from planner.robots.described_robot import DescribedRobot
+from planner.robots.urdf_reader import MOVING
 from planner.user_cache import cache_folder, use
-
-_MOVING = ("revolute", "continuous", "prismatic")
 
 
 def robot_card(robot: DescribedRobot) -> RobotCard:
@@ -96,7 +95,7 @@ def _resting(urdf: Element, moved: set[str | None], given: Mapping[str, float]) 
     """Yield the actuated joints that no arm, gripper or lift moves, and where they rest: within limits, near 0."""
     for joint in urdf.iterfind("joint"):
         name = joint.get("name", "")
-        if joint.get("type") in _MOVING and joint.find("mimic") is None and name not in moved:
+        if joint.get("type") in MOVING and joint.find("mimic") is None and name not in moved:
             low, high = limits_of(joint)
             yield name, given.get(name, min(max(0.0, low), high))
 

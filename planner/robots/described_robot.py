@@ -95,7 +95,7 @@ class DescribedRobot:
 
 
 def read_robot(name_or_path: str) -> DescribedRobot:
-    """Return a robot by its name, shipped or one's own, or by the path of its card.
+    """Return a robot, shipped or the user's own, by its name or by the path of its card.
 
     Raises:
         RobotError: there is no such card, or it or its URDF is not valid.

@@ -46,7 +46,7 @@ def robot_names() -> tuple[str, ...]:
 
 
 def robot_cards() -> list[CardFile]:
-    """Return the cards of all robots, the shipped ones first; skip those of one's own that are not valid."""
+    """Return the cards of all robots, the shipped ones first; skip those of the user's own that are not valid."""
     cards = []
     for name in robot_names():
         with suppress(RobotError, UnknownRobotError):
@@ -59,7 +59,7 @@ def card_of(name: str) -> CardFile:
 
     Raises:
         UnknownRobotError: there is none.
-        RobotError: the card of a robot of one's own cannot be read, or is that of another name.
+        RobotError: the card of a user's own robot cannot be read, or has another name.
     """
     if name in shipped_robots():
         return shipped_card(name)

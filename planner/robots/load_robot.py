@@ -27,7 +27,7 @@ Stamp: TypeAlias = tuple[int, int, int]
 
 
 def load_robot(name_or_path: str) -> Pr2 | CardRobot:
-    """Return a robot by its name, shipped or one's own, or by the path of its card; the same one until that changes.
+    """Return a robot, shipped or the user's own, by its name or its card's path; the same one until that changes.
 
     A name or a path may be followed by changes of the card (see `planner.robots.varied_card`).
 

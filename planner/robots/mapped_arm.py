@@ -31,7 +31,7 @@ A pose's samples do not depend on the other poses; its costs are infinite after 
 
 
 class SampleMemory:
-    """The samples of the poses asked last. May be shared between threads."""
+    """The samples of the poses queried last. May be shared between threads."""
 
     def __init__(self, sampled: Sampled) -> None:
         """Take what samples poses, and start with nothing known."""
@@ -45,7 +45,7 @@ class SampleMemory:
             self._known.clear()
 
     def samples(self, points: FloatArray, rotations: FloatArray, floor: float) -> _Samples:
-        """Return what the sampling function does, which is asked only for the poses that are not known."""
+        """Return what the sampling function returns; it is called only for poses that are not known."""
         keys = [(point.tobytes(), rotation.tobytes(), floor) for point, rotation in zip(points, rotations, strict=True)]
         with self._lock:
             found = {key: self._known[key] for key in keys if key in self._known}
@@ -225,7 +225,7 @@ class MappedArm:
     def along(
         self, positions: FloatArray, rotations: FloatArray, torso_m: float, guides: FloatArray
     ) -> tuple[FloatArray, BoolArray]:
-        """Return joints near to guides at each tool pose, shape (n, joints), and if there are any; see `PathArm`."""
+        """Return joints near to guides at each tool pose, shape (n, joints), and whether they exist; see `PathArm`."""
         points, axes = np.ascontiguousarray(positions - self.shoulder(torso_m)), np.ascontiguousarray(rotations)
         return followed(self.chain, self._is_endless, points, axes, np.ascontiguousarray(guides))
 
@@ -273,7 +273,7 @@ def _part(progress: Progress | None, number: int, count: int) -> Progress | None
 
 
 def heights(robot: DescribedRobot, arm: DescribedArm) -> tuple[float, float]:
-    """Return the lowest and the highest point that a robot's arm is mostly asked for, seen from its root (m)."""
+    """Return the lowest and the highest point that an arm mostly needs, seen from its root (m)."""
     table_m = robot.card.scene.table.height_m - float(arm.root[2])
     low, high = robot.lift_limits_m
     return table_m - high - _BELOW_M, table_m - low + _ABOVE_M

@@ -10,10 +10,10 @@ import numpy as np
 from planner.deadline import Deadline
 from planner.geometry.driving import STANDOFF_STEP_M
 from planner.geometry.pose import FloatArray, point3
-from planner.geometry.reach_query import Cause, ReachQuery, Shortfall
+from planner.geometry.reach_query import ReachQuery, Shortfall
 from planner.robots.arm_query import ArmNumbers
 from planner.robots.comfort_reach import ComfortReach, Memories, QueriedArms
-from planner.robots.displacements import DIRECTIONS, FURTHEST_M, SIDEWAYS, homewards
+from planner.robots.displacements import DIRECTIONS, FURTHEST_M, cause_of, homewards
 from planner.robots.mapped_comfort import MappedArms, joint_at_limit, nearest_place, widest_circle
 
 Heights: TypeAlias = tuple[tuple[float, float], ...]
@@ -43,7 +43,7 @@ class MappedReach(ComfortReach):
         comfort_m: float,
         memories: Memories | None = None,
     ) -> None:
-        """Start with nothing asked.
+        """Start with nothing remembered.
 
         Args:
             asked: the arms, with maps.
@@ -106,7 +106,7 @@ class MappedReach(ComfortReach):
             short_by_m = max(float(distances.min()) - self._lengths_m[arm], searched)
         point = seen[seen_from]
         towards = homewards(point) if is_at_least else DIRECTIONS[direction]
-        cause, comfort_m = "too_far" if is_at_least else _cause(point, towards, short_by_m), None
+        cause, comfort_m = "too_far" if is_at_least else cause_of(point, towards, short_by_m), None
         widest_m, widest_from, _ = widest_circle(self._arms(), labels, seen, self.comfort_m)
         if widest_from >= 0:
             cause, comfort_m = "comfort_only", widest_m
@@ -136,11 +136,3 @@ class MappedReach(ComfortReach):
             if worst is not None and (best is None or worst.short_by_m < best.short_by_m):
                 best = worst
         return best
-
-
-def _cause(point: FloatArray, towards: FloatArray, short_by_m: float) -> Cause:
-    """Return why a point, seen from the arm's root, is out of reach that a displacement brings into it."""
-    further_m = np.linalg.norm(point + short_by_m * towards) - np.linalg.norm(point)
-    if further_m < -SIDEWAYS * short_by_m:
-        return "too_far"
-    return "too_near" if further_m > SIDEWAYS * short_by_m else "joint_limit"

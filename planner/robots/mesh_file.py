@@ -1,4 +1,4 @@
-"""Read a mesh's file, and no other: what it names, such as materials, textures and buffers, is not opened."""
+"""Read a mesh's file and nothing else: materials, textures and buffers that it names are not opened."""
 
 from io import BytesIO
 from pathlib import Path

@@ -21,24 +21,24 @@ _chosen: list[Path] = []
 
 
 def robots_folder() -> Path:
-    """Return the folder of one's own robots; it need not exist."""
+    """Return the folder of the user's own robots; it need not exist."""
     if _chosen:
         return _chosen[-1]
     return Path(os.environ.get("PLEAT_DATA") or user_data_path("pleat")) / ROBOTS
 
 
 def use_robots_folder(folder: Path) -> None:
-    """Look for one's own robots in a folder from now on, in the whole process."""
+    """Look for the user's own robots in a folder from now on, in the whole process."""
     _chosen[:] = [folder]
 
 
 def own_robots() -> tuple[str, ...]:
-    """Return the names of one's own robots, in alphabetical order."""
+    """Return the names of the user's own robots, in alphabetical order."""
     return tuple(sorted(path.parent.name for path in robots_folder().glob(f"*/{CARD}") if own_card(path.parent.name)))
 
 
 def own_card(name: str) -> Path | None:
-    """Return the file of the card of a robot of one's own; None if there is none of this name."""
+    """Return the card's file of a robot of the user's own; None if there is none of this name."""
     if not _NAME.fullmatch(name):
         return None
     path = robots_folder() / name / CARD

@@ -56,7 +56,7 @@ def table_reach(robot: DescribedRobot, progress: Progress | None = None) -> Tabl
 
 
 def _grid(table: Table) -> FloatArray:
-    """Return the points asked, table frame but with heights above the floor (m), shape (n, 3)."""
+    """Return the points queried, table frame but with heights above the floor (m), shape (n, 3)."""
     x, y = (np.arange(-0.5 * size + 0.5 * STEP_M, 0.5 * size, STEP_M) for size in (table.depth_m, table.width_m))
     across = np.array(np.meshgrid(x, y)).reshape(2, -1).T
     return np.column_stack([across, np.full(len(across), table.height_m + ABOVE_TABLE_M)])

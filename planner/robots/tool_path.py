@@ -49,7 +49,7 @@ class PathArm(Protocol):
     def along(
         self, positions: FloatArray, rotations: FloatArray, torso_m: float, guides: FloatArray
     ) -> tuple[FloatArray, BoolArray]:
-        """Return the joints near to guides, shape (n, joints), that bring the tool to each pose, and if there are any.
+        """Return joints near to guides that bring the tool to each pose, shape (n, joints), and if they exist.
 
         Joints that turn without end come unwound.
         """

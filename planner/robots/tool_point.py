@@ -128,7 +128,7 @@ def _in_tool(arm: DescribedArm, shape: LinkShape, placement: pin.SE3) -> FloatAr
 
 
 def _triangles(shape: LinkShape) -> FloatArray:
-    """Return the triangles of a shape in its own frame, those of its hull where it is no mesh; shape (n, 3, 3)."""
+    """Return the triangles of a shape, or of its hull if it is no mesh, in its own frame, shape (n, 3, 3)."""
     if shape.triangles is not None:
         return np.asarray(shape.geometry.vertices()[shape.triangles])
     from scipy.spatial import ConvexHull  # slow to import, and needed only for some cards

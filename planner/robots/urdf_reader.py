@@ -170,8 +170,11 @@ def _is_finite(text: str) -> bool:
 
 
 _LIMITED = ("revolute", "prismatic")
-_MOVING = (*_LIMITED, "continuous")
-_KNOWN = (*_MOVING, "fixed", "planar", "floating")
+
+MOVING = (*_LIMITED, "continuous")
+"""Types of joints that move in one direction."""
+
+_KNOWN = (*MOVING, "fixed", "planar", "floating")
 
 ENDLESS_RAD = 20.0 * math.pi
 """A joint that turns this far has no limit that matters: URDFs give some endless joints huge numbers."""
@@ -229,7 +232,7 @@ def _check_joint(name: str, joint: Element, links: Collection[str], field: str) 
             if len(element.get(key, "0 0 0").split()) != 3:
                 said = f"{element.tag} has {key} {element.get(key)!r}, not three numbers"
                 raise RobotError(field, f"joint {name!r}: {said}")
-    if kind in _MOVING:
+    if kind in MOVING:
         axis = joint.find("axis")
         if axis is not None and not any(float(part) for part in axis.get("xyz", "1 0 0").split()):
             raise RobotError(field, f"joint {name!r}: its axis has no direction")
@@ -255,7 +258,7 @@ def _check_connected(links: list[str], joints: dict[str, Element], field: str) -
     carried: dict[str, str] = {}
     inner: dict[str, str] = {}
     for name, joint in joints.items():
-        child, parent = _end(joint, "child"), _end(joint, "parent")
+        child, parent = link_at(joint, "child"), link_at(joint, "parent")
         if child in carried:
             raise RobotError(field, f"link {child!r} hangs from two joints, {carried[child]!r} and {name!r}")
         carried[child], inner[child] = name, parent
@@ -280,7 +283,8 @@ def _shown(names: Sequence[str]) -> str:
     return ", ".join(map(repr, names[:_NAMES_SHOWN])) + (", ..." if len(names) > _NAMES_SHOWN else "")
 
 
-def _end(joint: Element, tag: str) -> str:
+def link_at(joint: Element, tag: str) -> str:
+    """Return the name of a joint's `parent` or `child` link; empty if it has none."""
     element = joint.find(tag)
     return "" if element is None else element.get("link", "")
 
@@ -305,7 +309,7 @@ def _resolve_mimic(name: str, joint: Element, joints: dict[str, Element], field:
         passed.append(driver)
     joint.remove(mimic)
     driven = joints.get(driver)
-    if joint.get("type") in _MOVING and driven is not None and driven.get("type") in _MOVING:
+    if joint.get("type") in MOVING and driven is not None and driven.get("type") in MOVING:
         SubElement(joint, "mimic", joint=driver, multiplier=repr(factor), offset=repr(offset))
 
 

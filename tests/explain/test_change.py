@@ -72,7 +72,7 @@ def test_the_fields_of_a_change_ask_for_the_task_that_it_makes(name: str) -> Non
 @pytest.mark.parametrize("name", CHANGES)
 def test_a_relaxed_problem_is_that_of_the_changed_task(name: str) -> None:
     change, amount, _ = CHANGES[name]
-    base = RelaxedProblem.of(Problem.of(TASK))
+    base = RelaxedProblem(Problem.of(TASK))
     relaxed, afresh = base.changed(change, amount), Problem.of(change.applied(TASK, amount))
     assert relaxed.problem.task == afresh.task
     assert relaxed.context.scene == afresh.context.scene
@@ -83,7 +83,7 @@ def test_a_relaxed_problem_is_that_of_the_changed_task(name: str) -> None:
 
 def test_a_changed_scene_keeps_the_stations_of_a_base_that_never_drives() -> None:
     task = task_for(garment(rectangle_points(0.2, 0.2), fold((0.2, 0.1), (0.0, 0.1))), robot="so101-pair")
-    base = RelaxedProblem.of(Problem.of(task))
+    base = RelaxedProblem(Problem.of(task))
     fields = base.changed(FRICTION, 0.1).change_from(base)
     assert fields is not None
     assert Scene.from_dict(fields["scene"]).stations == task.scene.stations
@@ -96,7 +96,7 @@ def test_a_grip_radius_is_widened_from_the_least_and_none_gets_narrower() -> Non
 
 
 def test_what_no_request_can_ask_for_has_no_fields() -> None:
-    base = RelaxedProblem.of(Problem.of(TASK))
+    base = RelaxedProblem(Problem.of(TASK))
     free = Change("collision", frees=lambda free, _: replace(free, may_collide=True))
     relaxed = base.changed(FRICTION, 0.1).changed(free)
     assert relaxed.may_collide and relaxed.change_from(base) is None

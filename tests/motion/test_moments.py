@@ -200,7 +200,7 @@ def test_in_a_plan_nothing_goes_further_from_moment_to_moment_than_is_said(name:
     for plan_segment in planned(name).found.plan_segments:
         if plan_segment.transfer is None:
             continue
-        phases = [p for step in plan_segment.steps for p in step.phases() if p.duration_s > 0.0 and is_carrying(p)]
+        phases = [p for step in plan_segment.steps for p in step.phases if p.duration_s > 0.0 and is_carrying(p)]
         waypoints = waypoints_of(phases, HEIGHT_M)
         assert np.linalg.norm(np.diff(waypoints.bases[:, :2], axis=0), axis=1).max() <= STEP_M + 1e-9
         assert waypoints.nominal_s.sum() == pytest.approx(sum(p.duration_s for p in phases))

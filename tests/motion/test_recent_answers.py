@@ -3,7 +3,7 @@
 import gc
 import weakref
 
-from planner.motion.answer_memory import RecentAnswers
+from planner.motion.answer_memory import RecentAnswers, digest
 
 
 class Asked:
@@ -27,6 +27,17 @@ def test_what_was_used_last_is_kept() -> None:
     assert asked.about == [1, 2, 3, 2], "2 had to make room for 3"
 
 
+def test_a_question_is_asked_once_even_where_the_answer_is_no() -> None:
+    known, asked = RecentAnswers[int, bool](8), list[int]()
+
+    def ask(key: int) -> bool:
+        asked.append(key)
+        return False
+
+    assert [known.answer(1, ask) for _ in range(3)] == [False] * 3
+    assert asked == [1]
+
+
 def test_who_answers_goes_without_the_garbage_collector() -> None:
     gc.disable()
     try:
@@ -37,3 +48,7 @@ def test_who_answers_goes_without_the_garbage_collector() -> None:
         assert gone() is None
     finally:
         gc.enable()
+
+
+def test_in_a_digest_no_byte_passes_from_one_part_to_the_next() -> None:
+    assert digest(b"ab", b"c") == digest(b"ab", b"c") != digest(b"a", b"bc")

@@ -48,7 +48,7 @@ def test_hands_go_from_one_transfer_to_the_next(name: str) -> None:
         np.testing.assert_allclose(turns, np.round(turns), atol=1e-9)
         drives = [timed for timed in plan_segment.transit.timed_phases if not any(timed.phase.hands)]
         there = [*(timed.phase.base for timed in drives), plan_segment.transit.timed_phases[-1].phase.base]
-        assert there[0][0] == before.transfer.steps[-1].phases()[-1].base[1]
+        assert there[0][0] == before.transfer.steps[-1].phases[-1].base[1]
 
 
 def test_a_transit_is_planned_once_for_the_same_steps() -> None:
@@ -125,7 +125,7 @@ def test_a_detour_that_takes_too_long_is_led_as_near_to_the_straight_path_as_is_
     far_enough = ends + 0.2 * (aside(home[None]) - ends)
     monkeypatch.setattr(maker.transits, "is_clear", lambda cloth, bases, joints, openings_m: aside(joints) > far_enough)
     reach = TimedPhase.even(0, after.free_phases[-1], 1.5)
-    free = TransitTime([reach], 0.0, after.transfer_path.cloths[0])
+    free = TransitTime([reach], after.transfer_path.cloths[0])
 
     def lasts_s() -> float:
         planner = TransitPlanner(maker.transits, maker.dwell_s)
@@ -150,7 +150,7 @@ def test_an_arm_in_nobodys_way_does_not_share_the_detour_of_the_other(monkeypatc
 
     monkeypatch.setattr(transits, "is_clear", is_home)
     planner = TransitPlanner(transits, maker.dwell_s)
-    free = TransitTime([TimedPhase.even(0, after.free_phases[-1], 1.5)], 0.0, after.transfer_path.cloths[0])
+    free = TransitTime([TimedPhase.even(0, after.free_phases[-1], 1.5)], after.transfer_path.cloths[0])
     late = planner.keyframes(free, before.retreat, after.approach, before.going, after.coming)
     soon = planner.sooner(free, before.retreat, after.approach, late)
     assert free.end_s < soon[0].end_s < late[0].end_s - 0.1

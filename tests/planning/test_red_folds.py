@@ -108,7 +108,7 @@ def test_of_two_hands_the_one_that_is_not_needed_lets_go_first() -> None:
     problem = context(towel(OVER, CORNER))
     corner = step_of(problem, step_of(problem, START).after)
     assert [grip.arm for grip in corner.grips] == ["right"]
-    assert all(phase.hands[0] is None and phase.hands[1] is not None for phase in corner.phases())
+    assert all(phase.hands[0] is None and phase.hands[1] is not None for phase in corner.phases)
     # Over the line through (0.25, 0.5) and (0.4, 0.4), of direction (3, -2) / sqrt 13: the corner is at
     # 0.15 x 2 / sqrt 13 = 0.0832 from it, and goes by twice that along (-2, -3) / sqrt 13.
     twice, length = 2 * 0.15 * 2 / math.sqrt(13), math.sqrt(13)

@@ -68,7 +68,7 @@ def test_each_drag_takes_two_arm_motions_and_ends_on_a_grid() -> None:
         assert 10.0 * x == pytest.approx(round(10.0 * x)) and 10.0 * y == pytest.approx(round(10.0 * y))
         assert step.distance_m == pytest.approx(math.hypot(x, y))
         assert not step.after.held and step.after.done == 0
-        assert sum(phase.duration_s for phase in step.phases()) == pytest.approx(step.duration_s)
+        assert sum(phase.duration_s for phase in step.phases) == pytest.approx(step.duration_s)
 
 
 def test_the_hands_take_the_side_that_goes_ahead_and_end_with_the_cloth() -> None:

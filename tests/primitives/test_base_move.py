@@ -99,7 +99,7 @@ def test_between_any_two_stations_the_way_is_legal_and_shortest_from_every_stand
                 (goal_pose.x_m, goal_pose.y_m, goal_pose.yaw_rad),
                 scene.to_dict(),
             )
-            assert sum(phase.duration_s for phase in step.phases()) == pytest.approx(step.duration_s)
+            assert sum(phase.duration_s for phase in step.phases) == pytest.approx(step.duration_s)
 
 
 def test_a_station_that_stands_slanting_is_left_along_its_own_axis() -> None:

@@ -48,7 +48,7 @@ def test_a_fold_in_reach_from_where_the_base_stands_takes_three_arm_motions() ->
     (step,) = folds_of(context(towel(NEAR_HALF)))
     assert step.duration_s == 9.0
     assert step.after.done == 1 and step.after.standoff == 0 and not step.after.held
-    assert sum(phase.duration_s for phase in step.phases()) == pytest.approx(9.0)
+    assert sum(phase.duration_s for phase in step.phases) == pytest.approx(9.0)
 
 
 def test_its_grips_are_the_near_corners_the_left_arm_at_the_left() -> None:
@@ -70,7 +70,7 @@ def test_a_hand_on_the_extension_of_the_fold_line_stays_as_it_is_while_the_other
     assert left.place == pytest.approx((-0.65, -0.2, 0.02))
     for place in (right.pick, right.apex, right.place):
         assert place == pytest.approx((-0.45, 0.0, 0.02))
-    still = [phase.hands[1] for phase in step.phases() if phase.hands[1] is not None]
+    still = [phase.hands[1] for phase in step.phases if phase.hands[1] is not None]
     assert {roll for hand in still for roll in hand.rolls_rad} == {0.0}
 
 
@@ -81,7 +81,7 @@ def test_the_base_drives_to_where_the_grips_are_in_reach_and_pays_for_it() -> No
     (step,) = folds_of(context(towel(NEAR_HALF), reach=far))
     assert step.after.standoff == 3
     assert step.duration_s == pytest.approx(9.6)
-    assert sum(phase.duration_s for phase in step.phases()) == pytest.approx(9.6)
+    assert sum(phase.duration_s for phase in step.phases) == pytest.approx(9.6)
 
 
 def test_the_base_follows_its_hands_where_no_one_place_will_do() -> None:
@@ -92,7 +92,7 @@ def test_the_base_follows_its_hands_where_no_one_place_will_do() -> None:
     nearest = min(steps, key=lambda s: s.duration_s)
     assert nearest.after.standoff == 2
     assert nearest.duration_s == pytest.approx(9.0 + (4 + 2) * 0.2)
-    assert sum(phase.duration_s for phase in nearest.phases()) == pytest.approx(nearest.duration_s)
+    assert sum(phase.duration_s for phase in nearest.phases) == pytest.approx(nearest.duration_s)
 
 
 def test_what_no_arm_reaches_is_noted_and_not_done() -> None:
@@ -149,7 +149,7 @@ def test_drags_go_towards_the_robot_by_tenths_of_a_metre_up_to_the_articles_leng
     for step in steps:
         assert step.after.offset == pytest.approx((-step.distance_m, 0.0))
         assert step.after.standoff == step.first_stand + round(20 * step.distance_m)
-        assert sum(p.duration_s for p in step.phases()) == pytest.approx(step.duration_s)
+        assert sum(p.duration_s for p in step.phases) == pytest.approx(step.duration_s)
 
 
 def test_a_drag_costs_the_reach_and_the_way() -> None:

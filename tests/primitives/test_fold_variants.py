@@ -55,7 +55,7 @@ def masks(context: Context, station: int, variant: Variant) -> np.ndarray:
 
 def travel_m(step: FoldStep) -> float:
     """Return how far the base drives in a step's phases (m)."""
-    drives = [(phase.base[0], phase.base[1]) for phase in step.phases()]
+    drives = [(phase.base[0], phase.base[1]) for phase in step.phases]
     return sum(math.dist((a.x_m, a.y_m), (b.x_m, b.y_m)) for a, b in drives)
 
 
@@ -90,7 +90,7 @@ def test_the_travel_told_is_what_the_phases_drive(context: Context) -> None:
     for variant in fold_spread(context, BACKED_OFF, 0, COUNT):
         step = step_of(context, BACKED_OFF, variant)
         assert travel_m(step) == pytest.approx(variant.steps * STANDOFF_STEP_M)
-        assert sum(phase.duration_s for phase in step.phases()) == pytest.approx(step.duration_s)
+        assert sum(phase.duration_s for phase in step.phases) == pytest.approx(step.duration_s)
 
 
 @pytest.mark.parametrize("count", [1, 3, COUNT, 100_000])

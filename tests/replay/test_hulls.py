@@ -8,6 +8,7 @@ from planner.robots.load_robot import load_robot
 from planner.robots.pr2.robot import Pr2
 from tests.replay.hulls import are_compared, contacts
 from tests.required import required
+from tests.robots.model import joints_near
 
 ROBOT = load_robot("pr2")
 HOME = (ROBOT.home(0), ROBOT.home(1))
@@ -29,7 +30,7 @@ def test_a_hand_through_the_table_is_seen_and_how_deep() -> None:
     # side, fingers are 35 mm deep in the top, which is 30 mm thick, tips are nearly through it, the palm is not in it.
     elbow_out, down = np.array([0.8, -0.2, 1.0, -1.8, 0.0, -1.4, 0.0]), [[0, 0, 1], [0, 1, 0], [-1, 0, 0]]
     assert isinstance(ROBOT, Pr2)
-    joints = required(ROBOT.joints_near(0, np.array([0.5, 0.2, 0.74]), np.array(down, dtype=float), 0.29, elbow_out))
+    joints = required(joints_near(ROBOT, 0, np.array([0.5, 0.2, 0.74]), np.array(down, dtype=float), 0.29, elbow_out))
     found = {(a, b): depth for a, b, depth in seen(joints, HOME[1], base=FRONT)}
     fingers = [(f"l_gripper_{side}_finger_link", "table top") for side in "lr"]
     tips = [(f"l_gripper_{side}_finger_tip_link", "table top") for side in "lr"]

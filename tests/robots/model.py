@@ -3,11 +3,13 @@
 import numpy as np
 import pinocchio as pin
 
-from planner.geometry.pose import FloatArray
+from planner.geometry.pose import BoolArray, FloatArray
 from planner.robots.card import RobotCard
 from planner.robots.load_robot import load_robot
 from planner.robots.pr2.description import read_model
+from planner.robots.pr2.kernel import reachable_batch
 from planner.robots.pr2.robot import Pr2
+from planner.robots.tool_path import ToolPath
 
 MODEL = read_model()
 DATA = MODEL.createData()
@@ -32,6 +34,26 @@ def limits(card: RobotCard, arm: int) -> tuple[FloatArray, FloatArray]:
     low = [MODEL.lowerPositionLimit[j.idx_q] if j.nq == 1 else -np.inf for j in joints]
     high = [MODEL.upperPositionLimit[j.idx_q] if j.nq == 1 else np.inf for j in joints]
     return np.array(low), np.array(high)
+
+
+def can_reach(robot: Pr2, arm: int, positions: FloatArray, rotations: FloatArray, torso_m: float) -> BoolArray:
+    """Return which tool poses an arm of the robot can take with every joint within its limits, shape (n,)."""
+    own = robot._arms[arm]
+    points = own.mirrored_places(positions) - own.shoulder(torso_m)
+    return reachable_batch(own.shape, points, own.mirrored_places(rotations[:, :, 0]))
+
+
+def joints_near(
+    robot: Pr2, arm: int, position: FloatArray, rotation: FloatArray, torso_m: float, near: FloatArray
+) -> FloatArray | None:
+    """Return joints of an arm that bring its tool to a pose, near to given ones (rad); None if it is out of reach."""
+    path = ToolPath(position[None], rotation[None], np.empty(0), (0, 1))
+    found = robot.arm_path_near(arm, path, torso_m, lambda _, joints: np.ones(len(joints), dtype=bool), near[None])
+    if found is not None:
+        return np.asarray(found[0])
+    samples = robot.free_postures(arm, position, rotation, torso_m, lambda joints: np.ones(len(joints), dtype=bool))
+    nearest = np.linalg.norm(samples - near, axis=1).argsort()
+    return np.asarray(samples[nearest[0]]) if len(samples) else None
 
 
 def pin_pose(frame: str, values: dict[str, float]) -> tuple[FloatArray, FloatArray]:

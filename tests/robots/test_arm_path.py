@@ -12,7 +12,7 @@ from planner.geometry.table import Table
 from planner.robots.pr2.arm import MIRROR
 from planner.robots.tool_path import IsFree, NoPath, ToolPath
 from tests.required import required
-from tests.robots.model import limits, pin_arm_pose, pin_tool_pose, the_pr2
+from tests.robots.model import can_reach, limits, pin_arm_pose, pin_tool_pose, the_pr2
 from tests.robots.required import joints_of, no_path_of
 
 ROBOT = the_pr2()
@@ -91,7 +91,7 @@ def test_so_it_is_on_random_lines() -> None:
         path = line(tuple(start), tuple(end), rng.choice(PITCHES_DEG))
         joints = found(path)
         if isinstance(joints, NoPath):
-            assert not ROBOT.can_reach(0, path.positions, path.rotations, TORSO_M).all()
+            assert not can_reach(ROBOT, 0, path.positions, path.rotations, TORSO_M).all()
         else:
             require_followed(path, joints)
             followed += 1

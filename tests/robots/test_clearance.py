@@ -5,6 +5,7 @@ import pytest
 
 from planner.geometry.table import Table
 from tests.robots.collision_samples import FRONT, HOME, ROBOT, TORSO_M
+from tests.robots.model import joints_near
 
 OVER_M = 0.03
 DOWN = np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])
@@ -17,7 +18,7 @@ def pointing_down(arm: int, height_m: float, ahead_m: float = 0.55) -> np.ndarra
     side = 1.0 - 2.0 * arm
     place = np.array([ahead_m, side * 0.25, Table().height_m + height_m])
     near = ELBOW_OUT if arm == 0 else ELBOW_OUT * [-1, 1, -1, 1, -1, 1, -1]
-    joints = ROBOT.joints_near(arm, place, DOWN, TORSO_M, near)
+    joints = joints_near(ROBOT, arm, place, DOWN, TORSO_M, near)
     assert joints is not None
     return joints
 

@@ -13,11 +13,12 @@ from numpy.typing import NDArray
 from planner.geometry.pose import FloatArray
 from planner.geometry.tolerance import LENGTH_M
 from planner.robots.collision.part_poses import PLACE
+from planner.robots.collision.part_source import ROUNDING_MAX_M
 from planner.robots.collision.robot_parts import RobotParts
 from planner.robots.collision.rounded_hull import RoundedHull, rounded_hull
 from planner.robots.pr2.arm import ArmShape
 from planner.robots.pr2.arm_poses import EACH, pose_arm
-from planner.robots.pr2.part_shapes import OPENINGS_M, ROUNDING_MAX_M, part_shapes, pr2_parts
+from planner.robots.pr2.part_shapes import OPENINGS_M, part_shapes, pr2_parts
 from planner.robots.pr2.parts import ARM_PARTS, BODY_PARTS, FINGERS, FINGERTIPS, pairs_in_arm, pairs_with_body
 from tests.replay import hulls
 from tests.required import required

@@ -12,6 +12,7 @@ from planner.geometry.tolerance import LENGTH_M
 from planner.robots.pr2.arm import MIRROR
 from tests.replay import hulls
 from tests.robots.collision_samples import CARD, FAR, FRONT, HOME, ROBOT, TORSO_M, both, random_postures, with_left
+from tests.robots.model import joints_near
 
 COLLISIONS = ROBOT.collisions(Table(), TORSO_M)
 DOWN = np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])
@@ -67,7 +68,7 @@ def test_a_forearm_through_the_torso_collides() -> None:
 def test_fingertips_may_be_a_hair_over_the_table_and_nothing_in_it(height_m: float, met: str | None) -> None:
     # Pointing straight down, tips end 19 mm below the tool frame, and closed fingers 27 mm above the tips. The top is
     # 30 mm thick: the deepest in it, or through it, are tips, then fingers.
-    joints = ROBOT.joints_near(0, np.array([0.6, 0.3, Table().height_m + height_m]), DOWN, TORSO_M, ELBOW_OUT)
+    joints = joints_near(ROBOT, 0, np.array([0.6, 0.3, Table().height_m + height_m]), DOWN, TORSO_M, ELBOW_OUT)
     assert joints is not None
     wary = ROBOT.collisions(Table(), TORSO_M, margin_m=0.001)
     for collisions in (COLLISIONS, wary):

@@ -10,7 +10,7 @@ from planner.geometry.table import Table
 from planner.robots.pr2.posture_room import empty_memory, learn, place_key, slot_of
 from planner.robots.pr2.reach import APPROACHES
 from tests.robots.collision_samples import FAR, HOME
-from tests.robots.model import the_pr2
+from tests.robots.model import can_reach, the_pr2
 
 ROBOT = the_pr2()
 TORSO_M = 0.29
@@ -32,7 +32,7 @@ def is_in_reach(place: tuple[float, float, float], arm: int = 0) -> bool:
 
 def is_within_limits(place: tuple[float, float, float]) -> bool:
     """Return whether the left arm's joints allow a posture."""
-    return bool(ROBOT.can_reach(0, np.array([place]), APPROACHES[LEVEL].rotation[None], TORSO_M)[0])
+    return bool(can_reach(ROBOT, 0, np.array([place]), APPROACHES[LEVEL].rotation[None], TORSO_M)[0])
 
 
 def free_postures(place: tuple[float, float, float]) -> int:

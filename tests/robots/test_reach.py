@@ -13,7 +13,7 @@ from planner.robots.comfort_reach import Memories
 from planner.robots.pr2.arm import read_arm
 from planner.robots.pr2.mirrored_arm import MirroredArm
 from planner.robots.pr2.reach import APPROACHES, Pr2Reach
-from tests.robots.model import MODEL, limits, pin_tool_pose, random_joints, the_pr2
+from tests.robots.model import MODEL, can_reach, joints_near, limits, pin_tool_pose, random_joints, the_pr2
 
 ROBOT = the_pr2()
 CARD = ROBOT.card
@@ -39,11 +39,11 @@ def test_every_pose_of_a_configuration_within_limits_is_reachable(arm: int) -> N
     rng = np.random.default_rng(11)
     poses = [ROBOT.tool_pose(arm, random_joints(CARD, arm, rng), TORSO_M) for _ in range(20_000)]
     positions, rotations = (np.array(part) for part in zip(*poses, strict=True))
-    answers = ROBOT.can_reach(arm, positions, rotations, TORSO_M)
+    answers = can_reach(ROBOT, arm, positions, rotations, TORSO_M)
     assert answers.mean() >= 0.9995
     for i in np.flatnonzero(~answers):
         around = positions[i] + 0.01 * np.vstack((np.eye(3), -np.eye(3)))
-        assert not ROBOT.can_reach(arm, around, np.repeat(rotations[i : i + 1], 6, axis=0), TORSO_M).all()
+        assert not can_reach(ROBOT, arm, around, np.repeat(rotations[i : i + 1], 6, axis=0), TORSO_M).all()
 
 
 @pytest.mark.parametrize("arm", [0, 1])
@@ -51,11 +51,11 @@ def test_everything_reachable_has_joints_within_limits_that_reach_it(arm: int) -
     rng = np.random.default_rng(12)
     positions = rng.uniform((-0.2, -1.1, 0.2), (1.0, 1.1, 1.8), (4000, 3))
     rotations = np.array([_random_rotation(rng) for _ in positions])
-    answers = ROBOT.can_reach(arm, positions, rotations, TORSO_M)
+    answers = can_reach(ROBOT, arm, positions, rotations, TORSO_M)
     assert 300 < answers.sum() < 2000
     low, high = limits(CARD, arm)
     for position, rotation in zip(positions[answers], rotations[answers], strict=True):
-        joints = ROBOT.joints_near(arm, position, rotation, TORSO_M, ROBOT.home(arm))
+        joints = joints_near(ROBOT, arm, position, rotation, TORSO_M, ROBOT.home(arm))
         assert joints is not None
         assert np.all((low <= joints) & (joints <= high))
         reached, turned = pin_tool_pose(CARD, arm, joints, TORSO_M)
@@ -67,8 +67,8 @@ def test_mirrored_questions_have_the_same_answer() -> None:
     mirror = np.array([1.0, -1.0, 1.0])
     positions = rng.uniform((0.1, -0.9, 0.5), (1.0, 0.9, 1.5), (5000, 3))
     rotations = np.array([_random_rotation(rng) for _ in positions])
-    left = ROBOT.can_reach(0, positions, rotations, TORSO_M)
-    right = ROBOT.can_reach(1, positions * mirror, mirror[:, None] * rotations * mirror, TORSO_M)
+    left = can_reach(ROBOT, 0, positions, rotations, TORSO_M)
+    right = can_reach(ROBOT, 1, positions * mirror, mirror[:, None] * rotations * mirror, TORSO_M)
     np.testing.assert_array_equal(left, right)
 
 
@@ -78,7 +78,7 @@ def test_rolling_the_tool_about_its_axis_changes_nothing() -> None:
     rotations = np.array([_random_rotation(rng) for _ in positions])
     rolled = rotations[:, :, [0, 2, 1]] * np.array([1.0, 1.0, -1.0])
     np.testing.assert_array_equal(
-        ROBOT.can_reach(0, positions, rotations, TORSO_M), ROBOT.can_reach(0, positions, rolled, TORSO_M)
+        can_reach(ROBOT, 0, positions, rotations, TORSO_M), can_reach(ROBOT, 0, positions, rolled, TORSO_M)
     )
 
 
@@ -262,7 +262,7 @@ def _naive_comfort(arm: int, points: np.ndarray, comfort_m: float) -> np.ndarray
     back = STEP_M * np.arange(COUNT)[:, None] * np.array([1.0, 0.0, 0.0])
     asked = (points[:, None, None, :] + back[:, None, :] + ring).reshape(-1, 3)
     answers = [
-        ROBOT.can_reach(arm, asked, np.broadcast_to(approach.rotation, (len(asked), 3, 3)), TORSO_M)
+        can_reach(ROBOT, arm, asked, np.broadcast_to(approach.rotation, (len(asked), 3, 3)), TORSO_M)
         for approach in APPROACHES
     ]
     return np.asarray(np.reshape(answers, (len(APPROACHES), len(points), COUNT, len(ring))).all(axis=3))

@@ -11,7 +11,7 @@ from planner.robots.chain_reader import limits_of
 from planner.robots.described_robot import read_robot
 from planner.robots.known_robots import shipped_robots
 from planner.robots.load_robot import load_robot
-from tests.robots.model import the_pr2
+from tests.robots.model import can_reach, the_pr2
 
 
 def joint(limits: str, soft: str, kind: str = "revolute") -> ElementTree.Element:
@@ -64,4 +64,4 @@ def test_a_pr2_does_not_reach_what_only_a_straight_elbow_reaches() -> None:
     bent_m = np.sqrt(shape.upper**2 + shape.fore**2 + 2.0 * shape.upper * shape.fore * np.cos(0.15))
     for beyond_m, is_reached in ((-2e-3, True), (1e-3, False)):
         point = shoulder + (bent_m + beyond_m + shape.tool) * ahead
-        assert bool(pr2.can_reach(0, point[None], straight, 0.2)[0]) is is_reached
+        assert bool(can_reach(pr2, 0, point[None], straight, 0.2)[0]) is is_reached

@@ -70,7 +70,9 @@ def clusters(clouds: Sequence[FloatArray], at_most: int) -> list[tuple[int, ...]
                 large, small = (a, b) if a.volume_m3 >= b.volume_m3 else (b, a)
                 both = np.vstack([large.corners, small.corners])
                 joined[_key((a, b))] = _cluster((*large.members, *small.members), both, filling)
-        a, b = min(combinations(found, 2), key=lambda two: _more_waste_m3(joined[_key(two)], two))
+        a, b = min(
+            combinations(found, 2), key=lambda two: joined[_key(two)].wasted_m3 - two[0].wasted_m3 - two[1].wasted_m3
+        )
         best = joined[_key((a, b))]
         if len(found) <= at_most and not best.is_tight:
             break
@@ -80,10 +82,6 @@ def clusters(clouds: Sequence[FloatArray], at_most: int) -> list[tuple[int, ...]
 
 def _key(two: tuple[_Cluster, _Cluster]) -> frozenset[tuple[int, ...]]:
     return frozenset((two[0].members, two[1].members))
-
-
-def _more_waste_m3(joined: _Cluster, two: tuple[_Cluster, _Cluster]) -> float:
-    return joined.wasted_m3 - two[0].wasted_m3 - two[1].wasted_m3
 
 
 def _cluster(members: tuple[int, ...], points: FloatArray, filling: "_Filling") -> _Cluster:

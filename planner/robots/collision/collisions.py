@@ -41,7 +41,7 @@ class Clearance:
         height_m: float,
         torso_m: float,
     ) -> None:
-        """Put slabs over the cloth beside the robot's arms.
+        """Take the slabs over the cloth, and the robot's arms to compare with them.
 
         Args:
             robot: the robot's parts.

@@ -51,7 +51,7 @@ class LinkShape:
 def link_shapes(
     model: pin.Model, urdf: str, is_wanted: Callable[[int], bool] = lambda joint: True
 ) -> tuple[LinkShape, ...]:
-    """Return the shapes of all links, or of those wanted.
+    """Return the shapes of all links, or of those selected.
 
     Args:
         model: the robot's kinematic tree.

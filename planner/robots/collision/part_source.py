@@ -23,8 +23,10 @@ SHARES = (1 / 3, 2 / 3, 1.0)
 LEVELS = len(SMALL_M) + len(SHARES)
 
 ROUNDING_MAX_M, TIPS_ROUNDING_MAX_M, EDGE_ROUNDING_MAX_M = 0.003, 0.0003, 0.0001
-"""Limits on how far a part may exceed the hull of its meshes (m); tips come close to the table, and closest where they
-are open so little that one may be under cloth.
+"""Limits on how far a part may exceed the hull of its meshes (m).
+
+Fingertips have a tighter limit because they pass the table's top by half a millimetre, and the tightest where they are
+open so little that one may be under cloth.
 """
 
 ROUNDING_SHARE_MAX = 0.015

@@ -52,7 +52,7 @@ class RoundedHull:
     radius_m: float
 
     def __post_init__(self) -> None:
-        """Validate the corners, the faces and the radius; raise `ValueError` where they are no such body."""
+        """Validate the corners, the faces and the radius; raise `ValueError` if they do not form a rounded hull."""
         if self.corners.ndim != 2 or self.corners.shape[1:] != (3,) or self.faces.shape[1:] != (3,):
             raise ValueError(f"corners of shape {self.corners.shape} and faces of {self.faces.shape} make no hull")
         if len(self.faces) < 4 or self.faces.min() < 0 or self.faces.max() >= len(self.corners):

@@ -1,4 +1,4 @@
-"""A robot's card drafted from its URDF: what a URDF says, what its shapes let guess, and what neither can tell."""
+"""A robot's card drafted from its URDF: what it says, what can be guessed from its shapes, and what stays unknown."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace

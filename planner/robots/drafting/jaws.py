@@ -1,4 +1,4 @@
-"""What a URDF says of its grippers: by its joints which there are, by their shapes how they close and where.
+"""Find the grippers of a URDF by its joints, and how and where they close by their shapes.
 
 A joint moves a finger if its name or its link's says so, or if others mimic it or it mimics another, and nothing else
 hangs from it; fingers that slide opposite each other need no such name. Whatever leads from the root to a hand and to
@@ -20,11 +20,10 @@ from planner.errors import RobotError
 from planner.geometry.pose import FloatArray
 from planner.robots.chain_reader import limits_of
 from planner.robots.collision.link_shapes import LinkShape, link_shapes
-from planner.robots.urdf_reader import mimics_of
+from planner.robots.urdf_reader import MOVING, link_at, mimics_of
 
 _FINGER = re.compile(r"finger|thumb|jaw|claw|knuckle|gripper|(?<![a-z])(index|middle|ring|little|pinky)(?![a-z])")
 _CERTAIN = re.compile(r"finger|thumb|jaw|claw|knuckle")
-_MOVING = ("revolute", "continuous", "prismatic")
 
 JOINTS_MIN = 4
 """An arm has at least as many joints."""
@@ -69,16 +68,16 @@ class _Tree:
 
     def __init__(self, urdf: Element) -> None:
         joints = {joint.get("name", ""): joint for joint in urdf.iterfind("joint")}
-        self._links = {name: _end(joint, "child") for name, joint in joints.items()}
+        self._links = {name: link_at(joint, "child") for name, joint in joints.items()}
         by_child = {link: name for name, link in self._links.items()}
         self._kinds: Mapping[str, str] = {name: joint.get("type", "") for name, joint in joints.items()}
         self.carrier: dict[str, str | None] = {}
         for name, joint in joints.items():
-            if self._kinds[name] not in _MOVING:
+            if self._kinds[name] not in MOVING:
                 continue
-            inner = by_child.get(_end(joint, "parent"))
-            while inner is not None and self._kinds[inner] not in _MOVING:
-                inner = by_child.get(_end(joints[inner], "parent"))
+            inner = by_child.get(link_at(joint, "parent"))
+            while inner is not None and self._kinds[inner] not in MOVING:
+                inner = by_child.get(link_at(joints[inner], "parent"))
             self.carrier[name] = inner
         mimics = {name: driver for name, (driver, _, __) in mimics_of(joints.values()).items()}
         self._coupled = {*mimics, *mimics.values()}
@@ -112,11 +111,6 @@ class _Tree:
         beside = self._carried[self.carrier[name]]
         ends = [one for one in beside if self._kinds[one] == "prismatic" and not self._carried.get(one)]
         return name in ends and len(ends) > 1
-
-
-def _end(joint: Element, tag: str) -> str:
-    element = joint.find(tag)
-    return "" if element is None else element.get("link", "")
 
 
 _TIP_M = 0.02
@@ -164,7 +158,7 @@ class Jaws:
 
 
 def read_jaws(urdf: Element, hand: Hand) -> Jaws:
-    """Return what a hand's shapes say of it; those of its joints that follow no other come to mimic the first.
+    """Return how a hand closes, by its shapes; joints of it that follow no other are made to mimic the first.
 
     Args:
         urdf: the URDF, the paths of its meshes absolute; mimics are added to it.

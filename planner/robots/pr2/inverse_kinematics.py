@@ -1,10 +1,9 @@
-"""The seven joints for a full pose of the tool, as near as possible to the arm's present joints.
+"""The seven joints for a full pose of the tool, near to given joints.
 
-`planner.robots.pr2.kernel` shows that some pan reaches the pose; this module chooses one. With pan and branch fixed the
-other six joints follow in closed form, so the nearest solution is the minimum of a distance along the closed curves of
-the arcs. The curve is sampled, with the present pan and a known witness among the samples, and the best sample is
-refined by halving steps. Wrist and forearm roll are continuous joints: they are unwound to the turn nearest to their
-present angle, so that joints may be interpolated.
+With pan and branch of the elbow fixed, the other six joints follow in closed form. Along the closed curves of the arcs
+of pans (see `planner.robots.pr2.kernel`) the search starts at the pan nearest to the given one and ends where the
+distance to the given joints has a minimum. Wrist and forearm roll are continuous joints: they are unwound to the turn
+nearest to their given angles, so that joints may be interpolated.
 
 As in the kernel the arm is a left arm and poses are in its shoulder's frame (m, rad).
 """
@@ -19,14 +18,7 @@ from planner.kernels import kernel
 from planner.robots.pr2.aim import ToolPose, aim_at
 from planner.robots.pr2.arm import ArmShape, Sector
 from planner.robots.pr2.forward_kinematics import BASE_FRAME, Vector, about_x, about_y, about_z
-from planner.robots.pr2.kernel import witness
 from planner.robots.pr2.pan_arcs import MOST_ARCS, pan_arcs, pan_on
-
-SAMPLES = 16
-"""Samples for each branch of the elbow along an arc."""
-
-FINEST = 1e-7
-"""Step along the curve at which the refinement ends (rad)."""
 
 NEARBY, SETTLED, PROBE = 0.2, 1e-4, 1e-5
 """Limits along the curve for neighbouring poses of a path (rad).
@@ -114,44 +106,12 @@ def _theta_of(arc: FloatArray, pan: float) -> float:
 
 
 @kernel
-def nearest_joints(
-    shape: ArmShape, position: FloatArray, rotation: FloatArray, near: FloatArray
-) -> tuple[bool, FloatArray]:
-    """Return whether any joints bring the tool to a pose, and those nearest to `near`, shape (7,)."""
-    aim = aim_at(shape, position[0], position[1], position[2], rotation[0, 0], rotation[1, 0], rotation[2, 0])
-    arcs, joints = np.empty((MOST_ARCS, 2)), np.empty(7)
-    step = math.pi / SAMPLES
-    best_arc, best_theta = witness(shape, aim, arcs)
-    best = math.inf
-    if best_arc >= 0:
-        best = _solve_on(shape, aim, rotation, near, arcs[best_arc], best_theta, joints)
-    for arc in range(pan_arcs(shape, aim, arcs)):
-        present = _theta_of(arcs[arc], near[0])
-        for sample in range(-2, 2 * SAMPLES):
-            theta = (sample + 0.5) * step if sample >= 0 else (2 * sample + 3) * present
-            distance = _solve_on(shape, aim, rotation, near, arcs[arc], theta, joints)
-            if distance < best:
-                best, best_arc, best_theta = distance, arc, theta
-    if best == math.inf:
-        return False, joints
-    while step > FINEST:
-        step *= 0.5
-        for theta in (best_theta - step, best_theta + step):
-            distance = _solve_on(shape, aim, rotation, near, arcs[best_arc], theta, joints)
-            if distance < best:
-                best, best_theta = distance, theta
-    _solve_on(shape, aim, rotation, near, arcs[best_arc], best_theta, joints)
-    return True, joints
-
-
-@kernel
 def nearby_joints(
     shape: ArmShape, position: FloatArray, rotation: FloatArray, near: FloatArray
 ) -> tuple[bool, FloatArray]:
-    """Return whether joints near the present pan bring the tool to a pose, and those joints.
+    """Return whether joints near to those of a neighbouring pose bring the tool to a pose, and these, shape (7,).
 
-    Like `nearest_joints`, but restricted to the neighbourhood, and by Gauss-Newton steps: for neighbouring poses of a
-    path.
+    Gauss-Newton steps lead along one curve: to a local minimum of the distance to `near`.
     """
     aim = aim_at(shape, position[0], position[1], position[2], rotation[0, 0], rotation[1, 0], rotation[2, 0])
     arcs, joints = np.empty((MOST_ARCS, 2)), np.empty(7)

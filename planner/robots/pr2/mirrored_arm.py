@@ -9,8 +9,6 @@ from planner.geometry.pose import BoolArray, FloatArray
 from planner.robots.pr2.arm import MIRROR, ArmShape
 from planner.robots.pr2.closed_form_samples import filled, solutions
 from planner.robots.pr2.forward_kinematics import tool_places, tool_pose
-from planner.robots.pr2.inverse_kinematics import nearest_joints
-from planner.robots.pr2.kernel import reachable_batch
 
 _MIRRORED_PLACE = np.array([1.0, -1.0, 1.0])
 _MIRRORED_ROTATION = np.outer(_MIRRORED_PLACE, _MIRRORED_PLACE)
@@ -40,19 +38,6 @@ class MirroredArm:
     def mirrored_places(self, places: FloatArray) -> FloatArray:
         """Return points or directions, shape (..., 3), as the left arm sees them; a new array."""
         return np.array(places * _MIRRORED_PLACE if self.is_mirrored else places, dtype=float, order="C")
-
-    def can_reach(self, positions: FloatArray, axes: FloatArray, torso_m: float) -> BoolArray:
-        """Return which tool points and approach axes, each of shape (n, 3) in the base frame, are within reach."""
-        points = self.mirrored_places(positions) - self.shoulder(torso_m)
-        return reachable_batch(self.shape, points, self.mirrored_places(axes))
-
-    def joints_near(
-        self, position: FloatArray, rotation: FloatArray, torso_m: float, near: FloatArray
-    ) -> FloatArray | None:
-        """Return the joints nearest to `near`, shape (7,), with the tool at a pose in the base frame, or None."""
-        point = self.mirrored_places(position) - self.shoulder(torso_m)
-        found, joints = nearest_joints(self.shape, point, self.mirrored_rotations(rotation), self.mirrored_joints(near))
-        return self.mirrored_joints(joints) if found else None
 
     def tool_pose(self, joints: FloatArray, torso_m: float) -> tuple[FloatArray, FloatArray]:
         """Return the tool's position (m), shape (3,), and rotation, shape (3, 3), in the base frame."""

@@ -20,6 +20,7 @@ import pinocchio as pin
 from planner.geometry.pose import FloatArray
 from planner.robots.card import EDGE_OPEN_M, HELD_M, GripperCard, RobotCard
 from planner.robots.collision.part_poses import Index
+from planner.robots.collision.part_source import EDGE_ROUNDING_MAX_M, ROUNDING_MAX_M, TIPS_ROUNDING_MAX_M
 from planner.robots.collision.robot_parts import RobotParts
 from planner.robots.collision.rounded_hull import RoundedHull, hull_arrays, hull_from, rounded_hull
 from planner.robots.kept_arrays import Arrays, kept
@@ -63,20 +64,6 @@ def _corners(geometry: coal.CollisionGeometry) -> FloatArray:
     return corners
 
 
-def body_points(points: dict[str, FloatArray]) -> list[FloatArray]:
-    """Return the points of each part of the body, in its joint's frame."""
-    return [points[part.joint] for part in BODY_PARTS]
-
-
-def arm_points(points: dict[str, FloatArray]) -> list[FloatArray]:
-    """Return the points of the left arm's parts up to and including the palm, in their joints' frames."""
-    return [_of_both_sides(points, part.joint) for part in ARM_PARTS[:FINGERS]]
-
-
-def _of_both_sides(points: dict[str, FloatArray], joint: str) -> FloatArray:
-    return np.vstack([points[f"l_{joint}"], points[f"r_{joint}"] * _MIRROR])
-
-
 def finger_points(
     model: pin.Model, points: dict[str, FloatArray], gripper: GripperCard, opening_m: float
 ) -> tuple[FloatArray, FloatArray]:
@@ -116,13 +103,6 @@ def _turned(points: FloatArray, angle: float, further: float) -> FloatArray:
 OPENINGS_M = (0.0, HELD_M, EDGE_OPEN_M, 0.03, 0.06, 0.09)
 """Openings of the fingers for which there are shapes (m)."""
 
-ROUNDING_MAX_M, TIPS_ROUNDING_MAX_M, EDGE_ROUNDING_MAX_M = 0.003, 0.0003, 0.0001
-"""Limits on how far a shape may exceed the hull of its meshes, apart from being made symmetric (m).
-
-Fingertips have a tighter limit because they pass the table's top by half a millimetre, and the tightest where they are
-open so little that one may be under cloth.
-"""
-
 _FORMAT = 1
 """Version of the cache; raise it whenever shapes are made or stored differently."""
 
@@ -153,8 +133,11 @@ def part_shapes(model: pin.Model, gripper: GripperCard, directory: Path | None =
 def make_shapes(model: pin.Model, gripper: GripperCard) -> PartShapes:
     """Return the shapes, made from the meshes."""
     points = points_of_joints(model)
-    body = dict(zip((part.name for part in BODY_PARTS), body_points(points), strict=True))
-    arm = dict(zip((part.name for part in ARM_PARTS[:FINGERS]), arm_points(points), strict=True))
+    body = {part.name: points[part.joint] for part in BODY_PARTS}
+    arm = {
+        part.name: np.vstack([points[f"l_{part.joint}"], points[f"r_{part.joint}"] * _MIRROR])
+        for part in ARM_PARTS[:FINGERS]
+    }
     for opening_m in OPENINGS_M:
         fingers = finger_points(model, points, gripper, opening_m)
         arm |= zip((finger_key(part, opening_m) for part in (FINGERS, FINGERTIPS)), fingers, strict=True)

@@ -57,7 +57,7 @@ class Pr2Reach(ComfortReach):
         room: Room | None = None,
         memories: Memories | None = None,
     ) -> None:
-        """Start with nothing asked.
+        """Start with nothing remembered.
 
         Args:
             arm_names: the arms from left to right.

@@ -1,4 +1,4 @@
-"""A place wanted for a tool, in some approaches with a comfort radius, and the test whether it is had. Compiled."""
+"""The requirements on a place of the tool, and the test whether a tool pose meets them. Compiled."""
 
 from typing import NamedTuple
 

@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 import pinocchio as pin
 
-from planner.geometry.pose import BoolArray, FloatArray
+from planner.geometry.pose import FloatArray
 from planner.robots.armed_robot import ArmedRobot
 from planner.robots.card import RobotCard
 from planner.robots.collision.robot_parts import RobotParts
@@ -82,35 +82,3 @@ class Pr2(ArmedRobot):
     def _parts(self) -> RobotParts:
         """The parts that may collide; 15 ms the first time, a second where the cache of shapes is empty."""
         return pr2_parts(self._model, self.card)
-
-    def can_reach(self, arm: int, positions: FloatArray, rotations: FloatArray, torso_m: float) -> BoolArray:
-        """Return which tool poses an arm can take with every joint within its limits, shape (n,).
-
-        Only the approach axis matters: forearm and wrist roll are continuous, so a PR2's tool that reaches a point
-        along an axis does so at any roll about it.
-
-        Args:
-            arm: the arm's index.
-            positions: tool points (m), shape (n, 3).
-            rotations: tool rotations, shape (n, 3, 3).
-            torso_m: how far the torso is raised (m).
-        """
-        return self._arms[arm].can_reach(positions, rotations[:, :, 0], float(torso_m))
-
-    def joints_near(
-        self, arm: int, position: FloatArray, rotation: FloatArray, torso_m: float, near: FloatArray
-    ) -> FloatArray | None:
-        """Return the joints nearest to given ones that bring an arm's tool to a pose.
-
-        Args:
-            arm: the arm's index.
-            position: the tool's position (m), shape (3,).
-            rotation: the tool's axes as columns, shape (3, 3).
-            torso_m: how far the torso is raised (m).
-            near: joints to be near to (rad), shape (7,).
-
-        Returns:
-            Joints within their limits (rad), shape (7,), forearm and wrist roll within half a turn of `near`; or None
-            where the pose is out of reach.
-        """
-        return self._arms[arm].joints_near(position, rotation, float(torso_m), near)

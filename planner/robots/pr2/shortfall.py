@@ -9,7 +9,7 @@ import numpy as np
 from planner.deadline import Deadline
 from planner.geometry.pose import FloatArray, point3
 from planner.geometry.reach_query import Cause, Shortfall
-from planner.robots.displacements import DIRECTIONS, FURTHEST_M, SIDEWAYS, STRAIGHT, homewards
+from planner.robots.displacements import DIRECTIONS, FURTHEST_M, STRAIGHT, cause_of, homewards
 from planner.robots.pr2.arm import ArmShape
 from planner.robots.pr2.kernel import limiting_joint, reachable_batch
 from planner.robots.pr2.nearest_comfort import (
@@ -77,11 +77,8 @@ def _cause(point: FloatArray, wrist: FloatArray, towards: FloatArray, short_by_m
 
     A point whose wrist is above the shoulder and must come down is too far, even where the tool hangs below.
     """
-    further_m = np.linalg.norm(point + short_by_m * towards) - np.linalg.norm(point)
     is_too_high = towards[2] < 0.0 and wrist[2] > 0.0
-    if is_too_high or further_m < -SIDEWAYS * short_by_m:
-        return "too_far"
-    return "too_near" if further_m > SIDEWAYS * short_by_m else "joint_limit"
+    return "too_far" if is_too_high else cause_of(point, towards, short_by_m)
 
 
 def _nearest_by_length(

@@ -13,6 +13,7 @@ from planner.robots.load_robot import load_robot
 from planner.robots.pr2.robot import Pr2
 from tests.replay.planned import shipped_plan
 from tests.required import required
+from tests.robots.model import can_reach
 
 TORSO_M, HEIGHT_M = 0.29, 0.79
 GRID = Grid.beside((0.0, 0.2))
@@ -93,7 +94,7 @@ def test_what_is_well_inside_can_be_reached_by_the_arms_joints_and_what_is_far_o
     rng = np.random.default_rng(5)
     for x, y in rng.uniform((0.0, -1.0), (1.2, 1.0), (150, 2)):
         point = np.tile([x, y, HEIGHT_M + 0.02], (len(approaches), 1))
-        can = bool(robot.can_reach(0, point, rotations, TORSO_M).any())
+        can = bool(can_reach(robot, 0, point, rotations, TORSO_M).any())
         is_near = bare[0].boundary_distance((x, y)) < 0.01
         if bare[0].contains((x, y)) and not is_near:
             assert can

@@ -14,6 +14,7 @@ from planner.geometry.reach_query import ReachQuery
 from planner.robots.load_robot import load_robot
 from planner.robots.pr2.robot import Pr2
 from tests.replay.planned import planned
+from tests.robots.model import can_reach
 
 pytestmark = pytest.mark.anyio
 
@@ -91,7 +92,7 @@ def test_beyond_the_edge_the_hand_cannot_be_whatever_its_joints_and_before_it_it
         ring = np.array([(0, 0), (1, 0), (0, 1), (-1, 0), (0, -1)]) * COMFORT_M + (x, y)
         tools = np.column_stack([ring, np.full(5, point[2])])
         rotations = np.repeat(lacking.approach.rotation[None], 5, axis=0)
-        assert bool(robot.can_reach(0, tools, rotations, TORSO_M).all()) is not is_beyond
+        assert bool(can_reach(robot, 0, tools, rotations, TORSO_M).all()) is not is_beyond
         answers.add(is_beyond)
     assert answers == {True, False}
 
