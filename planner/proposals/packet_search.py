@@ -72,7 +72,7 @@ class PacketSearch:
     ) -> None:
         """Prepare the search; raises `FoldError` if a fold that the garment has is not legal."""
         self._begin = Packet.of(garment)
-        self._radius_m = garment.grip_radius_m
+        self._radius_m, self._thickness_m = garment.grip_radius_m, garment.thickness_m
         self._is_for_smallest = target.is_smallest
         self._target_m = target.sides_of(self._begin.size_m)
         ordered = zip(sorted(self._target_m), sorted(self._begin.size_m), strict=True)
@@ -95,13 +95,14 @@ class PacketSearch:
     def packets(self) -> Iterator[Packet]:
         """Yield packets that fit the target, about by taste; those much smaller than the target come last.
 
-        For the smallest packet: the smallest for each number of folds, the smallest first.
+        For the smallest packet: the smallest for each number of folds, the smallest first. None is narrower than high.
         """
         if self._is_for_smallest:
             best: dict[int, Packet] = {}
             for packet in filter(None, self._found()):
-                known = best.setdefault(len(packet.folds), packet)
-                if _bulk_m2(packet.size_m) < _bulk_m2(known.size_m):
+                known = best.get(len(packet.folds))
+                is_smallest = known is None or _bulk_m2(packet.size_m) < _bulk_m2(known.size_m)
+                if is_smallest and packet.layers * self._thickness_m <= min(packet.size_m):
                     best[len(packet.folds)] = packet
             yield from sorted(best.values(), key=lambda packet: _bulk_m2(packet.size_m))
         else:

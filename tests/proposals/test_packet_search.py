@@ -142,6 +142,12 @@ def test_a_mirrored_garment_is_folded_the_same_ways() -> None:
         assert one.size_m == pytest.approx(other.size_m, abs=1e-4)
 
 
+def test_no_packet_is_narrower_than_high() -> None:
+    tie = replace(load_garment("tie"), folds=())
+    found = list(packets(tie, "smallest"))
+    assert found and all(min(packet.size_m) >= packet.layers * tie.thickness_m for packet in found)
+
+
 @pytest.mark.parametrize("name", ["t-shirt", "jeans", "big-towel"])
 def test_what_people_like_most_comes_first(name: str) -> None:
     tastes = [packet.taste for packet in islice(packets(replace(load_garment(name), folds=()), "shelf"), 8)]
