@@ -41,6 +41,16 @@ def test_the_near_third_can_be_rolled_on_after_drags() -> None:
     assert 0.0 < rolled.effort < DOUBT_EFFORT
 
 
+@pytest.mark.parametrize(("radius_m", "doubts"), [(0.3, 0), (0.05, 1)])
+def test_a_fold_that_needs_more_hands_than_there_are_is_doubted(radius_m: float, doubts: int) -> None:
+    outline = [[0.15, 0.0], [0.45, 0.0], [0.6, 0.26], [0.45, 0.52], [0.15, 0.52], [0.0, 0.26]]
+    tile = Garment.from_dict(
+        {"name": "tile", "outline": outline, "placement": {"x_m": -0.7, "y_m": -0.3, "yaw_rad": 0.0}}
+    )
+    assert checked(tile, DrawnFold("half", "blue", (0.3, 0.0), (0.3, 0.52), radius_m)).doubts == doubts
+
+
+@pytest.mark.long  # the map of one arm takes a minute
 def test_one_hand_does_not_hold_both_corners_of_a_towel() -> None:
     towel = load_garment("hand-towel")
     assert checked(replace(towel, folds=()), towel.folds[0], robot="ur5e-single").doubts == 1
