@@ -27,7 +27,8 @@ def propose(
     to: Annotated[
         str | None,
         typer.Option(
-            metavar="SIZE", help="25x30cm, 0.25x0.30 (m), shelf, drawer, suitcase, halves, thirds, roll or smallest."
+            metavar="SIZE",
+            help="25x30cm, 0.25x0.30 (m), shelf, drawer, suitcase, hanger, halves, thirds, roll or smallest.",
         ),
     ] = None,
     like: Annotated[

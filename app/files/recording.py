@@ -4,13 +4,10 @@ The recording uses a 3D view of its own, so that those on show are not disturbed
 would have sent to a browser, with their times, and embeds them in its client.
 """
 
-import html
-import re
-
 from app.jobs.job_pool import ShouldStop
 from app.step_kinds import step_words
 from app.ui.view_3d import View3D
-from app.ui.viser_patches import weave
+from app.ui.viser_patches import recording_page
 from app.ui.withdrawal import withdrawn
 from planner.motion.timeline import Timeline
 from planner.robots.load_robot import load_robot
@@ -18,8 +15,6 @@ from planner.task.plan import Plan
 
 HOLD_S = 2.0
 """Time that the last frame stays before the player starts again (s)."""
-
-_TITLE = re.compile(r"<title>.*?</title>", re.DOTALL)
 
 
 def recording(plan: Plan, rate_hz: float, should_stop: ShouldStop, *, is_dark: bool) -> bytes:
@@ -56,8 +51,7 @@ def recording(plan: Plan, rate_hz: float, should_stop: ShouldStop, *, is_dark: b
         page = recorder.as_html(dark_mode=is_dark)
     finally:
         view.close()
-    head = f"<title>{html.escape(plan.garment.title)} - Pleat</title>{weave()}"
-    return _TITLE.sub(lambda _: head, page, count=1).encode("utf-8", "replace")
+    return recording_page(page, plan.garment.title).encode("utf-8", "replace")
 
 
 def _captions(plan: Plan) -> list[str]:

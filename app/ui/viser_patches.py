@@ -11,7 +11,8 @@ our check in front of that hook.
 phone panels of controls have no place in our frame: the style that we add hides everything but the canvas, and puts the
 board's background behind it. A frame is narrower than a window, so the width below
 which viser assumes a phone is reduced. The frame tells our page when there is a picture and, for those who may choose a
-viewpoint, when the server knows them; our page covers it until then.
+viewpoint, when the server knows them; our page covers it until then. A recording is such a page too, with a title
+above, and of viser's player the button, the time and the time line.
 
 **Cloth with threads.** A mesh of viser has one colour, or a texture with which all of it is sent anew in each picture.
 A script in the page, and in recordings, has threads drawn along the pattern: see `static/weave.js`.
@@ -20,7 +21,9 @@ A script in the page, and in recordings, has threads drawn along the pattern: se
 import contextlib
 import functools
 import hmac
+import html
 import http
+import re
 import secrets
 import threading
 from collections.abc import Callable, Iterator
@@ -59,6 +62,34 @@ _GROUND = (
 )
 _NARROW = f"""<script>{{ const asked = window.matchMedia.bind(window);
  window.matchMedia = (query) => asked(query.replace("{PHONE_WIDTH}", "(max-width: 25em)")); }}</script>""".encode()
+_BAR = "#root .mantine-Paper-root:has(> .mantine-Slider-root)"
+_PLAYER = f"""<style>
+body {{ display: flex; flex-direction: column; height: 100dvh; margin: 0 }}
+body > h1 {{ margin: 0; padding: 10px 14px; font: 600 17px/1.3 system-ui, sans-serif; color: #1d1f23 }}
+#root {{ flex: 1; min-height: 0; height: auto }}
+{_BAR}, {_BAR} > :nth-child(-n + 3), {_BAR} > :nth-child(-n + 3) * {{ visibility: visible }}
+{_BAR} {{ background: none; border: 0 !important; color: #1d1f23 }}
+{_BAR} > :nth-child(n + 4) {{ display: none }}
+{_BAR} button {{ color: inherit }}
+{_BAR} input {{ background: none; border: 0; pointer-events: none; color: inherit }}
+{_BAR} .mantine-Slider-bar {{ background: #0047a3 }}
+[data-mantine-color-scheme="dark"] body > h1, [data-mantine-color-scheme="dark"] {_BAR} {{ color: #ecebe6 }}
+[data-mantine-color-scheme="dark"] {_BAR} .mantine-Slider-bar {{ background: #7cc0ff }}
+</style>
+<script>{{
+  const watch = setInterval(() => {{
+    const bar = document.querySelector("{_BAR}");
+    if (!bar) return;
+    clearInterval(watch);
+    bar.querySelector("button").setAttribute("aria-label", "Play or pause");
+    bar.querySelector("[role=slider]")?.setAttribute("aria-label", "Time line");
+    Object.assign(bar.querySelector("input"), {{ readOnly: true, tabIndex: -1, ariaLabel: "Seconds" }});
+  }}, 50);
+}}</script>"""
+"""Of viser's bar the first three parts: button, time, time line; then come its speed and its tree of the scene."""
+
+_TITLE = re.compile(r"<title>.*?</title>", re.DOTALL)
+
 _TELL_READY = """<script>{
   const isReady = () => document.querySelector("#root canvas") && (%s);
   const watch = setInterval(() => {
@@ -119,6 +150,14 @@ def view_page(*, has_session: bool = True) -> bytes:
     ready = _TELL_READY % (_HAS_SESSION if has_session else "true", READY)
     styled = VISER_PAGE.read_bytes().replace(b"</head>", _HIDE + _GROUND + weave().encode() + b"</head>", 1)
     return styled.replace(b"<head>", b"<head>" + _NARROW + ready.encode(), 1)
+
+
+def recording_page(page: str, title: str) -> str:
+    """Return a recording by viser with a title, and without what only those who make pages with viser need."""
+    text = html.escape(title)
+    head = f"<title>{text} - Pleat</title>{(_HIDE + _GROUND).decode()}{_PLAYER}{weave()}"
+    before, after = page.rsplit("<body>", 1)
+    return f"{_TITLE.sub(lambda _: head, before, count=1)}<body><h1>{text}</h1>{after}"
 
 
 def weave() -> str:

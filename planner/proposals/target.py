@@ -25,12 +25,15 @@ class Target:
         length: the other side (m), or its share of the garment's length.
         is_share: whether the sides are shares of the garment as it lies at the beginning.
         is_roll: whether it asks for a roll instead, of whatever size.
+        is_hung: whether it is to hang over a bar: the garment's shorter side is at most `width` (m), and of the longer
+            one the share `length` is left.
     """
 
     width: float
     length: float
     is_share: bool = False
     is_roll: bool = False
+    is_hung: bool = False
 
     @staticmethod
     def of(to: "str | Sequence[float] | Target") -> "Target":
@@ -57,6 +60,9 @@ class Target:
 
     def sides_of(self, size_m: Sides) -> Sides:
         """Return the target's sides for a garment of a size at the beginning (m)."""
+        if self.is_hung:
+            wide_m, long_m = min(self.width, *size_m), self.length * max(size_m)
+            return (wide_m, long_m) if size_m[0] <= size_m[1] else (long_m, wide_m)
         return (self.width * size_m[0], self.length * size_m[1]) if self.is_share else (self.width, self.length)
 
 
@@ -64,6 +70,7 @@ PRESETS: Mapping[str, Target] = {
     "shelf": Target(0.25, 0.30),
     "drawer": Target(0.20, 0.25),
     "suitcase": Target(0.30, 0.40),
+    "hanger": Target(0.40, 1 / 2, is_hung=True),
     "halves": Target(1 / 2, 1 / 2, is_share=True),
     "thirds": Target(1 / 3, 1 / 3, is_share=True),
     "roll": Target(0.0, 0.0, is_roll=True),

@@ -23,7 +23,7 @@ from app.ui.viser_patches import (
 PAGE = VISER_PAGE.read_text(encoding="utf-8")
 
 
-@pytest.mark.parametrize("mark", ["<head>", "</head>", 'id="root"'])
+@pytest.mark.parametrize("mark", ["<head>", "</head>", "<body>", 'id="root"'])
 def test_visers_page_has_what_ours_is_hung_on(mark: str) -> None:
     assert mark in PAGE
 

@@ -143,11 +143,12 @@ def test_the_size_is_pulled_and_what_changes_begins_anew(page: Page, new_sheet: 
 
 def test_the_page_has_the_sizes_of_the_server(page: Page, new_sheet: NewSheet) -> None:
     page.goto(new_sheet(TOWEL).page_url)
-    names = ["PRESETS", "SIZES_M", "SHARES", "SIDES_M", "TOLERANCE_M"]
+    names = ["PRESETS", "SIZES_M", "HUNG", "SHARES", "SIDES_M", "TOLERANCE_M"]
     ask = f"import('/static/js/proposals/target.js').then((m) => {json.dumps(names)}.map((name) => m[name]))"
-    presets, sizes, shares, sides, tolerance = page.evaluate(ask)
+    presets, sizes, hung, shares, sides, tolerance = page.evaluate(ask)
     assert presets == list(PRESETS)
     known = {name: [target.width, target.length] for name, target in PRESETS.items() if target.width}
-    assert {**sizes, **shares} == known
+    assert {**sizes, **hung, **shares} == known
+    assert set(hung) == {name for name, target in PRESETS.items() if target.is_hung}
     assert set(shares) == {name for name, target in PRESETS.items() if target.is_share}
     assert (sides, tolerance) == ([SIDE_MIN_M, SIDE_MAX_M], TOLERANCE_M)

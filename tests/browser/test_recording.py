@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Browser
+from playwright.sync_api import Browser, expect
 
 from app.files.recording import recording
 from tests.browser.conftest import VIEW_PATIENCE_MS
@@ -54,3 +54,25 @@ def test_a_recording_plays_from_the_disk_and_asks_for_nothing(saved: Path, brows
     page.close()
     assert faults == []
     assert [url for url in asked if not url.startswith(("file:", "data:", "blob:"))] == []
+
+
+CAPTIONED = """() => "/caption" in (window.__viserMutable?.nodeRefFromName ?? {})"""
+SHOWN = """() => [...document.querySelectorAll("button, input, [role=slider], [role=alert], [class*=Notification]")]
+  .filter((part) => part.checkVisibility({ visibilityProperty: true }) && part.clientWidth > 0)
+  .map((part) => part.getAttribute("aria-label") ?? part.innerText)"""
+
+
+def test_a_recording_has_a_title_and_captions_and_only_a_button_and_a_time_line(saved: Path, browser: Browser) -> None:
+    page = browser.new_page(viewport={"width": 400, "height": 300})
+    page.goto(saved.as_uri())
+    expect(page.get_by_role("heading", name="Hand towel")).to_be_in_viewport()
+    play = page.get_by_role("button", name="Play or pause")
+    expect(play).to_be_in_viewport(timeout=VIEW_PATIENCE_MS)
+    page.wait_for_function(CAPTIONED, timeout=VIEW_PATIENCE_MS)
+    assert page.evaluate(SHOWN) == ["Play or pause", "Seconds"]
+    play.click()
+    time = page.get_by_label("Seconds")
+    stopped = time.input_value()
+    page.locator(".mantine-Slider-track").click()
+    expect(time).not_to_have_value(stopped)
+    page.close()

@@ -36,6 +36,14 @@ def test_halves_and_thirds_are_shares_of_the_garment() -> None:
     assert PRESETS["shelf"].sides_of((0.6, 0.4)) == (0.25, 0.30)
 
 
+def test_over_a_hanger_a_garment_is_half_as_long_and_at_most_as_wide_as_the_bar() -> None:
+    hanger = Target.of("hanger")
+    assert hanger.sides_of((0.6, 1.1)) == pytest.approx((0.4, 0.55))
+    assert hanger.sides_of((1.1, 0.6)) == pytest.approx((0.55, 0.4))
+    assert hanger.sides_of((0.3, 1.1)) == pytest.approx((0.3, 0.55))
+    assert not hanger.is_smallest
+
+
 def test_a_packet_fits_either_way_round_to_a_centimetre() -> None:
     assert is_fitting((0.305, 0.255), (0.25, 0.30))
     assert is_fitting((0.1, 0.1), (0.25, 0.30))

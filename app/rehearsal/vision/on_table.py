@@ -53,6 +53,8 @@ class OnTable:
         seen: how it was found in the picture.
         size_error: by which share its size may be wrong; None where it was not taken from the picture.
         doubt: why it may be wrong; None where there is no reason.
+        up_rad: the direction in `frame` that counts as up: that of the picture, for a sheet or marker lies any way
+            round; of a calibrated camera, whose frame is the table's, y.
     """
 
     contour: FloatArray
@@ -61,6 +63,7 @@ class OnTable:
     seen: Segmented
     size_error: float | None
     doubt: Message | None
+    up_rad: float = math.pi / 2
 
 
 def outline_on_table(picture: Picture, said: ScaleSaid | None) -> OnTable:
@@ -89,7 +92,8 @@ def outline_on_table(picture: Picture, said: ScaleSaid | None) -> OnTable:
             error = plane.size_error(seen.contour)
             frame = "marker" if isinstance(said, MarkerSaid) else "sheet"
             doubt = why_in_doubt(seen, error) or (_WHICH_SHEET if is_either else None)
-            return OnTable(plane.on_table(seen.contour), frame, plane.by, seen, error, doubt)
+            contour = plane.on_table(seen.contour)
+            return OnTable(contour, frame, plane.by, seen, error, doubt, plane.up_rad(seen.contour.mean(axis=0)))
     raise NothingToldError(Message.plain("the sheet or marker found cannot lie on the table that the cloth lies on"))
 
 

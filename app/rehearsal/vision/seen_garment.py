@@ -111,7 +111,7 @@ def drawn(seen: OnTable, title: str) -> Seen:
     notes = [
         Message("corners_seen", f"the outline has {len(straight.corners)} corners", {"corners": len(straight.corners)})
     ]
-    corners, axis_rad = straight.corners, math.pi / 2
+    corners, axis_rad = straight.corners, seen.up_rad
     mirror = find_mirror(corners)
     made = None if mirror is None else symmetric(corners, mirror)
     if made is not None and _area_off(made, seen.contour) > _MOST_AREA_OFF:  # of narrow cloth the wrong corners pair up
@@ -125,7 +125,7 @@ def drawn(seen: OnTable, title: str) -> Seen:
         corners, axis_rad = made, mirror.angle_rad
         text = f"the outline was made symmetric; its halves differed by {mirror.off_m:.4f} m in the mean"
         notes.append(Message("made_symmetric", text, {"off_m": mirror.off_m}))
-    outline, placement = _upright(corners, axis_rad)
+    outline, placement = _upright(corners, axis_rad, seen.up_rad)
     sure = Sure(
         straight.share, straight.within_m, seen.seen.agreement, seen.size_error, _doubt(seen, straight, outline)
     )
@@ -174,13 +174,12 @@ def _doubt(seen: OnTable, straight: Straightened, outline: FloatArray) -> Messag
     return seen.doubt
 
 
-def _upright(corners: FloatArray, axis_rad: float) -> tuple[FloatArray, Pose2]:
-    """Return corners in an article frame whose y is a line of symmetry, as near to up as it goes, and its placement.
+def _upright(corners: FloatArray, axis_rad: float, up_rad: float) -> tuple[FloatArray, Pose2]:
+    """Return corners in an article frame with a line of symmetry along x or y, and its placement.
 
-    The frame's origin is at the lower left of the corners.
+    Of the frame's four turns the one with y nearest to up is taken. Its origin is at the lower left of the corners.
     """
-    turn = axis_rad - math.pi / 2
-    turn -= math.pi * round(turn / math.pi)
+    turn = up_rad - math.pi / 2 + math.remainder(axis_rad - up_rad, math.pi / 2)
     inner = Pose2(0.0, 0.0, turn).to_inner(corners)
     low = inner.min(axis=0)
     x, y = Pose2(0.0, 0.0, turn).to_outer(low)

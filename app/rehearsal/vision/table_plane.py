@@ -71,6 +71,11 @@ class Plane:
         across = np.column_stack([pixels, np.ones(len(pixels))]) @ self.to_table.T
         return np.asarray(across[:, :2] / across[:, 2:])
 
+    def up_rad(self, pixel: FloatArray) -> float:
+        """Return the direction on the table that is up in the picture, at a pixel of shape (2,)."""
+        here, above = self.on_table(np.array([pixel, pixel - np.array([0.0, 1.0])]))  # a picture's y runs down
+        return math.atan2(above[1] - here[1], above[0] - here[0])
+
     def is_above(self, pixels: FloatArray) -> bool:
         """Return whether all pixels, shape (n, 2), show the table and none what is at its horizon or beyond."""
         depth = np.column_stack([pixels, np.ones(len(pixels))]) @ self.to_table[2]

@@ -11,6 +11,9 @@ export const SIZES_M = {"shelf": [0.25, 0.3], "drawer": [0.2, 0.25], "suitcase":
 /** Sides as shares of the garment's. */
 export const SHARES = {"halves": [0.5, 0.5], "thirds": [0.3333333333333333, 0.3333333333333333]};
 
+/** To hang over a bar: at most so wide (m), and a share of the garment's longer side long. */
+export const HUNG = {"hanger": [0.4, 0.5]};
+
 /** The shortest and the longest side (m). */
 export const SIDES_M = [0.01, 10.0];
 
@@ -21,14 +24,16 @@ export const TOLERANCE_M = 0.01;
 export const SMALLEST = "smallest";
 const ROLL = "roll";
 
-/** @typedef {keyof typeof SIZES_M | keyof typeof SHARES | typeof ROLL | typeof SMALLEST} PresetName */
+/** @typedef {keyof typeof SIZES_M | keyof typeof HUNG | keyof typeof SHARES | typeof ROLL | typeof SMALLEST} PresetName */
 /** @typedef {{like: import("pleat").Garment|string}} Like a garment that is folded as this one is to be */
 /** @typedef {PresetName|Point|Like} Target two sides are along the board's axes (m) */
 
 /** @param {Target} to @returns {to is Like} */
 export const isLike = (to) => typeof to === "object" && "like" in to;
 
-export const PRESETS = /** @type {PresetName[]} */ ([...Object.keys(SIZES_M), ...Object.keys(SHARES), ROLL, SMALLEST]);
+export const PRESETS = /** @type {PresetName[]} */ (
+  [...[SIZES_M, HUNG, SHARES].flatMap((known) => Object.keys(known)), ROLL, SMALLEST]
+);
 
 /**
  * The sides that are meant (m); null for names without a size, and for those of another garment.
@@ -39,8 +44,12 @@ export const PRESETS = /** @type {PresetName[]} */ ([...Object.keys(SIZES_M), ..
 export function sidesOf(to, drawing) {
   if (isLike(to)) return null;
   if (typeof to !== "string") return to;
-  const [size, share] = [SIZES_M, SHARES].map((known) => /** @type {Record<string, number[]>} */ (known)[to]);
+  const [size, hung, share] = [SIZES_M, HUNG, SHARES].map((known) => /** @type {Record<string, number[]>} */ (known)[to]);
   const [wide, long] = extentOf(drawing);
+  if (hung) {
+    const [narrow, half] = [Math.min(hung[0], wide, long), hung[1] * Math.max(wide, long)];
+    return wide <= long ? [narrow, half] : [half, narrow];
+  }
   return size ? [size[0], size[1]] : share ? [share[0] * wide, share[1] * long] : null;
 }
 

@@ -56,6 +56,41 @@ def test_a_t_shirt_beside_a_sheet_is_seen_with_its_corners_and_its_size(look: Lo
     assert seen.scale_from == "a4" and seen.frame == "sheet"
 
 
+SHIRT_PX = np.array(
+    [
+        (300, 150),
+        (140, 220),
+        (180, 340),
+        (280, 310),
+        (280, 760),
+        (720, 760),
+        (720, 310),
+        (820, 340),
+        (860, 220),
+        (700, 150),
+    ]
+)
+UPRIGHT_SHEET, LYING_SHEET = ((950, 560), (1120, 800)), ((920, 560), (1160, 730))
+
+
+@pytest.mark.parametrize(
+    ("sheet", "quarters"), [(UPRIGHT_SHEET, 0), (UPRIGHT_SHEET, 1), (LYING_SHEET, 1), (LYING_SHEET, 2), (None, 1)]
+)
+def test_what_is_up_in_a_picture_is_up_on_the_board(
+    sheet: tuple[tuple[int, int], tuple[int, int]] | None, quarters: int
+) -> None:
+    drawn = np.full((900, 1200, 3), (60, 85, 120), np.uint8)
+    cv2.fillPoly(drawn, [SHIRT_PX.astype(np.int32)], (190, 110, 70))
+    if sheet is not None:
+        cv2.rectangle(drawn, *sheet, (250, 250, 250), -1)
+    turned = np.ascontiguousarray(np.rot90(cv2.GaussianBlur(drawn, (0, 0), 0.8), quarters))
+    seen = see(cv2.imencode(".png", turned)[1].tobytes(), "shirt", "0.9m:height" if sheet is None else "a4")
+    metres = SHIRT_PX * (0.297 / 240.0 if sheet is not None else 0.9 / 720.0) * np.array([1.0, -1.0])
+    expected = Pose2(0.0, 0.0, quarters * np.pi / 2).to_outer(metres)
+    gaps = np.array(seen.garment.outline)[:, None] - (expected - expected.min(axis=0))
+    assert np.hypot(*gaps.transpose(2, 0, 1)).min(axis=1).max() < 0.02
+
+
 def test_a_marker_gives_the_scale_and_the_frame_too() -> None:
     seen = see(picture(BLUE_ON_WOOD, "jeans", marker=(0.5, 0.2, 0.6, 0.15)).jpeg, "jeans", "marker:150mm")
     assert size(seen) == pytest.approx(Region.polygon(ring("jeans")).length, rel=0.04)
