@@ -21,6 +21,7 @@ from planner.geometry.pose import FloatArray, Point2
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 from planner.geometry.tolerance import LENGTH_M, grid_key
+from planner.planning.robot_task import default_scene
 from planner.primitives.context import Context
 from planner.primitives.fold_trial import grips_obstacle
 from planner.primitives.grasping import held_covers
@@ -173,13 +174,13 @@ def check_garment(garment: Garment, scene: Scene | None = None, *, robot: str = 
 
     Args:
         garment: the garment.
-        scene: for its support angle; None for the default scene.
+        scene: for its support angle; None for the one that suits the robot.
         robot: the robot's name, for its number of arms.
 
     Raises:
         FoldError: a fold is not legal.
     """
-    scene, machine = scene or Scene(), load_robot(robot)
+    scene, machine = scene or default_scene(robot), load_robot(robot)
     reach = machine.reach(scene.torso_m, 0.0)
     context = Context(FoldSequence.of(garment), scene, reach, garment.placement, machine.card.base_radius_m)
     x0, y0, x1, y1 = garment.pattern.bounds
