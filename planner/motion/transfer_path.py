@@ -6,11 +6,9 @@ import numpy as np
 
 from planner.geometry.pose import FloatArray
 from planner.motion.hand_holds import settles
-from planner.motion.opened_collisions import OpenedCollisions
 from planner.motion.smoothing import smoothed
 from planner.motion.transfer_tool_paths import ApproachLines, Cloths
 from planner.motion.waypoints import Waypoints
-from planner.robots.card import HELD_M, OPENING_M
 
 _SMOOTHING_PASSES = 30
 """How often joints are smoothed while a base drags."""
@@ -60,19 +58,11 @@ class TransferPath:
         """The step of the last of the waypoints, at which the hands let go."""
         return self.first + len(self.waypoints) - 1
 
-    def smoothed(self, collisions: OpenedCollisions) -> "TransferPath":
-        """Return it without the kinks that slow it down where all tools stand still, seen from the base: in drags.
-
-        It stays as it is where the joints would touch something.
-        """
+    def smoothed(self) -> "TransferPath":
+        """Return it without the kinks that slow it down where all tools stand still, seen from the base: in drags."""
         is_still = np.zeros(len(self.joints), dtype=np.bool_)
         is_still[self.first : self.last + 1] = self.waypoints.is_still
-        joints = smoothed(self.joints, _SMOOTHING_PASSES, is_still)
-        opened = np.array([HELD_M if hold.is_narrow else OPENING_M for hold in self.lines.holds])
-        openings_m = np.tile(opened, (int(is_still.sum()), 1))
-        if not is_still.any() or not collisions.is_path_free(self.bases[is_still], joints[is_still], openings_m):
-            return self
-        return replace(self, joints=joints)
+        return replace(self, joints=smoothed(self.joints, _SMOOTHING_PASSES, is_still)) if is_still.any() else self
 
     def guides(self, first: int, waypoints: Waypoints, steps: int) -> FloatArray:
         """Return its joints as guides for a transfer that differs a little, shape (steps, joints).

@@ -196,11 +196,15 @@ class TransferPlanner:
     ) -> Transfer | None:
         if isinstance(transfer_path, NoPath):
             return None
-        transfer_path = transfer_path.smoothed(self._collisions)
-        joints, first, last = transfer_path.joints, transfer_path.first, transfer_path.last
-        timing = TransferTiming.of(candidate.carrying, candidate.waypoints, joints[first : last + 1], self._limits)
-        if not is_clear_between(transfer_path, timing, self._collisions):
+        # Where the smoothed path touches something, the path itself may not.
+        timed = (
+            (path, self._timing(candidate, path)) for path in dict.fromkeys((transfer_path.smoothed(), transfer_path))
+        )
+        clear = (one for one in timed if is_clear_between(*one, self._collisions))
+        transfer_path, timing = next(clear, (transfer_path, None))
+        if timing is None:
             return None
+        joints, first, last = transfer_path.joints, transfer_path.first, transfer_path.last
         coming, leaving = transfer_path.approach, transfer_path.retreat
         if transfer_path.settles:
             lines = np.array([coming[-1], joints[first]]), np.array([joints[last], leaving[0]])
@@ -211,6 +215,10 @@ class TransferPlanner:
         approach, retreat = self.transits.line(coming, openings_m, at_grips), self.transits.line(leaving, openings_m)
         ways = self._ways_home(candidate.steps, transfer_path, approach, retreat, like)
         return None if ways is None else Transfer(candidate.steps, transfer_path, timing, approach, retreat, *ways)
+
+    def _timing(self, candidate: "Candidate", path: TransferPath) -> TransferTiming:
+        joints = path.joints[path.first : path.last + 1]
+        return TransferTiming.of(candidate.carrying, candidate.waypoints, joints, self._limits)
 
     def _waypoints(self, phases: Sequence[Phase]) -> Waypoints:
         return waypoints_of(phases, self._context.scene.table.height_m)

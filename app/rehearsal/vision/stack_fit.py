@@ -71,7 +71,7 @@ class StackFit:
         """Return the fit as JSON."""
         fit = asdict(self)
         del fit["unknown"]
-        return {**fit, **unknown_json(self.unknown)}
+        return {**fit, "others": [*fit["others"]], **unknown_json(self.unknown)}
 
 
 @dataclass(frozen=True, slots=True)

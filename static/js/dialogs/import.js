@@ -33,7 +33,7 @@ export function showImport(store, first = null) {
 /** Take files that are dropped anywhere on the page. @param {Store} store */
 export function acceptDrops(store) {
   /** @param {DragEvent} event */
-  const hasFiles = (event) => event.dataTransfer?.types.includes("Files");
+  const hasFiles = (event) => [...(event.dataTransfer?.items ?? [])].some(({ kind }) => kind === "file");
   addEventListener("dragover", (event) => {
     if (hasFiles(event)) event.preventDefault();
   });
