@@ -10,6 +10,7 @@ import { length } from "./messages/lengths.js";
 import { place } from "./messages/names.js";
 import { present } from "./present.js";
 import { ownStations } from "./robots.js";
+import { isViewOnly } from "./view_only.js";
 
 /** @import { Drawing, Fold } from "pleat" */
 
@@ -84,9 +85,10 @@ function narrow(drawing) {
 
 /** A mark of an assumption, pressed to take it off. @param {string} text @param {() => void} onClick */
 export function assumptionChip(text, onClick) {
-  const made = button("chip assumed", onClick, text, element("span", "assumed-off", "\u2715"));
+  const made = button("chip assumed", onClick, text, element("span", "assumed-off for-editors", "\u2715"));
   made.setAttribute("aria-label", say("assumption.label", { what: text }));
   made.title = say("assumption.hint", { what: text });
+  made.inert = isViewOnly;
   return made;
 }
 

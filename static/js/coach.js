@@ -1,13 +1,18 @@
 /**
  * Two words to someone new, each where it is needed: how to draw an outline, how to play. A word goes away
- * when it is followed or has been read, and does not come again in this browser.
+ * when it is followed or has been read, or when anything else is pressed or opened, and does not come again in this
+ * browser.
  */
 
 import { element } from "./dom.js";
 import { say } from "./language/say.js";
+import { PHONE } from "./phone.js";
+import { isViewOnly } from "./view_only.js";
 
 /** How long a word is there at most (ms). */
-const READING_MS = 14_000;
+const READING_MS = 5_000;
+/** Where there is no keyboard to speak of. */
+const TOUCHED = matchMedia(`${PHONE}, (hover: none) and (pointer: coarse)`);
 const KEPT = "pleat-coached";
 const GAP_PX = 10;
 
@@ -27,11 +32,11 @@ const MARKS = [
     text: say("coach.outline"),
     at: "#drafting-board",
     side: "over",
-    isDue: ({ drawing, tools }) => !drawing.outline.length && !tools.outline.isBusy,
+    isDue: ({ drawing, tools }) => !isViewOnly && !drawing.outline.length && !tools.outline.isBusy,
   },
   {
     name: "play",
-    text: say("coach.play"),
+    text: say(TOUCHED.matches ? "coach.play_touch" : "coach.play"),
     at: ".main-button.play",
     side: "above",
     isDue: ({ store, drawing }) =>
@@ -65,14 +70,17 @@ export function mountCoach(board) {
     timer = setTimeout(end, READING_MS);
   };
   const look = () => {
-    if (!board.state || document.querySelector("dialog[open]")) return;
-    if (shown && !shown.isDue(board)) end();
+    const isElsewhere = board.tool.name === "propose" || document.hidden || document.querySelector("dialog[open]");
+    if (shown && (isElsewhere || !shown.isDue(board))) end();
+    if (!board.state || isElsewhere) return;
     const due = shown ? null : MARKS.find((mark) => !known.has(mark.name) && mark.isDue(board));
     if (due && seen(due)) begin(due);
     if (shown) place(root, shown);
   };
   for (const name of ["document", "plan", "playback", "begun", "propose"]) board.store.addEventListener(name, look);
   addEventListener("resize", look);
+  document.addEventListener("visibilitychange", look);
+  for (const name of ["pointerdown", "keydown"]) document.addEventListener(name, end, true);
 }
 
 /** The box of the part that a mark stands at, where it is seen. @param {Mark} mark */

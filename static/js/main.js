@@ -44,7 +44,7 @@ mountGarments(store);
 mountRobots(store);
 mountSplitter();
 mountPhone(store);
-const dialogs = mountDialogs(store);
+const dialogs = mountDialogs(store, rehearsal);
 const board = mountBoard(store, { togglePlay, startNew: dialogs.startNew, startImport: dialogs.startImport });
 const repair = new Repair(store, byId("board"));
 board.cover(repair);

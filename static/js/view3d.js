@@ -10,7 +10,6 @@ import { button, byId, element, svg } from "./dom.js";
 import { smallIcon } from "./icons.js";
 import { say } from "./language/say.js";
 import { inWords } from "./proposals/cards.js";
-import { isViewOnly } from "./view_only.js";
 
 /** What the frame says when it is ready, see app/api/view_3d_routes.py. */
 const READY = "pleat-ready";
@@ -134,8 +133,7 @@ const AT_END_S = 0.05;
  */
 export function mountView3DEnd(store) {
   const words = element("span", "");
-  const share = button("chip", () => byId("share").click(), say("bar.share"));
-  share.hidden = isViewOnly;
+  const share = button("chip for-editors", () => byId("share").click(), say("bar.share"));
   const card = element("div", "view3d-end", words, share);
   card.setAttribute("role", "status");
   const show = () => {

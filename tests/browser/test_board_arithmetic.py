@@ -1,6 +1,7 @@
 """Lengths as people write them, and the plane geometry of the modules, tested on the modules themselves."""
 
 import json
+import math
 from random import Random
 from typing import Any
 
@@ -217,9 +218,9 @@ def strongest(modules: Page, points: list[Point2], scale: float, to: dict[str, A
 def test_a_pointer_means_the_corner_before_the_fraction_before_the_edge(modules: Page) -> None:
     square = [(0.0, 0.0), (0.4, 0.0), (0.4, 0.4), (0.0, 0.4)]
     points = [
-        (0.007, 0.007),  # 9.9 mm from a corner, which holds 10 px
+        (0.006, 0.005),  # 7.8 mm from a corner
         (0.205, 0.006),  # 7.8 mm from the middle of an edge
-        (0.1384, 0.0072),  # 8.8 mm from a third of an edge
+        (0.1379, 0.006),  # 7.6 mm from a third of an edge
         (0.24, 0.0075),  # nothing but the edge within 8 px
         (0.24, 0.0085),
         (0.2, 0.2),
@@ -230,6 +231,19 @@ def test_a_pointer_means_the_corner_before_the_fraction_before_the_edge(modules:
     assert found[1]["at"] == pytest.approx([0.2, 0])
     assert found[2]["at"] == pytest.approx([0.4 / 3, 0])
     assert found[3]["at"][1] == pytest.approx(0)
+
+
+@pytest.mark.parametrize("scale", [100.0, 300.0, 800.0, 4000.0])
+def test_a_point_is_moved_by_no_more_than_a_centimetre_of_cloth_and_8_px(modules: Page, scale: float) -> None:
+    most_m = min(0.01, 8.0 / scale)
+    square = [(0.0, 0.0), (0.4, 0.0), (0.4, 0.4), (0.0, 0.4)]
+    to = {"rings": [square], "guides": [(0.137, 0.171)], "onlyCloth": False}
+    away = [(-0.6, 0.9), (0.0, 1.02), (0.8, 0.7), (0.3, -0.3), (-1.5, 0.2)]
+    points = [(x + u * most_m, y + v * most_m) for x, y in [*square, (0.2, 0.0), (0.21, 0.23)] for u, v in away]
+    found = strongest(modules, points, scale, to)
+    assert any(found)
+    for point, one in zip(points, found, strict=True):
+        assert one is None or math.dist(point, one["at"]) <= most_m + 1e-9
 
 
 def test_a_garment_that_is_drawn_is_called_what_its_outline_looks_like(modules: Page) -> None:

@@ -50,6 +50,28 @@ def test_a_fold_drawn_with_the_mouse_is_tied_to_the_corner_at_which_it_ends(page
     assert fold["end"]["on"] == {"kind": "vertex", "vertex": "v5"}
 
 
+@pytest.mark.parametrize("size", [(1280, 800), (900, 500)])
+def test_a_blank_board_is_80_cm_wide_and_what_is_drawn_on_it_is_fitted_when_it_closes(
+    page: Page, new_sheet: Callable[[Garment], Sheet], size: tuple[int, int]
+) -> None:
+    page.set_viewport_size({"width": size[0], "height": size[1]})
+    page.goto(new_sheet(None).page_url)
+    hand = Hand(page)
+    hand.px((0.0, 0.0))  # once it is drawn
+    box = hand.board.bounding_box()
+    assert box is not None
+    assert box["width"] / float(str(hand.board.get_attribute("data-px-per-m"))) == pytest.approx(0.8, abs=2e-3)
+    triangle = [(0.1, 0.32), (0.2, 0.32), (0.2, 0.42)]
+    for corner in [*triangle, triangle[0]]:
+        hand.click(corner)
+    expect(page.locator(".corner")).to_have_count(3)
+    closed = str(hand.board.get_attribute("data-origin-px"))
+    page.get_by_role("button", name="Fit").click()
+    page.wait_for_function("new Promise(requestAnimationFrame)")
+    assert str(hand.board.get_attribute("data-origin-px")) == closed
+    page.set_viewport_size({"width": 1280, "height": 800})
+
+
 def test_what_is_drawn_with_the_keyboard_is_where_the_cross_was(page: Page, blank: Sheet) -> None:
     page.keyboard.press("p")
     page.keyboard.press("ArrowUp")

@@ -2,12 +2,16 @@
 
 from collections.abc import Callable
 
-from playwright.sync_api import Page, expect
+import pytest
+from playwright.sync_api import Browser, Page, expect
 
 from tests.app.samples import towel
 from tests.browser.board_hand import Hand
-from tests.browser.conftest import Garment, Sheet
+from tests.browser.conftest import Garment, Sheet, windows
 from tests.browser.status_pill import expect_planned
+
+SOON_MS = 3_000
+"""Less than a word stays by itself."""
 
 
 def test_a_blank_board_draws_at_once_and_each_word_goes_when_it_is_followed(
@@ -30,6 +34,38 @@ def test_a_blank_board_draws_at_once_and_each_word_goes_when_it_is_followed(
     page.reload()
     expect_planned(page)
     expect(coach).to_be_hidden()
+
+
+@pytest.mark.parametrize("done", ["Fold it for me", "Share", "Fit"])
+def test_a_word_goes_when_something_else_is_pressed_or_opened(
+    chromium: Browser, new_sheet: Callable[[Garment], Sheet], done: str
+) -> None:
+    with windows(chromium) as context:
+        page = context.new_page()
+        page.goto(new_sheet(towel()).page_url)
+        coach = page.locator(".coach")
+        expect(coach).to_contain_text("Press Space to play")
+        page.get_by_role("button", name=done).first.click()
+        expect(coach).to_be_hidden(timeout=SOON_MS)
+
+
+def test_a_word_goes_after_five_seconds(chromium: Browser, new_sheet: Callable[[Garment], Sheet]) -> None:
+    with windows(chromium) as context:
+        page = context.new_page()
+        page.clock.install()
+        page.goto(new_sheet(towel()).page_url)
+        coach = page.locator(".coach")
+        expect(coach).to_contain_text("Press Space to play")
+        page.clock.fast_forward(5_000)
+        expect(coach).to_be_hidden(timeout=SOON_MS)
+
+
+def test_on_a_phone_no_word_speaks_of_a_key(phone: Page, new_sheet: Callable[[Garment], Sheet]) -> None:
+    phone.goto(new_sheet(towel()).page_url)
+    expect_planned(phone)
+    phone.locator("#sheet").tap()
+    phone.evaluate("dispatchEvent(new Event('resize'))")
+    expect(phone.locator(".coach")).to_have_text("The robot can do it. Tap Play to watch.")
 
 
 def test_the_plan_has_pictures_and_the_board_shows_robot_and_cloth_while_it_is_played(

@@ -3,6 +3,7 @@
 import base64
 import re
 from collections.abc import Callable, Iterator
+from datetime import UTC, datetime
 from typing import Any
 
 import cv2
@@ -267,6 +268,78 @@ def test_a_page_loaded_anew_finds_its_rehearsal_again(page: Page, desk: Desk) ->
     expect_planned(page)
     expect(page.get_by_role("button", name="Rehearse", exact=True)).to_be_enabled()
     expect(said).to_be_hidden()
+
+
+def test_a_rehearsal_is_found_again_though_the_page_went_while_it_asked_how_far_it_is(page: Page, desk: Desk) -> None:
+    server = Rehearsals(page)
+    server.begun_by(opened(desk))
+    expect(page.locator(".rehearsing").get_by_role("progressbar")).to_have_js_property("value", 0.4)
+    page.unroute("**/api/jobs/7")
+    with page.expect_request("**/api/jobs/7"):
+        page.route("**/api/jobs/7", lambda _: None)  # no answer any more
+    page.reload()
+    page.unroute("**/api/jobs/7")
+    server.end(run())
+    page.route("**/api/jobs/7", lambda route: route.fulfill(json=server.job))
+    page.reload()
+    expect(page.locator(".mark")).to_have_text("held")
+
+
+def test_a_rehearsal_is_found_again_though_the_page_went_before_it_knew_its_number(page: Page, desk: Desk) -> None:
+    server = Rehearsals(page)
+    begin = opened(desk)
+    page.unroute("**/api/rehearsals")
+    page.route("**/api/rehearsals", lambda _: None)
+    with page.expect_request("**/api/rehearsals"):
+        begin.click()
+    server.end(run())
+    begun = server.job | {"about": "Napkin", "created": datetime.now(UTC).isoformat()}
+    listed = {"jobs": [begun | {"kind": "runs", "id": "8"}, begun], "before": None}
+    page.route("**/api/jobs?*", lambda route: route.fulfill(json=listed))
+    page.reload()
+    expect(page.locator(".mark")).to_have_text("held")
+
+
+def test_the_result_of_a_rehearsal_is_told_in_words_and_shown_in_the_3d_view(page: Page, desk: Desk) -> None:
+    server = Rehearsals(page)
+    server.begun_by(opened(desk))
+    server.end(run("trace", held=False, mean_mm=31.0))
+    expect(page.locator(".mark")).to_have_text("lost")
+    page.locator(".rehearsing").get_by_role("button", name="Close").click()
+    listed = {"jobs": [server.job | {"about": "Napkin", "started": None, "ended": None}], "before": None}
+    page.route("**/api/jobs?*", lambda route: route.fulfill(json=listed))
+    page.evaluate("dispatchEvent(new Event('focus'))")
+    page.get_by_role("button", name="Jobs").click()
+    page.get_by_role("button", name="Result of Rehearsal").click()
+    result = page.get_by_role("dialog", name=re.compile("^Rehearsal, Napkin"))
+    expect(result).to_contain_text("Held in 0 of 1 run: 49 to 94 % of all, with 95 % confidence.")
+    expect(result).to_contain_text("Run 1: Lost at step 1: the cloth is 31 mm off on average.")
+    for raw in ("success", "trace", "iou"):
+        expect(result).not_to_contain_text(raw)
+    expect(result.get_by_role("link", name="As JSON")).to_be_visible()
+    result.get_by_role("button", name="Show in the 3D view").click()
+    expect(page.get_by_role("dialog")).to_have_count(0)
+    expect(page.locator(".mark")).to_have_text("lost")
+    expect(page.get_by_role("region", name="Pictures of the rehearsal")).to_be_visible()
+    assert (len(server.asked), server.cancelled) == (1, 0)
+
+
+def test_the_result_of_another_documents_rehearsal_leads_to_that_document(
+    page: Page, desk: Desk, new_sheet: Callable[[Garment], Sheet]
+) -> None:
+    server = Rehearsals(page)
+    server.begun_by(opened(desk))
+    server.end(run("trace"))
+    expect(page.locator(".mark")).to_have_text("held")
+    address = page.url
+    listed = {"jobs": [server.job | {"about": "Napkin", "started": None, "ended": None}], "before": None}
+    page.route("**/api/jobs?*", lambda route: route.fulfill(json=listed))
+    page.goto(new_sheet(napkin()).page_url)
+    page.get_by_role("button", name="Jobs").click()
+    page.get_by_role("button", name="Result of Rehearsal").click()
+    page.get_by_role("button", name="Open its document").click()
+    expect(page.locator(".mark")).to_have_text("held")
+    assert page.url == address
 
 
 def test_an_edit_takes_the_rehearsal_back(page: Page, desk: Desk) -> None:

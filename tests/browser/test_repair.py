@@ -31,6 +31,14 @@ APRON = {
 }
 
 
+IS_CLEAR = """(high_m) => {
+  const board = document.getElementById("drafting-board");
+  const top = board.getBoundingClientRect().top + Number(board.dataset.originPx.split(",")[1]);
+  return document.querySelector(".repair").getBoundingClientRect().bottom <= top - high_m * board.dataset.pxPerM;
+}"""
+"""Whether cloth that is so high (m) begins below the strip."""
+
+
 def top_of_cloth_px(page: Page, high_m: float) -> float:
     return Hand(page).px((0.0, high_m))[1]
 
@@ -39,6 +47,34 @@ def foot_of_strip_px(page: Page) -> float:
     box = page.locator(".repair").bounding_box()
     assert box is not None
     return box["y"] + box["height"]
+
+
+def some_cards(route: Route) -> None:
+    """Answer with four changes that would help."""
+    says = {"code": "assume_friction", "friction": 1.5, "now": 1.0}
+    events = [
+        {"kind": "friction", "is_assumption": True, "says": says, "change": {}, "size": 0.5, "cost_s": 20.0},
+        {"kind": "split", "is_assumption": False, "change": {}, "size": 1.0, "cost_s": 38.5}
+        | {"says": {"code": "split_fold", "fold": 0, "depth_m": 0.175}},
+        *(
+            {
+                "kind": "placement",
+                "is_assumption": False,
+                "change": {"placement": place},
+                "size": 0.1,
+                "cost_s": cost,
+            }
+            | {"says": {"code": "place", "quarters": 0, "by": [0.1, 0.0]}}
+            for place, cost in (
+                ({"x_m": 0.1, "y_m": 0.0, "yaw_rad": 0.0}, 30.0),
+                ({"x_m": 0.5, "y_m": 0.0, "yaw_rad": 0.0}, 25.0),
+            )
+        ),
+    ]
+    told = [{**event, "message": "RUBBISH", "plan_id": "gone"} for event in events]
+    lines = [f"event: suggestion\ndata: {json.dumps(event)}\n\n" for event in told]
+    done = 'event: done\ndata: {"count": 4, "elapsed_s": 1.0, "complete": true}\n\n'
+    route.fulfill(content_type="text/event-stream", body="".join(lines) + done)
 
 
 @pytest.mark.long
@@ -82,7 +118,7 @@ def test_a_cloth_just_drawn_is_not_hidden_below_the_strip_and_a_view_that_was_mo
     expect(strip).to_be_visible()
     board = hand.board.bounding_box()
     assert board is not None
-    assert foot_of_strip_px(page) <= top_of_cloth_px(page, 0.8)
+    page.wait_for_function(IS_CLEAR, arg=0.8)  # the strip grows while cards come, and the cloth follows a frame later
     assert hand.px((0.0, 0.0))[1] <= board["y"] + board["height"]
     page.mouse.move(*hand.px((0.25, 0.4)))
     page.mouse.wheel(0, -300)
@@ -95,33 +131,7 @@ def test_a_cloth_just_drawn_is_not_hidden_below_the_strip_and_a_view_that_was_mo
 def test_all_cards_that_come_are_at_hand_and_none_moves_while_others_come(
     page: Page, new_sheet: Callable[[Garment], Sheet]
 ) -> None:
-    def some(route: Route) -> None:
-        says = {"code": "assume_friction", "friction": 1.5, "now": 1.0}
-        events = [
-            {"kind": "friction", "is_assumption": True, "says": says, "change": {}, "size": 0.5, "cost_s": 20.0},
-            {"kind": "split", "is_assumption": False, "change": {}, "size": 1.0, "cost_s": 38.5}
-            | {"says": {"code": "split_fold", "fold": 0, "depth_m": 0.175}},
-            *(
-                {
-                    "kind": "placement",
-                    "is_assumption": False,
-                    "change": {"placement": place},
-                    "size": 0.1,
-                    "cost_s": cost,
-                }
-                | {"says": {"code": "place", "quarters": 0, "by": [0.1, 0.0]}}
-                for place, cost in (
-                    ({"x_m": 0.1, "y_m": 0.0, "yaw_rad": 0.0}, 30.0),
-                    ({"x_m": 0.5, "y_m": 0.0, "yaw_rad": 0.0}, 25.0),
-                )
-            ),
-        ]
-        told = [{**event, "message": "RUBBISH", "plan_id": "gone"} for event in events]
-        lines = [f"event: suggestion\ndata: {json.dumps(event)}\n\n" for event in told]
-        done = 'event: done\ndata: {"count": 4, "elapsed_s": 1.0, "complete": true}\n\n'
-        route.fulfill(content_type="text/event-stream", body="".join(lines) + done)
-
-    page.route("**/api/suggestions*", some)
+    page.route("**/api/suggestions*", some_cards)
     page.goto(new_sheet(APRON).page_url)
     cards = page.get_by_role("group", name="Suggestions").get_by_role("button")
     expect(cards).to_have_count(3)
@@ -132,6 +142,31 @@ def test_all_cards_that_come_are_at_hand_and_none_moves_while_others_come(
     page.wait_for_function("new Promise(requestAnimationFrame)")
     assert top_of_cloth_px(page, 0.9) >= foot_of_strip_px(page)
     assert "RUBBISH" not in page.locator("body").inner_text()
+
+
+def test_on_a_low_board_the_cards_stand_beside_the_cloth_and_the_view_comes_back_when_they_close(
+    page: Page, new_sheet: Callable[[Garment], Sheet]
+) -> None:
+    page.route("**/api/suggestions*", some_cards)
+    page.set_viewport_size({"width": 900, "height": 500})
+    page.goto(new_sheet(APRON).page_url)
+    show, board = page.get_by_role("button", name="Show suggestions"), page.locator("#drafting-board")
+    show.click()
+    expect(page.get_by_role("group", name="Suggestions").get_by_role("button")).to_have_count(3)
+    page.wait_for_function("new Promise(requestAnimationFrame)")
+    strip = page.locator(".repair").bounding_box()
+    assert strip is not None
+    assert Hand(page).px((0.7, 0.0))[0] <= strip["x"]
+    assert float(str(board.get_attribute("data-px-per-m"))) > 100
+    page.get_by_role("button", name="Hide suggestions").click()
+    page.get_by_role("button", name="Fit").click()
+    page.wait_for_function("new Promise(requestAnimationFrame)")
+    whole = [str(board.get_attribute(name)) for name in ("data-px-per-m", "data-origin-px")]
+    show.click()
+    expect(board).not_to_have_attribute("data-origin-px", whole[1])
+    page.get_by_role("button", name="Hide suggestions").click()
+    expect(board).to_have_attribute("data-px-per-m", whole[0])
+    expect(board).to_have_attribute("data-origin-px", whole[1])
 
 
 @pytest.mark.long

@@ -36,7 +36,6 @@ def test_without_a_scene_it_is_the_one_that_suits_the_robot() -> None:
     assert check_garment(load_garment("hand-towel"), robot="ur5e-pair").is_holdable
 
 
-
 def test_the_outline_is_measured() -> None:
     checked = check_garment(garment(rectangle_points(0.4, 0.3, x_m=1.0), fold((1.0, 0.1), (1.4, 0.1))))
     assert checked.points == 4 and checked.size_m == pytest.approx((0.4, 0.3))

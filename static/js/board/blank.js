@@ -2,6 +2,7 @@
 
 import { button, element } from "../dom.js";
 import { say } from "../language/say.js";
+import { isViewOnly } from "../view_only.js";
 
 export class Blank {
   /** @param {import("./board.js").Board} board @param {{startNew: () => void, startImport: () => void}} verbs */
@@ -11,7 +12,7 @@ export class Blank {
     this.isAtOnce = false;
     this.root = element(
       "div",
-      "blank",
+      "blank for-editors",
       element("p", "", say("blank.begin")),
       element(
         "div",
@@ -28,7 +29,7 @@ export class Blank {
 
   /** A board with nothing on it draws at once. */
   takeUp() {
-    if (this.board.drawing.outline.length || this.board.tool.name !== "select") return;
+    if (isViewOnly || this.board.drawing.outline.length || this.board.tool.name !== "select") return;
     this.board.choose("outline");
     this.isAtOnce = true;
     this.board.svg.blur(); // nobody has asked for the keyboard yet
@@ -38,7 +39,7 @@ export class Blank {
   showGone() {
     const link = element("a", "main-button", say("blank.go_to_last"));
     link.setAttribute("href", "../");
-    this.root.classList.add("is-gone");
+    this.root.className = "blank is-gone";
     this.root.replaceChildren(
       element("p", "blank-title", say("blank.gone")),
       element("p", "", say("blank.gone_why")),

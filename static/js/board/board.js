@@ -64,7 +64,7 @@ export class Board extends Shown {
     this.proposing = null;
     /** @type {number|undefined} the frame that is to be drawn */
     this.frame = undefined;
-    /** @type {{height: number}|null} what lies over the board's upper edge */
+    /** @type {{height: number, width: number}|null} what lies over the board's upper edge, or over its right side */
     this.over = null;
     this.framing = new Framing(this);
     this.svg = drawingArea();
@@ -120,17 +120,23 @@ export class Board extends Shown {
   }
 
   /**
-   * Something lies over the board's upper edge: what is fitted to the board is fitted to what is left of it.
-   * @param {EventTarget & {height: number}} over
+   * Something lies over the board's upper edge or right side: what is fitted to the board is fitted to what is left of it.
+   * @param {EventTarget & {height: number, width: number}} over
    */
   cover(over) {
     this.over = over;
     over.addEventListener("change", () => this.framing.uncover());
+    for (const name of ["selection", "document"]) this.store.addEventListener(name, () => this.framing.comeBack());
   }
 
   /** How much of the board's upper edge is covered (px). */
   get covered() {
     return Math.max((this.over?.height ?? 0) - this.place.top, 0);
+  }
+
+  /** How much of the board's right side is covered (px). */
+  get coveredSide() {
+    return this.over?.width ?? 0;
   }
 
   /** @param {number} step */

@@ -95,9 +95,9 @@ const backedOff = ({ x_m, y_m, yaw_rad }, by) => ({
 });
 
 /** The nearest place on the board. @param {Point} px @param {Board} board @returns {Point} */
-function within([x, y], { view, covered }) {
+function within([x, y], { view, covered, coveredSide }) {
   return [
-    Math.min(Math.max(x, MARGIN_PX), view.width - MARGIN_PX),
+    Math.min(Math.max(x, MARGIN_PX), view.width - coveredSide - MARGIN_PX),
     Math.min(Math.max(y, covered + MARGIN_PX), view.height - MARGIN_PX),
   ];
 }

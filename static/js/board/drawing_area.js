@@ -33,10 +33,13 @@ export function drawingArea() {
   });
 }
 
+/** Layers of what a hand takes hold of. @type {Set<LayerName>} */
+const HANDLED = new Set(["handles", "tool", "cursor"]);
+
 /** A sheet for each layer, the lowest first. @param {SVGElement} scene */
 export function sheetsOf(scene) {
   const sheets = LAYERS.map((name) => {
-    const sheet = new Sheet(scene, `layer-${name}`);
+    const sheet = new Sheet(scene, HANDLED.has(name) ? `layer-${name} for-editors` : `layer-${name}`);
     sheet.root.id = `board-${name}`; // the 3D view shows some of them too
     return [name, sheet];
   });

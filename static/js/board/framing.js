@@ -9,7 +9,8 @@ import { boxOf } from "./geometry.js";
 /** @import { Point } from "pleat" */
 /** @import { View } from "./view.js" */
 
-/** The middle of a board with nothing on it, which is 80 cm wide with its margins (m). */
+/** How wide a board with nothing on it is, and the middle of it (m). */
+const BLANK_WIDE_M = 0.8;
 const BLANK = {
   low: /** @type {Point} */ ([-0.05, 0.15]),
   high: /** @type {Point} */ ([0.55, 0.45]),
@@ -28,6 +29,9 @@ const INSET_PX = 160;
 
 /** @typedef {Pick<View, "scale"|"origin">} Seen */
 
+/** @param {View} view @returns {Point} px */
+const middleOf = ({ width, height }) => [width / 2, height / 2];
+
 export class Framing {
   /** @param {import("./board.js").Board} board */
   constructor(board) {
@@ -40,6 +44,8 @@ export class Framing {
     /** Whether the board's upper edge is covered, and what was seen once room was made for that. */
     this.isCovered = false;
     this.roomMade = "";
+    /** What was seen before it was covered, and whether that was all of the cloth. @type {(Seen & {isFit: boolean})|null} */
+    this.free = null;
     /** The view of the large board while it is an inset. @type {Seen & Pick<View, "width"|"height">|null} */
     this.full = null;
     /** What was seen before the robot's way was to be seen as well. @type {Seen|null} */
@@ -52,39 +58,67 @@ export class Framing {
 
   fit() {
     const { board } = this;
-    board.view.fit(board.isPlacing ? this.tableBox() : (this.clothBox() ?? BLANK), { top: board.covered, bottom: HINT_PX });
+    const covered = { top: board.covered, bottom: HINT_PX, right: board.coveredSide };
+    const box = board.isPlacing ? this.tableBox() : this.clothBox();
+    board.view.fit(box ?? BLANK, covered);
+    if (!box) board.view.zoomAt(middleOf(board.view), board.view.width / BLANK_WIDE_M / board.view.scale);
     this.fitted = this.seen();
     this.roomMade = this.where();
+    if (this.free) this.free.isFit = true;
     board.render();
   }
 
   /**
-   * The upper edge is covered, or more of it: make room for the cloth, unless somebody moves it or has moved the view
-   * since the edge was free. What was seen whole is seen whole again; cloth drawn since is pushed down as far as it goes.
+   * The upper edge or the right side is covered, or more of it: make room for the cloth, unless somebody moves it or has
+   * moved the view since it was free. What was seen whole is seen whole again; cloth drawn since is pushed, or fitted too.
    */
   uncover() {
     const { board } = this;
-    const { tool, state, store, covered, view, shown } = board;
-    const isNew = covered > 0 && !this.isCovered;
-    this.isCovered = covered > 0;
-    const isInHand = tool.isBusy || state?.gesture || store.selection;
+    const { covered, coveredSide: side, view, shown } = board;
+    const isCovered = covered > 0 || side > 0;
+    const isNew = isCovered && !this.isCovered;
+    this.isCovered = isCovered;
     const isMoved = !isNew && this.roomMade !== this.where();
     const box = boxOf(shown.silhouette.flat()) ?? this.clothBox();
-    if (covered && box && this.isFitted && !isInHand && !isMoved) {
-      const [top, foot] = this.heights(box);
-      const [by, room] = [covered + GAP_PX - top, view.height - HINT_PX - foot];
-      if (top < covered && this.fitted === this.seen()) this.fit();
-      else if (top < covered && room > 0) view.pan([0, Math.min(by, room)]);
+    const isFit = !this.isFitted || this.fitted === this.seen();
+    if (isNew && !this.free) this.free = { scale: view.scale, origin: view.origin, isFit };
+    if (isCovered && box && this.isFitted && !this.isInHand && !isMoved) {
+      const { low, high } = this.onBoard(box);
+      const isUnder = low[1] < covered || high[0] > view.width - side;
+      const [down, most] = [covered + GAP_PX - low[1], view.height - HINT_PX - high[1]];
+      const [left, room] = [high[0] + GAP_PX - (view.width - side), low[0]];
+      const isTooTall = low[1] < covered && most > 0 && most < down;
+      if (isUnder && (isFit || isTooTall)) this.fit();
+      else if (low[1] < covered && most > 0) view.pan([0, down]);
+      else if (side && left > 0 && room > 0) view.pan([-Math.min(left, room), 0]);
     }
     if (!isMoved) this.roomMade = this.where();
+    this.comeBack();
     board.render();
   }
 
-  /** Where a box of the article frame begins and ends on the board, from its upper edge (px). @param {{low: Point, high: Point}} box */
-  heights({ low, high }) {
-    const corners = [low, high, [low[0], high[1]], [high[0], low[1]]];
-    const ys = corners.map((corner) => this.board.view.toPx(/** @type {Point} */ (corner))[1]);
-    return [Math.min(...ys), Math.max(...ys)];
+  /** Nothing covers the board any more: show what was seen before, unless somebody has moved the view since. */
+  comeBack() {
+    const { board, free } = this;
+    if (!free || this.isCovered || this.isInHand) return;
+    this.free = null;
+    if (this.roomMade !== this.where()) return;
+    if (free.isFit) this.fit();
+    else Object.assign(board.view, { scale: free.scale, origin: free.origin });
+    this.roomMade = this.where();
+    board.render();
+  }
+
+  /** Whether somebody is at work on the cloth. */
+  get isInHand() {
+    const { tool, state, store } = this.board;
+    return Boolean(tool.isBusy || state?.gesture || store.selection);
+  }
+
+  /** A box of the article frame as it lies on the board (px). @param {{low: Point, high: Point}} box */
+  onBoard({ low, high }) {
+    const corners = /** @type {Point[]} */ ([low, high, [low[0], high[1]], [high[0], low[1]]]);
+    return /** @type {{low: Point, high: Point}} */ (boxOf(corners.map((corner) => this.board.view.toPx(corner))));
   }
 
   /** What part of the plane is seen. */

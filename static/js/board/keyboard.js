@@ -1,5 +1,6 @@
 /** Keys on the board. With a drawing tool the arrow keys lead a cross and Enter puts a point there. */
 
+import { isViewOnly } from "../view_only.js";
 import { plus, times } from "./geometry.js";
 
 /** @import { Point } from "pleat" */
@@ -42,7 +43,7 @@ export class Keyboard {
     const { board } = this;
     const { tool } = board;
     if (event.key === "Escape") return board.escape();
-    if (board.store.isLost) return false;
+    if (board.store.isLost || isViewOnly) return false;
     if (event.key === "Tab") return !event.shiftKey && this.toNumbers(event);
     if (tool.stretch && NUMBER.test(event.key)) {
       board.openTyped(event.key);

@@ -12,7 +12,7 @@ export class Numbers {
   /** @param {import("./board.js").Board} board */
   constructor(board) {
     this.board = board;
-    this.root = element("div", "numbers-at");
+    this.root = element("div", "numbers-at for-editors");
     group(this.root, say("numbers.label"));
     this.root.hidden = true;
     this.shown = "";
@@ -64,10 +64,10 @@ export class Numbers {
 
   /** What of the board nothing else lies over. @returns {Room} */
   get room() {
-    const { place, covered, root } = this.board;
+    const { place, covered, coveredSide, root } = this.board;
     const [own, inset] = [root.getBoundingClientRect(), byId("swap").getBoundingClientRect()];
     const corner = /** @type {Point} */ ([inset.left - own.left, inset.top - own.top - place.top]);
-    return { low: [0, covered], high: [place.width, place.height], corner: inset.width ? corner : null };
+    return { low: [0, covered], high: [place.width - coveredSide, place.height], corner: inset.width ? corner : null };
   }
 
   /** @param {string} [key] of the field; by default the first one gets the focus */

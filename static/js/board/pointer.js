@@ -4,6 +4,7 @@
  */
 
 import { isBoards } from "../keys.js";
+import { isViewOnly } from "../view_only.js";
 import { between, distance, minus } from "./geometry.js";
 
 /** @import { Point } from "pleat" */
@@ -49,7 +50,7 @@ export class PointerInput {
     svg.addEventListener("pointercancel", (event) => this.cancel(event));
     svg.addEventListener("pointerenter", () => (this.isOver = true));
     svg.addEventListener("pointerleave", () => this.leave());
-    svg.addEventListener("dblclick", (event) => board.tool.twice(this.pointer(event)));
+    svg.addEventListener("dblclick", (event) => isViewOnly || board.tool.twice(this.pointer(event)));
     svg.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
     svg.addEventListener("contextmenu", (event) => isTouch(event) && event.preventDefault());
     window.addEventListener("keydown", (event) => this.space(event, true), true);
@@ -81,7 +82,7 @@ export class PointerInput {
       return;
     }
     this.board.svg.setPointerCapture(event.pointerId);
-    const isLooking = this.isSpaceDown || this.board.store.isLost; // without a server nothing is changed
+    const isLooking = this.isSpaceDown || this.board.store.isLost || isViewOnly; // nothing is changed then
     if (event.button === 1 || (event.button === 0 && isLooking)) {
       this.panning = { id: event.pointerId, px: this.place(event) };
       this.hasPanned = true;
@@ -111,7 +112,7 @@ export class PointerInput {
       this.drag(event);
     } else if (!this.pressed && event.pointerType !== "touch") {
       this.board.useKeyboard(false);
-      this.board.tool.hover(this.pointer(event));
+      if (!isViewOnly) this.board.tool.hover(this.pointer(event));
     }
     this.board.render();
   }

@@ -18,10 +18,9 @@ const KINDS = /** @type {Kind[]} */ (Object.keys(REACH_PX));
 const RELEASE = 1.5;
 const TOUCH = 2;
 const KEYS = 0.25;
-/** What is there by chance rather than by design moves a point by no more cloth than that, or so few pixels. @type {Set<Kind>} */
-const WEAK = new Set(["guides", "guide", "grid", "line"]);
-const WEAK_MOST_M = 0.01;
-const WEAK_MOST_PX = 4;
+/** A point is moved by no more cloth, and no further on the screen, than that; to close an outline moves none. */
+const MOST_M = 0.01;
+const MOST_PX = 8;
 const TURN_RAD = Math.PI / 12;
 
 /**
@@ -78,7 +77,7 @@ export class Snapper {
       let best = null;
       for (const candidate of CANDIDATES[kind](pointer.at, targets, view)) {
         const away = distance(candidate.where ?? candidate.at, pointer.at) * view.scale;
-        const most = WEAK.has(kind) ? Math.max(WEAK_MOST_M * view.scale, WEAK_MOST_PX) : Infinity;
+        const most = kind === "close" ? Infinity : Math.min(MOST_M * view.scale, MOST_PX);
         const reach = Math.min(REACH_PX[kind] * wide * (candidate.key === this.heldKey ? RELEASE : 1), most);
         if (away <= reach && (!best || away < best.away)) best = { ...candidate, kind, away };
       }

@@ -37,12 +37,14 @@ export class Strip {
     this.unit = button("strip-button", () => this.swapUnit(), "");
     this.fit = iconButton("fit", say("strip.fit"), () => board.framing.fit());
     this.fit.title = say("strip.fit_hint");
+    const paints = partOf(say("strip.fold"), ...this.paints.map(({ made }) => made), this.flip, this.grab);
+    paints.classList.add("for-editors");
     board.root.append(
       element(
         "div",
         "strip",
         partOf(say("strip.moment"), this.back, this.moment, this.next),
-        partOf(say("strip.fold"), ...this.paints.map(({ made }) => made), this.flip, this.grab),
+        paints,
         partOf(say("strip.view"), this.unit, this.fit),
       ),
     );

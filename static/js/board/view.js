@@ -10,6 +10,8 @@ import { minus, plus, times, turned } from "./geometry.js";
 const CLOSEST_PX_PER_M = 20000;
 const FURTHEST_PX_PER_M = 40;
 const MARGIN = 0.13;
+/** What is fitted is never smaller than for this share of the board's height: cloth that is a speck shows nothing. */
+const LEAST_FREE = 0.4;
 
 export class View {
   constructor() {
@@ -69,14 +71,15 @@ export class View {
   /**
    * Show a box of the plane whole.
    * @param {{low: Point, high: Point}} box
-   * @param {{top: number, bottom: number}} covered how much of the board other things cover (px)
+   * @param {{top: number, bottom: number, right?: number}} covered how much of the board other things cover (px)
    */
-  fit({ low, high }, covered) {
+  fit({ low, high }, { top, bottom, right = 0 }) {
     const [wide, tall] = [high[0] - low[0], high[1] - low[1]];
-    const room = [this.width * (1 - 2 * MARGIN), (this.height - covered.top - covered.bottom) * (1 - 2 * MARGIN)];
+    const free = [this.width - right, Math.max(this.height - top - bottom, LEAST_FREE * this.height)];
+    const room = free.map((size) => size * (1 - 2 * MARGIN));
     this.scale = Math.max(Math.min(room[0] / wide, room[1] / tall, CLOSEST_PX_PER_M), FURTHEST_PX_PER_M);
     const middle = [(low[0] + high[0]) / 2, (low[1] + high[1]) / 2];
-    const centre = [this.width / 2, (this.height + covered.top - covered.bottom) / 2];
+    const centre = [(this.width - right) / 2, (this.height + top - bottom) / 2];
     this.origin = [centre[0] - middle[0] * this.scale, centre[1] + middle[1] * this.scale];
   }
 }

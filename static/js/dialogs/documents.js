@@ -22,6 +22,9 @@ export async function goToNew(wanted, tool = "") {
   return answer;
 }
 
+/** The server cannot be reached, or the page is left. */
+export class OfflineError extends Error {}
+
 /**
  * The answer's JSON; throws an error with a sentence where the server refuses or cannot be reached.
  * @param {string} url
@@ -32,7 +35,7 @@ export async function fetched(url, method = "GET", body) {
   const headers = body ? { "content-type": "application/json" } : undefined;
   const sent = { method, headers, body: body && JSON.stringify(body) };
   const answer = await fetch(url, sent).catch(() => {
-    throw new Error(OFFLINE);
+    throw new OfflineError(OFFLINE);
   });
   if (!answer.ok) throw new Error(sentenceOf(await answer.json()));
   return answer.json();

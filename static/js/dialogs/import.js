@@ -11,6 +11,7 @@ import { OFFLINE, openDialog, sentenceOf } from "./dialog.js";
 import { goToNew } from "./documents.js";
 import { picture } from "./picture.js";
 import { takeRobot } from "./take_robot.js";
+import { isViewOnly } from "../view_only.js";
 
 /** @import { Told } from "../messages/in_words.js" */
 /** @import { Store } from "../store.js" */
@@ -32,6 +33,7 @@ export function showImport(store, first = null) {
 
 /** Take files that are dropped anywhere on the page. @param {Store} store */
 export function acceptDrops(store) {
+  if (isViewOnly) return;
   /** @param {DragEvent} event */
   const hasFiles = (event) => [...(event.dataTransfer?.items ?? [])].some(({ kind }) => kind === "file");
   addEventListener("dragover", (event) => {

@@ -10,11 +10,13 @@ import { numeral } from "../language/numeral.js";
 import { say } from "../language/say.js";
 import { percent } from "../messages/lengths.js";
 import { word } from "../messages/names.js";
+import { oneRun, shareHeld } from "../rehearsal/words.js";
+import { isViewOnly } from "../view_only.js";
 import { openDialog } from "./dialog.js";
 import { fetched } from "./documents.js";
-import { isViewOnly } from "../view_only.js";
 
 /** @import { Job } from "pleat" */
+/** @import { Rehearsal, Result } from "../rehearsal/rehearsal.js" */
 /** @typedef {Record<string, unknown>} Fields */
 
 const JOBS = "../api/jobs";
@@ -44,8 +46,9 @@ export async function offerJobs(opener) {
   }
 }
 
-export function showJobs() {
-  const list = new JobList();
+/** @param {Rehearsal} rehearsal of the page */
+export function showJobs(rehearsal) {
+  const list = new JobList(rehearsal);
   const dialog = openDialog(say("jobs.title"), "", list.root, list.said);
   const timer = setInterval(() => list.look(), LOOK_EVERY_MS);
   dialog.addEventListener("close", () => clearInterval(timer));
@@ -53,7 +56,9 @@ export function showJobs() {
 }
 
 class JobList {
-  constructor() {
+  /** @param {Rehearsal} rehearsal of the page */
+  constructor(rehearsal) {
+    this.rehearsal = rehearsal;
     this.root = element("ul", "jobs");
     this.said = toldAloud("dialog-problem", "alert");
     /** @type {Map<string, JobRow>} the rows stay, so that the focus does */
@@ -94,7 +99,7 @@ class JobList {
 
   /** @param {string} name @param {string} id */
   open(name, id) {
-    showResult(name, `${JOBS}/${id}`).catch((error) => this.say(sayable(error)));
+    showResult(name, `${JOBS}/${id}`, this.rehearsal).catch((error) => this.say(sayable(error)));
   }
 
   /** @param {string} sentence */
@@ -141,15 +146,36 @@ class JobRow {
 }
 
 /**
- * What a job has come to: its numbers by name, what there is several of as a table. The JSON is one link away.
+ * What a job has come to: a rehearsal in words, of others the numbers by name, what there is several of as a table. The
+ * JSON is one link away.
  * @param {string} title
  * @param {string} path of the job
+ * @param {Rehearsal} rehearsal of the page
  */
-async function showResult(title, path) {
-  const { result } = await fetched(path);
+async function showResult(title, path, rehearsal) {
+  const { id, kind, result } = await fetched(path);
   const link = element("a", "", say("jobs.as_json"));
   link.setAttribute("href", path);
-  openDialog(title, "is-wide result", shown(result), element("p", "dialog-note", link));
+  const parts = kind === "rehearsals" ? rehearsed(result, id, rehearsal) : [shown(result)];
+  openDialog(title, "is-wide result", ...parts, element("p", "dialog-note", link));
+}
+
+/** A rehearsal in words, and a button that shows it at its plan. @param {Result} result @param {string} job @param {Rehearsal} rehearsal */
+function rehearsed(result, job, rehearsal) {
+  const told = result.runs.map((run, index) =>
+    element("li", "", say("rehearsal.run_told", { run: index + 1, told: oneRun(run) })),
+  );
+  const show = button("main-button", () => {
+    for (const dialog of document.querySelectorAll("dialog[open]")) /** @type {HTMLDialogElement} */ (dialog).close();
+    rehearsal.showAgain(job);
+  }, say("rehearsal.in_view3d"));
+  show.title = say("rehearsal.in_view3d_hint");
+  const open = button("plain-button", () => rehearsal.openThere(job), say("rehearsal.open_document"));
+  const isHere = rehearsal.isAbout(job);
+  const note = element("p", "dialog-note", isHere ? "" : say("rehearsal.other_plan"));
+  const buttons = isHere ? [show] : rehearsal.elsewhere(job) ? [open] : [];
+  const below = element("div", "dialog-buttons", ...buttons);
+  return [element("p", "", shareHeld(result)), element("ul", "result-runs", ...told), note, below];
 }
 
 /** @param {unknown} value @returns {Node} */

@@ -14,8 +14,8 @@ import { showRename } from "./rename.js";
 import { showShare } from "./share.js";
 import { showWhoFolds } from "./who_folds.js";
 
-/** @param {import("../store.js").Store} store */
-export function mountDialogs(store) {
+/** @param {import("../store.js").Store} store @param {import("../rehearsal/rehearsal.js").Rehearsal} rehearsal */
+export function mountDialogs(store, rehearsal) {
   const verbs = {
     startNew: () => showNew(),
     gallery: () => showGallery(store),
@@ -38,7 +38,7 @@ export function mountDialogs(store) {
   put("new", "new", say("bar.new"), verbs.startNew);
   put("import", "import", say("bar.import"), verbs.startImport);
   put("export", "export", say("bar.export"), () => showExport(store));
-  put("jobs", "jobs", "", showJobs);
+  put("jobs", "jobs", "", () => showJobs(rehearsal));
   offerJobs(byId("jobs"));
   addEventListener("focus", () => offerJobs(byId("jobs")));
   put("settings", "settings", "", verbs.settings);

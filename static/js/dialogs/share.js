@@ -22,8 +22,21 @@ export function showShare(store) {
   }, say("share.revoke"));
   copy.disabled = true;
   const about = element("p", "dialog-text", say("share.about"));
-  openDialog(say("share.title"), "", about, link, said, element("div", "dialog-buttons", revoke, copy));
+  const shown = element("div", "share-preview");
+  openDialog(say("share.title"), "share", about, link, said, shown, element("div", "dialog-buttons", revoke, copy));
+  shown.hidden = store.plan?.status !== "solved"; // without a plan a link has no picture
+  if (!shown.hidden) shown.append(preview(store, () => (shown.hidden = true)));
   make(path, link, said).then((isMade) => (copy.disabled = !isMade));
+}
+
+/** The picture that previews of the link show. @param {import("../store.js").Store} store @param {() => void} onNone */
+function preview(store, onNone) {
+  const made = document.createElement("img");
+  made.alt = say("share.preview");
+  made.title = made.alt;
+  made.addEventListener("error", onNone);
+  made.src = `${store.path}/files/picture.png`;
+  return made;
 }
 
 /**

@@ -58,6 +58,7 @@ function seeWhy(store) {
   const switches = SWITCHES.map(([name, text, about]) => {
     const made = toggle(text, (isOn) => store.setOverlay(name, isOn));
     made.dataset.overlay = name;
+    made.classList.toggle("for-editors", name === "places"); // the server works that out for nobody else
     made.title = about;
     return made;
   });

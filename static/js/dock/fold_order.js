@@ -1,5 +1,7 @@
 /** Rows of a list are put into another order by hand: pulled by their numbers, with a mouse by any part but buttons. */
 
+import { isViewOnly } from "../view_only.js";
+
 const SLACK_PX = 4;
 const TOUCH_HANDLE = ".fold-number";
 
@@ -37,7 +39,7 @@ export class FoldOrder {
     const part = /** @type {Element} */ (event.target);
     const row = /** @type {HTMLElement|null} */ (part.closest(".fold-row"));
     const isHandle = event.pointerType === "mouse" ? part.closest(".fold-line") : part.closest(TOUCH_HANDLE);
-    if (!row || !isHandle || part.closest("input, .icon-button") || event.button !== 0) return;
+    if (isViewOnly || !row || !isHandle || part.closest("input, .icon-button") || event.button !== 0) return;
     this.pull = { row, pointer: event.pointerId, y: event.clientY, to: this.index(row), isOn: false };
   }
 

@@ -5,6 +5,7 @@ import { button, element, input } from "../dom.js";
 import { smallIcon } from "../icons.js";
 import { say } from "../language/say.js";
 import { length, listed } from "../messages/lengths.js";
+import { isViewOnly } from "../view_only.js";
 import { iconButton, relabel } from "./buttons.js";
 import { FoldFields } from "./fold_fields.js";
 import { STATE_WORDS } from "./fold_states.js";
@@ -50,6 +51,7 @@ export class FoldRow {
     this.eye = iconButton("eye", "", verbs.onShow);
     this.fields = new FoldFields(verbs, () => this.rename());
     this.assumed = element("span", "fold-assumed");
+    this.fields.root.classList.add("for-editors");
     const marks = element("span", "fold-marks", this.assumed, this.waits);
     this.line = element("div", "fold-line", this.mark, this.stroke, this.name, marks, this.eye);
     this.root = element("li", "fold-row", this.line, this.fields.root);
@@ -126,7 +128,7 @@ export class FoldRow {
 
   /** Turn the name into a field until Enter, Escape or leaving it. */
   rename() {
-    if (this.field || !this.fold) return;
+    if (isViewOnly || this.field || !this.fold) return;
     const about = { placeholder: foldName({}, this.index), ariaLabel: say("fold.name") };
     const field = input("field fold-rename", { value: this.fold.name, maxLength: 200, ...about });
     this.field = field;

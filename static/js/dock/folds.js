@@ -37,7 +37,7 @@ export class Folds {
     this.empty = element("p", "hint", say("folds.none_yet"));
     this.dag = new Dag((id) => this.select(id));
     this.switch = toggle(say("dag.title"), (isOn) => this.showGraph(isOn));
-    this.propose = button("chip", () => store.tell("propose"), say("proposal.do"));
+    this.propose = button("chip for-editors", () => store.tell("propose"), say("proposal.do"));
     this.propose.title = say("proposal.hint");
     this.propose.hidden = true;
     const head = element("header", "dock-head", element("h2", "", say("folds.title")), this.propose, this.switch);
@@ -83,7 +83,7 @@ export class Folds {
       });
     });
     this.place(folds.map((fold) => /** @type {FoldRow} */ (this.rows.get(fold.id)).root));
-    this.propose.hidden = isViewOnly || !folds.length; // without any, the board offers it
+    this.propose.hidden = !folds.length; // without any, the board offers it
     this.showGraph(!this.dag.root.hidden);
     this.dag.show(folds, this.plan);
     this.showSelection();
@@ -183,8 +183,9 @@ export class Folds {
     if (!id) return;
     const step = ARROWS[event.key];
     const isName = event.target === this.rows.get(id)?.name;
-    if (step && event.altKey) this.moveTo(id, this.indexOf(id) + step);
-    else if (step) this.focusRow(this.indexOf(id) + step);
+    if (step && !event.altKey) this.focusRow(this.indexOf(id) + step);
+    else if (isViewOnly) return;
+    else if (step) this.moveTo(id, this.indexOf(id) + step);
     else if (event.key === "F2") this.rows.get(id)?.rename();
     else if (isName && (event.key === "Delete" || event.key === "Backspace")) this.remove(id);
     else return;

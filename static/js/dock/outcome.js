@@ -33,15 +33,15 @@ export class Outcome {
     this.numbers = element("section", "numbers");
     this.numbers.setAttribute("aria-label", say("numbers.label"));
     this.place = new BestPlace(store);
-    this.compare = button("chip", () => showCompare(store), say("compare.do"));
+    this.compare = button("chip for-editors", () => showCompare(store), say("compare.do"));
     this.compare.title = say("compare.hint");
     this.rehearsal = rehearsal;
     this.rehearsing = new Rehearsing(rehearsal);
     rehearsal.addEventListener("change", () => this.list.judge(rehearsal.verdicts));
     this.running = new Running(rehearsal, shown, onSeek);
     this.none = new NoPlan();
-    this.stop = button("chip", () => store.command({ do: "stop" }), say("search.stop"));
-    this.longer = button("chip look-longer", () => store.command({ do: "look_longer" }), say("plan.look_longer"));
+    this.stop = button("chip for-editors", () => store.command({ do: "stop" }), say("search.stop"));
+    this.longer = button("chip look-longer for-editors", () => store.command({ do: "look_longer" }), say("plan.look_longer"));
     this.longer.title = say("plan.look_longer_hint");
     this.refined = element("p", "refined hint");
     this.refined.setAttribute("aria-live", "polite");
@@ -162,7 +162,7 @@ class StartLine {
       store.command({ do: "plan_from", step: null });
       onBack();
     };
-    this.back = button("chip", goBack, say("start.from_start"));
+    this.back = button("chip for-editors", goBack, say("start.from_start"));
     this.back.title = say("start.from_start_hint");
     this.back.hidden = true;
     this.root = element("div", "start-line", this.words, this.back);
@@ -200,7 +200,7 @@ class BestPlace {
     this.search = new SuggestionSearch();
     /** @type {number|null} the version that it is looked for */
     this.version = null;
-    this.button = button("chip", () => this.begin(), say("place.best"));
+    this.button = button("chip for-editors", () => this.begin(), say("place.best"));
     this.button.title = say("place.best_hint");
     this.note = element("p", "hint search-note");
     this.note.setAttribute("aria-live", "polite");

@@ -4,6 +4,7 @@ import { say } from "../language/say.js";
 import { Menu } from "../menu.js";
 import { MenuPress } from "../menu_press.js";
 import { Running } from "../run/running.js";
+import { isViewOnly } from "../view_only.js";
 
 export class StepMenu {
   /**
@@ -30,7 +31,7 @@ export class StepMenu {
    * @param {string} selector of the steps below it: `data-index` is the primitive
    */
   serve(root, selector) {
-    new MenuPress(root, selector, (part, at) => this.open(part, at));
+    if (!isViewOnly) new MenuPress(root, selector, (part, at) => this.open(part, at));
   }
 
   /** Whether the plan on show is the drawing's, so that planning can go on from a step of it. */
@@ -80,5 +81,5 @@ export class StepMenu {
 /** Tell that a step has a menu. @param {HTMLElement} step @param {number} index of the primitive */
 export function markStep(step, index) {
   step.dataset.index = String(index);
-  step.setAttribute("aria-haspopup", "menu");
+  if (!isViewOnly) step.setAttribute("aria-haspopup", "menu");
 }

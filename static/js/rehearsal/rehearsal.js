@@ -3,10 +3,11 @@
  * The job is kept in the browser's session, so that the page finds it again when it is loaded anew.
  */
 
-import { fetched } from "../dialogs/documents.js";
+import { fetched, goTo, OfflineError } from "../dialogs/documents.js";
 import { capital } from "../dock/words.js";
 import { sayable } from "../dom.js";
 import { say } from "../language/say.js";
+import { isViewOnly } from "../view_only.js";
 
 /** @import { Job, Plan, Trace } from "pleat" */
 
@@ -26,6 +27,15 @@ import { say } from "../language/say.js";
 
 const LOOK_EVERY_MS = 500;
 const KEPT = "pleat-rehearsal";
+const BEGUN = "pleat-rehearsals-begun";
+/** Of so many jobs the browser knows which plan of which document they rehearse. */
+const BEGUN_MAX = 50;
+/** The list of jobs is looked through so often for one that was begun as the page was left. */
+const LOOKS_MAX = 20;
+/** The server's clock may be that much behind (ms). */
+const CLOCKS_APART_MS = 2000;
+
+/** @typedef {{plan: string, job: string|null, since: number}} Kept the job, null before its number is known, and when it was asked for (ms) */
 
 export class Rehearsal extends EventTarget {
   /** @param {import("../store.js").Store} store */
@@ -79,8 +89,50 @@ export class Rehearsal extends EventTarget {
   follow() {
     const plan = this.rehearsable;
     if (this.plan !== null && plan?.id !== this.plan) this.close();
-    const kept = plan && this.plan === null ? recalled(this.store.id) : null;
-    if (kept && kept.plan === plan?.id) this.perform(kept.plan, async () => kept.job);
+    const kept = plan && this.plan === null && !isViewOnly ? recalled(this.store.id) : null;
+    if (kept && kept.plan === plan?.id) this.perform(kept, async () => kept.job ?? this.lookFor(kept.since));
+  }
+
+  /** The newest rehearsal of this garment that was asked for since then; empty if there is none. @param {number} since ms */
+  async lookFor(since) {
+    const about = this.store.state?.garment.title;
+    for (let looks = 0; looks < LOOKS_MAX; looks += 1) {
+      const { jobs } = /** @type {{jobs: Job[]}} */ (await fetched("../api/jobs?limit=20"));
+      /** @param {Job} job */
+      const isIt = (job) =>
+        job.kind === "rehearsals" && job.about === about && Date.parse(job.created) > since - CLOCKS_APART_MS;
+      const found = jobs.find(isIt);
+      if (found) return found.id;
+      await new Promise((resolve) => setTimeout(resolve, LOOK_EVERY_MS));
+    }
+    return "";
+  }
+
+  /** Whether a job is known to rehearse the plan on show. @param {string} job its id */
+  isAbout(job) {
+    return begunAs(job)?.plan === this.rehearsable?.id;
+  }
+
+  /** The other document in which a job was begun; empty where that is not known. @param {string} job its id */
+  elsewhere(job) {
+    const { document = "" } = begunAs(job) ?? {};
+    return document === this.store.id ? "" : document;
+  }
+
+  /** Have the page of the document in which a job was begun show its result. @param {string} job its id */
+  openThere(job) {
+    const begun = begunAs(job);
+    if (!begun) return;
+    remember(begun.document, { plan: begun.plan, job, since: Date.now() });
+    goTo(begun.document);
+  }
+
+  /** Show the result of a job that rehearsed the plan on show. @param {string} job its id */
+  showAgain(job) {
+    const plan = this.rehearsable?.id;
+    if (!plan) return;
+    this.close();
+    this.perform({ plan, job, since: Date.now() }, async () => job);
   }
 
   /** @param {Asked} asked */
@@ -88,15 +140,17 @@ export class Rehearsal extends EventTarget {
     const plan = this.rehearsable?.id;
     if (!plan) return;
     this.close();
-    this.perform(plan, async () => {
+    this.perform({ plan, job: null, since: Date.now() }, async () => {
       const begun = /** @type {Job} */ (await fetched("../api/rehearsals", "POST", { plan, feedback: true, ...asked }));
       return begun.id;
     });
   }
 
-  /** Follow a job to its end. @param {string} plan @param {() => Promise<string>} begun the job's id */
-  async perform(plan, begun) {
+  /** Follow a job to its end. @param {Kept} kept @param {() => Promise<string>} begun the job's id; empty if there is none */
+  async perform(kept, begun) {
+    const { plan } = kept;
     this.plan = plan;
+    remember(this.store.id, kept);
     this.isRunning = true;
     this.tell();
     const own = (this.own = {});
@@ -104,11 +158,16 @@ export class Rehearsal extends EventTarget {
       const id = await begun();
       const path = `../api/jobs/${id}`;
       if (this.own !== own) {
-        stop(path);
+        if (id) stop(path);
+        return;
+      }
+      if (!id) {
+        this.close();
         return;
       }
       this.job = path;
-      remember(this.store.id, { plan, job: id });
+      remember(this.store.id, { ...kept, job: id });
+      rememberBegun({ job: id, plan, document: this.store.id });
       const result = await this.end(path, own);
       if (result) this.take(result);
     } catch (error) {
@@ -116,7 +175,7 @@ export class Rehearsal extends EventTarget {
       this.fault = sayable(error);
       this.isRunning = false;
       this.job = null;
-      remember(this.store.id, null);
+      if (!(error instanceof OfflineError)) remember(this.store.id, null);
       this.tell();
     }
   }
@@ -124,10 +183,10 @@ export class Rehearsal extends EventTarget {
   /** @param {string} path @param {object} own @returns {Promise<Result|null>} nothing if it was cancelled */
   async end(path, own) {
     for (;;) {
-      const job = await fetched(path);
+      const job = await fetched(path).catch(ifOffline);
       if (this.own !== own) return null;
-      this.progress = job.progress;
-      if (job.status === "queued" || job.status === "running") {
+      this.progress = job ? job.progress : this.progress;
+      if (!job || job.status === "queued" || job.status === "running") {
         this.tell();
         await new Promise((resolve) => setTimeout(resolve, LOOK_EVERY_MS));
         continue;
@@ -182,14 +241,34 @@ export class Rehearsal extends EventTarget {
   }
 }
 
+/** Without a server a job goes on, as it does while the page is loaded anew. @param {unknown} error */
+function ifOffline(error) {
+  if (error instanceof OfflineError) return null;
+  throw error;
+}
+
 /** @param {string} job its path */
 const stop = (job) => fetched(`${job}/cancel`, "POST").catch(() => {});
 
-/** @param {string} id the document's @param {{plan: string, job: string}|null} kept */
+/** @param {string} id the document's @param {Kept|null} kept */
 function remember(id, kept) {
   if (kept) sessionStorage.setItem(`${KEPT}-${id}`, JSON.stringify(kept));
   else sessionStorage.removeItem(`${KEPT}-${id}`);
 }
 
-/** @param {string} id the document's @returns {{plan: string, job: string}|null} */
+/** @param {string} id the document's @returns {Kept|null} */
 const recalled = (id) => JSON.parse(sessionStorage.getItem(`${KEPT}-${id}`) ?? "null");
+
+/** @typedef {{job: string, plan: string, document: string}} Begun a job, by its id, and what it rehearses */
+
+/** Jobs that this browser began or followed, the newest first. @returns {Begun[]} */
+const begunHere = () => JSON.parse(localStorage.getItem(BEGUN) ?? "[]");
+
+/** What a job rehearses, where this browser knows it. @param {string} job its id */
+const begunAs = (job) => begunHere().find((one) => one.job === job);
+
+/** @param {Begun} begun */
+function rememberBegun(begun) {
+  const others = begunHere().filter(({ job }) => job !== begun.job);
+  localStorage.setItem(BEGUN, JSON.stringify([begun, ...others].slice(0, BEGUN_MAX)));
+}

@@ -14,7 +14,7 @@ export class Rehearsing {
   /** @param {import("./rehearsal.js").Rehearsal} rehearsal */
   constructor(rehearsal) {
     this.rehearsal = rehearsal;
-    this.button = button("chip", () => rehearsal.begin(ONCE), say("rehearsal.do"));
+    this.button = button("chip for-editors", () => rehearsal.begin(ONCE), say("rehearsal.do"));
     this.button.title = say("rehearsal.hint");
     this.bar = progressBar(say("rehearsal.progress"));
     this.note = toldAloud("hint");

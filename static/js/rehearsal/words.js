@@ -31,13 +31,18 @@ export function lostAt({ steps }) {
 export const worstOf = ({ steps }) => Math.max(0, ...steps.map(({ mean_mm: mean }) => mean));
 
 /** @param {Result} result */
-export function summary({ runs, held, of, success_low: low, success_high: high }) {
-  if (of > 1) return say("rehearsal.held_in", { held, of, low: percent(low), high: percent(high) });
-  return oneRun(runs[0]);
+export function summary(result) {
+  return result.of > 1 ? shareHeld(result) : oneRun(result.runs[0]);
 }
 
-/** @param {Run} run */
-function oneRun(run) {
+/** How many runs held, and how many of all would. @param {Result} result */
+export function shareHeld({ held, of, success_low: low, success_high: high }) {
+  const told = { held, of, low: percent(low), high: percent(high) };
+  return of > 1 ? say("rehearsal.held_in", told) : say("rehearsal.held_once", told);
+}
+
+/** What became of a run. @param {Run} run */
+export function oneRun(run) {
   const { held, steps, regrasps, repairs, replans } = run;
   const lost = steps.find((verdict) => !verdict.held);
   if (lost) return say("rehearsal.lost_at", { step: lostAt(run) ?? 0, length: lost.mean_mm.toFixed(0) });

@@ -13,7 +13,9 @@ import { button, element } from "../dom.js";
 import { icon } from "../icons.js";
 import { say } from "../language/say.js";
 import { inWords } from "../messages/in_words.js";
+import { PHONE } from "../phone.js";
 import { Cards } from "./cards.js";
+import { isViewOnly } from "../view_only.js";
 import { namedChanges } from "./named_changes.js";
 
 /** @import { DocumentState, PlanMessage, Reason } from "pleat" */
@@ -34,6 +36,7 @@ export class Repair extends EventTarget {
     this.pane = pane;
     /** Whether somebody chose to see the cards, or not to; null before. @type {boolean|null} */
     this.chosen = null;
+    this.phone = matchMedia(PHONE);
     this.search = new SuggestionSearch();
     this.quickFixes = new QuickFixes(store);
     /** @type {Reason[]|undefined} the reasons of the answer */
@@ -57,8 +60,9 @@ export class Repair extends EventTarget {
     this.others.title = say("robots.who_hint");
     this.fold = button("icon-button is-small repair-fold", () => this.choose(!this.isOpen), icon("back"));
     const asked = [this.again, this.onward, this.longer, this.others, this.cards.more, this.fold];
+    for (const made of asked) made.classList.add("for-editors");
     const head = element("div", "repair-head", this.sentence, ...asked);
-    this.body = element("div", "repair-body", this.cards.root, this.note.root);
+    this.body = element("div", "repair-body for-editors", this.cards.root, this.note.root);
     this.root = element("section", "repair", head, this.body);
     this.root.setAttribute("aria-label", say("plan.none"));
     this.root.hidden = true;
@@ -79,9 +83,19 @@ export class Repair extends EventTarget {
     return this.pane.clientHeight < OPEN_FROM_PX;
   }
 
-  /** How much of the board it covers (px): nothing of a low board, whose cloth would have no room left. */
+  /** Whether it stands at the right side: above the cloth there would be no room left for that. */
+  get isBeside() {
+    return this.isLow && this.isOpen && !this.phone.matches;
+  }
+
+  /** How much of the board's height it covers (px). */
   get height() {
-    return this.root.hidden || (this.isLow && !this.isOpen) ? 0 : this.root.offsetHeight + this.root.offsetTop;
+    return this.root.hidden || this.isBeside ? 0 : this.root.offsetHeight + this.root.offsetTop;
+  }
+
+  /** How much of the board's right side it covers (px). */
+  get width() {
+    return this.root.hidden || !this.isBeside ? 0 : this.pane.clientWidth - this.root.offsetLeft;
   }
 
   /** To the first card, or back. */
@@ -93,11 +107,11 @@ export class Repair extends EventTarget {
 
   /** Search, or ask for quick fixes, while the drawing rests without a plan; anything else ends it. */
   follow() {
-    this.quickFixes.follow();
+    if (!isViewOnly) this.quickFixes.follow();
     const { plan: message, state } = this.store;
     const isAnswered = state && message?.version === state.version && !state.gesture;
     if (message && state) this.show(message, state);
-    const resting = isAnswered && SEARCHABLE.has(message.status) ? state : null;
+    const resting = !isViewOnly && isAnswered && SEARCHABLE.has(message.status) ? state : null;
     const wanted = resting && resting.version;
     const isNamedAnew = this.takeNamed(resting && message);
     if (wanted === this.searched) {
@@ -168,6 +182,7 @@ export class Repair extends EventTarget {
   unfold(isOpen) {
     this.body.hidden = !isOpen;
     this.root.classList.toggle("is-line", this.isLow && !isOpen);
+    this.root.classList.toggle("is-beside", this.isBeside);
     this.fold.setAttribute("aria-expanded", String(isOpen));
     this.fold.setAttribute("aria-label", isOpen ? say("repair.hide") : say("repair.show"));
     this.fold.title = this.fold.getAttribute("aria-label") ?? "";

@@ -31,7 +31,7 @@ export class Running {
     this.abort = null;
     /** How the run ended early, as a sentence. */
     this.fault = "";
-    this.button = button("chip", () => this.begin(0), say("run.do"));
+    this.button = button("chip for-editors", () => this.begin(0), say("run.do"));
     this.button.title = say("run.hint");
     this.note = toldAloud("hint");
     this.next = button("chip", () => this.perform(this.after(this.step)));

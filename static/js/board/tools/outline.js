@@ -125,8 +125,13 @@ export class OutlineTool extends Tool {
     this.next = null;
     this.board.choose("select");
     this.board.showDraft((drawing) => replaceOutline(drawing, points));
+    const { framing } = this.board;
+    framing.fit();
+    const seen = framing.where();
+    this.board.draw();
     await this.board.store.edit(DRAW_OUTLINE, (drawing) => replaceOutline(drawing, points));
     this.board.dropDraft();
+    if (framing.where() === seen) framing.fit(); // to the outline as the server has it
   }
 
   cancel() {
