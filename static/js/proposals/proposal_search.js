@@ -21,6 +21,8 @@ import { jobEvents, Search } from "../event_stream.js";
 /** @typedef {object} Asked the body of the request, as JSON */
 
 const UNTRIED = "untried";
+/** The most cards while some are not planned yet. */
+const CARDS_MAX = 6;
 
 export class ProposalSearch extends Search {
   constructor() {
@@ -66,7 +68,8 @@ export class ProposalSearch extends Search {
   /** What was found and, until all is planned, what looks different. */
   get shown() {
     const looks = new Set(this.found.map(looksOf));
-    return [...this.found, ...(this.isDone ? [] : this.untried.filter((one) => !looks.has(looksOf(one))))];
+    const left = this.isDone ? [] : this.untried.filter((one) => !looks.has(looksOf(one)));
+    return [...this.found, ...left.slice(0, Math.max(CARDS_MAX - this.found.length, 0))];
   }
 
   forget() {
