@@ -70,7 +70,8 @@ export class Framing {
 
   /**
    * The upper edge or the right side is covered, or more of it: make room for the cloth, unless somebody moves it or has
-   * moved the view since it was free. What was seen whole is seen whole again; cloth drawn since is pushed, or fitted too.
+   * moved the view since it was free. What was seen whole is seen whole again; cloth drawn since is pushed as far as it
+   * goes, or fitted.
    */
   uncover() {
     const { board } = this;
@@ -87,9 +88,9 @@ export class Framing {
       const isUnder = low[1] < covered || high[0] > view.width - side;
       const [down, most] = [covered + GAP_PX - low[1], view.height - HINT_PX - high[1]];
       const [left, room] = [high[0] + GAP_PX - (view.width - side), low[0]];
-      const isTooTall = low[1] < covered && most > 0 && most < down;
-      if (isUnder && (isFit || isTooTall)) this.fit();
-      else if (low[1] < covered && most > 0) view.pan([0, down]);
+      const isAllSeen = Math.min(...low) >= 0 && high[0] <= view.width && high[1] <= view.height;
+      if (isUnder && (isFit || (isAllSeen && most < down))) this.fit();
+      else if (low[1] < covered && most > 0) view.pan([0, Math.min(down, most)]);
       else if (side && left > 0 && room > 0) view.pan([-Math.min(left, room), 0]);
     }
     if (!isMoved) this.roomMade = this.where();
