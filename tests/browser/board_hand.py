@@ -25,7 +25,9 @@ class Hand:
         return box["x"] + x0 + point[0] * scale, box["y"] + y0 - point[1] * scale
 
     def click(self, point: Point) -> None:
-        self.page.mouse.move(*self.px(point), steps=6)  # while an outline is drawn the board widens at its edge
+        self.page.mouse.move(*self.px(point), steps=6)
+        # While an outline is drawn the board widens at its edge, when it is drawn next.
+        self.page.evaluate("new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn)))")
         self.page.mouse.click(*self.px(point))
 
     def drag(self, start: Point, end: Point, *, is_released: bool = True) -> None:
