@@ -136,8 +136,8 @@ def motion_of(steps: Sequence[Step]) -> tuple[object, ...]:
     return tuple(step.motion for step in steps)
 
 
-SAMPLED_IN_VAIN_MAX = 2
-"""Paths of empty hands that are sampled in vain, at most, while one task is planned."""
+SAMPLED_IN_VAIN_MAX, SAMPLED_MORE_MAX = 2, 40
+"""Paths of empty hands that are sampled in vain, at most, while one task is planned; and where a doubt is left."""
 
 
 @dataclass(slots=True)
@@ -146,14 +146,18 @@ class Sampling:
 
     Attributes:
         vain: how often.
+        most: how often they may be.
+        left_out: how often no path was found where none was sampled.
     """
 
     vain: int = 0
+    most: int = SAMPLED_IN_VAIN_MAX
+    left_out: int = 0
 
     @property
     def is_worth_a_try(self) -> bool:
         """Whether paths may still be sampled."""
-        return self.vain < SAMPLED_IN_VAIN_MAX
+        return self.vain < self.most
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -168,6 +172,7 @@ class KnownTransfers:
         transits: how hands come from one transfer to the next, by both and by what the base does meanwhile.
         hastened: the transits that were late, and for which shortcuts were looked for.
         sampling: how often their ways were sampled in vain.
+        unsampled: the candidates without a transfer for which a path might be found by sampling.
     """
 
     can_be_there: dict[tuple[object, ...], bool] = field(default_factory=dict)
@@ -177,3 +182,4 @@ class KnownTransfers:
     transits: dict[tuple[object, ...], Transit] = field(default_factory=dict)
     hastened: set[tuple[object, ...]] = field(default_factory=set)
     sampling: Sampling = field(default_factory=Sampling)
+    unsampled: set[tuple[object, ...]] = field(default_factory=set)

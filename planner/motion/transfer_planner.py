@@ -19,6 +19,7 @@ from planner.motion.opened_collisions import OpenedCollisions
 from planner.motion.transfer import Transfer, Transit, is_carrying, transit_between
 from planner.motion.transfer_candidate import (
     QUICK,
+    SAMPLED_MORE_MAX,
     BlockedWaypoints,
     Candidate,
     KnownTransfers,
@@ -159,8 +160,12 @@ class TransferPlanner:
     def _made_or_known(self, candidate: "Candidate") -> Transfer | None:
         known = self.known.made
         if candidate.motion not in known:
+            left_out = self.known.sampling.left_out
             found = self._paths.transfer_path(candidate.waypoints, candidate.cloths)
-            known[candidate.motion] = (self._transfer(candidate, found), found if isinstance(found, NoPath) else None)
+            made = self._transfer(candidate, found)
+            known[candidate.motion] = (made, found if isinstance(found, NoPath) else None)
+            if made is None and self.known.sampling.left_out > left_out:
+                self.known.unsampled.add(candidate.motion)
         transfer, blocked = known[candidate.motion]
         if blocked is not None:
             self._blocked.note(candidate, blocked)
@@ -266,8 +271,18 @@ class TransferPlanner:
         if found is None:
             samples = self.known.sampling.is_worth_a_try
             found = self.transits.way(base, start, goal, cloth, spared, samples=samples)
-            self.known.sampling.vain += found is None and samples
+            if found is None:
+                self.known.sampling.vain += samples
+                self.known.sampling.left_out += not samples
         return found
+
+    def sample_more(self) -> None:
+        """Let more paths of empty hands be sampled in vain, also for what has no transfer for want of one."""
+        self.known.sampling.most = SAMPLED_MORE_MAX
+        for motion in self.known.unsampled:
+            self.known.made.pop(motion, None)
+        self.known.unsampled.clear()
+        self._made = {candidate: made for candidate, made in self._made.items() if made is not None}
 
     def transit(
         self, before: Transfer | None, moves: Sequence[Step], transfer: Transfer, *, hastens: bool = False

@@ -192,6 +192,8 @@ class _PlanSearch:
 
     def thorough(self) -> Iterator[Event]:
         """Search again with more tries, this task and the restricted ones, as long as that is worth it."""
+        for problem in (self.problem, *(search.problem for search in self._restricted)):
+            problem.maker.sample_more()
         yield from self.run(self.exact.run_again(THOROUGH, MORE_TRANSFERS))
         for search in self._restricted:
             if self.is_worth_thorough:

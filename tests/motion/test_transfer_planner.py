@@ -2,14 +2,16 @@
 
 import math
 from dataclasses import replace
+from typing import Any
 
 import pytest
 
 from planner import Scene, Task
-from planner.geometry.pose import Pose2
+from planner.geometry.pose import FloatArray, Pose2
 from planner.motion.transfer import Transfer
 from planner.motion.transfer_candidate import QUICK, Candidate, ways_of
 from planner.motion.transfer_planner import TransferPlanner
+from planner.motion.transit_paths import TransitPaths
 from planner.planning.problem import Problem
 from planner.primitives.primitive import Step
 from planner.primitives.primitive_set import PRIMITIVES
@@ -41,6 +43,23 @@ def test_what_was_made_real_once_is_not_made_again_but_counted() -> None:
     path_requests, glances = maker.path_requests, maker.glances
     assert maker.validated(again) is transfer
     assert (maker.path_requests, maker.glances) == (2 * path_requests, 2 * glances)
+
+
+def test_what_needs_a_sampled_path_is_tried_again_once_more_may_be_sampled(monkeypatch: pytest.MonkeyPatch) -> None:
+    maker, first, again = some_fold()
+    way = maker.transits.way
+
+    def by_samples_alone(*asked: Any, samples: bool) -> FloatArray | None:
+        return way(*asked, samples=samples) if samples else None
+
+    monkeypatch.setattr(TransitPaths, "way", staticmethod(by_samples_alone))
+    sampling = maker.known.sampling
+    sampling.vain = sampling.most
+    candidate = maker.candidate(first)
+    assert maker.made(candidate) is None and sampling.left_out == 1
+    assert maker.made(candidate) is None and sampling.left_out == 1
+    maker.sample_more()
+    assert maker.made(maker.candidate(again)) is not None
 
 
 def test_no_two_ways_of_a_fold_have_the_same_motion() -> None:
