@@ -21,6 +21,10 @@ from planner.task.world_state import Holding
 _PREFERRED_PITCH_RAD = math.radians(30.0)
 """The downward pitch of the most natural approach (rad)."""
 
+_ASKEW_RAD = 0.01
+"""By how much an approach may be outside the cone (rad): so far a corner may be askew that is meant to be square. Its
+bisector is 45 degrees off its sides, so that headings lie just on the edge of a cone of 75 degrees."""
+
 _DISCOMFORT_DIGITS = 3
 """Decimals to which discomforts are compared (rad): the bisector at a corner is known no better."""
 
@@ -187,7 +191,7 @@ def _from_outside(context: Context, heading: float | None, side: float) -> NDArr
     cone, (_, _, is_vertical) = context.scene.approach_cone_rad, context.kept(_Directions).all
     is_within = np.full(len(off), cone >= math.pi - EDGE_RAD)
     if heading is not None:
-        is_within |= off <= cone + EDGE_RAD
+        is_within |= off <= cone + _ASKEW_RAD
     return _by_comfort(context, discomfort, np.flatnonzero(is_within | is_vertical), side)
 
 

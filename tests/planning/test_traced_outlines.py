@@ -38,3 +38,9 @@ def test_edges_that_zigzag_cost_nothing(count: int) -> None:
 def test_an_outline_traced_to_a_millimetre_is_folded_as_quickly_as_the_drawn_one(count: int, seed: int) -> None:
     traced = noisy(CORNERS, count, 0.001, random.Random(seed))
     assert cost_s(traced) == pytest.approx(cost_s(CORNERS), abs=0.1)
+
+
+@pytest.mark.parametrize("askew_m", [-0.0004, 0.0004, 0.002])
+def test_corners_a_little_askew_are_taken_as_square_ones(askew_m: float) -> None:
+    askew = CORNERS + np.array([(0.0, 0.0), (0.0, askew_m), (0.0, 0.0), (0.0, -askew_m)])
+    assert cost_s(askew) == pytest.approx(cost_s(CORNERS), abs=0.05)
