@@ -89,12 +89,14 @@ def test_no_robot_is_tried_where_three_kinds_of_change_help_or_there_is_a_plan(
     def none_asked(*_: Any) -> Any:
         raise AssertionError("a robot was looked for")
 
-    monkeypatch.setattr(searching, "ENOUGH_KINDS", 0)
-    monkeypatch.setattr(searching, "robots", none_asked)
-    task = task_for(LONG, robot=SHORT, work_limit_s=0.5, time_limit_s=60.0)
-    list(suggestions(task, other_robots=("pr2",)))
-    towel = task_for(load_garment("hand-towel"), work_limit_s=0.5, time_limit_s=60.0)
-    assert all(one.kind == "placement" for one in suggestions(towel, other_robots=(SHORT,)))
+    with monkeypatch.context() as patch:
+        patch.setattr(searching, "ENOUGH_KINDS", 0)
+        patch.setattr(searching, "robots", none_asked)
+        task = task_for(LONG, robot=SHORT, work_limit_s=0.5, time_limit_s=60.0)
+        list(suggestions(task, other_robots=("pr2",)))
+    monkeypatch.setattr("planner.explain.suggestion_robot.robot_card_file", none_asked)
+    towel = task_for(load_garment("hand-towel"), work_limit_s=5.0, time_limit_s=60.0)
+    assert list(suggestions(towel, other_robots=(SHORT,))) == []
 
 
 def test_a_robot_that_needs_no_maps_has_its_turn_first(monkeypatch: pytest.MonkeyPatch) -> None:
