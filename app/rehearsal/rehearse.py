@@ -175,7 +175,7 @@ def _laid_out(plan: Plan, noise: Noise, seed: int) -> tuple[Pose2, Fabric]:
 
 
 def _rising(progress: Callable[[float], None]) -> Callable[[float], None]:
-    """Return what passes on only what is more than before: a step that is tried again goes back."""
+    """Return a function that passes on only progress beyond that before: a step that is tried again goes back."""
     most = 0.0
 
     def told(share: float) -> None:
@@ -188,7 +188,7 @@ def _rising(progress: Callable[[float], None]) -> Callable[[float], None]:
 
 
 def _share(progress: Callable[[float], None], before: int, runs: int) -> Callable[[float], None]:
-    """Return what a run tells its progress to, after the runs before it."""
+    """Return a function that takes a run's progress and tells that of all runs, `before` of which are done."""
     return lambda fraction: progress((before + fraction) / runs)
 
 

@@ -64,7 +64,7 @@ LOST_MAX = 20
 
 @dataclass
 class WorkersLostError(FoldingError):
-    """Every worker is lost, whatever it is given."""
+    """Workers are lost one after the other, with any work."""
 
     last: str
 
