@@ -16,7 +16,7 @@ from app.files.import_errors import UnitsNeededError
 from app.worker.process import Caller, ignore
 from app.worker.stop import Stop, StoppedError
 from app.worker.template import LostProcessError
-from app.worker.workers import Team, Workers
+from app.worker.workers import Workers
 from planner.errors import FoldError, FoldingError, GarmentError, UnknownGarmentError
 from planner.message import Message
 from planner.robots.own_robots import robots_folder, use_robots_folder
@@ -133,17 +133,6 @@ def test_who_waits_for_the_worker_of_a_key_can_be_stopped(workers: Workers, tmp_
             second.result()
         (tmp_path / "go").touch()
         first.result()
-
-
-def test_a_team_that_is_left_stops_what_it_has_begun_and_begins_nothing_more() -> None:
-    begun = threading.Event()
-    with Team(1) as team:
-        running = team.start(team.run, run_for_ever, team.stop, lambda _: begun.set())
-        waiting = team.start(team.run, count, team.stop, ignore, 1)
-        assert begun.wait(PATIENCE_S)
-    with pytest.raises(StoppedError):
-        running.result()
-    assert waiting.cancelled()
 
 
 def test_no_more_idle_workers_are_kept_than_asked_for(workers: Workers, tmp_path: Path) -> None:
