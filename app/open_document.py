@@ -26,7 +26,7 @@ class SharedTexts:
         self._texts: dict[str, tuple[object, str]] = {}
 
     def text(self, kind: str, key: object, make: Callable[[], str]) -> str:
-        """Return the text of a kind, made now unless it has been for the same key; whoever needs it meanwhile waits."""
+        """Return the text of a kind, made anew only if the key has changed; other callers wait meanwhile."""
         with self._lock:
             known = self._texts.get(kind)
             if known is None or known[0] != key:

@@ -85,7 +85,7 @@ class RobotError(FieldError):
 
 @dataclass
 class UnknownRobotError(FoldingError):
-    """A name of which there is no robot."""
+    """No robot has this name."""
 
     name: str
 

@@ -55,7 +55,7 @@ class JsonForm(Generic[T]):
 
 
 def require_intervals(value: Any, error: type[FieldError]) -> None:  # noqa: ANN401
-    """Raise an error that names the first field of a dataclass that is no number of its annotated `Interval`."""
+    """Raise an error that names the first field of a dataclass that is outside its annotated `Interval`."""
     for name, interval in _intervals(cast("Hashable", type(value))):
         found = getattr(value, name)
         if found is None:

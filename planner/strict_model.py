@@ -49,7 +49,7 @@ def first_error(error: ValidationError, kind: type[FieldError], data: object = N
 
 
 def _in_data(location: tuple[int | str, ...], data: object, *, is_missing: bool) -> tuple[int | str, ...]:
-    """Return a pydantic location without the names of variants of unions, which are no fields of the data."""
+    """Return a pydantic location without the names of variants of unions, which are not fields of the data."""
     found: list[int | str] = []
     for part in location[:-1] if is_missing else location:
         is_key = isinstance(data, Mapping) and part in data

@@ -5,14 +5,13 @@ import re
 import socket
 import subprocess
 import sys
-import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
 
-from tests.patience import PATIENCE_S
+from tests.patience import wait_until
 
 PROGRAM = next(filter(Path.exists, (Path("/usr/sbin/nginx"), Path(sys.prefix, "nginx/usr/sbin/nginx"))), None)
 PREFIX = "/pleat"
@@ -71,12 +70,9 @@ def nginx_before(server_port: int, folder: Path) -> Iterator[str]:
 
 
 def _wait_for(port: int, nginx: "subprocess.Popen[bytes]", folder: Path) -> None:
-    until_s = time.monotonic() + PATIENCE_S
-    while True:
+    def listens() -> bool:
         assert nginx.poll() is None, (folder / "error.log").read_text(encoding="utf-8")
-        assert time.monotonic() < until_s
-        try:
-            with socket.create_connection(("127.0.0.1", port), timeout=1.0):
-                return
-        except OSError:
-            time.sleep(0.02)
+        with socket.socket() as wire:
+            return wire.connect_ex(("127.0.0.1", port)) == 0
+
+    wait_until(listens)

@@ -2,14 +2,13 @@
 
 from collections import deque
 from collections.abc import Callable
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import Future
 
 from app.demonstrations.dataset import DemonstrationDataset
 from app.files.lerobot_dataset import Episode
 from app.rehearsal.rehearse import require_physics
-from app.worker.process import Caller
-from app.worker.stop import Stop
-from app.worker.workers import Workers
+from app.worker.process import Caller, ignore
+from app.worker.workers import Team
 from planner.task.task import Task
 
 TRIES_MAX = 10
@@ -40,23 +39,15 @@ def demonstrate(
         OSError: the system refuses to write.
     """
     require_physics()
-    stop, last = Stop(), dataset.next_seed + TRIES_MAX * max(episodes - dataset.count, 0)
     first = dataset.next_seed
-    with Workers(kept=workers) as team, ThreadPoolExecutor(workers) as threads:
-
-        def begun(seed: int) -> Future[Episode | None]:
-            return threads.submit(team.run, _made, stop, lambda _news: None, task, seed, has_wrists)
-
-        running: deque[Future[Episode | None]] = deque()
-        try:
-            while dataset.count < episodes and dataset.next_seed < last:
-                while len(running) < workers and dataset.next_seed + len(running) < last:
-                    running.append(begun(dataset.next_seed + len(running)))
-                dataset.tried(running.popleft().result())
-                progress(dataset.count, dataset.next_seed - first)
-        finally:
-            stop.set()
-            threads.shutdown(cancel_futures=True)
+    last = first + TRIES_MAX * max(episodes - dataset.count, 0)
+    running: deque[Future[Episode | None]] = deque()
+    with Team(workers) as team:
+        while dataset.count < episodes and dataset.next_seed < last:
+            while len(running) < workers and (seed := dataset.next_seed + len(running)) < last:
+                running.append(team.start(team.run, _made, team.stop, ignore, task, seed, has_wrists))
+            dataset.tried(running.popleft().result())
+            progress(dataset.count, dataset.next_seed - first)
     return dataset.count >= episodes
 
 

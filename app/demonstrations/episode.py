@@ -112,7 +112,7 @@ def demonstration(
     *,
     has_wrists: bool = True,
 ) -> Episode | None:
-    """Return the demonstration that a seed makes of a task; None where there is no plan, or a step does not hold.
+    """Return the demonstration of a task with a seed; None if there is no plan, or a step does not hold.
 
     The robot does exactly what the plan says, so its joints are the plan's; nothing is corrected.
 

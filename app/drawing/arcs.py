@@ -56,7 +56,7 @@ class _Run:
 
 
 def with_arcs(drawing: Drawing) -> Drawing:
-    """Return a drawing with arcs for the straight edges that stand for one; as it is where a fold would be lost."""
+    """Return a drawing with arcs for the straight edges that stand for one; unchanged if a fold would be lost."""
     points = np.array(drawing.points)
     runs = [part for run in _runs(points) for part in run.parts()] if len(points) > _TRIPLES_MIN + 1 else []
     if not runs:

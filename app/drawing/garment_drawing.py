@@ -13,7 +13,7 @@ COMFORT_RADIUS_M = 0.03
 
 
 def drawing_of(garment: Garment, scene: Scene | None = None, robot: str = DEFAULT_ROBOT) -> Drawing:
-    """Return a garment as a drawing for a robot, in a scene, by default the robot's; it lies where that suits it."""
+    """Return a garment as a drawing for a robot, placed where it suits; the scene is the robot's own by default."""
     where = scene or default_scene(robot)
     stations = [name for name, _ in where.stations]
     return Drawing(

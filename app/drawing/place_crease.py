@@ -142,7 +142,7 @@ def _is_on(region: Region, point: Point2) -> bool:
 
 
 def _bisector(grabbed: Point2, dropped: Point2) -> Segment:
-    """Return the line, begun halfway, over which one point comes to lie on another; the former is on its left."""
+    """Return the perpendicular bisector of two points, from the middle between them, the first point on its left."""
     (px, py), (qx, qy) = grabbed, dropped
     middle = ((px + qx) / 2, (py + qy) / 2)
     return Segment(middle, (middle[0] + (py - qy), middle[1] - (px - qx)))

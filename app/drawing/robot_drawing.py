@@ -43,7 +43,7 @@ def with_robot(solution: Solution, robot: str, past: Iterable[Drawing] = ()) -> 
 
 
 def _placement(drawing: Drawing, garment: Garment | None, scene: Scene, robot: str) -> Pose2:
-    """Return where the garment lies for a robot, table frame, turned as it is now where that fits.
+    """Return the garment's placement for a robot, table frame, with its present yaw if that fits.
 
     Garments have a placement of their own for the default robot only. One that lies elsewhere is laid with its near
     edge just inside the table's, where that robot's arms reach best.

@@ -109,7 +109,7 @@ def run_plan(
     until_step: int | None = None,
     look: Look | None = None,
 ) -> Ended:
-    """Perform a plan; stop the arms whatever ends it early, Ctrl-C (`KeyboardInterrupt`) too.
+    """Perform a plan; stop the arms if anything ends it early, Ctrl-C (`KeyboardInterrupt`) included.
 
     Args:
         plan: a solved plan.

@@ -24,7 +24,7 @@ class SimulatedDriver(StreamedDriver):
         """Do nothing: it is there."""
 
     def put(self, joints: Joints) -> None:
-        """Move the joints; what else is sent, such as the base, has no need to be read."""
+        """Move the joints; ignore what else is sent, such as the base."""
         self.joints |= {name: value for name, value in joints.items() if name in self.joints}
 
     def read(self) -> Joints:

@@ -106,7 +106,7 @@ class DrawnCurve:
 
     @staticmethod
     def through(points: FloatArray, *, is_bent: bool = False, piece: str | None = None) -> "DrawnCurve":
-        """Return the line through points, shape (n, 2), whatever the tolerance."""
+        """Return the line through points, shape (n, 2), for every tolerance."""
         return DrawnCurve(points, lambda _: points, is_bent, piece)
 
     def flattened(self, tolerance: float) -> FloatArray:
@@ -115,7 +115,7 @@ class DrawnCurve:
 
 
 def finite(points: FloatArray) -> FloatArray:
-    """Return points; raise `ImportedFileError` where a number is none, or too large to reckon with."""
+    """Return points; raise `ImportedFileError` if a number is NaN or too large to compute with."""
     if not np.all(np.abs(points) <= _NUMBER_MAX):
         raise broken(f"a curve in it cannot be followed: a coordinate of {np.abs(points).max():.3g} is too large")
     return points

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def find_export(what: str) -> Export | None:
-    """Return the export with a name, in which a dash is as good as a dot; None if there is none."""
+    """Return the export with a name, in which a dash may stand for a dot; None if there is none."""
     return next((export for export in EXPORTS if export.what == what.replace("-", ".")), None)
 
 
@@ -91,7 +91,7 @@ def _sheet_svg(state: DocumentState, _: float, __: ShouldStop) -> bytes:
 
 
 def _of_plan(name: str, *, may_stop: bool = False) -> Make:
-    """Return what makes a file of a plan alone: a function, named by its module in `app.files`, that may be stopped."""
+    """Return the maker of a file that needs only the plan, given a function's module in `app.files` and its name."""
     module, _, function = name.partition(".")
 
     def make(state: DocumentState, _: float, should_stop: ShouldStop) -> bytes:

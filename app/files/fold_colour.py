@@ -57,7 +57,7 @@ def css_rgb(text: str) -> Rgb | None:
 
 
 def alpha_of(text: str) -> float:
-    """Return how opaque a CSS colour is, 0..1; 1 for what has no alpha or is no colour."""
+    """Return the opacity of a CSS colour, 0..1; 1 if it has no alpha or is not a colour."""
     if len(text) > _LONGEST:
         return 1.0
     wanted = text.strip().lower()

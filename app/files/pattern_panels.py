@@ -84,7 +84,7 @@ def is_pattern_specification(values: Mapping[str, Any]) -> bool:
 
 
 def read_panels(values: Mapping[str, Any]) -> Sketch:
-    """Return the drawing of a pattern's panels, beside each other; a left and a right half that are sewn are one.
+    """Return the drawing of a pattern's panels, side by side; a left and a right half that are sewn become one.
 
     Raises:
         ImportedFileError: a panel is not valid; the message names the field.

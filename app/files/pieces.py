@@ -1,4 +1,4 @@
-"""The pieces of a pattern, which lie beside each other in a drawing: one of them is the garment."""
+"""The pieces of a pattern that lie side by side in a drawing: one of them is the garment."""
 
 from collections import Counter
 from collections.abc import Sequence

@@ -112,7 +112,7 @@ class JobKind(Generic[Body, Asked, Answer]):
 
     @property
     def route(self) -> str:
-        """The path of the route that starts such jobs."""
+        """The path of the route that starts jobs of this kind."""
         return self.path or f"/api/jobs/{self.name}"
 
 

@@ -56,7 +56,7 @@ class Grid:
 
     @staticmethod
     def beside(shoulder: Point2) -> "Grid":
-        """Return a grid about a shoulder beyond which no arm reaches, its points on multiples of the spacing."""
+        """Return a grid that covers all that an arm reaches from its shoulder, points on multiples of the spacing."""
         low = [math.floor((at - _LONGEST_M) / _STEP_M) for at in shoulder]
         count = math.ceil(2 * _LONGEST_M / _STEP_M) + 2
         return Grid((low[0] * _STEP_M, low[1] * _STEP_M), (count, count), _STEP_M)

@@ -13,7 +13,7 @@ from planner.task.task import Task
 
 
 class CameraWorld:
-    """Another world, seen by the camera of the robot's card, or by one over the table where it names none."""
+    """A world seen by the camera of the robot's card, or by one over the table if the card names none."""
 
     def __init__(self, world: World, task: Task, posture: Posture, seed: int) -> None:
         """Take a world that knows where its cloth is.

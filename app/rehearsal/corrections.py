@@ -1,6 +1,6 @@
-"""Fit a step's motion to the cloth as it was seen: a list of corrections, each made to what the one before has left.
+"""Correct a step's motion for the cloth as it was seen: a list of corrections, each applied to the result of the last.
 
-A correction takes a motion, and the step as it was seen; it leaves alone what it does not concern.
+A correction takes a motion and the step as it was seen, and returns the motion, unchanged where it does not apply.
 """
 
 import math
@@ -40,12 +40,12 @@ Correction = Callable[[StepMotion, StepSeen], StepMotion]
 
 
 def corrected(seen: StepSeen, corrections: Sequence[Correction]) -> StepMotion:
-    """Return the motion of a step, corrections made one after the other."""
+    """Return the motion of a step with corrections applied in order."""
     return reduce(lambda motion, correction: correction(motion, seen), corrections, seen.motion)
 
 
 def carried_along(motion: StepMotion, seen: StepSeen) -> StepMotion:
-    """Follow cloth that lies elsewhere: a fold is carried along, a drag ends where it should."""
+    """Move a step to where the cloth lies: all of a fold, and the start of a drag, which ends as planned."""
 
     def moved(grip: GripMotion) -> GripMotion:
         points = np.array(grip.points)
@@ -65,7 +65,7 @@ _POINTS = 61
 
 
 def taut(motion: StepMotion, most_m: float) -> StepMotion:
-    """Return a fold in which hands keep the cloth between them and the line longer; other steps as they are.
+    """Return a fold whose hands keep the cloth between them and the fold line taut; other steps unchanged.
 
     On a plan's path a hand halfway down is nearer to the fold line than its cloth is long, by .29 of it, and two hands
     at different distances from the line come nearer to each other. Cloth bends in loops and does not lie down behind
@@ -103,7 +103,7 @@ def _crossed_m(grip: GripMotion) -> float:
 
 
 def _turned_over(points: FloatArray, done: FloatArray) -> FloatArray:
-    """Return a half circle from the first to the last of some points, shape (n, 3), reached as far as is done, (n,)."""
+    """Return points on the half circle from the first to the last of some points, at shares of it, (n,) -> (n, 3)."""
     start, end = points[0], points[-1]
     angles = math.pi * done[:, None]
     on_table = (start + end) / 2.0 + np.cos(angles) * (start - end) / 2.0
@@ -117,14 +117,14 @@ def _along(grip: GripMotion, times_s: FloatArray, points: FloatArray) -> GripMot
 
 
 def kept_taut(motion: StepMotion, seen: StepSeen) -> StepMotion:
-    """Keep cloth that is folded over taut (see `taut`), as far as that is in reach."""
+    """Keep cloth taut while it is folded over (see `taut`), as far as the hands can reach."""
     return taut(motion, seen.spare_m)
 
 
 def laid_short(motion: StepMotion, seen: StepSeen) -> StepMotion:
-    """Lay down short of its place what the same hands lift again, from the apex on.
+    """End short of the planned place, from the apex on, where the same hands lift the cloth again in the next step.
 
-    Beyond the edge below it would hang down, and hook that one. A red fold goes on from where the one before has ended.
+    Beyond the edge below it would hang down and hook on it. A red fold goes on from where the fold before it ended.
     """
     fold = seen.step.fold
     if fold is None or seen.sequence.folds[fold].is_red or not seen.step.details.get("holds"):
@@ -142,7 +142,7 @@ def laid_short(motion: StepMotion, seen: StepSeen) -> StepMotion:
 
 
 def beside_grips(motion: StepMotion, seen: StepSeen) -> StepMotion:
-    """Hold the cloth beside the grips (`StepSeen.offsets`); hands land where the fold brings its points."""
+    """Shift hands by the offsets at which they take the cloth (`StepSeen.offsets`), mirrored where a fold lands."""
 
     def moved(grip: GripMotion) -> GripMotion:
         offset = seen.offsets[grip.arm]
@@ -156,7 +156,7 @@ def beside_grips(motion: StepMotion, seen: StepSeen) -> StepMotion:
 
 
 def over_edge(motion: StepMotion, seen: StepSeen) -> StepMotion:
-    """Lay cloth down over the table's edge as far beyond it as it should hang.
+    """End hands that lay cloth over the table's edge as far beyond the edge as the cloth should hang.
 
     A plan's hand ends as low as the cloth is to hang, and clear of the edge's plane. From the edge to there is further
     than the cloth hangs, which draws it out of the stack by the difference; and a hand that follows cloth sideways
@@ -180,10 +180,10 @@ def over_edge(motion: StepMotion, seen: StepSeen) -> StepMotion:
 
 
 def laid_over(place: FloatArray, top: TableTop, clear_m: float) -> FloatArray:
-    """Return where a hand lays cloth down that would be at a place if the table went on, shape (2,) -> (3,), m.
+    """Return where a hand ends to lay cloth at a place beyond the table, shape (2,) -> (3,), m.
 
     Args:
-        place: the place.
+        place: where the cloth would lie if the table went on.
         top: the table's top.
         clear_m: how far outside of an edge's plane a tool keeps at most (m).
     """
@@ -198,13 +198,13 @@ BY_WHAT_IS_SEEN: tuple[Correction, ...] = (carried_along, kept_taut, laid_short,
 
 
 def aimed(motion: StepMotion, hands: Mapping[str, Point2]) -> StepMotion:
-    """Return the step for hands that are beside where the robot believes them to be, so that they go where they should.
+    """Return the step with the errors of the hands' positions subtracted, so that they go where they should.
 
-    A hand that closes is as far off all the way; of one that holds on it is only known how far off it begins.
+    The error of a hand that closes is the same all the way; that of a hand that holds on is known only at its start.
 
     Args:
         motion: the step.
-        hands: how far beside, for some arms, table frame (m).
+        hands: where each hand is, relative to where the robot believes it to be, by arm, table frame (m).
     """
 
     def moved(grip: GripMotion) -> GripMotion:
@@ -217,9 +217,9 @@ def aimed(motion: StepMotion, hands: Mapping[str, Point2]) -> StepMotion:
 
 
 def regrasps(seen: StepSeen, arms: frozenset[str]) -> Iterator[dict[str, Point2]]:
-    """Yield where some hands take the cloth at other points round those where they missed, first further into it.
+    """Yield the offsets at which hands that missed try again, round where they missed, first further into the cloth.
 
-    All are within the comfort radius of where they missed, and of their grips: there all is in reach.
+    All are within the comfort radius of where the hands missed and of their grips, which is in reach.
 
     Args:
         seen: the step, and where hands took the cloth at first.
@@ -237,7 +237,7 @@ def regrasps(seen: StepSeen, arms: frozenset[str]) -> Iterator[dict[str, Point2]
 
 
 def still_beside(seen: StepSeen, made: StepMotion) -> dict[str, Point2]:
-    """Return how far beside their ends, carried along, the hands hold cloth that hold on after a step (m)."""
+    """Return the offset of each hand that holds on after a step from the end of its carried motion (m)."""
     pairs = zip(carried_along(seen.motion, seen).grips, made.grips, strict=True)
     return {one.arm: _from(one.points[-1], other.points[-1]) for one, other in pairs if not one.opens}
 
@@ -261,11 +261,11 @@ def seen_after_drag(motion: StepMotion, ought: Pose2, sight: Sight | None, radiu
 
 
 def held_beside(motion: StepMotion, offsets: Mapping[str, Point2], carried: Isometry) -> dict[str, Point2]:
-    """Return how far beside the grips of the cloth as it lies hands are that hold on after a step (m).
+    """Return the offset of each hand that holds on after a step from its grip on the cloth as it lies (m).
 
     Args:
         motion: the step as planned.
-        offsets: for some arms, how far beside the planned end of its motion each has ended (m).
+        offsets: for some arms, the offset of the end of the motion from the planned one (m).
         carried: from where the cloth should lie then to where it lies, table frame.
     """
 
@@ -282,12 +282,12 @@ def _from(start: Point3, end: Point3) -> Point2:
 
 
 def _way(grip: GripMotion) -> Point2:
-    """Return the direction in which a hand goes at first."""
+    """Return the vector over the table from a hand's first point to the middle of its path (m)."""
     return _from(grip.points[0], grip.points[len(grip.points) // 2])
 
 
 def _round(inwards: Point2, radius_m: float, turn_rad: float) -> Point2:
-    """Return a point round a grip, from it (m); at a turn of 0 it is the one inwards."""
+    """Return a vector of a length (m), turned by an angle (rad) from the direction inwards."""
     angle = math.atan2(inwards[1], inwards[0]) + turn_rad
     return radius_m * math.cos(angle), radius_m * math.sin(angle)
 

@@ -1,4 +1,4 @@
-"""The robot's eyes: what it makes of an observation, and the picture with what was fitted to it."""
+"""The robot's eyes: find the stack in an observation, and keep the picture with what was fitted to it."""
 
 import base64
 from dataclasses import dataclass, replace
@@ -29,7 +29,7 @@ PICTURE_BYTES_MAX = 60_000
 """Largest size of a picture that is kept (bytes)."""
 
 _BESIDE_ARM_PX = 4
-"""How far beside its arms a robot still expects to see them (pixels): base and camera are slightly off."""
+"""The margin round its arms within which a robot expects to see them (pixels): base and camera are slightly off."""
 
 _FOLDED, _DRIVEN = (0.003, 0.003), (0.01, 0.01)
 """How far a fold moves what it leaves on the table, and how far beside its place a base stops (m, rad).
@@ -60,7 +60,7 @@ class Picture:
 
     @property
     def start(self) -> WorldState | None:
-        """The world as seen, from which can be planned; None where it is not known where the stack lies."""
+        """The world as seen, to plan from; None if it is not known where the stack lies."""
         fit = self.sight.fit
         return None if fit is None or self.sight.unknown else replace(self.before, placement=fit.placement)
 
@@ -98,7 +98,7 @@ class Eyes:
     def sight(
         self, seen: Observation, sequence: FoldSequence, folds: tuple[int, ...], near: Pose2, posture: Posture
     ) -> Sight | None:
-        """Return where the stack lies; None where the world shows nothing at all.
+        """Return where the stack lies; None if the observation has no picture and no outline.
 
         Args:
             seen: what the world shows.
@@ -130,7 +130,7 @@ class Eyes:
         return edge.short_m(first_edges(image, looker.camera, looker.hidden, edge.starts, edge.ends, edge.height_m))
 
     def hands(self, seen: Observation, posture: Posture) -> dict[str, Point2]:
-        """Return how far beside its place each hand is that is seen, by its arm's name, table frame (m)."""
+        """Return the offset of each hand that is seen from where it should be, by its arm's name, table frame (m)."""
         if seen.image is None or seen.camera is None:
             return {}
         image = np.ascontiguousarray(seen.image[..., ::-1])
@@ -138,7 +138,7 @@ class Eyes:
         return {arm: (float(x), float(y)) for arm, (x, y) in self._hand_eye.hands_m.items()}
 
     def after(self, motion: StepMotion) -> None:
-        """Note a step that was made: where the stack was seen before it tells where it lies now, or nothing does.
+        """Note a step that was made; unless it has moved the stack, the stack is expected where it was seen.
 
         What a fold leaves on the table hardly moves; a base that drives somewhere else comes with an error of its own.
         """

@@ -1,4 +1,4 @@
-"""A simulated world of whose cloth frames are kept, along the time of the plan that is performed in it."""
+"""A simulated world that keeps frames of its cloth over the time of the plan performed in it."""
 
 from collections.abc import Callable
 
@@ -14,7 +14,7 @@ Tick = Callable[[], None]
 
 
 class FilmedWorld:
-    """Another world, of which frames are kept until the rest is planned again.
+    """A world whose frames are kept until the rest is planned again.
 
     Attributes:
         frames: where the points of the cloth are, by the time of the plan (s).
@@ -56,7 +56,7 @@ class FilmedWorld:
         return self._world.truth()
 
     def perform(self, motion: StepMotion) -> Performed:
-        """Perform a step; where it is tried again, the frames are those of the last time."""
+        """Perform a step; if it is tried again, the frames of the last try are kept."""
         if self._plan is None or not motion.grips:
             return self._world.perform(motion)
         step = self._plan.steps[motion.step]
@@ -72,7 +72,7 @@ class FilmedWorld:
         return answer
 
     def end(self) -> None:
-        """Keep no more frames: what follows is not the plan as it was at first."""
+        """Keep no more frames: from here on another plan is performed."""
         self._plan = None
 
     def _tick(self) -> None:
@@ -86,7 +86,7 @@ class FilmedWorld:
             self._progress((self._step + (t_s - step.start_s) / step.duration_s) / len(self._plan.steps))
 
     def _keep(self, t_s: float) -> None:
-        """Keep a frame; it takes the place of those that are not earlier."""
+        """Keep a frame in place of all that are not earlier."""
         while self.frames and self.frames[-1][0] >= t_s:
             self.frames.pop()
         self.frames.append((t_s, rounded(self._world.truth().positions)))

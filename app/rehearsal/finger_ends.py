@@ -1,4 +1,4 @@
-"""Land hands short round whose finger ends cloth turns over.
+"""Land hands short if the cloth turns over round the ends of their fingers.
 
 A hand that points along its way does not roll with the cloth. Its fingers reach further in than the edge that they
 hold, so cloth turns over round their ends, down the finger under it and back. What turned about the fold line is the
@@ -24,7 +24,7 @@ _LEAST_WAY_M = 4.0 * PAD_M
 def round_finger_ends(
     motions: Iterable[StepMotion], thickness_m: Mapping[str, float], most_m: float
 ) -> Iterator[StepMotion]:
-    """Yield a plan's motions, in folds with hands that turn the ends of their fingers about the line, unless they roll.
+    """Yield a plan's motions; in folds the finger ends of hands that do not roll turn about the line.
 
     They begin as planned and stay over their planned ways. Hands that hold cloth from one fold to another keep to it.
 

@@ -1,4 +1,4 @@
-"""Where exactly hands take the cloth, and where they seek it."""
+"""Find at which offsets from its grips a step takes the cloth."""
 
 import math
 from collections.abc import Mapping
@@ -22,9 +22,9 @@ their middle. All else is taken at its edge: beyond the fingers cloth crumples.
 
 
 def taken_at(seen: StepSeen) -> dict[str, Point2]:
-    """Return how far beside their grips hands take the cloth, table frame (m).
+    """Return the offsets from their grips at which hands take the cloth, by arm, table frame (m).
 
-    A part that moved last, and an edge, is taken where it is seen, corners of several layers inside of that.
+    Edges, and the part that moved last, are taken where they are seen, corners of several layers inside of that.
     """
     inwards = inwards_at(seen)
     corners = {arm: inwards[arm] for arm in at_layered_corners(seen.step, seen.sequence) & inwards.keys()}
@@ -32,7 +32,7 @@ def taken_at(seen: StepSeen) -> dict[str, Point2]:
 
 
 def where_seen(seen: StepSeen) -> dict[str, Point2]:
-    """Return how far beside their grips, as far as is in reach, the cloth is seen, table frame (m).
+    """Return the offsets from their grips at which the cloth is seen, as far as is in reach, by arm, table frame (m).
 
     That is the part that moved last, and an edge: with the finger's tip beyond a crease that lies inside of its line a
     hand held only what stuck out of it, and laid what it held down as far beyond its place.
@@ -60,7 +60,7 @@ def inwards_at(seen: StepSeen) -> dict[str, Point2]:
 
 
 def at_layered_corners(step: PlanStep, sequence: FoldSequence) -> frozenset[str]:
-    """Return the arms that take a corner at which several layers lie upon each other, and nothing else.
+    """Return the arms that take nothing but a corner of several layers that lie on one another.
 
     Args:
         step: the step in which hands close.
@@ -80,10 +80,10 @@ def _is_at_corner(one: Holding) -> bool:
 
 
 def inside(offsets: Mapping[str, Point2], inwards: Mapping[str, Point2], radius_m: float) -> dict[str, Point2]:
-    """Return how far beside their grips hands take the cloth so that edges that lie further in are held too (m).
+    """Return the offsets at which hands take the cloth further inside, to hold edges that lie further in too (m).
 
     Args:
-        offsets: how far beside their grips the edges are, for some arms, table frame (m).
+        offsets: the offsets of the edges from the grips, for some arms, table frame (m).
         inwards: the direction into the cloth of those at an edge, table frame.
         radius_m: how far at most (m).
     """

@@ -1,4 +1,4 @@
-"""How far the robot's camera and hands are beside where it believes them to be, learned from pictures of its arms."""
+"""Estimate the errors of the positions of the robot's camera and hands from pictures of its arms."""
 
 from collections.abc import Mapping
 
@@ -12,14 +12,13 @@ from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray
 
 _MOUNTED_M = 0.01
-"""How far a camera may be beside where it is believed to be before anything is seen, each way (m); an assumption.
+"""The error of the camera's position before anything is seen, each way (m); an assumption.
 
 Standard deviations, this one and the next.
 """
 
 _ARM_M = 0.005
-"""How far a hand, or the rest of the arms, may be beside where the robot believes it to be, each way (m); an
-assumption."""
+"""The error of the position of a hand, or of the rest of the arms, each way (m); an assumption."""
 
 _UNLIKELY = 13.8
 """The squared distance, in standard deviations, that one sample in a thousand exceeds in the plane."""
@@ -30,7 +29,8 @@ class HandEye:
 
     Attributes:
         shift_m: from where the camera is to where it is believed to be, in the table's plane, shape (2,), m.
-        hands_m: how far each hand seen in the last picture was beside where the robot believed it to be, shape (2,), m.
+        hands_m: where each hand was in the last picture that showed it, relative to where the robot believed it to be,
+            shape (2,), m.
     """
 
     def __init__(self) -> None:
@@ -40,7 +40,7 @@ class HandEye:
         self._covariance_m2: FloatArray = _MOUNTED_M**2 * np.eye(2)
 
     def corrected(self, image: Image, camera: Camera, hands: Mapping[str, list[FloatArray]]) -> Camera:
-        """Return where a camera is, as far as its pictures until now tell.
+        """Return the camera with its position corrected by all pictures until now.
 
         Args:
             image: the picture that it takes now: blue, green, red.
@@ -75,8 +75,8 @@ class HandEye:
 
 
 def _is_likely(one: SeenBeside, likely_m2: FloatArray) -> bool:
-    """Return whether a part may be seen there; if not, the edges seen are of something else.
+    """Return whether a shift is likely to be that of the part; if not, the edges seen are of something else.
 
-    The error of what was seen counts for nothing: of shifts that fit as well it is the likeliest.
+    The measurement's own error is left out, because of shifts that fit as well the likeliest was taken.
     """
     return float(one.shift_m @ np.linalg.solve(likely_m2, one.shift_m)) < _UNLIKELY

@@ -1,4 +1,4 @@
-"""The edge that a fold has laid down beside each hand: where it should be, and how far short of that it is seen.
+"""The edge that a fold has laid down at each hand: where it should be, and how far short of that it is seen.
 
 The edge of one layer that the fold lays on that of what it lies on should be there, wherever the stack lies. It is seen
 more exactly than the stack, which is fitted to the edges of all layers. Of more layers the edges seen are their own.
@@ -22,7 +22,7 @@ _INSIDE_M, _OUTSIDE_M = 0.09, 0.03
 """How far inside and outside of its place an edge is looked for (m)."""
 
 _BESIDE_M = np.linspace(-0.1, 0.1, 21)
-"""How far beside a hand an edge is looked for (m): hands hide the cloth at them."""
+"""Where an edge is looked for to the sides of a hand (m): the hand itself hides the cloth."""
 
 _STEP_M = 0.002
 _IN_HAND_M = 0.011
@@ -36,7 +36,7 @@ _LEAST_RAYS = 3
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LaidEdge:
-    """The edge beside one hand, and rays that cross it along the hand's way; table frame.
+    """The edge at one hand, and rays that cross it along the hand's way; table frame.
 
     Attributes:
         arm: the arm's name.
@@ -61,13 +61,13 @@ class LaidEdge:
     is_on_edge: bool
 
     def short_m(self, seen_m: FloatArray) -> float | None:
-        """Return how far short of its place the edge is where rays come to one, shape (n,), m; None if too few do."""
+        """Return how far short of its place the edge is (m), seen along the rays, (n,), m; None if too few see it."""
         short = (self.lengths_m - seen_m)[np.isfinite(seen_m)]
         return float(np.median(short)) if len(short) >= _LEAST_RAYS else None
 
 
 def laid_edges(seen: StepSeen, after: SeenStack | None = None) -> Iterator[LaidEdge]:
-    """Yield the edges that a step's fold lays down, as the cloth lies; of a step that folds nothing over none.
+    """Yield the edges that a step's fold lays down, as the cloth lies; none for a step without a fold.
 
     The part that comes to lie on top is of one layer where rays cross it: other edges are not taken for this one.
 
@@ -112,7 +112,7 @@ def laid_edges(seen: StepSeen, after: SeenStack | None = None) -> Iterator[LaidE
 
 
 def _is_on_edge(stack: ClothState, place: FloatArray, way: FloatArray) -> bool:
-    """Return whether a place on the edge of what a fold has moved, one way, is on what did not move, and that ends."""
+    """Return whether the moved part's edge at a place lies on an edge of the part below it, along a direction."""
     below = stack.layers[: len(stack.layers) - stack.moved]
     is_below = any(layer.region.distances_to(place[None])[0] <= _ON_EDGE_M for layer in below)
     beyond = place + 2.0 * _ON_EDGE_M * way

@@ -1,4 +1,4 @@
-"""A world with errors of robot and camera: motions end a little elsewhere, or fail; arms are beside their places."""
+"""A world with errors of robot and camera: motions end a little elsewhere or fail, and arms are not quite in place."""
 
 import math
 from collections.abc import Mapping
@@ -17,7 +17,7 @@ from planner.task.task import Task
 
 
 class NoisyWorld:
-    """Another world, seen and acted on with errors.
+    """A world that is seen and acted on with errors.
 
     The robot believes that its base is where it should be. What it sees it places in the frame of its base (an overhead
     camera sees the base too), so a correction by what is seen takes off the base's error. Where a drag has stopped
@@ -42,7 +42,7 @@ class NoisyWorld:
         return replace(seen, camera=camera, outline=outline)
 
     def perform(self, motion: StepMotion) -> Performed:
-        """Perform a step from where the base really is; a hand may close beside its grip, and a drag stop short."""
+        """Perform a step from where the base really is; a hand may miss its grip, and a drag may stop short."""
         if motion.base is not None:
             self._error = self._driven(motion.base)
         missed = {grip.arm for grip in motion.grips if grip.closes and self._rng.random() < self._noise.miss}
@@ -76,11 +76,11 @@ class NoisyWorld:
         )
 
     def _drawn_errors(self) -> dict[str, FloatArray]:
-        """Return how far beside their places the tools of all arms are where they have gone without cloth."""
+        """Return random errors of the positions of all tools, by arm, for motions without cloth, table frame (m)."""
         return {arm.name: self._idle_rng.normal(0.0, self._noise.arm_m, 2) for arm in load_robot(self._robot).card.arms}
 
     def _really(self, ends: Posture | None, beside: Mapping[str, FloatArray]) -> Posture | None:
-        """Return how the robot stands where it believes to stand so, its tools that far beside their places."""
+        """Return the robot's true posture for the one that it believes to have, given the errors of its tools (m)."""
         if ends is None:
             return None
         error = self._short.after(self._error)
@@ -109,7 +109,7 @@ _WEAK = 0.05
 
 
 def deflected(robot_name: str, posture: Posture, beside: Mapping[str, FloatArray]) -> Posture:
-    """Return how a robot really stands: with the smallest errors of its joints that bring tools beside their places.
+    """Return a posture with the smallest changes of the joints that move the tools by offsets (m).
 
     Args:
         robot_name: the name of the robot.

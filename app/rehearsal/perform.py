@@ -91,7 +91,7 @@ class Performer:
         self._begin()
 
     def performed(self) -> Performance:
-        """Perform the plan: before each step look; correct the step and make it; or plan the rest again from there."""
+        """Perform the plan: before each step look, correct the step and make it, or plan the rest again from there."""
         reason = ""
         while self._number < len(self._motions) and not reason:
             seen, reason = self._seen(self.plan.steps[self._number], self._motions[self._number])
@@ -106,7 +106,7 @@ class Performer:
         return Performance(tuple(self._verdicts), tuple(self._decisions), reason, pictures, cloths)
 
     def _begin(self) -> None:
-        """Begin the plan: all its steps are to be made, and the stack is believed to lie where it should."""
+        """Begin the plan with its first step, the stack believed to lie where it should."""
         path, radius_m = self.plan.trajectory, self.plan.task.limits.comfort_radius_m
         self._watch.posture = None if path is None else posture_at(path, 0.0)
         arms = robot_card_file(self.plan.task.robot).arms
@@ -115,9 +115,9 @@ class Performer:
         self._number, self._carried = 0, Isometry()
 
     def _seen(self, step: PlanStep, motion: StepMotion) -> tuple[StepSeen, str]:
-        """Return a step and how the cloth lies before it, and why the run must end, "" if it need not.
+        """Return a step with the cloth as it lies before it, and why the run must end, "" if it need not.
 
-        It is looked at where hands are to take it; those that hold on hold it where they took it.
+        The robot looks only if hands are to take the cloth; hands that hold on have it where they took it.
         """
         known = StepSeen(self.plan, step, motion, self._carried, offsets=self._held)
         if self.replan is None or not known.takes_cloth:
@@ -149,7 +149,7 @@ class Performer:
         return None if answer.missing else answer
 
     def _tried(self, seen: StepSeen, hands: Mapping[str, Point2]) -> Performed:
-        """Perform a step as corrected, with hands that are seen that far beside their places."""
+        """Perform a step as corrected, for hands seen at these offsets from their places, by arm, table frame (m)."""
         made = replace(corrected(seen, BY_WHAT_IS_SEEN), needs_all=seen.takes_cloth)
         self._held = still_beside(seen, made)
         return self.world.perform(aimed(made, hands))
@@ -167,7 +167,7 @@ class Performer:
         self.progress(self._number / len(self._motions))
 
     def _is_opened(self, seen: StepSeen) -> bool:
-        """Return whether a fold has failed, as seen, and was opened again, once, so that it can be made again."""
+        """Open a fold again that is seen to have failed, once for each step; return whether it was opened."""
         if self.replan is None or not seen.motion.is_fold or not seen.takes_cloth or self._opened == self._made:
             return False
         motion = self._watch.opened(seen, self._made + 1) if all(grip.opens for grip in seen.motion.grips) else None
@@ -178,7 +178,7 @@ class Performer:
         return True
 
     def _lay_again(self, seen: StepSeen) -> None:
-        """Look at what a fold has laid down, and lay down again what is short of its place."""
+        """Look at the edges that a fold has laid down, and lay down again those that are short of their places."""
         if self.replan is None or not seen.motion.is_fold or not all(grip.opens for grip in seen.motion.grips):
             return
         for _ in range(REPAIRS_MAX):
@@ -200,7 +200,7 @@ class Performer:
         return carried
 
     def _planned_again(self, seen: StepSeen) -> str:
-        """Plan the rest from what is there, and begin it; return why that cannot be, "" if it can."""
+        """Plan the rest from the cloth as it lies, and begin it; return why that is not possible, "" if it is."""
         self._decide("replanned", ("shift_m", seen.shift_m))
         if sum(one.code == "replanned" for one in self._decisions) > FAILURES_MAX:
             return f"step {self._made} failed after the rest was planned again {FAILURES_MAX} times"
@@ -230,7 +230,7 @@ class Performer:
 
 
 def rest_task(task: Task, start: WorldState) -> Task:
-    """Return the task of the rest from a state.
+    """Return the task of finishing the folds from a state.
 
     The work ends its search, on any machine and under any load, so that a run twice is the same.
 

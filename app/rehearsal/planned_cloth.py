@@ -42,7 +42,7 @@ def layer_numbers(sequence: FoldSequence, pattern: FloatArray, done: int) -> NDA
 
 
 def creases(layer: Layer, pattern: Region) -> Iterator[Segment]:
-    """Yield the edges of a layer at which its cloth goes on in another one, pattern's frame."""
+    """Yield the edges of a layer at which the cloth continues in another layer, pattern's frame."""
     ring = layer.pattern_piece.whole_ring
     for start, end in zip(ring, np.roll(ring, -1, axis=0), strict=True):
         if pattern.boundary_distance(point2((start + end) / 2.0)) > LENGTH_M:

@@ -2,7 +2,7 @@
 
 import os
 from collections.abc import Callable
-from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+from concurrent.futures import FIRST_COMPLETED, wait
 from dataclasses import dataclass, field, replace
 from functools import partial
 from time import process_time
@@ -15,8 +15,7 @@ from app.rehearsal.noise import NOISE, Noise
 from app.rehearsal.physics.fabric import Fabric, Resolution
 from app.rehearsal.result import RehearsalResult, Run
 from app.worker.process import Caller
-from app.worker.stop import Stop
-from app.worker.workers import Workers
+from app.worker.workers import Team
 from planner.errors import FoldingError, RequestError, UnsolvedPlanError
 from planner.geometry.pose import Pose2
 from planner.task.plan import Plan
@@ -175,7 +174,7 @@ def _laid_out(plan: Plan, noise: Noise, seed: int) -> tuple[Pose2, Fabric]:
 
 
 def _rising(progress: Callable[[float], None]) -> Callable[[float], None]:
-    """Return what passes on only what is more than before: a step that is tried again goes back."""
+    """Return a function that passes on only progress beyond that before: a step that is tried again goes back."""
     most = 0.0
 
     def told(share: float) -> None:
@@ -188,7 +187,7 @@ def _rising(progress: Callable[[float], None]) -> Callable[[float], None]:
 
 
 def _share(progress: Callable[[float], None], before: int, runs: int) -> Callable[[float], None]:
-    """Return what a run tells its progress to, after the runs before it."""
+    """Return a function that takes a run's progress and tells that of all runs, `before` of which are done."""
     return lambda fraction: progress((before + fraction) / runs)
 
 
@@ -205,23 +204,18 @@ def _side_by_side(
     progress: Callable[[float], None],
     is_cancelled: Callable[[], bool],
 ) -> tuple[Run, ...]:
-    stop, shares = Stop(), [0.0] * len(seeds)
-    with Workers(kept=workers) as team, ThreadPoolExecutor(workers) as threads:
-
-        def run(number: int) -> Run:
-            return team.run(_run, stop, partial(shares.__setitem__, number), plan, options, seeds[number])
-
-        runs = [threads.submit(run, number) for number in range(len(seeds))]
-        left: set[Future[Run]] = set(runs)
-        try:
-            while left:
-                ended, left = wait(left, _LOOK_S, FIRST_COMPLETED)
-                progress(sum(shares) / len(seeds))
-                for one in ended:
-                    one.result()
-                if is_cancelled():
-                    raise CancelledError
-        finally:
-            stop.set()
-            threads.shutdown(cancel_futures=True)
+    shares = [0.0] * len(seeds)
+    with Team(workers) as team:
+        runs = [
+            team.start(team.run, _run, team.stop, partial(shares.__setitem__, number), plan, options, seed)
+            for number, seed in enumerate(seeds)
+        ]
+        left = set(runs)
+        while left:
+            ended, left = wait(left, _LOOK_S, FIRST_COMPLETED)
+            progress(sum(shares) / len(seeds))
+            for one in ended:
+                one.result()
+            if is_cancelled():
+                raise CancelledError
         return tuple(one.result() for one in runs)

@@ -1,4 +1,4 @@
-"""Read the motions of the hands that hold cloth off a plan's trajectory, step by step, for any robot."""
+"""Read the motions of hands that hold cloth from a plan's trajectory, step by step, for any robot."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -45,7 +45,7 @@ def step_motions(plan: Plan) -> tuple[StepMotion, ...]:
 
 
 def posture_at(path: Trajectory, t_s: float) -> Posture:
-    """Return where the robot stands at a time of the plan (s), and how."""
+    """Return the robot's base and joints at a time of the plan (s)."""
     return Posture(path.segment_at(t_s).base_at(t_s), path.joints_at(t_s))
 
 

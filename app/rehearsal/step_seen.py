@@ -46,18 +46,18 @@ class StepSeen:
 
     @property
     def radius_m(self) -> float:
-        """How far from their planned paths hands are in reach for certain (m)."""
+        """The distance from their planned paths within which hands can reach for certain (m)."""
         return self.plan.task.limits.comfort_radius_m
 
     @cached_property
     def shift_m(self) -> float:
-        """How far the furthest grip is from where the cloth has it now (m)."""
+        """The largest distance from a planned grip to where the cloth has it now (m)."""
         picks = [grip.points[0][:2] for grip in self.motion.grips]
         return max((math.dist(pick, self.carried.apply_point(pick)) for pick in picks), default=0.0)
 
     @property
     def spare_m(self) -> float:
-        """How far hands that follow the cloth may leave their ways still (m)."""
+        """How much further hands that follow the cloth may leave their paths (m)."""
         return max(0.0, self.radius_m - self.shift_m)
 
     @property

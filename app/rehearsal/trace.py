@@ -1,4 +1,4 @@
-"""The trace of a run: the cloth as it was simulated, along the time of the plan and beside it, and what was looked at.
+"""The trace of a run: the cloth as it was simulated over the time of the plan, as it was planned, and the pictures.
 
 Positions are kept to a tenth of a millimetre, and a run has no more of them than `_NUMBERS_MAX`: a trace is for people
 to look at, and many are kept.

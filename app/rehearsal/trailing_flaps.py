@@ -37,7 +37,7 @@ _SHARES = ((0.0, 0.1, 0.5, 0.8, 1.0), (0.0, 0.0, 1.0, 1.0, 0.0))
 
 
 def flaps_beside(seen: StepSeen) -> dict[str, Point2]:
-    """Return for each hand beside a crease from which a flap will hang the way inwards, table frame, of length 1.
+    """Return the direction inwards for each hand at a crease from which a flap will hang, table frame, of length 1.
 
     That is a crease on the outline of what a fold moves, along the hands' way; its flap is held by no other hand. There
     is none for a hand alone: all it carries would go with it, and hardly come back.
@@ -62,7 +62,7 @@ def flaps_beside(seen: StepSeen) -> dict[str, Point2]:
 
 
 def trailing(motion: StepMotion, seen: StepSeen) -> StepMotion:
-    """Have hands beside flaps go inwards on the way of a fold, as far as is in reach, and outwards again as they land.
+    """Move hands at flaps inwards during a fold, as far as they can reach, and outwards again as they land.
 
     Args:
         motion: the step as corrected until now.
@@ -82,7 +82,7 @@ def trailing(motion: StepMotion, seen: StepSeen) -> StepMotion:
 
 
 def _reach_m(beside: FloatArray, way: FloatArray, radius_m: float) -> float:
-    """Return how far a hand can go one way, that is that far beside its path already, shape (n, 2), m."""
+    """Return how far a hand can go one way, given its offsets from its planned path, shape (n, 2), m."""
     along = beside @ way
     across = (beside * beside).sum(axis=1) - along * along
     most = np.sqrt(np.maximum(0.0, radius_m * radius_m - across)) - along
@@ -102,7 +102,7 @@ def _is_at_side(crease: Segment, line: Segment, moving: Region) -> bool:
 
 
 def _inwards(crease: Segment, line: Segment, moving: Region) -> FloatArray:
-    """Return the direction along a fold line from a crease at the side of the part that moves into it."""
+    """Return the direction along a fold line that leads from a crease at the side into the part that moves."""
     across, normal = np.array(line.direction), np.array(crease.left)
     beside = np.array(crease.at(crease.length / 2.0)) + 2.0 * LENGTH_M * normal
     inwards = normal if moving.contains(point2(beside)) else -normal

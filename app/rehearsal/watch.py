@@ -1,4 +1,4 @@
-"""Look at a run: before hands close, from arms out of the way if need be, at hands, after drags and at the end.
+"""Look during a run: before hands close, at the hands, after drags and at the end; with arms withdrawn if need be.
 
 Cloth that a fold has left elsewhere than it should be has another outline than the folded stack. So a look after a fold
 to which that outline does not fit is made again with the arms out of the way. If it does not fit then the fold is
@@ -39,7 +39,7 @@ WITHDRAW_S = 3.0
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Latest:
-    """The latest look, for as long as nothing has moved since: at what, what was seen, and whether arms were away."""
+    """The latest look if nothing has moved since: the state, what was seen, and whether the arms were withdrawn."""
 
     ought: WorldState
     sight: Sight
@@ -48,7 +48,7 @@ class _Latest:
 
 @dataclass
 class Watch:
-    """The looks of a run, and what they have told.
+    """The looks of a run, and their results.
 
     Attributes:
         world: the world.
@@ -104,7 +104,7 @@ class Watch:
         return lies, f"before step {made} the cloth is not to be made out: {sight.unknown.text}"
 
     def at_end(self, plan: Plan, step: PlanStep, made: int) -> str:
-        """Return why a run has failed whose last step is made, as seen; "" if it has not, or nothing is seen.
+        """Return why a run is seen to have failed after its last step; "" if it has not, or nothing is seen.
 
         Args:
             plan: the plan.
@@ -115,7 +115,7 @@ class Watch:
         return self._failed(sight, "after the last step") if sight is not None and self._is_failed(sight) else ""
 
     def _clear_look(self, plan: Plan, step: PlanStep, ought: WorldState, made: int) -> Sight | None:
-        """Look, unless nothing has moved since, and again with the arms out of the way where that does not tell."""
+        """Look, unless nothing has moved since; look again with the arms withdrawn if that is not enough."""
         latest, is_clear = self._latest, False
         sight: Sight | None
         if latest is not None and latest.ought == ought:
@@ -131,7 +131,7 @@ class Watch:
         return sight
 
     def _withdrawn_look(self, plan: Plan, ought: WorldState, made: int, sight: Sight) -> Sight:
-        """Look with the arms out of the way, and return what that shows, or what was seen before if that tells more."""
+        """Look with the arms withdrawn; return that look, or the one before if it shows more."""
         assert self.posture is not None
         self.posture = self.eyes.withdrawn(self.posture)
         self.world.perform(StepMotion(made, WITHDRAW, WITHDRAW_S, ends=self.posture))
@@ -142,7 +142,7 @@ class Watch:
         return sight if sight.is_estimate and self._is_failed(clear) and not self._is_failed(sight) else clear
 
     def laid_again(self, seen: StepSeen, made: int) -> StepMotion | None:
-        """Return the motion that pulls edges to their places that a fold has left short of them, as seen; see there.
+        """Return the motion that pulls edges to their places if a fold is seen to have left them short; else None.
 
         Args:
             seen: the step, and where the stack lay before it.
@@ -164,7 +164,7 @@ class Watch:
         return motion
 
     def opened(self, seen: StepSeen, made: int) -> StepMotion | None:
-        """Return the motion that lays back what a fold has left with another outline than planned; None if it has not.
+        """Return the motion that opens a fold again if it has left another outline than planned; else None.
 
         Args:
             seen: the step, and where the stack lay before it.
@@ -181,9 +181,10 @@ class Watch:
         return motion
 
     def _short(self, seen: StepSeen, sight: Sight) -> tuple[dict[str, LaidEdge], dict[str, float]]:
-        """Return the edges that a fold has laid down, by arm, and how far short of their places those are that it sees.
+        """Return the edges that a fold has laid down, and how far short of their places those seen lie, by arm (m).
 
-        Nearer than it is known where the stack lies they count as in their places, unless they should lie on an edge.
+        Edges that are short by less than the error of the stack's placement count as in place, unless all of them
+        should lie on another edge.
         """
         if sight.fit is None:
             return {}, {}
@@ -208,7 +209,7 @@ class Watch:
         )
 
     def look(self, plan: Plan, ought: WorldState, made: int, *, is_clear: bool = False) -> Sight | None:
-        """Look once for a stack as it ought to lie, and note what was seen; None where the world shows nothing."""
+        """Look once for a stack where it should lie, and note what was seen; None if the world shows nothing."""
         seen, posture = self.world.observe(), self.posture
         if posture is None:
             return None
@@ -223,7 +224,7 @@ class Watch:
         return sight
 
     def reached(self, seen: StepSeen, made: int) -> dict[str, Point2]:
-        """Return how far beside its place each hand is seen where it is to close, by arm, table frame (m).
+        """Move hands to where they close; return the offset of each one seen from its place, by arm, table frame (m).
 
         Args:
             seen: a step in which all hands close.

@@ -30,7 +30,7 @@ _OF_ONE_SERVER = frozenset({"server.lock", "server.json"})
 
 @dataclass
 class NoBackupError(FoldingError):
-    """A file is no backup that this version can read."""
+    """A file is not a backup that this version can read."""
 
     path: Path
     why: str

@@ -125,7 +125,7 @@ class Database:
 
     @property
     def number(self) -> int:
-        """The number by which other servers on the database know this one; 0 where there are no others."""
+        """The number by which other servers on the database know this one; 0 if there are no others."""
         with self._lock:
             if self._url is not None and self._presence is None:
                 self._presence = Presence(self._url)

@@ -1,4 +1,4 @@
-"""The document repository: the documents in the database. One that cannot be read is told; the others still open."""
+"""The document repository: the documents in the database. One that cannot be read is reported; the others open."""
 
 import re
 import secrets
@@ -71,7 +71,7 @@ def read_page(session: Session, after: tuple[str, str] | None, count: int) -> Do
 
 
 def _entry(row: DocumentRow, drawing: str | None) -> DocumentEntry:
-    """Return what is listed of a row; whatever is wrong with it is its problem and no other document's."""
+    """Return the list entry of a row; an error in reading it becomes the problem of this entry alone."""
     texts: tuple[object, ...] = (row.title, row.name, row.changed_at)  # whatever the database holds
     changed_at = row.changed_at if isinstance(texts[-1], str) else ""
     try:

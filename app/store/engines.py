@@ -79,7 +79,7 @@ def postgresql_engine(url: URL) -> Engine:
 
 
 def _text(stored: bytes) -> str:
-    """Return a text; the driver would refuse all rows of an answer for one with bytes that are no UTF-8."""
+    """Return bytes as text, invalid UTF-8 replaced: the driver would refuse all rows of an answer for one such text."""
     return stored.decode("utf-8", "replace")
 
 

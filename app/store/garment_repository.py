@@ -29,7 +29,7 @@ class GarmentRepository:
         self._database = database
 
     def entries(self) -> list[GarmentEntry]:
-        """Return all garments, shipped ones first; skip what is no valid garment."""
+        """Return all garments, shipped ones first; skip those that are not valid."""
         shipped = [GarmentEntry(name, load_garment(name).title, True) for name in shipped_garment_names()]
         with self._database.reading("the garments could not be listed") as session:
             rows = session.execute(select(GarmentRow.name, GarmentRow.content).order_by(GarmentRow.name)).all()

@@ -105,5 +105,5 @@ def _key(task: Task) -> tuple[Task, Stamp]:
 
 
 def _without_limits(task: Task) -> tuple[Task, Stamp]:
-    """Return what a plan's being one for a task depends on."""
+    """Return the part of a task that decides whether a plan is valid for it: all but the limits of the search."""
     return replace(task, limits=Limits(task.limits.comfort_radius_m)), robot_stamp(task.robot)

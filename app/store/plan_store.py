@@ -94,7 +94,7 @@ class PlanStore:
         return plan_id
 
     def keep(self, plan_id: str) -> None:
-        """Write a plan in passing: it stays."""
+        """Write a passing plan to the database, so that it stays."""
         with self._lock:
             plan = self._passing.get(plan_id)
         if plan is not None:
@@ -103,7 +103,7 @@ class PlanStore:
                 self._passing.pop(plan_id, None)
 
     def let_go(self, plan_id: str) -> None:
-        """Let a plan of a gesture be dropped unwritten once it is no longer among the newest."""
+        """Allow a plan of a gesture to be dropped, unwritten, once it is not among the newest any more."""
         with self._lock:
             self._let_go.add(plan_id)
             self._let_go &= self._passing.keys()
@@ -112,7 +112,7 @@ class PlanStore:
         self._hold(plan_id, self._write(plan_id, plan))
 
     def _hold(self, plan_id: str, plan: Plan | PackedPlan) -> None:
-        """Have a plan in memory as the newest."""
+        """Keep a plan in memory as the newest one."""
         with self._lock:
             self._live[plan_id] = plan
             self._live.move_to_end(plan_id)

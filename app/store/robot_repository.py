@@ -76,7 +76,7 @@ class RobotRepository:
             shutil.rmtree(folder, ignore_errors=True)
 
     def take(self, name: str, unpacked: Path) -> bool:
-        """Make an unpacked folder a robot's, instead of the one it may have had; return whether it is new.
+        """Make an unpacked folder the robot's own, in place of any it has; return whether the robot is new.
 
         Raises:
             ReadOnlyRobotError: a shipped robot has this name.
@@ -206,7 +206,7 @@ class RobotRepository:
         sync_folder(self._folder)
 
     def _drop(self, name: str) -> None:
-        """Remove a robot's folder; its card goes first, so that what an interruption leaves is no robot."""
+        """Remove a robot's folder, its card first, so that an interruption leaves no half robot."""
         place, before = self._folder / name, self._folder / f"{_BEFORE}{name}"
         (place / CARD).unlink(missing_ok=True)
         place.rename(before)

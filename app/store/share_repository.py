@@ -52,5 +52,5 @@ class ShareRepository:
 
 
 def _hash(token: str) -> str:
-    """Return what is kept of a token; it is random and long, so that nobody finds it by trying."""
+    """Return the hash that is kept of a token; a plain one is enough, because tokens are long and random."""
     return hashlib.sha256(token.encode()).hexdigest()

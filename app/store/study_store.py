@@ -80,7 +80,7 @@ class StudyStore:
 
 
 def _checked(study_id: str) -> str:
-    """Return an id; raise `UnknownStudyError` for what is none."""
+    """Return an id; raise `UnknownStudyError` if it cannot be one."""
     if not ID_PATTERN.fullmatch(study_id):
         raise UnknownStudyError(study_id)
     return study_id

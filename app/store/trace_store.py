@@ -35,7 +35,7 @@ class TraceStore:
         self._capacity, self._capacity_bytes = capacity, capacity_bytes
 
     def add(self, content: bytes) -> str | None:
-        """Store a trace and return its id; None where the database refuses: a rehearsal tells enough without it."""
+        """Store a trace and return its id; None if the database refuses: a rehearsal is of use without its trace."""
         trace_id = uuid.uuid4().hex
         row = {"id": trace_id, "size": len(content), "content": content}
         try:

@@ -73,7 +73,7 @@ class Answer:
 
 
 def answered(cell: Cell, make_plan: MakePlan, *, keep_plan: bool = False) -> Answer:
-    """Return the answer to a cell; whatever goes wrong is its error."""
+    """Return the answer to a cell; any exception becomes its error."""
     began_s, cpu_s = time.perf_counter(), time.process_time()
     if cell.task is None:
         return failed(cell, cell.error or "")

@@ -51,7 +51,7 @@ def written_files() -> tuple[str, ...]:
 
 
 def write_tables(study: Study, results: Results) -> None:
-    """Write `written_files` into the results' folder; the table is the same whatever way it came about.
+    """Write `written_files` into the results' folder; the table does not depend on how the answers came.
 
     Raises:
         OSError: a file cannot be written.

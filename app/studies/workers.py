@@ -2,7 +2,7 @@
 
 from collections import Counter
 from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache
@@ -14,8 +14,8 @@ from app.studies.answer import Answer, MakePlan, answered, failed
 from app.studies.cell import Cell
 from app.studies.fields import StudyError
 from app.worker.process import Caller
-from app.worker.stop import LimitedStop, Stop, StoppedError
-from app.worker.workers import Workers as WorkerProcesses
+from app.worker.stop import LimitedStop, StoppedError
+from app.worker.workers import Team
 from planner.deadline import longest_wait_s
 from planner.errors import FoldingError
 
@@ -64,7 +64,7 @@ LOST_MAX = 20
 
 @dataclass
 class WorkersLostError(FoldingError):
-    """Every worker is lost, whatever it is given."""
+    """Workers are lost one after the other, with any work."""
 
     last: str
 
@@ -152,23 +152,19 @@ class LocalWorkers:
 
     def answers(self, cells: Iterable[Cell], *, keep_plans: bool = False) -> Generator[Answer]:
         """Yield the answers as they come."""
-        stop = Stop()
-        with WorkerProcesses(kept=self._count) as workers, ThreadPoolExecutor(self._count) as threads:
+        with Team(self._count) as team:
 
             def hand_out(batch: Sequence[Cell]) -> Future[list[Answer]]:
-                return threads.submit(lambda: [self._answer(workers, stop, cell, keep_plans) for cell in batch])
+                return team.start(lambda: [self._answer(team, cell, keep_plans) for cell in batch])
 
-            try:
-                yield from answers_of(cells, hand_out, self._count, batch=1, tries=TRIES)
-            finally:
-                stop.set()
+            yield from answers_of(cells, hand_out, self._count, batch=1, tries=TRIES)
 
-    def _answer(self, workers: WorkerProcesses, stop: Stop, cell: Cell, keep_plans: bool) -> Answer:
-        with LimitedStop(stop, _longest_s(cell)) as limited:
+    def _answer(self, team: Team, cell: Cell, keep_plans: bool) -> Answer:
+        with LimitedStop(team.stop, _longest_s(cell)) as limited:
             try:
-                return workers.run(_work, limited, lambda _: limited.begin(), cell, self._make_plan, keep_plans)
+                return team.run(_work, limited, lambda _: limited.begin(), cell, self._make_plan, keep_plans)
             except StoppedError:
-                if stop():
+                if team.stop():
                     raise
                 return failed(cell, "it did not end long after its time limit")
 

@@ -103,7 +103,7 @@ class FoldView:
         self._lines = [self._add_line(index, fold) for index, fold in enumerate(garment.folds)]
 
     def clear(self) -> None:
-        """Remove all folds, where there is no garment."""
+        """Remove all folds, when there is no garment."""
         for line in self._lines:
             line.remove()
         self._folds, self._lines, self._seen = (), [], None

@@ -1,4 +1,4 @@
-"""Arms that go home once a plan is over, so that its packet is seen: only shown, no plan has it.
+"""Arms that go home once a plan is over, so that the packet is seen; this is shown, but not part of the plan.
 
 They go straight, joint by joint, which raises the hands all the way. Arms of a robot that stands fast may meet on such
 a way, as only the planner could tell: they stay.

@@ -35,7 +35,7 @@ Hear = Callable[[Any], None]
 
 
 class Caller(Protocol):
-    """Who has asked for a piece of work, as the work knows it."""
+    """The caller of a piece of work, as the work sees it."""
 
     def tell(self, news: object) -> None:
         """Send news on the way to the answer."""
@@ -91,7 +91,7 @@ class Worker:
 
     @property
     def is_alive(self) -> bool:
-        """Whether the process is there; asked while it is idle: all that its pipe has then is its end."""
+        """Whether the process is alive; only for an idle one, whose pipe has nothing to read but its end."""
         with starting:
             return self._process.is_alive() and not self._pipe.poll()
 

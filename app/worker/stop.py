@@ -1,4 +1,4 @@
-"""Stopping a piece of work: set once, from any thread; whoever waits for something else as well is woken by it."""
+"""Stop a piece of work: set once, from any thread; it also wakes those who wait for something else."""
 
 import threading
 from collections.abc import Callable

@@ -142,7 +142,7 @@ def _load_template(loading: Future[None]) -> None:
 
 
 def _do_nothing() -> None:
-    """Be started: the first process is there once the template is loaded."""
+    """Do nothing: the first process that is started waits until the template is loaded."""
 
 
 @contextmanager

@@ -8,8 +8,9 @@ import os
 import threading
 import time
 from collections.abc import Callable
+from concurrent.futures import Future, ThreadPoolExecutor
 from types import TracebackType
-from typing import Any, Concatenate, ParamSpec, TypeVar
+from typing import Any, Concatenate, ParamSpec, Self, TypeVar
 
 from app.worker.process import Caller, Hear, Worker
 from app.worker.stop import Stop, StoppedError
@@ -41,7 +42,7 @@ class Workers:
         self._served_s: dict[Worker, float] = {}
         self._is_closed = False
 
-    def __enter__(self) -> "Workers":
+    def __enter__(self) -> Self:
         """Return these workers."""
         return self
 
@@ -221,3 +222,22 @@ class Workers:
     def _notify(self) -> None:
         with self._changed:
             self._changed.notify_all()
+
+
+class Team(Workers):
+    """Workers, and as many threads that wait for them; closing it sets `stop`, with which all of its work is to run."""
+
+    def __init__(self, count: int) -> None:
+        """Start no process before there is work, and at most so many."""
+        super().__init__(kept=count)
+        self.stop, self._threads = Stop(), ThreadPoolExecutor(count)
+
+    def start(self, act: Callable[P, Answer], *arguments: P.args, **options: P.kwargs) -> Future[Answer]:
+        """Call a function that waits for a worker, such as `run`, in a thread."""
+        return self._threads.submit(act, *arguments, **options)
+
+    def close(self) -> None:
+        """Stop all work, wait for it to end, and end the workers."""
+        self.stop.set()
+        self._threads.shutdown(cancel_futures=True)
+        super().close()

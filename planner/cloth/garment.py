@@ -151,7 +151,7 @@ class Garment:
 
 
 def centred_placement(outline: tuple[Point2, ...]) -> Pose2:
-    """Return the placement that puts the outline's bounding box on the middle of the table, top away."""
+    """Return the placement that centres the outline's bounding box on the table, its top away from the robot."""
     xs, ys = [x for x, _ in outline], [y for _, y in outline]
     middle_x, middle_y = (min(xs) + max(xs)) / 2, (min(ys) + max(ys)) / 2
     return Pose2(-middle_y, middle_x, DEFAULT_YAW_RAD)

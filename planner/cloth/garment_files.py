@@ -38,7 +38,7 @@ def load_garment(source: str | Path) -> Garment:
 
 
 def read_json(path: Path) -> object:
-    """Return the JSON in a file; raises `GarmentFileError` if it is missing or no JSON."""
+    """Return the JSON in a file; raises `GarmentFileError` if the file is missing or not JSON."""
     try:
         return json.loads(path.read_text(encoding="utf-8"), parse_constant=_refuse_constant)
     except OSError as error:

@@ -45,7 +45,7 @@ def distinct_rows(points: FloatArray) -> FloatArray:
 
 
 def _evenly(vertices: FloatArray) -> FloatArray:
-    """Return all vertices, or the most that are allowed, chosen alike from either end."""
+    """Return the vertices, thinned evenly to the most that are allowed, alike from either end."""
     count = len(vertices)
     if count <= _CIRCLED_MAX:
         return vertices

@@ -103,7 +103,7 @@ def grip_covers(
 
 
 def firm_covers(candidates: FloatArray, vertices: FloatArray, radius_m: float, at_most: int) -> tuple[Cover, ...]:
-    """Return the best covers that hold all vertices within `FIRM_M`; where none does, the nearest within the radius.
+    """Return the best covers that hold all vertices within `FIRM_M`; if none does, the nearest within the radius.
 
     Args:
         candidates: points of the cloth, shape (m, 2), m.

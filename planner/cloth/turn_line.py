@@ -53,7 +53,7 @@ def is_turn(line: Segment, silhouette: Region) -> bool:
 
 
 def nearest_turn(silhouette: Region, guide: Segment) -> Segment | None:
-    """Return the line along the edge nearest to a segment's middle of those that run about as it does; None without.
+    """Return the edge line nearest to a segment's middle, of those nearly parallel to it; None if there is none.
 
     The segment may run either way.
     """

@@ -160,7 +160,7 @@ def _radii(radius_m: float, needed_m: float) -> dict[str, float]:
 
 
 def collisions(context: Context, step: Step, contact: BlockingContact | None) -> Iterator[Obstacle]:
-    """Yield a step that the arms cannot perform, although its places are in reach, as obstacles to folds.
+    """Yield the obstacles to folds of a step that the arms cannot perform although its places are in reach.
 
     Args:
         context: the planning context.

@@ -77,7 +77,7 @@ class Replay:
         return Replay(self.outline, (*self.cloths, cloth), (*self.lines, line))
 
     def seen(self, kind: str) -> tuple[Layer, ...]:
-        """Return the layers that the next fold sees if it is of a kind."""
+        """Return the layers that a next fold of a kind may move."""
         return FOLD_KINDS[kind].layers(self.cloths[-1])
 
 

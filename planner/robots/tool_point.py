@@ -1,4 +1,4 @@
-"""Where an arm's fingers are about the tool point of its card: a first check of whether that point is where they meet.
+"""Where an arm's fingers are relative to its card's tool point: a first check of whether they meet in that point.
 
 Tools pass two centimetres over the table. A tool point behind the fingertips, or beside the plane in which the fingers
 meet, brings the fingers into the table top in most approaches.
@@ -52,7 +52,7 @@ class ToolPoint:
 
 
 def tool_points(robot: DescribedRobot) -> tuple[ToolPoint, ...]:
-    """Return where the fingers of each arm are about its tool point; arms without shapes of fingers are left out.
+    """Return where the fingers of each arm are relative to its tool point; arms without shapes of fingers are left out.
 
     Raises:
         RobotError: a mesh cannot be read or is too large.
@@ -128,7 +128,7 @@ def _in_tool(arm: DescribedArm, shape: LinkShape, placement: pin.SE3) -> FloatAr
 
 
 def _triangles(shape: LinkShape) -> FloatArray:
-    """Return the triangles of a shape, or of its hull if it is no mesh, in its own frame, shape (n, 3, 3)."""
+    """Return the triangles of a mesh, or of the hull of another shape, in its own frame, shape (n, 3, 3)."""
     if shape.triangles is not None:
         return np.asarray(shape.geometry.vertices()[shape.triangles])
     from scipy.spatial import ConvexHull  # slow to import, and needed only for some cards

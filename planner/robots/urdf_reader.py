@@ -149,7 +149,7 @@ def parsed(data: bytes) -> Element:
 
 
 def _check_numbers(part: Element, field: str) -> None:
-    """Refuse limits, origins and axes that are no numbers, and origins that are too far."""
+    """Raise `RobotError` if a limit, an origin or an axis is not of numbers, or an origin is too far away."""
     for element in part.iter():
         if element.tag not in ("origin", "axis", "limit", "safety_controller"):
             continue

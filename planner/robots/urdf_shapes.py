@@ -64,7 +64,7 @@ def shortened(text: str) -> str:
 
 
 def _is_nothing(geometry: Element, owner: str, field: str) -> bool:
-    """Return whether a shape has no volume; raise `RobotError` where its size is none."""
+    """Return whether a shape has no volume; raise `RobotError` if its size is not of numbers."""
     keys = {"box": ("size",), "sphere": ("radius",), "cylinder": ("radius", "length"), "capsule": ("radius", "length")}
     if geometry.tag == "mesh":
         return False

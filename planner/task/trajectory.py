@@ -161,7 +161,7 @@ class Segment:
         return float(rate_at(self.times_s, self.fractions, self.base_rates, t_s - self.start_s)) * self._base_way
 
     def base_acceleration_at(self, t_s: float) -> FloatArray:
-        """Return the base's acceleration at a time of the plan, alike (m/s2, rad/s2)."""
+        """Return the base's acceleration at a time of the plan: x, y (m/s2), yaw (rad/s2), table frame, shape (3,)."""
         found = acceleration_at(self.times_s, self.fractions, self.base_rates, t_s - self.start_s)
         return float(found) * self._base_way
 

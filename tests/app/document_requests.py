@@ -1,12 +1,11 @@
 """Requests of a document's routes that many tests make."""
 
-import asyncio
 from typing import Any
 
 import httpx
 
 from tests.app.samples import towel
-from tests.patience import PATIENCE_S
+from tests.patience import wait_until_async
 
 
 async def created(client: httpx.AsyncClient, **changes: Any) -> dict[str, Any]:
@@ -32,9 +31,10 @@ async def put(client: httpx.AsyncClient, state: dict[str, Any], drawing: object,
 async def planned(client: httpx.AsyncClient, **changes: Any) -> str:
     """Open a document that is planned, so that all files are available; return its id."""
     document_id: str = (await created(client, **changes))["id"]
-    for _ in range(int(10 * PATIENCE_S)):
+
+    async def is_planned() -> bool:
         entries = (await client.get(f"/api/documents/{document_id}/files")).json()
-        if "planned" not in (entries[3]["reason"] or ""):
-            return document_id
-        await asyncio.sleep(0.1)
-    raise AssertionError("it is never planned")
+        return "planned" not in (entries[3]["reason"] or "")
+
+    await wait_until_async(is_planned)
+    return document_id

@@ -4,7 +4,7 @@ import os
 import subprocess
 import sys
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from unittest.mock import patch
@@ -26,8 +26,7 @@ from planner.errors import RequestError
 from planner.strict_model import StrictModel
 from planner.task.plan import Plan
 from planner.task.task import Task
-
-FOR_EVER_S = 600
+from tests.patience import FOR_EVER_S, wait_until
 
 
 class Number(StrictModel):
@@ -124,10 +123,6 @@ def told(jobs: JobDesk, job: StoredJob) -> StoredJob:
     return _until(jobs, job, lambda now: now.message != "")
 
 
-def _until(jobs: JobDesk, job: StoredJob, holds: object) -> StoredJob:
-    assert callable(holds)
-    until_s = time.monotonic() + 60.0
-    while not holds(now := jobs.job(job.id)):
-        assert time.monotonic() < until_s, now
-        time.sleep(0.01)
-    return now
+def _until(jobs: JobDesk, job: StoredJob, holds: Callable[[StoredJob], bool]) -> StoredJob:
+    wait_until(lambda: holds(jobs.job(job.id)))
+    return jobs.job(job.id)

@@ -1,10 +1,6 @@
 """The processes that a process has started, from Linux's /proc."""
 
-import time
-from collections.abc import Callable
 from pathlib import Path
-
-from tests.patience import PATIENCE_S
 
 
 def descendants(pid: int) -> set[int]:
@@ -35,21 +31,3 @@ def _is_running(task: Path) -> bool:
         return task.read_text().rpartition(")")[2].split()[0] not in ("Z", "X")
     except (FileNotFoundError, ProcessLookupError):  # it has just ended
         return False
-
-
-def cpu_s(pid: int) -> float:
-    """Return the processor time of a process and its descendants (s)."""
-    total = 0.0
-    for one in {pid, *descendants(pid)}:
-        stat = Path(f"/proc/{one}/stat")
-        if stat.exists():
-            fields = stat.read_text().rpartition(")")[2].split()
-            total += (int(fields[11]) + int(fields[12])) / 100.0
-    return total
-
-
-def wait_until(condition: Callable[[], bool]) -> None:
-    deadline = time.monotonic() + PATIENCE_S
-    while not condition():
-        assert time.monotonic() < deadline
-        time.sleep(0.02)

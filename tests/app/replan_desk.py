@@ -1,7 +1,6 @@
 """A document that is planned anew at every edit, without a server."""
 
 import threading
-import time
 from collections.abc import Callable, Iterator
 from contextlib import closing, contextmanager
 from pathlib import Path
@@ -22,7 +21,7 @@ from planner.cloth.garment import Garment
 from planner.plans import plan
 from tests.app.drawing.drawings import pulled
 from tests.app.samples import towel
-from tests.patience import PATIENCE_S
+from tests.patience import wait_until
 from tests.required import required
 
 TOWEL = solve(drawing_of(Garment.from_dict(towel()))).drawing
@@ -37,15 +36,9 @@ class Desk:
         self.document = Document(draft_of(TOWEL))
         self.replanner = Replanner(self.document, self.pool, InThread(), self.plans)
 
-    def until(self, condition: Callable[[], bool]) -> None:
-        deadline = time.monotonic() + PATIENCE_S
-        while not condition():
-            assert time.monotonic() < deadline
-            time.sleep(0.002)
-
     def rest(self) -> None:
         """Wait until the plan and everything else belong to the drawing."""
-        self.until(lambda: self.is_answered and self.has_film and self.answer.is_final)
+        wait_until(lambda: self.is_answered and self.has_film and self.answer.is_final)
 
     @property
     def answer(self) -> VersionPlan:
@@ -86,8 +79,7 @@ class Endless:
     def __call__(self, *arguments: object, should_stop: Callable[[], bool], **options: object) -> object:
         if not (self._is_once and self.begun.is_set()):
             self.begun.set()
-            while not should_stop():
-                time.sleep(0.001)
+            wait_until(should_stop)
             self.stopped.set()
         return plan(*arguments, should_stop=should_stop, **options)  # type: ignore[arg-type]
 

@@ -20,7 +20,7 @@ from tests.app.conftest import OWN_URL
 from tests.app.document_model import DocumentModel
 from tests.app.samples import towel
 from tests.app.websocket import Listener
-from tests.patience import PATIENCE_S
+from tests.patience import PATIENCE_S, wait_until
 
 corners = st.integers(0, 3)
 centimetres = st.integers(-2, 2)
@@ -216,10 +216,11 @@ class DocumentMachine(RuleBasedStateMachine):
         return answer
 
     async def until_idle(self) -> None:
-        async with asyncio.timeout(60.0):
-            while not all(self.is_idle(page) for page in self.pages):
-                await asyncio.sleep(0.005)
-            await asyncio.sleep(0.05)
+        await asyncio.to_thread(wait_until, self.are_idle)
+
+    def are_idle(self) -> bool:
+        one, other = self.pages
+        return self.is_idle(one) and self.is_idle(other) and one.last == other.last
 
     def is_idle(self, page: Listener) -> bool:
         versions = [page.last.get(kind, {}).get("version") for kind in ("document", "plan")]

@@ -7,9 +7,9 @@ from pathlib import Path
 import httpx
 import pytest
 
-from tests.app.processes import descendants, wait_until
+from tests.app.processes import descendants
 from tests.app.samples import towel
-from tests.patience import PATIENCE_S
+from tests.patience import PATIENCE_S, wait_until
 
 PLEAT = Path(sys.executable).with_name("pleat")
 

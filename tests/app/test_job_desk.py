@@ -11,7 +11,8 @@ from app.store.database import Database
 from app.store.job_repository import JobRepository, UnknownJobError
 from planner.errors import RequestError
 from tests.app.job_works import desk, ended, submitted, told
-from tests.app.processes import is_alive, wait_until
+from tests.app.processes import is_alive
+from tests.patience import wait_until
 
 
 def test_a_job_is_done_apart_and_its_result_is_kept(tmp_path: Path) -> None:

@@ -9,6 +9,7 @@ import pytest
 from app.jobs.job_pool import JobPool
 from app.worker.stop import Stop
 from planner import load_garment, make_plan
+from tests.patience import PATIENCE_S
 
 
 def test_no_more_jobs_run_at_once_than_there_are_workers() -> None:
@@ -21,12 +22,12 @@ def test_no_more_jobs_run_at_once_than_there_are_workers() -> None:
         with lock:
             running += 1
             most = max(most, running)
-        both.wait(5.0)
+        both.wait(PATIENCE_S)
         with lock:
             running -= 1
 
     for job in [pool.start(work) for _ in range(6)]:
-        job.future.result(5.0)
+        job.future.result(PATIENCE_S)
     assert most == 2
 
 
@@ -42,10 +43,10 @@ def test_a_stopped_job_is_told_and_one_that_waits_never_begins() -> None:
         told.set()
 
     first, second = pool.start(long_work), pool.start(long_work)
-    assert begun.wait(5.0)
+    assert begun.wait(PATIENCE_S)
     second.stop()
     first.stop()
-    assert told.wait(5.0)
+    assert told.wait(PATIENCE_S)
     assert second.future.cancelled()
 
 
@@ -60,7 +61,7 @@ def test_closing_the_pool_stops_everything() -> None:
 
     begun = pool.start(until_stopped)
     pool.close()
-    assert begun.future.cancelled() or begun.future.result(5.0) == "stopped"
+    assert begun.future.cancelled() or begun.future.result(PATIENCE_S) == "stopped"
 
 
 def test_a_job_that_comes_while_the_pool_closes_is_stopped_and_keeps_no_thread_from_its_end() -> None:
@@ -77,9 +78,9 @@ def test_a_job_that_comes_while_the_pool_closes_is_stopped_and_keeps_no_thread_f
         assert late.future.cancelled()
 
     job = pool.start(until_stopped)
-    assert begun.wait(5.0)
+    assert begun.wait(PATIENCE_S)
     pool.close(5.0)
-    job.future.result(5.0)
+    job.future.result(PATIENCE_S)
     assert [thread.is_alive() for thread in threads] == [False]
 
 
@@ -88,7 +89,7 @@ def test_a_jobs_error_comes_with_its_answer() -> None:
         raise ValueError("no")
 
     with pytest.raises(ValueError, match="no"):
-        JobPool(workers=1).start(fail).future.result(5.0)
+        JobPool(workers=1).start(fail).future.result(PATIENCE_S)
 
 
 def test_a_stopped_search_ends_as_out_of_budget() -> None:

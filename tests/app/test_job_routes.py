@@ -1,5 +1,4 @@
 import asyncio
-import time
 from typing import Any
 
 import httpx
@@ -10,7 +9,7 @@ from tests.app.conftest import Served
 from tests.app.samples import towel
 from tests.app.test_described_answers import assert_described
 from tests.app.test_suggestion_routes import STUCK, events_in
-from tests.patience import PATIENCE_S
+from tests.patience import PATIENCE_S, wait_until_async
 
 pytestmark = pytest.mark.anyio
 
@@ -19,13 +18,11 @@ LONG = {"garment": "shirt", "step_m": 0.02, "time_limit_s": 60.0}
 
 
 async def ended(client: httpx.AsyncClient, path: str) -> dict[str, Any]:
-    until_s = time.monotonic() + 600.0  # jobs give way to all else
-    while time.monotonic() < until_s:
+    async def at_end() -> dict[str, Any] | None:
         job: dict[str, Any] = (await client.get(path)).json()
-        if job["status"] not in ("queued", "running"):
-            return job
-        await asyncio.sleep(0.05)
-    raise AssertionError(job)
+        return None if job["status"] in ("queued", "running") else job
+
+    return await wait_until_async(at_end)
 
 
 async def test_a_map_as_a_job_is_followed_to_its_end_and_is_the_map_that_is_waited_for(

@@ -19,8 +19,9 @@ from app.worker.template import PlannerNotLoadedError
 from app.worker.workers import Workers
 from bench.growth_cases import tabs_on_two_sides
 from tests.app.conftest import REST, Served
-from tests.app.processes import descendants, is_alive, wait_until
+from tests.app.processes import descendants, is_alive
 from tests.app.samples import towel
+from tests.patience import wait_until
 
 pytestmark = pytest.mark.anyio
 
@@ -38,8 +39,7 @@ async def endless_plans(client: httpx.AsyncClient, many: int) -> AsyncIterator[N
     """Request some plans, each of which takes longer than any test waits."""
     lanes = client._transport.app.state.workspace.lanes  # type: ignore[attr-defined]
     tasks = [asyncio.create_task(client.post("/api/plans", json=SLOW)) for _ in range(many)]
-    while len(lanes.searches._open) < many and not any(task.done() for task in tasks):
-        await asyncio.sleep(0.01)
+    await asyncio.to_thread(wait_until, lambda: len(lanes.searches._open) >= many or any(task.done() for task in tasks))
     try:
         yield
     finally:
@@ -109,18 +109,14 @@ def test_the_time_of_a_request_runs_while_it_waits(monkeypatch: pytest.MonkeyPat
 def test_a_queue_has_an_end_and_what_was_stopped_makes_room() -> None:
     pool = JobPool(workers=1, waiting_max=1)
 
-    def until_stopped(should_stop: Any) -> None:
-        while not should_stop():
-            time.sleep(0.001)
-
-    running = pool.start(until_stopped)
+    running = pool.start(wait_until)
     wait_until(running.future.running)
-    waiting = pool.start(until_stopped)
+    waiting = pool.start(wait_until)
     with pytest.raises(BusyError) as refused:
-        pool.start(until_stopped)
+        pool.start(wait_until)
     assert refused.value.retry_after_s >= 1
     waiting.stop()
-    pool.start(until_stopped).stop()
+    pool.start(wait_until).stop()
     pool.close()
 
 

@@ -4,6 +4,7 @@ import logging
 import os
 import re
 import socket
+import threading
 from pathlib import Path
 
 import pytest
@@ -31,9 +32,16 @@ def test_a_line_has_time_level_and_source() -> None:
 @pytest.mark.parametrize("lines", [10, 3 * LINES_MAX])
 def test_a_pipe_that_nobody_reads_holds_up_nobody(lines: int) -> None:
     read, write = os.pipe()
-    with logging_to(write):
-        for _ in range(lines):
-            logging.getLogger("app.workspace").warning("x" * 1000)
+
+    def log() -> None:
+        with logging_to(write):
+            for _ in range(lines):
+                logging.getLogger("app.workspace").warning("x" * 1000)
+
+    thread = threading.Thread(target=log, daemon=True)
+    thread.start()
+    thread.join(PATIENCE_S)
+    assert not thread.is_alive()
     # The writing end stays open: lines that still wait would be written to whatever gets its number next.
     os.close(read)
 

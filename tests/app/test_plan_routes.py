@@ -4,6 +4,7 @@ import httpx
 import pytest
 
 from tests.app.samples import towel
+from tests.patience import wait_until
 
 pytestmark = pytest.mark.anyio
 
@@ -114,6 +115,7 @@ async def test_the_fold_dag_of_the_t_shirt_is_the_papers(client: httpx.AsyncClie
 
 async def test_requests_are_answered_while_a_search_runs(client: httpx.AsyncClient) -> None:
     search = asyncio.create_task(client.post("/api/plans", json={"garment": "shirt"}))
-    await asyncio.sleep(0)
+    lanes = client._transport.app.state.workspace.lanes  # type: ignore[attr-defined]
+    await asyncio.to_thread(wait_until, lambda: lanes.load()["searches"][1] > 0)
     assert (await client.get("/api/health")).status_code == 200
     assert (await search).status_code == 200

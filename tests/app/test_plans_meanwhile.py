@@ -16,7 +16,7 @@ from planner.planning.events import Done, Event
 from planner.plans import plan
 from tests.app.drawing.drawings import crease
 from tests.app.replan_desk import TOWEL, Desk, Endless, moved, replanning
-from tests.patience import PATIENCE_S
+from tests.patience import PATIENCE_S, wait_until
 from tests.required import required
 
 QUARTERED = solve(replace(TOWEL, folds=(*TOWEL.folds, crease("quarter", (0.2, 0.15), (0.2, 0.3))))).drawing
@@ -40,7 +40,7 @@ def test_the_plan_before_is_shown_as_it_is_for_the_drawing_now_while_a_quicker_o
 
     monkeypatch.setattr("app.live_planning.plan", waiting)
     desk.document.edit(Edit("Move", moved(20)))
-    desk.until(lambda: desk.is_answered and desk.has_film)
+    wait_until(lambda: desk.is_answered and desk.has_film)
     first = desk.document.state.answer
     assert first is not None and not first.is_final
     assert first.plan.is_solved and first.plan.garment.outline[0] == (-0.02, 0.0)
@@ -124,7 +124,7 @@ def test_but_in_a_search_that_takes_long_some_plan_is_shown_that_begins_like_the
 def test_what_was_not_found_with_little_work_is_found_by_who_looks_longer(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("app.replanner.WORK_S", 1e-4)
     with replanning() as desk:
-        desk.until(lambda: desk.is_answered)
+        wait_until(lambda: desk.is_answered)
         state = desk.document.state
         assert state.answer is not None and state.answer.plan.status == "budget_exceeded" and state.may_look_longer
         desk.document.look_longer()
@@ -175,7 +175,7 @@ def test_that_there_is_no_plan_is_told_before_the_reasons_are_tried(desk: Desk) 
     far = replace(TOWEL, placement=replace(TOWEL.placement, x_m=0.4))
     alone = replace(far.scene, stations=far.scene.stations[:1], back_off_max_m=0.0)
     desk.document.edit(Edit("Lay far away", solve(replace(far, scene=alone)).drawing))
-    desk.until(lambda: desk.is_answered and desk.answer.is_final)
+    wait_until(lambda: desk.is_answered and desk.answer.is_final)
     first, last = seen[0], seen[-1]
     assert not first.is_final and first.plan.status == "infeasible"
     assert first.plan.reasons and all(reason.set is None for reason in first.plan.reasons)

@@ -1,7 +1,6 @@
 import math
-import time
-from collections.abc import Callable
 from dataclasses import replace
+from types import SimpleNamespace
 from typing import Literal
 
 import pytest
@@ -20,6 +19,7 @@ from planner.geometry.table import Table
 from planner.motion.timeline import Sample, Timeline
 from planner.robots.card import RobotCard
 from tests.app.drawing.drawings import outlined, pulled
+from tests.patience import wait_until
 from tests.replay.planned import shipped_plan
 from tests.required import required
 
@@ -81,11 +81,12 @@ def player_of(document: Document, view: CountingView3D) -> Player:
     return Player(document, view)  # type: ignore[arg-type]
 
 
-def until(condition: Callable[[], object]) -> None:
-    deadline = time.monotonic() + 10.0
-    while not condition():
-        assert time.monotonic() < deadline
-        time.sleep(0.005)
+def wait_for_update(document: Document, view: CountingView3D) -> None:
+    """Wait until the 3D view has shown all that has changed so far: each update begins with the theme."""
+    is_dark = document.state.is_dark
+    for other in (not is_dark, is_dark):
+        document.set_theme(is_dark=other)
+        wait_until(lambda: view.themes[-1] is other)  # noqa: B023
 
 
 class FailingView3D(CountingView3D):
@@ -106,13 +107,13 @@ def playing_for_a_second(plan: Plan, has_watchers: bool) -> list[float]:
     document, view = towel_document(), CountingView3D(has_watchers)
     player = player_of(document, view)
     try:
-        until(lambda: view.lying == 1)
+        wait_until(lambda: view.lying == 1)
         answer(document, plan)
-        until(lambda: view.times == [0.0])
+        wait_until(lambda: view.times == [0.0])
         document.play()
-        until(lambda: document.t_s > 1.0)
+        wait_until(lambda: document.t_s > 1.0)
         document.pause()
-        until(lambda: view.times[-1] == document.t_s)
+        wait_until(lambda: view.times[-1] == document.t_s)
         assert view.plans == 1
         return view.times
     finally:
@@ -130,11 +131,13 @@ def test_arms_go_home_once_the_plan_is_over_and_are_back_where_it_is_shown_again
     try:
         answer(document, plan)
         document.seek(end)
-        until(lambda: view.joints and all(math.cos(view.joints[name] - at) > 1.0 - 1e-9 for name, at in home.items()))
+        wait_until(
+            lambda: view.joints and all(math.cos(view.joints[name] - at) > 1.0 - 1e-9 for name, at in home.items())
+        )
         shown = len(view.times)
         assert set(view.times[1:]) == {end} and shown > 10
         document.seek(end - 0.2)
-        until(lambda: view.times[-1] == document.t_s)
+        wait_until(lambda: view.times[-1] == document.t_s)
         assert view.joints == Timeline.of(plan).at(end - 0.2).joints
         assert len(view.times) <= shown + 2, "once the arms are home nothing moves"
     finally:
@@ -156,9 +159,9 @@ def test_a_paused_3d_view_gets_one_update_for_each_change(plan: Plan) -> None:
             def is_shown(t_s: float = t_s) -> bool:
                 return bool(view.times) and view.times[-1] == t_s
 
-            until(is_shown)
-        time.sleep(0.2)
+            wait_until(is_shown)
         assert len(view.times) <= 4
+        assert player._period_s() is None, "nothing but a change wakes it"
     finally:
         player.close()
 
@@ -167,11 +170,11 @@ def test_the_3d_view_follows_the_theme_and_another_garment_keeps_it() -> None:
     document, view = towel_document(), CountingView3D(True)
     player = player_of(document, view)
     try:
-        until(lambda: view.lying == 1)
+        wait_until(lambda: view.lying == 1)
         document.set_theme(is_dark=True)
-        until(lambda: view.themes == [False, True])
+        wait_until(lambda: view.themes == [False, True])
         document.edit(Edit("Open T-shirt", drawing_of(load_garment("t-shirt"))))
-        until(lambda: view.lying == 2)
+        wait_until(lambda: view.lying == 2)
         assert document.state.is_dark
         assert view.themes == [False, True]
     finally:
@@ -182,13 +185,13 @@ def test_the_cloth_follows_the_drawing_at_once_while_the_film_stands_at_its_begi
     document, view = towel_document(), CountingView3D(True)
     player = player_of(document, view)
     try:
-        until(lambda: view.lying == 1)
+        wait_until(lambda: view.lying == 1)
         answer(document, plan)
-        until(lambda: view.times == [0.0])
+        wait_until(lambda: view.times == [0.0])
         document.edit(Edit("Move", pulled(document.state.drawing, 0, -0.01, 0.0)))
-        until(lambda: view.lying == 2)
+        wait_until(lambda: view.lying == 2)
         document.undo()
-        until(lambda: len(view.times) == 2)
+        wait_until(lambda: len(view.times) == 2)
     finally:
         player.close()
 
@@ -201,24 +204,25 @@ def test_the_3d_view_waits_with_a_drawing_for_its_plan_if_there_is_one(
     document, view = towel_document(), CountingView3D(True)
     player = player_of(document, view)
     try:
-        until(lambda: view.lying == 1)
+        wait_until(lambda: view.lying == 1)
         document.edit(Edit("Move", pulled(document.state.drawing, 0, -0.01, 0.0)))
         answer(document, replace(plan, status=status))
-        until(lambda: (view.lying, view.plans) == drawn)
+        wait_until(lambda: (view.lying, view.plans) == drawn)
     finally:
         player.close()
 
 
-def test_in_the_middle_of_a_film_it_stays_until_the_next(plan: Plan) -> None:
+def test_in_the_middle_of_a_film_it_stays_until_the_next(plan: Plan, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(player_module, "PATIENCE_S", 0.0)
     document, view = towel_document(), CountingView3D(True)
     player = player_of(document, view)
     try:
-        until(lambda: view.lying == 1)
+        wait_until(lambda: view.lying == 1)
         answer(document, plan)
         document.seek(2.0)
-        until(lambda: view.times and view.times[-1] == 2.0)
+        wait_until(lambda: view.times and view.times[-1] == 2.0)
         document.edit(Edit("Move", pulled(document.state.drawing, 0, -0.01, 0.0)))
-        time.sleep(0.2)
+        wait_for_update(document, view)
         assert view.lying == 1
     finally:
         player.close()
@@ -228,10 +232,9 @@ def test_a_spoilt_drawing_leaves_in_the_3d_view_what_was_there(plan: Plan) -> No
     document, view = towel_document(), CountingView3D(True)
     player = player_of(document, view)
     try:
-        until(lambda: view.lying == 1)
+        wait_until(lambda: view.lying == 1)
         document.edit(Edit("Spoil", outlined(document.state.drawing, (0.0, 0.0), (0.1, 0.0))))
-        document.set_theme(is_dark=True)
-        until(lambda: view.themes == [False, True])
+        wait_for_update(document, view)
         assert (view.lying, view.bare) == (1, 0)
     finally:
         player.close()
@@ -241,12 +244,12 @@ def test_where_nothing_is_drawn_the_3d_view_has_no_cloth() -> None:
     document, view = towel_document(), CountingView3D(True)
     player = player_of(document, view)
     try:
-        until(lambda: view.lying == 1)
+        wait_until(lambda: view.lying == 1)
         document.edit(Edit("Clear", outlined(document.state.drawing)))
-        until(lambda: view.bare == 1)
+        wait_until(lambda: view.bare == 1)
         document.set_theme(is_dark=True)
         document.undo()
-        until(lambda: view.lying == 2)
+        wait_until(lambda: view.lying == 2)
         assert view.bare == 1
     finally:
         player.close()
@@ -258,7 +261,7 @@ def test_a_robot_waits_at_the_table_before_there_is_any_cloth(corners: tuple[Poi
     view = CountingView3D(True)
     player = player_of(Document(draft_of(outlined(drawing, *corners))), view)
     try:
-        until(lambda: view.bare == 1)
+        wait_until(lambda: view.bare == 1)
         assert view.lying == 0
     finally:
         player.close()
@@ -268,10 +271,10 @@ def test_another_scene_is_put_up_with_what_is_shown_in_it() -> None:
     document, view = towel_document(), CountingView3D(True)
     player = player_of(document, view)
     try:
-        until(lambda: view.lying == 1)
+        wait_until(lambda: view.lying == 1)
         high = replace(Scene(), table=Table(height_m=0.9))
         document.edit(Edit("Table", replace(document.state.drawing, scene=high)))
-        until(lambda: view.lying == 2)
+        wait_until(lambda: view.lying == 2)
         assert view.scenes == [Scene(), high]
     finally:
         player.close()
@@ -281,7 +284,7 @@ def test_what_could_not_be_drawn_is_drawn_anew(caplog: pytest.LogCaptureFixture)
     document, view = towel_document(), FailingView3D(failures=1)
     player = player_of(document, view)
     try:
-        until(lambda: view.lying == 1)
+        wait_until(lambda: view.lying == 1)
     finally:
         player.close()
     assert "a visitor has just left" in caplog.text
@@ -291,10 +294,10 @@ def test_what_fails_again_waits_for_the_next_change(caplog: pytest.LogCaptureFix
     document, view = towel_document(), FailingView3D(failures=2)
     player = player_of(document, view)
     try:
-        until(lambda: view.failures == 0)
+        wait_until(lambda: view.failures == 0)
         assert view.lying == 0
         document.set_theme(is_dark=True)
-        until(lambda: view.lying == 1)
+        wait_until(lambda: view.lying == 1)
     finally:
         player.close()
     assert caplog.text.count("the 3D view could not be brought up to date") == 2
@@ -309,24 +312,26 @@ def test_where_software_draws_it_the_3d_view_follows_a_hand_once_that_rests(
     plan: Plan, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(player_module, "PATIENCE_S", 0.0)
-    monkeypatch.setattr(player_module, "REST_S", 1.0)
+    now_s = 0.0
+    monkeypatch.setattr(player_module, "time", SimpleNamespace(monotonic=lambda: now_s))
     document, view = towel_document(), CountingView3D(True)
     view.is_drawn_by_software = True
     player = player_of(document, view)
     try:
-        until(lambda: view.lying == 1)
-        begun = time.monotonic()
-        while time.monotonic() < begun + 1.3:
+        wait_until(lambda: view.lying == 1)
+        for _ in range(3):
             drag_on(document, -0.001)
+            wait_for_update(document, view)
+            now_s += 0.9 * player_module.REST_S
+            wait_for_update(document, view)
             assert view.lying == 1
-            time.sleep(0.02)
-        until(lambda: view.lying == 2)  # the hand rests
-        monkeypatch.setattr(player_module, "REST_S", 60.0)
+        now_s += 0.2 * player_module.REST_S
+        wait_until(lambda: view.lying == 2)  # the hand rests
         drag_on(document, -0.001)
-        time.sleep(0.1)
+        wait_for_update(document, view)
         assert view.lying == 2
         document.edit(Edit("Move", document.state.drawing, gesture="one"))
-        until(lambda: view.lying == 3)  # the hand has let go
+        wait_until(lambda: view.lying == 3)  # the hand has let go
     finally:
         player.close()
 
@@ -339,14 +344,14 @@ def test_where_a_graphics_card_draws_it_the_3d_view_follows_a_hand_at_once(
     document, view = towel_document(), CountingView3D(True)
     player = player_of(document, view)
     try:
-        until(lambda: view.lying == 1)
+        wait_until(lambda: view.lying == 1)
         for number in (2, 3, 4):
             drag_on(document, -0.001)
 
             def has_followed(number: int = number) -> bool:
                 return view.lying == number
 
-            until(has_followed)
+            wait_until(has_followed)
     finally:
         player.close()
 
@@ -358,12 +363,12 @@ def test_a_plan_that_is_pointed_at_is_shown_to_its_end_then_the_own_one_and_with
     document, view = towel_document(), CountingView3D(has_watchers=True)
     answer(document, plan)
     player = player_of(document, view)
-    until(lambda: view.times == [0.0])
+    wait_until(lambda: view.times == [0.0])
     document.preview(plan)
-    until(lambda: view.times[-1] == plan.cost_s)
+    wait_until(lambda: view.times[-1] == plan.cost_s)
     assert view.plans == 2 and document.t_s == 0.0
     document.preview(None)
-    until(lambda: view.times[-1] == 0.0)
+    wait_until(lambda: view.times[-1] == 0.0)
     document.preview(replace(plan, status="infeasible", steps=(), trajectory=None))
-    until(lambda: view.done == set(range(len(plan.garment.folds))))
+    wait_until(lambda: view.done == set(range(len(plan.garment.folds))))
     player.close()

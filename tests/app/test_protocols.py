@@ -14,6 +14,8 @@ from app.server.protocols import TimedProtocol
 from tests.patience import PATIENCE_S
 
 LIMIT_S = 0.3
+SLOW_ANSWER_S, SLOW_BYTE_S, SLOW_HEAD_S = 3 * LIMIT_S, LIMIT_S / 5, LIMIT_S / 3
+"""How long slow servers and clients take for what is in time, and so is not hung up on (s)."""
 HEAD = b"GET / HTTP/1.1\r\nhost: here\r\n"
 POST = b"POST / HTTP/1.1\r\nhost: here\r\ncontent-length: 10\r\n\r\n"
 
@@ -29,7 +31,7 @@ async def reads_and_answers_slowly(scope: Any, receive: Any, send: Any) -> None:
             return
         if not message["more_body"]:
             break
-    await asyncio.sleep(3 * LIMIT_S if scope["path"] == "/slow" else 0.0)
+    await asyncio.sleep(SLOW_ANSWER_S if scope["path"] == "/slow" else 0.0)
     await send({"type": "http.response.start", "status": 200, "headers": [(b"content-length", b"2")]})
     await send({"type": "http.response.body", "body": b"ok"})
 
@@ -74,7 +76,7 @@ def test_a_byte_now_and_then_does_not_stretch_the_time(port: int, begun: bytes) 
         wire.sendall(begun)
         with pytest.raises(OSError):
             for _ in range(1000):  # nine more bytes would end the body, so few enough of them are sent in the time
-                time.sleep(LIMIT_S / 5)
+                time.sleep(SLOW_BYTE_S)
                 wire.sendall(b"x")
 
 
@@ -94,7 +96,7 @@ def test_an_answer_may_take_its_time_and_the_next_request_its_own(port: int) -> 
     with opened(port) as wire:
         for path in (b"/slow", b"/slow", b"/"):
             wire.sendall(b"GET " + path + b" HTTP/1.1\r\nhost: here\r\n")
-            time.sleep(LIMIT_S / 3)
+            time.sleep(SLOW_HEAD_S)
             wire.sendall(b"\r\n")
             told = b""
             while not told.endswith(b"ok"):

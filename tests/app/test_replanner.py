@@ -1,7 +1,7 @@
 """Plans follow the drawing: the latest wins, and each answer names its version."""
 
+import itertools
 import threading
-import time
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 
@@ -17,7 +17,7 @@ from planner import Plan
 from planner.task.world_state import Holding
 from tests.app.drawing.drawings import crease, outlined
 from tests.app.replan_desk import TOWEL, Desk, Endless, moved, nothing, replanning
-from tests.patience import PATIENCE_S
+from tests.patience import PATIENCE_S, wait_until
 
 
 @pytest.fixture
@@ -78,16 +78,14 @@ def test_while_somebody_drags_plans_of_older_previews_are_shown(desk: Desk) -> N
     """Previews come faster than plans; each search is given a little time to end all the same."""
     desk.rest()
     shown: set[int] = set()
-    deadline = time.monotonic() + 20.0
-    number = 0
-    while time.monotonic() < deadline and len(shown) < 3:
-        number += 1
-        desk.document.edit(Edit("Drag", moved(0.1 * number), Phase.PREVIEW))
-        state = desk.document.state
-        assert state.answer is not None
-        shown.add(state.answer.version)
-        time.sleep(0.02)
-    assert len(shown) >= 3
+    millimetres = itertools.count(0.1, 0.1)
+
+    def are_shown_while_it_is_dragged() -> bool:
+        desk.document.edit(Edit("Drag", moved(next(millimetres)), Phase.PREVIEW))
+        shown.add(desk.answer.version)
+        return len(shown) >= 3
+
+    wait_until(are_shown_while_it_is_dragged)
     desk.document.edit(Edit("Drag", moved(30), Phase.COMMIT))
     desk.rest()
     assert desk.answer.plan.garment.outline[0] == (near(-0.03), 0.0)
@@ -158,7 +156,7 @@ def test_a_plan_is_shown_before_it_is_written_and_written_only_if_it_is_final(
 
     monkeypatch.setattr(PlanStore, "_write", write)
     desk.document.edit(Edit("Move", moved(20)))
-    desk.until(lambda: bool(written))
+    wait_until(lambda: bool(written))
     desk.rest()
     ((plan_id, shown),) = written
     assert shown is not None and shown.plan_id == plan_id and shown.is_final
@@ -167,7 +165,7 @@ def test_a_plan_is_shown_before_it_is_written_and_written_only_if_it_is_final(
 def test_what_folds_need_is_told_of_those_before_an_illegal_one_too(desk: Desk) -> None:
     off = crease("off", (0.2, 0.2), (0.3, 0.2))
     state = desk.document.edit(Edit("Draw", replace(TOWEL, folds=(*TOWEL.folds, off))))
-    desk.until(lambda: desk.document.state.checks is not None and desk.document.state.checks.version == state.version)
+    wait_until(lambda: desk.document.state.checks is not None and desk.document.state.checks.version == state.version)
     assert desk.document.state.checks is not None
     assert len(desk.document.state.checks.folds) == 1
     assert not desk.document.state.is_planning
@@ -175,13 +173,13 @@ def test_what_folds_need_is_told_of_those_before_an_illegal_one_too(desk: Desk) 
 
 def test_with_nothing_drawn_there_is_nothing_to_plan(desk: Desk) -> None:
     state = desk.document.edit(Edit("Clear", outlined(TOWEL)))
-    desk.until(lambda: desk.document.state.checks is not None and desk.document.state.checks.version == state.version)
+    wait_until(lambda: desk.document.state.checks is not None and desk.document.state.checks.version == state.version)
     assert not desk.document.state.is_answered
 
 
 def test_a_torso_that_cannot_be_raised_so_far_is_told_of_by_its_field(desk: Desk) -> None:
     desk.document.edit(Edit("Torso", replace(TOWEL, scene=replace(TOWEL.scene, torso_m=0.9))))
-    desk.until(lambda: desk.document.state.failure is not None)
+    wait_until(lambda: desk.document.state.failure is not None)
     assert status_text(desk.document.state).startswith("No plan: scene.torso_m: 0.9 m")
 
 
@@ -195,7 +193,7 @@ def test_a_bug_in_the_planner_is_told_of_and_the_next_edit_is_planned(
 
     monkeypatch.setattr("app.live_planning.plan", fail)
     desk.document.edit(Edit("Move", moved(1)))
-    desk.until(lambda: desk.document.state.failure is not None)
+    wait_until(lambda: desk.document.state.failure is not None)
     assert status_text(desk.document.state) == "No plan: the planner failed"
     assert "a bug" in caplog.text
     monkeypatch.undo()
@@ -264,8 +262,7 @@ def test_who_drags_back_to_what_was_just_given_up_gets_its_plan_all_the_same(
             plan(self, search, stop)
             return
         begun.set()
-        while not search.stop():
-            time.sleep(0.001)
+        wait_until(search.stop)
         given_up.set()
         assert go.wait(PATIENCE_S)
 

@@ -1,6 +1,5 @@
 """Links to look at a document: no token of the server is needed, nothing can be changed, nothing else is seen."""
 
-import asyncio
 import hashlib
 import re
 from pathlib import Path
@@ -122,9 +121,7 @@ async def test_a_page_by_a_link_follows_until_that_is_taken_back_and_its_command
     await put(client, state, moved(state, -0.01))
     await page.until("document", version=2)
     assert (await client.delete(f"/api/documents/{state['id']}/share")).status_code == 204
-    async with asyncio.timeout(60.0):
-        while page.closed_with is None:
-            await asyncio.sleep(0.005)
+    await page.has_ended()
     assert_problem(await client.get(f"{link}/api/documents/{state['id']}"), 404)
 
 

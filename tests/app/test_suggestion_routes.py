@@ -2,6 +2,7 @@ import asyncio
 import json
 import time
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -15,9 +16,9 @@ from planner.explain.suggestion import Suggestion
 from planner.robots.known_robots import robot_names
 from tests.app.conftest import Served
 from tests.app.job_works import suggest_and_hang
-from tests.app.processes import cpu_s
 from tests.app.samples import towel
-from tests.patience import PATIENCE_S
+from tests.app.test_lanes import is_idle
+from tests.patience import PATIENCE_S, wait_until
 
 pytestmark = pytest.mark.anyio
 
@@ -122,8 +123,7 @@ async def test_an_illegal_fold_is_named(client: httpx.AsyncClient) -> None:
 async def test_the_server_answers_others_while_it_searches(client: httpx.AsyncClient) -> None:
     lanes = client._transport.app.state.workspace.lanes  # type: ignore[attr-defined]
     search = asyncio.create_task(client.post("/api/suggestions", json={**STUCK, **LONG}))
-    while lanes.load()["searches"][1] == 0:
-        await asyncio.sleep(0.01)
+    await asyncio.to_thread(wait_until, lambda: lanes.load()["searches"][1] > 0)
     assert (await client.get("/api/health")).status_code == 200
     assert not search.done()
     search.cancel()
@@ -137,10 +137,7 @@ async def test_when_the_client_goes_away_the_search_stops(served: Served) -> Non
             async for line in stream.aiter_lines():
                 if line.startswith("event: suggestion"):
                     break
-        await asyncio.sleep(1.0)
-        before_s = cpu_s(served.process.pid)
-        await asyncio.sleep(1.0)
-        assert cpu_s(served.process.pid) - before_s < 0.5
+        await asyncio.to_thread(wait_until, partial(is_idle, served, "searches"))
 
 
 async def test_the_map_of_placements_has_costs_and_a_best(client: httpx.AsyncClient) -> None:

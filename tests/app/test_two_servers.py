@@ -1,7 +1,5 @@
 """Two servers on one PostgreSQL database, each in a process of its own, see what the other has."""
 
-import time
-from collections.abc import Callable
 from pathlib import Path
 
 import httpx
@@ -10,15 +8,7 @@ from tests.app.conftest import Served
 from tests.app.document_requests import moved
 from tests.app.samples import towel
 from tests.databases import emptied
-from tests.patience import PATIENCE_S
-
-
-def until(holds: Callable[[], bool]) -> None:
-    """Wait until something holds: servers look for what others have changed every few seconds."""
-    until_s = time.monotonic() + PATIENCE_S
-    while not holds():
-        assert time.monotonic() < until_s
-        time.sleep(0.2)
+from tests.patience import PATIENCE_S, wait_until
 
 
 def test_two_servers_on_one_database_see_what_each_other_has(tmp_path: Path, postgresql_server: str) -> None:
@@ -49,13 +39,13 @@ def test_two_servers_on_one_database_see_what_each_other_has(tmp_path: Path, pos
 
             card = {**first.get("/api/robots/ur5e-single").json(), "name": "bench"}
             assert first.put("/api/robots/bench", json=card).status_code == 201
-            until(lambda: second.get("/api/robots/bench").status_code == 200)
+            wait_until(lambda: second.get("/api/robots/bench").status_code == 200)
             assert second.delete("/api/robots/bench").status_code == 204
-            until(lambda: first.get("/api/robots/bench").status_code == 404)
+            wait_until(lambda: first.get("/api/robots/bench").status_code == 404)
 
             asked = {"garments": [{"garment": towel()}], "limits": {"work_limit_s": 1.0}}
             job = first.post("/api/studies", json=asked).headers["location"]
-            until(lambda: second.get(job).json()["status"] == "done")
+            wait_until(lambda: second.get(job).json()["status"] == "done")
             report = second.get(job).json()["result"]["files"]["report_html"]
             assert second.get(report).text == first.get(report).text != ""
 

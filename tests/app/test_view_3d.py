@@ -27,6 +27,7 @@ from planner.motion.cloth_surface import spread_cloth
 from planner.motion.timeline import Timeline
 from planner.robots.load_robot import load_robot
 from tests.app.pose_matrix import matrix
+from tests.patience import PATIENCE_S
 from tests.replay.planned import shipped_plan
 from tests.required import required
 
@@ -232,7 +233,7 @@ def test_the_3d_views_own_port_opens_with_the_secret(view: View3D) -> None:
     address = f"ws://{LOOPBACK}:{view.port}"
     headers = {SECRET_HEADER: view.secret}
     with connect(address, subprotocols=[SUBPROTOCOL], additional_headers=headers, proxy=None, max_size=None) as opened:
-        assert isinstance(opened.recv(timeout=5.0), bytes)
+        assert isinstance(opened.recv(timeout=PATIENCE_S), bytes)
 
 
 def test_two_3d_views_stand_side_by_side(view: View3D) -> None:

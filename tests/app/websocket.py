@@ -3,11 +3,13 @@
 import asyncio
 import contextlib
 import json
+from collections.abc import Callable
 from typing import Any
 
 from starlette.types import ASGIApp, Message
 
 from tests.app.conftest import OWN_URL
+from tests.patience import PATIENCE_S
 
 
 class Listener:
@@ -22,6 +24,7 @@ class Listener:
         self.closed_with: int | None = None
         self.answered: Message | None = None
         self._inbox: asyncio.Queue[Message] = asyncio.Queue()
+        self._told = asyncio.Event()
         self._inbox.put_nowait({"type": "websocket.connect"})
         scope: dict[str, Any] = {
             "type": "websocket",
@@ -46,17 +49,14 @@ class Listener:
 
     async def until(self, kind: str, **wanted: object) -> dict[str, Any]:
         """Wait for a message of a kind that has these fields."""
-        async with asyncio.timeout(60.0):
-            while not wanted.items() <= self.last.get(kind, {"": None}).items() or kind not in self.last:
-                await asyncio.sleep(0.002)
+        await self._once(lambda: kind in self.last and wanted.items() <= self.last[kind].items())
         return self.last[kind]
 
     async def until_planned(self, version: int) -> dict[str, Any]:
         """Wait for the final plan of a version, and for its playback; return the plan's message."""
-        plan = await self.until("plan", status="solved", version=version)
-        async with asyncio.timeout(60.0):
-            while not (plan := self.last["plan"])["plan"]["is_final"]:
-                await asyncio.sleep(0.002)
+        await self.until("plan", status="solved", version=version)
+        await self._once(lambda: self.last["plan"]["plan"]["is_final"])
+        plan = self.last["plan"]
         await self.until("playback", version=version, duration_s=plan["plan"]["cost_s"])
         return plan
 
@@ -67,7 +67,14 @@ class Listener:
 
     async def has_ended(self) -> None:
         """Wait until the server has closed the connection, or has refused it."""
-        await asyncio.wait_for(self._task, 60.0)
+        await asyncio.wait_for(self._task, PATIENCE_S)
+
+    async def _once(self, holds: Callable[[], bool]) -> None:
+        """Wait for the message after which a condition holds."""
+        async with asyncio.timeout(PATIENCE_S):
+            while not holds():
+                self._told.clear()
+                await self._told.wait()
 
     async def _send(self, message: Message) -> None:
         if message["type"] == "websocket.close":
@@ -79,3 +86,4 @@ class Listener:
             self.last[said["kind"]] = said
             if self.keep_all:
                 self.heard.append(said)
+            self._told.set()

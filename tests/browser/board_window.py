@@ -6,7 +6,8 @@ from typing import Any
 from playwright.sync_api import Page, WebSocket, expect
 
 from tests.browser.board_hand import Hand, Point
-from tests.browser.conftest import PATIENCE_MS, Sheet
+from tests.browser.conftest import Sheet
+from tests.patience import wait_until
 
 DRAWN = "new Promise(requestAnimationFrame)"
 SPREAD_OUT = f"""() => {{
@@ -106,11 +107,8 @@ class Window:
         self.page.keyboard.down("Control")
         self.page.mouse.up()
         self.page.keyboard.up("Control")
-        for _ in range(PATIENCE_MS // 10):
-            if (self._drops - before) & self._answered:
-                return
-            self.page.wait_for_timeout(10)
-        raise AssertionError("the server never answers")
+        # What the page hears is heard here only while the page is asked for something.
+        wait_until(lambda: self.page.evaluate(DRAWN) and (self._drops - before) & self._answered)
 
     def _listen(self, socket: WebSocket) -> None:
         """Note what the page commits, and what the server answers."""

@@ -1,6 +1,5 @@
 """Browsers and servers. Most tests do without a 3D view: the page then loads at once and leaves the processor free."""
 
-import time
 from collections.abc import Callable, Generator, Iterator
 from contextlib import ExitStack, contextmanager
 from typing import Any
@@ -12,6 +11,7 @@ from tests.app.conftest import REST as REST
 from tests.app.conftest import Served
 from tests.app.conftest import served as served
 from tests.browser.status_pill import expect_planned
+from tests.patience import wait_until
 
 PATIENCE_MS = 60_000
 VIEW_PATIENCE_MS = 60_000
@@ -190,12 +190,12 @@ class Sheet:
 
     def once(self, is_there: Callable[[dict[str, Any]], bool]) -> dict[str, Any]:
         """Return the document once a condition holds."""
-        for _ in range(PATIENCE_MS // 50):
+
+        def there() -> dict[str, Any] | None:
             state = self.state
-            if is_there(state):
-                return state
-            time.sleep(0.05)
-        raise AssertionError(f"the document stays as it is: {state}")
+            return state if is_there(state) else None
+
+        return wait_until(there)
 
     @property
     def drawing(self) -> dict[str, Any]:

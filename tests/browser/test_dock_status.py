@@ -8,9 +8,11 @@ import pytest
 from playwright.sync_api import BrowserContext, Page, WebSocketRoute, expect
 
 from tests.app.conftest import Served
-from tests.browser.conftest import PATIENCE_MS, Garment, Sheet
+from tests.browser.board_window import DRAWN
+from tests.browser.conftest import Garment, Sheet
 from tests.browser.napkin import napkin
 from tests.browser.status_pill import expect_planned
+from tests.patience import wait_until
 
 WAITING = """async (millis) => {
   const { Planning } = await import("/static/js/dock/planning.js");
@@ -216,10 +218,7 @@ def test_a_connection_that_came_back_is_told_with_what_the_server_says_not_befor
     status = page.get_by_role("status")
     sheet.edit(lambda drawing: drawing.update(title="Seen again"))
     expect(page).to_have_title("Seen again - Pleat")
-    for _ in range(PATIENCE_MS // 10):
-        if held:
-            break
-        page.wait_for_timeout(10)
+    wait_until(lambda: page.evaluate(DRAWN) and held)
     assert status.inner_text() == "Connection lost, trying again..."
     again[-1].send(held[-1])
     expect(status).not_to_contain_text("Connection lost")

@@ -8,7 +8,8 @@ from playwright.sync_api import Page, expect
 from tests.app.conftest import Served
 from tests.browser.conftest import IN_VIEW, REST, Sheet
 from tests.browser.status_pill import expect_planned
-from tests.browser.view_hand import CAMERA, corner_in_picture, drag, look_from_above, until
+from tests.browser.view_hand import CAMERA, corner_in_picture, drag, look_from_above
+from tests.patience import wait_until
 from tests.required import required
 
 NODE = """(name) => {
@@ -129,11 +130,11 @@ def test_the_page_names_garment_folds_and_plan(page: Page) -> None:
 def test_playing_moves_the_robot_and_the_clock(page: Page) -> None:
     scrub(page, 0.0)
     elbow = "/robot/base_footprint/base_link/torso_lift_link/l_shoulder_pan_link/l_shoulder_lift_link"
-    until(lambda: page.get_by_role("slider", name="Time").input_value() == "0")
+    wait_until(lambda: page.get_by_role("slider", name="Time").input_value() == "0")
     before = node(page, elbow)["place"]
     page.get_by_role("button", name="Play").click()
     expect(page.get_by_role("button", name="Pause")).to_be_visible()
-    until(lambda: node(page, elbow)["place"] != before)
+    wait_until(lambda: node(page, elbow)["place"] != before)
     page.wait_for_function("Number(document.getElementById('time').value) > 0.5")
     page.get_by_role("button", name="Pause").click()
     expect(page.get_by_role("button", name="Play")).to_be_visible()
@@ -141,10 +142,10 @@ def test_playing_moves_the_robot_and_the_clock(page: Page) -> None:
 
 def test_scrubbing_to_the_end_shows_the_folded_cloth(page: Page) -> None:
     scrub(page, 0.0)
-    until(lambda: cloth_area(page) > 0.35)
+    wait_until(lambda: cloth_area(page) > 0.35)
     spread_out = cloth_area(page)
     scrub(page, duration_s(page))
-    until(lambda: cloth_area(page) < 0.35 * spread_out)
+    wait_until(lambda: cloth_area(page) < 0.35 * spread_out)
     assert node(page, "/cloth/front")["size"][1] < 0.1
     page.wait_for_function(WOVEN)
     slider = page.get_by_role("slider", name="Time")
@@ -154,10 +155,10 @@ def test_scrubbing_to_the_end_shows_the_folded_cloth(page: Page) -> None:
 
 def test_the_space_bar_plays_and_arrows_step(page: Page) -> None:
     scrub(page, 1.0)
-    until(lambda: page.get_by_role("slider", name="Time").input_value() == "1")
+    wait_until(lambda: page.get_by_role("slider", name="Time").input_value() == "1")
     page.get_by_role("slider", name="Time").focus()
     page.keyboard.press("ArrowRight")
-    until(lambda: page.get_by_role("slider", name="Time").input_value() == "1.5")
+    wait_until(lambda: page.get_by_role("slider", name="Time").input_value() == "1.5")
     page.keyboard.press(" ")
     expect(page.get_by_role("button", name="Pause")).to_be_visible()
     page.keyboard.press(" ")
@@ -168,11 +169,11 @@ def test_the_3d_view_takes_on_the_pages_theme_and_its_ground(page: Page) -> None
     grounds = """() => [document, document.getElementById("view3d").contentDocument].map(
       ({ body, defaultView }) => defaultView.getComputedStyle(body).backgroundColor)"""
     dark, light = ["rgb(22, 24, 28)"] * 2, ["rgb(250, 250, 248)"] * 2
-    until(lambda: page.evaluate(grounds) == light)
+    wait_until(lambda: page.evaluate(grounds) == light)
     page.get_by_role("button", name="Dark").click()
-    until(lambda: page.evaluate(grounds) == dark)
+    wait_until(lambda: page.evaluate(grounds) == dark)
     page.get_by_role("button", name="Light").click()
-    until(lambda: page.evaluate(grounds) == light)
+    wait_until(lambda: page.evaluate(grounds) == light)
 
 
 @pytest.mark.long
@@ -195,9 +196,9 @@ def test_a_corner_is_dragged_from_above_and_undone_and_the_camera_stays(page: Pa
     overlay = page.locator(".view3d-surface")
     expect(overlay).to_be_visible()
     drag(page, (x, y), (x + 20, y - 12))
-    until(lambda: sheet.state["gesture"] == "Move vertex")
+    wait_until(lambda: sheet.state["gesture"] == "Move vertex")
     page.mouse.up()
-    until(lambda: sheet.state["gesture"] is None)
+    wait_until(lambda: sheet.state["gesture"] is None)
     assert sheet.can_undo == "Move vertex"
     u, v = corner_in_picture(page, sheet, 0)
     assert (u, v) == pytest.approx((x + 20, y - 12), abs=3.0)  # as near as the board's snapping lets it come
@@ -205,7 +206,7 @@ def test_a_corner_is_dragged_from_above_and_undone_and_the_camera_stays(page: Pa
     assert page.evaluate(CAMERA) == above
 
     page.keyboard.press("Control+z")
-    until(lambda: sheet.drawing == before)
+    wait_until(lambda: sheet.drawing == before)
     page.locator("#drafting-board").hover()
     expect(overlay).to_be_hidden()
 
@@ -216,5 +217,5 @@ def test_where_there_is_nothing_to_take_the_pointer_turns_the_camera(page: Page,
     x, y = corner_in_picture(page, sheet, 0)
     drag(page, (x + 40, y - 40), (x + 90, y - 80))  # on the cloth, with the tool that selects
     page.mouse.up()
-    until(lambda: page.evaluate(CAMERA) != above)
+    wait_until(lambda: page.evaluate(CAMERA) != above)
     assert sheet.drawing == before

@@ -24,6 +24,7 @@ from tests.browser.board_hand import Point
 from tests.browser.board_window import Window
 from tests.browser.conftest import REST, Garment, Sheet, windows
 from tests.browser.two_windows import SLACK_PX, TwoWindows, assert_shown, beginning
+from tests.patience import wait_until
 
 CORNERS_MAX = 7
 FOLDS_MAX = 3
@@ -138,7 +139,7 @@ class PageMachine(TwoWindows):
         window = self.hand(who)
         refused, before = window.refusals(), self.folds
         window.draw_fold(a, b, COLOURS[colour])
-        self.until(lambda: len(self.sheet.drawing["folds"]) > len(before) or window.refusals() > refused)
+        wait_until(lambda: len(self.sheet.drawing["folds"]) > len(before) or window.refusals() > refused)
         if window.refusals() > refused:
             self.none_done()
             return

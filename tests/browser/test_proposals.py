@@ -2,7 +2,6 @@
 
 import json
 import re
-import time
 from collections.abc import Callable
 from typing import Any
 
@@ -12,8 +11,9 @@ from planner.proposals.target import PRESETS, SIDE_MAX_M, SIDE_MIN_M, TOLERANCE_
 from tests.app.conftest import REST
 from tests.browser.board.conftest import page as page
 from tests.browser.board_hand import Hand
-from tests.browser.conftest import PATIENCE_MS, Garment, Sheet
+from tests.browser.conftest import Garment, Sheet
 from tests.browser.searches import SEARCH_MS
+from tests.patience import wait_until
 
 NewSheet = Callable[[Garment], Sheet]
 
@@ -24,14 +24,10 @@ def size(wide_cm: float, long_cm: float) -> re.Pattern[str]:
     return re.compile(rf"{wide_cm:.1f} \S {long_cm:.1f} cm")
 
 
-def all_have_ended(sheet: Sheet) -> bool:
-    """Return whether no proposals are looked for any more, once that is so or has not been for long."""
-    for _ in range(PATIENCE_MS // 50):
-        jobs = REST.get(f"{sheet.path.partition('/api/')[0]}/api/jobs").json()["jobs"]
-        if {job["status"] for job in jobs if job["kind"] == "proposals"} <= {"done", "cancelled"}:
-            return True
-        time.sleep(0.05)
-    return False
+def have_all_ended(sheet: Sheet) -> bool:
+    """Return whether no proposals are looked for any more."""
+    jobs = REST.get(f"{sheet.path.partition('/api/')[0]}/api/jobs").json()["jobs"]
+    return {job["status"] for job in jobs if job["kind"] == "proposals"} <= {"done", "cancelled"}
 
 
 def test_a_way_is_looked_at_and_taken_by_keyboard_and_is_one_step(page: Page, new_sheet: NewSheet) -> None:
@@ -54,7 +50,7 @@ def test_a_way_is_looked_at_and_taken_by_keyboard_and_is_one_step(page: Page, ne
     expect(panel).to_be_hidden()
     expect(page.locator(".fold-row")).to_have_count(2)
     assert sheet.can_undo == "Fold it for me"
-    assert all_have_ended(sheet)
+    wait_until(lambda: have_all_ended(sheet))
     page.keyboard.press("Control+z")
     expect(page.locator(".fold-row")).to_have_count(0)
 

@@ -6,7 +6,8 @@ from playwright.sync_api import Page, expect
 from planner.geometry.pose import Point2
 from tests.app.conftest import Served
 from tests.browser.conftest import IS_THERE, Sheet
-from tests.browser.view_hand import CAMERA, corner_in_picture, drag, look_from_above, until
+from tests.browser.view_hand import CAMERA, corner_in_picture, drag, look_from_above
+from tests.patience import wait_until
 
 
 @pytest.fixture
@@ -25,9 +26,9 @@ def test_what_is_dragged_when_the_3d_view_is_loaded_anew_is_let_go_where_it_is(p
     look_from_above(page)
     x, y = corner_in_picture(page, sheet, 0)
     drag(page, (x, y), (x + 20, y - 12))
-    until(lambda: sheet.state["gesture"] == "Move vertex")
+    wait_until(lambda: sheet.state["gesture"] == "Move vertex")
     page.evaluate("document.getElementById('view3d').contentWindow.location.reload()")
-    until(lambda: sheet.state["gesture"] is None)
+    wait_until(lambda: sheet.state["gesture"] is None)
     page.mouse.up()
     assert sheet.drawing["outline"][0] != before["outline"][0]
     expect(page.get_by_role("toolbar", name="Look from")).to_be_visible()
@@ -35,10 +36,10 @@ def test_what_is_dragged_when_the_3d_view_is_loaded_anew_is_let_go_where_it_is(p
     look_from_above(page)
     drag(page, corner_in_picture(page, sheet, 0), (x, y))
     page.mouse.up()
-    until(lambda: sheet.can_undo == "Move vertex" and sheet.state["gesture"] is None)
+    wait_until(lambda: sheet.can_undo == "Move vertex" and sheet.state["gesture"] is None)
     for _ in range(2):
         page.keyboard.press("Control+z")
-    until(lambda: sheet.drawing == before)
+    wait_until(lambda: sheet.drawing == before)
 
 
 @pytest.mark.long
@@ -54,7 +55,7 @@ def test_a_fold_is_drawn_on_the_cloth_on_the_table(page: Page, designer: Served)
     right = middle(corner_in_picture(page, sheet, 8), corner_in_picture(page, sheet, 9))
     drag(page, left, right)
     page.mouse.up()
-    until(lambda: len(sheet.drawing["folds"]) == count + 1)
+    wait_until(lambda: len(sheet.drawing["folds"]) == count + 1)
     fold = sheet.drawing["folds"][0]
     # From half the height of one side to half the height of the other, as near as a hand comes: a pixel is some 4 mm.
     # The smaller part moves, which is the lower one: it lies to the left of a line back from the other side.

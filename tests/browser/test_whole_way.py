@@ -2,7 +2,6 @@
 
 import math
 import re
-import time
 from collections.abc import Callable
 from typing import Any
 
@@ -11,7 +10,7 @@ from playwright.sync_api import Browser, Page, expect
 
 from tests.app.conftest import Served
 from tests.browser.board_hand import Point
-from tests.browser.conftest import PATIENCE_MS, Garment, Sheet, windows
+from tests.browser.conftest import Garment, Sheet, windows
 from tests.browser.searches import SEARCH_MS
 from tests.browser.status_pill import expect_planned
 from tests.browser.ways import ByFinger, ByKeyboard, ByMouse, Way, expect_folds
@@ -93,12 +92,8 @@ def pull_until_there_is_no_plan(page: Page, way: Way, sheet: Sheet) -> None:
 
 def until_it_is_at(sheet: Sheet, y: float) -> int:
     """Wait until the server has the corner there; return the version."""
-    for _ in range(PATIENCE_MS // 100):
-        state = sheet.state
-        if abs(state["drawing"]["outline"][PULLED]["point"][1] - y) < NEAR_M / 2:
-            return int(state["version"])
-        time.sleep(0.1)
-    raise AssertionError(f"the corner does not come to {y}")
+    there = sheet.once(lambda state: abs(state["drawing"]["outline"][PULLED]["point"][1] - y) < NEAR_M / 2)
+    return int(there["version"])
 
 
 def expect_answer(page: Page, version: int) -> None:

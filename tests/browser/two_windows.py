@@ -1,8 +1,6 @@
 """A document in two windows: its known state, waiting for operations, and the checks of what is shown."""
 
 import math
-import time
-from collections.abc import Callable
 from typing import Any
 
 from hypothesis.stateful import RuleBasedStateMachine
@@ -10,7 +8,8 @@ from hypothesis.stateful import RuleBasedStateMachine
 from tests.app.document_model import DocumentModel
 from tests.browser.board_hand import Point
 from tests.browser.board_window import Window
-from tests.browser.conftest import PATIENCE_MS, REST, Sheet
+from tests.browser.conftest import REST, Sheet
+from tests.patience import wait_until
 
 SLACK_PX = 1.5
 """The tolerance of a position (px), since a mouse stands on whole pixels."""
@@ -52,7 +51,7 @@ class TwoWindows(RuleBasedStateMachine):
         window = self.hand(who)
         window.begin_drag(self.outline[index], target)
         drawn = window.seen()["outline"][index]
-        self.until(lambda: math.dist(self.sheet.drawing["outline"][index]["point"], drawn) < SAME_M)
+        wait_until(lambda: math.dist(self.sheet.drawing["outline"][index]["point"], drawn) < SAME_M)
         assert self.sheet.state["gesture"] == "Move vertex"
         return window, index, target
 
@@ -66,13 +65,13 @@ class TwoWindows(RuleBasedStateMachine):
         elif label is not None:
             self.hand(who).press(verb.capitalize())
             version = self.state["version"]
-            self.until(lambda: self.sheet.state["version"] > version)
+            wait_until(lambda: self.sheet.state["version"] > version)
             self.state = self.sheet.state
 
     def done(self, label: str) -> None:
         """Wait for a step of this name, and take over the state it led to."""
         version, before = self.state["version"], self.state["drawing"]
-        self.until(lambda: self.is_done(self.sheet.state, version, label))
+        wait_until(lambda: self.is_done(self.sheet.state, version, label))
         self.state = self.sheet.state
         self.model.drop_gesture(before)
         self.model.step(label, before, self.state["drawing"])
@@ -83,7 +82,7 @@ class TwoWindows(RuleBasedStateMachine):
     def none_done(self) -> None:
         """Wait until the state is as it was."""
         wanted = self.state["drawing"]
-        self.until(lambda: self.sheet.state["gesture"] is None and self.sheet.drawing == wanted)
+        wait_until(lambda: self.sheet.state["gesture"] is None and self.sheet.drawing == wanted)
         self.state = self.sheet.state
 
     def new_title(self) -> str:
@@ -100,12 +99,6 @@ class TwoWindows(RuleBasedStateMachine):
         answer = REST.post(address, json={"garment": state["garment"], **asked})
         plan: dict[str, Any] = answer.raise_for_status().json()
         return plan
-
-    def until(self, condition: Callable[[], bool]) -> None:
-        deadline = time.monotonic() + PATIENCE_MS / 1000
-        while not condition():
-            assert time.monotonic() < deadline, "it does not happen"
-            time.sleep(0.01)
 
 
 def assert_shown(shown: dict[str, Any], state: dict[str, Any]) -> None:

@@ -1,14 +1,10 @@
 """A hand on the 3D view: where things are in its picture, and its camera."""
 
-import time
-from collections.abc import Callable
-from typing import Any
-
 import numpy as np
 from playwright.sync_api import Page
 
 from planner.geometry.pose import Point2, Pose2
-from tests.browser.conftest import IN_VIEW, VIEW_PATIENCE_MS, Sheet
+from tests.browser.conftest import IN_VIEW, Sheet
 
 CAMERA = f"() => {IN_VIEW}.camera.matrixWorld.elements.map((value) => value.toFixed(4)).join(' ')"
 FROM_ABOVE = f"({IN_VIEW}.camera.matrixWorld.elements[9] > 0.99)"
@@ -22,14 +18,6 @@ TO_PICTURE = f"""(place) => {{
     frame.y + picture.y + ((1 - seen.y) / 2) * picture.height,
   ];
 }}"""
-
-
-def until(condition: Callable[[], Any]) -> None:
-    """Wait until a condition holds that cannot be evaluated in the page."""
-    deadline = time.monotonic() + VIEW_PATIENCE_MS / 1000
-    while not condition():
-        assert time.monotonic() < deadline
-        time.sleep(0.05)
 
 
 def still_camera(page: Page) -> str:

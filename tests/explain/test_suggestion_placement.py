@@ -1,7 +1,6 @@
 """Other places on the table: which are tried, and how, for a base that drives and for one that does not; their map."""
 
 import math
-import time
 
 import numpy as np
 import pytest
@@ -15,6 +14,7 @@ from planner.geometry.pose import Pose2
 from planner.planning.robot_task import task_for
 from planner.task.task import TaskOptions
 from tests.builders import fold, garment, rectangle_points
+from tests.clocks import slow_machine
 from tests.explain.proven_search import FRONT_ONLY, towel, tried_in_vain
 
 
@@ -86,16 +86,11 @@ def test_a_map_cut_short_says_so() -> None:
         assert found.to_dict()["complete"] is False
 
 
-def slow() -> bool:
-    """Return a question whether to stop that a slow machine answers slowly."""
-    time.sleep(0.001)
-    return False
-
-
-def test_on_a_slow_machine_the_map_has_the_same_cells() -> None:
+def test_on_a_slow_machine_the_map_has_the_same_cells(monkeypatch: pytest.MonkeyPatch) -> None:
     limits = TaskOptions(work_limit_s=0.4, time_limit_s=60.0)
     quick, slowly = (
-        placement_map(Task.of(towel(), FRONT_ONLY, **limits), should_stop=should_stop) for should_stop in (None, slow)
+        placement_map(Task.of(towel(), FRONT_ONLY, **limits), should_stop=should_stop)
+        for should_stop in (None, slow_machine(monkeypatch))
     )
     assert slowly == quick
     assert quick.cells and not quick.is_complete

@@ -22,6 +22,7 @@ from planner.message import Message
 from planner.task.plan import Plan
 from planner.task.task import TaskOptions
 from tests.builders import fold, garment, rectangle_points
+from tests.clocks import slow_machine
 from tests.explain.proven_search import FAR, FRONT_ONLY, asked, towel
 from tests.planning.provoked import planned_with
 from tests.replay.planned import shipped_plan
@@ -180,18 +181,12 @@ def test_a_trial_that_was_cut_off_before_its_answer_is_not_taken_for_a_no() -> N
     assert not is_complete(suggestions(cut_off, plan=known))
 
 
-def slow() -> bool:
-    """Return a question whether to stop that a slow machine answers slowly."""
-    time.sleep(0.001)
-    return False
-
-
 @pytest.mark.long
 @pytest.mark.parametrize("work_s", [0.4, 1.0])
-def test_on_a_slow_machine_the_same_changes_are_suggested(work_s: float) -> None:
+def test_on_a_slow_machine_the_same_changes_are_suggested(work_s: float, monkeypatch: pytest.MonkeyPatch) -> None:
     limits = TaskOptions(work_limit_s=work_s, time_limit_s=60.0)
     quick, slowly = (
         [one.to_dict() for one in suggestions(Task.of(towel(FAR), FRONT_ONLY, **limits), should_stop=should_stop)]
-        for should_stop in (None, slow)
+        for should_stop in (None, slow_machine(monkeypatch))
     )
     assert slowly == quick != []

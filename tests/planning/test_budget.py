@@ -1,7 +1,6 @@
 """A search ends by the work it has done, so that its answer does not depend on how busy the machine is."""
 
 import math
-import time
 from collections.abc import Iterator
 
 import pytest
@@ -12,17 +11,11 @@ from planner.planning.budget import Budget
 from planner.planning.events import Event
 from planner.planning.problem import Problem
 from planner.plans import plan
+from tests.clocks import FastClock, slow_machine
 from tests.required import required
 
-PAUSE_S = 0.002
 SEARCH_S = 0.08
 """Work for a part of the T-shirt's search (s), whatever its duration."""
-
-
-def busy() -> bool:
-    """Return a question whether to stop that a slow machine answers slowly."""
-    time.sleep(PAUSE_S)
-    return False
 
 
 def what_matters(answer: Plan) -> tuple[object, ...]:
@@ -41,8 +34,9 @@ def what_matters(answer: Plan) -> tuple[object, ...]:
 
 
 @pytest.mark.parametrize("work_s", [SEARCH_S, 10.0])
-def test_on_a_slow_machine_the_same_request_has_the_same_answer(work_s: float) -> None:
+def test_on_a_slow_machine_the_same_request_has_the_same_answer(work_s: float, monkeypatch: pytest.MonkeyPatch) -> None:
     quick = make_plan(load_garment("t-shirt"), work_limit_s=work_s, time_limit_s=60.0)
+    busy = slow_machine(monkeypatch)
     slow = make_plan(load_garment("t-shirt"), work_limit_s=work_s, time_limit_s=60.0, should_stop=busy)
     assert what_matters(slow) == what_matters(quick)
     assert (quick.status == "solved") == (work_s > SEARCH_S)
@@ -52,7 +46,7 @@ def test_and_falls_back_on_the_same_plan_at_the_same_time(monkeypatch: pytest.Mo
     monkeypatch.setattr(plan_search, "GREEDY_AFTER_S", 0.5 * SEARCH_S)
     answers = []
     task = Task.of(load_garment("t-shirt"), work_limit_s=4.0 * SEARCH_S, time_limit_s=60.0)
-    for should_stop in (None, busy):
+    for should_stop in (None, slow_machine(monkeypatch)):
         *found, end = (event.found.plan for event in plan(task, should_stop=should_stop))
         answers.append((end, found))
     (quick, quickly_found), (slow, slowly_found) = answers
@@ -88,28 +82,27 @@ def test_the_clock_ends_a_search_that_has_work_left() -> None:
     assert answer.status == "budget_exceeded"
 
 
-def test_time_in_which_the_process_has_no_processor_does_not_count() -> None:
+def test_time_in_which_the_process_has_no_processor_does_not_count(monkeypatch: pytest.MonkeyPatch) -> None:
     """Another program, or whatever else stalls the thread, takes ten times the limit."""
     task = Task.of(load_garment("tie"), work_limit_s=0.5 * SEARCH_S, time_limit_s=0.3)
     make_plan(task)  # kernels are loaded
-    began_s, waits = time.perf_counter(), iter((3.0,))
+    wall = FastClock(monkeypatch, "wall_clock_s")
 
     def stalled() -> bool:
-        time.sleep(next(waits, 0.0))
+        wall.ahead_s = 3.0
         return False
 
     answer = make_plan(task, should_stop=stalled)
-    assert time.perf_counter() - began_s > 3.0
+    assert wall.ahead_s == 3.0
     assert answer.statistics.ways == make_plan(task).statistics.ways > 0
 
 
 def test_whoever_waits_gets_an_answer_from_a_search_that_stalls_for_ever(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(deadline, "WALL_FACTOR", 1.0)
-    monkeypatch.setattr(deadline, "WALL_LEAST_S", 0.2)
+    wall = FastClock(monkeypatch, "wall_clock_s")
     task = Task.of(load_garment("t-shirt"), work_limit_s=60.0, time_limit_s=10.0)
 
     def stalled() -> bool:
-        time.sleep(0.5)
+        wall.ahead_s += 50.0
         return False
 
     assert make_plan(task, should_stop=stalled).status == "budget_exceeded"

@@ -1,4 +1,4 @@
-"""A camera over a table, calibrated by pictures of a printed board of markers, in one of which its place is known.
+"""Calibrate a camera over a table from pictures of a printed board of markers; in one of them its place is known.
 
 The board is OpenCV's ChArUco: a chessboard with markers in its white squares, so that a part of it tells. Its frame has
 its middle as the origin, x to its right and y up as it is printed. Pictures of it at slants tell the lens; the picture
@@ -38,7 +38,7 @@ _Pixels = Annotated[float, Interval(ge=1.0, le=1e5)]
 
 
 class CalibrationError(FieldError):
-    """Bad input: pictures from which no camera can be calibrated, or a file that is no calibration."""
+    """Bad input: pictures that do not suffice to calibrate a camera, or a file that holds no calibration."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +68,7 @@ class Calibration:
     pleat_camera: Literal[1] = 1
 
     def __post_init__(self) -> None:
-        """Refuse axes that are none; raises `CalibrationError`."""
+        """Check that the axes are right-handed and of length 1; raises `CalibrationError`."""
         turn = np.array(self.rotation)
         if not np.allclose(turn @ turn.T, np.eye(3), atol=1e-3) or np.linalg.det(turn) < 0.0:
             raise CalibrationError("rotation", "its columns are no right-handed axes")
@@ -78,7 +78,7 @@ class Calibration:
         """Return the calibration in a file.
 
         Raises:
-            CalibrationError: it is none.
+            CalibrationError: the file holds no calibration.
             OSError: the system refuses to read.
         """
         try:
@@ -113,7 +113,7 @@ class Calibration:
         return np.asarray(cv2.remap(image, *maps, cv2.INTER_LINEAR), np.uint8), camera
 
     def _matrix(self, across: float, down: float) -> FloatArray:
-        """Return the camera's matrix for pictures that are so much larger across and down."""
+        """Return the camera matrix for pictures that are larger by factors, across and down."""
         (fx, fy), (cx, cy) = self.focal_px, self.middle_px
         x, y = (cx + 0.5) * across - 0.5, (cy + 0.5) * down - 0.5
         return np.array([[fx * across, 0.0, x], [0.0, fy * down, y], [0.0, 0.0, 1.0]])
@@ -123,7 +123,7 @@ _FORM = JsonForm(Calibration, CalibrationError)
 
 
 def calibrated(pictures: list[Image], square_m: float, board: Pose2) -> Calibration:
-    """Return the calibration that pictures of the board tell.
+    """Return the calibration found from pictures of the board.
 
     Args:
         pictures: the board as it lies on the table, then the same at slants; blue, green, red, all of one size.
@@ -182,7 +182,7 @@ def _corners(number: int, picture: Image, square_m: float) -> tuple[FloatArray, 
 
 
 def board_picture(dots_per_m: float) -> Image:
-    """Return the board alone, grey, so many dots to the metre."""
+    """Return the board alone, grey, at a resolution (dots per metre)."""
     size = (round(_COLUMNS * SQUARE_M * dots_per_m), round(_ROWS * SQUARE_M * dots_per_m))
     return np.asarray(_board(SQUARE_M).generateImage(size), np.uint8)
 

@@ -49,7 +49,7 @@ class Camera:
         return np.asarray(self.focal_px * seen[:, :2] / ahead + self._middle)
 
     def depths(self, points: FloatArray) -> FloatArray:
-        """Return how far ahead of the lens points, shape (n, 3), are, shape (n,), m."""
+        """Return the depths of points in front of the lens, shape (n, 3) -> (n,), m."""
         return np.asarray((points - self.position) @ np.array(self.rotation)[:, 2])
 
     def on_plane(self, pixels: FloatArray, height_m: float | FloatArray = 0.0) -> FloatArray:

@@ -47,7 +47,7 @@ PLAIN = Look((124.0, 143.0, 163.0), (210.0, 230.0, 240.0), noise=3.0, back=(214.
 
 
 def random_look(rng: np.random.Generator, *, has_arm: bool = False) -> Look:
-    """Return a look by chance: colours of table and cloth that differ by 25 of 255 at least."""
+    """Return a random look; the colours of table and cloth differ by at least 25 (of 255)."""
     while True:
         table, cloth = rng.uniform(30, 245, 3), rng.uniform(20, 250, 3)
         table = 0.6 * table.mean() + 0.4 * table
@@ -82,7 +82,7 @@ def wood(look: Look, side: int, rng: np.random.Generator) -> FloatImage:
 
 
 def stretched(rng: np.random.Generator, side: int, times: tuple[int, int], blur: float) -> FloatImage:
-    """Return noise of so many pixels, blurred and then stretched across and down."""
+    """Return a square of noise, `side` pixels wide, blurred and then stretched across and down by factors."""
     across, down = times
     noise = rng.standard_normal((side // down + 1, side // across + 1), dtype=np.float32)
     if blur:

@@ -126,7 +126,7 @@ def _lay_cloth(taken: FloatImage, camera: Camera, cloth: ClothSeen, look: Look, 
 
 @lru_cache(maxsize=4)
 def _wrinkles(seed: int) -> tuple[FloatImage, FloatImage]:
-    """Return how much brighter wrinkles and weave are, of 255."""
+    """Return the brightness that wrinkles and weave add (of 255)."""
     rng = np.random.default_rng(seed)
     folds, weave = stretched(rng, 256, (10, 20), 1.5), stretched(rng, 256, (1, 1), 0.0)
     return np.asarray(18 * folds / folds.std(), np.float32), 3 * weave
@@ -193,7 +193,7 @@ def drawn(pixels: FloatArray, triangles: NDArray[np.int64], depths: FloatArray, 
 
 
 def shares(numbers: Numbers, pixels: FloatArray, triangles: NDArray[np.int64]) -> tuple[NDArray[np.bool_], FloatArray]:
-    """Return which pixels show a triangle, and how near each of these is to its corners, shape (k, 3), summing to 1.
+    """Return which pixels show a triangle, and the barycentric coordinates of each in its triangle, shape (k, 3).
 
     Perspective within one triangle is left out: they are small.
     """

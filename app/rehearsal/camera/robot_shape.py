@@ -73,7 +73,7 @@ def robot_shape(card: RobotCard, floor_z_m: float) -> RobotShape:
 
 
 def rising(parts: list[FloatArray], camera: Camera) -> list[FloatArray]:
-    """Return what rises over the table of each part that the camera is before, shape (n, 3), m, the highest last."""
+    """Return the points above the table of each part in front of the camera, shape (n, 3), m; the highest part last."""
     above = [part[part[:, 2] > 0.0] for part in parts]
     seen = [part for part in above if len(part) > 2 and float(camera.depths(part).min()) > 0.0]
     return sorted(seen, key=lambda part: float(part[:, 2].mean()))
@@ -85,7 +85,7 @@ def outlines(parts: list[FloatArray], camera: Camera) -> list[NDArray[np.int32]]
 
 
 def hidden(parts: list[FloatArray], camera: Camera, beyond_px: int = 0) -> BoolArray:
-    """Return which pixels show the robot, and those up to so many pixels beside it, shape (height, width)."""
+    """Return which pixels show the robot or lie within a margin round it (pixels), shape (height, width)."""
     import cv2  # here, because only pictures need it
 
     width, height = camera.size_px

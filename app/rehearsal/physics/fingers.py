@@ -96,5 +96,5 @@ def around(points: FloatArray, closing: FloatArray, heading_rad: float, size: Fi
 
 
 def lowest(boxes: Iterable[Box]) -> Box:
-    """Return the box whose middle is the lowest: of fingers that have turned over that is the other one."""
+    """Return the box with the lowest middle; once the fingers have turned over that is the other one."""
     return min(boxes, key=lambda box: float(box.middle[2]))

@@ -40,7 +40,7 @@ class HandWay:
     rise_m: float = 0.0
 
     def landing_on(self, height_m: float) -> "HandWay":
-        """Return the way on which the lowest cloth in the hand ends at a height or above it (m).
+        """Return the way raised so that the lowest cloth in the hand ends at a height or above it (m).
 
         The path knows no thickness: it would press the cloth into the stack on which it comes to lie. A hand whose
         fingers are one over the other has one under the cloth, and so has any that holds on: without that, edges that

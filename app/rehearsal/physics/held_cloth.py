@@ -1,4 +1,4 @@
-"""Cloth between two fingers: what is between them moves with the hand, what hangs from them turns as it is folded.
+"""Cloth held by two fingers: what is between them moves with the hand, and what hangs from them turns as it is folded.
 
 A mesh has no vertex just where fingers close. So the nearest vertices are held, which are up to an edge of a triangle
 beside them: there the cloth is not in the hand. It lies on one side of the fingers before a fold and on the other side
@@ -49,7 +49,7 @@ class HeldCloth:
         return HeldCloth(vertices, points - tip, positions[list(vertices)] - points, hangs)
 
     def pressed(self, thickness_m: float, share: float = 1.0) -> "HeldCloth":
-        """Return the cloth when the fingers have pressed its layers on one another, or done a share of that.
+        """Return the cloth after the fingers have pressed its layers together, wholly or by a share.
 
         A loop between them is closed: held open it would be laid down open too, a ridge as high as it is.
 
@@ -70,7 +70,7 @@ class HeldCloth:
         return thickness_m * (1 + int((np.diff(heights) > thickness_m / 2.0).sum()))
 
     def turned_round(self, way: FloatArray, ahead_m: float, cloth_rad: float) -> "HeldCloth":
-        """Return the cloth in a hand that does not roll, round whose finger ends what is beyond them has turned over.
+        """Return the cloth in a hand that does not roll, once what is beyond its finger ends has turned over.
 
         Args:
             way: the direction in which the hand is going, horizontal, of length 1, shape (2,).
@@ -83,7 +83,7 @@ class HeldCloth:
         return replace(self, beside=self.beside + _turned(beyond, way, cloth_rad) - beyond)
 
     def turned(self, way: FloatArray, hand_rad: float, cloth_rad: float) -> "HeldCloth":
-        """Return the cloth when the hand, and the cloth that hangs from it, have turned over on their way.
+        """Return the cloth after the hand and the cloth that hangs from it have turned over.
 
         Args:
             way: the direction in which the hand is going, horizontal, of length 1, shape (2,).

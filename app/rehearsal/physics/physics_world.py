@@ -167,7 +167,7 @@ class PhysicsWorld:
         self._grips |= {way.grip.arm: way.held_at(last_s) for way in ways if way.grip.arm in self._grips}
 
     def _way(self, grip: GripMotion, is_fold: bool) -> HandWay:
-        """Return the way of a hand and the cloth in it; in a fold that comes to lie on what is there already."""
+        """Return the way of a hand and the cloth in it; in a fold it ends on top of the cloth that lies there."""
         way, positions = self._new_way(grip, is_fold), self.simulation.positions
         if not is_fold:
             return way
@@ -188,7 +188,7 @@ class PhysicsWorld:
                 self._leaving[arm] = lowest(boxes), self._fingers[arm].length_m + PAD_M
 
     def _draw_back(self) -> None:
-        """Draw fingers of open hands back by as much as they go in a time step, and away once they are out."""
+        """Draw the fingers of open hands back by one time step, and put them away once they are out."""
         for arm, (box, left_m) in list(self._leaving.items()):
             way_m = DRAWN_M_S * self.simulation.step_s
             self._leaving[arm] = replace(box, middle=box.middle - way_m * box.axes[:, 0]), left_m - way_m
@@ -197,7 +197,7 @@ class PhysicsWorld:
             self.simulation.put_fingers(self._hands[arm], [self._leaving[arm][0]] if arm in self._leaving else [])
 
     def _settle(self) -> None:
-        """Let what was let go come to rest; what rests already is not simulated."""
+        """Simulate until the cloth that was let go rests; cloth at rest is not simulated."""
         rested_s, left = 0.0, round(self.resolution.settle_s / self.simulation.step_s)
         self.simulation.solve_to(self.resolution.rest_tolerance)
         while left and rested_s < _RESTED_S:

@@ -112,7 +112,7 @@ def _nearest_of_each_sheet(sheets: NDArray[np.int64], gaps: FloatArray) -> NDArr
 def _below(
     triangles: NDArray[np.int64], corners: FloatArray, points: FloatArray, is_near: BoolArray, layers: int
 ) -> BoolArray:
-    """Return which triangles are of no sheet of the top ones that fingers reach, shape (n,).
+    """Return which triangles belong to none of the top sheets that the fingers reach, shape (n,).
 
     Args:
         triangles: shape (n, 3).
@@ -136,7 +136,7 @@ def clamped(
     tip: FloatArray,
     way: FloatArray,
 ) -> dict[int, FloatArray]:
-    """Return what is pinched with a second vertex beside each, across the way of the hand, in each of its sheets.
+    """Return the pinched vertices with a neighbour of each across the hand's way, in each of its sheets.
 
     A pad is as wide as a row of the mesh, and cloth does not turn between fingers. Held by one vertex it would. At a
     crease a vertex belongs to two sheets that lie on one another, and each is between the fingers.
@@ -163,7 +163,7 @@ def clamped(
 def _of_each_sheet(
     vertex: int, near: NDArray[np.int64], positions: FloatArray, around: NDArray[np.int64], across: FloatArray
 ) -> list[int]:
-    """Return of a vertex's neighbours along a line the first of each sheet of cloth that meets there.
+    """Return the first neighbour of a vertex along a line in each sheet of cloth that meets there.
 
     That is one in flat cloth, be it on this side of the vertex or on that, and two that no triangle joins, both on one
     side, where cloth is folded.

@@ -69,7 +69,7 @@ def bent_rad(corners: FloatArray) -> FloatArray:
 
 
 def angle_over_sine(angles: FloatArray) -> FloatArray:
-    """Return by how much more a moment has to be that grows as the angle (rad) than one that grows as its sine."""
+    """Return the bounded ratios of angles (rad) to their sines: by so much a moment linear in the angle is larger."""
     return np.asarray(np.minimum(1.0 / np.maximum(np.sinc(angles / math.pi), 1.0 / _MOST), _MOST))
 
 

@@ -108,7 +108,7 @@ class Creased:
         return SeenStack(self.figure, self.folded, row, covariance)
 
     def told(self, found: SeenStack) -> StackFit:
-        """Return what is known of the placement from a fit, whose error covers whatever fits as well."""
+        """Return the placement by a fit, with an error that covers all placements that fit as well."""
         figure, inside_m = self._figure(found.row[3:5]), 0.0 if self.folded is None else self._inside(found.row)
         error_m = found.placement_error_m
         return figure.told(found.row[:3], self.seen, [], is_ambiguous=False, error_m=error_m, inside_m=inside_m)

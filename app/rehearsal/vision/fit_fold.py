@@ -205,7 +205,7 @@ class _CreaseFit:
         return Fitted(row, self.with_crease(row[3:]).misfit(row[:3], self.seen))
 
     def told(self, row: FloatArray, spread: FloatArray, others: tuple[Pose2, ...], near: Pose2 | None) -> FoldFit:
-        """Return what is known of a placement and a crease.
+        """Return the placement and the crease of a fit, with their errors.
 
         Args:
             row: placement and crease.

@@ -108,7 +108,7 @@ def _by_camera(image: Image, calibration: Calibration) -> OnTable:
 
 
 def _beside(image: Image, plane: Plane, sheet: BoolArray) -> Segmented:
-    """Return the cloth beside a sheet; what has the sheet within it is a table top, and is searched in its turn.
+    """Return the cloth that lies beside a sheet; a region with the sheet inside is a table top, and is searched again.
 
     Raises:
         NothingToldError: nothing stands out but what has the sheet within it.
@@ -153,7 +153,7 @@ def _holds(contour: FloatArray, point: FloatArray) -> bool:
 
 
 def why_in_doubt(seen: Segmented, size_error: float | None) -> Message | None:
-    """Return why an outline may be wrong; None where there is no reason."""
+    """Return why an outline may be wrong; None if nothing speaks against it."""
     if seen.cloths > 1:
         text = f"there are {seen.cloths} pieces of cloth in the picture, and the largest was taken: leave only one"
         return Message("several_cloths", text, {"cloths": seen.cloths})

@@ -1,9 +1,9 @@
-"""Tell how far beside its place a part of a robot is seen in a picture.
+"""Measure the offset of a part of a robot in a picture from where it should be seen.
 
-A robot knows where its arms are, and so where they ought to be seen. The shift is looked for that brings the outline of
-a part upon the steepest edges of the picture: first on a grid, where all points of the outline vote, then by robust
-least squares, together with how much wider than it should be the outline is seen: else a part of which only one side is
-seen would be told to be shifted to that side.
+A robot knows where its arms are, and so where they ought to be seen. The result is the shift that brings the
+outline of a part onto the steepest edges of the picture: first on a grid, where all points of the outline vote, then by
+robust least squares, together with how much too wide the outline is seen: without that, a part of which only one side
+is seen would seem shifted to that side.
 """
 
 from dataclasses import dataclass
@@ -30,7 +30,7 @@ _STEP_PX, _APART_PX = 0.5, 2.0
 """The spacing of the samples across an outline, and along it (pixels)."""
 
 _NEAR_PX = 4.0
-"""How far beside the best of the grid edges are looked for (pixels)."""
+"""The distance from the best shift of the grid within which edges are looked for (pixels)."""
 
 _EDGE_PX, _ALIKE_PX = 1.0, 10.0
 """The error of an edge seen (standard deviation), and the length along which such errors are alike (pixels)."""
@@ -54,7 +54,7 @@ _ROUNDS = 5
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SeenBeside:
-    """How far beside its place something is seen.
+    """The offset of something seen from where it should be.
 
     Attributes:
         shift_m: from where it should be seen to where it is seen, in the table's plane, shape (2,), m.
@@ -68,14 +68,14 @@ class SeenBeside:
 def seen_beside(
     image: Image, camera: Camera, parts: list[FloatArray], others: list[FloatArray], likely_m2: FloatArray
 ) -> SeenBeside | None:
-    """Return how far beside their place some parts of a robot are seen; None where they hardly are.
+    """Return the offset of some parts of a robot as seen from where they should be; None if too little is seen.
 
     Args:
         image: blue, green, red.
         camera: where the camera is believed to be.
         parts: the points of these parts, table frame, each of shape (n, 3), m.
         others: those of the robot's other parts, which may hide them.
-        likely_m2: the covariance of how far beside they may be, as far as that is known before, shape (2, 2), m2.
+        likely_m2: the covariance of the offset known beforehand, shape (2, 2), m2.
     """
     points, normals = _outline(parts, others, camera)
     if len(points) < _LEAST_POINTS:
@@ -117,9 +117,9 @@ def _slopes(points: FloatArray, normals: FloatArray, camera: Camera) -> FloatArr
 
 
 def _best_of_grid(likely_m2: FloatArray, slopes: FloatArray, offsets: FloatArray, steep: FloatArray) -> FloatArray:
-    """Return the likeliest shift of those with the steepest edges, shape (2,), m.
+    """Return the likeliest of the shifts with the steepest edges, shape (2,), m.
 
-    The half of the edges that could be steepest count alike.
+    Edges steeper than the median count as the median does.
     """
     axis = np.arange(-_MOST_M, _MOST_M + _GRID_M / 2.0, _GRID_M)
     shifts = np.stack(np.meshgrid(axis, axis), axis=2).reshape(-1, 2)
@@ -131,7 +131,7 @@ def _best_of_grid(likely_m2: FloatArray, slopes: FloatArray, offsets: FloatArray
 
 
 def _refined(shift_m: FloatArray, slopes: FloatArray, offsets: FloatArray, steep: FloatArray) -> SeenBeside:
-    """Return the shift by least squares, to the steepest edge beside each point; edges far beside count less."""
+    """Return the shift by least squares to the steepest edge near each point; edges further away count less."""
     told_by = np.column_stack([slopes, np.ones(len(slopes))])
     held = np.diag([_EDGE_PX / _MOST_M, _EDGE_PX / _MOST_M, _EDGE_PX / _WIDER_PX]) ** 2
     state = np.append(shift_m, 0.0)

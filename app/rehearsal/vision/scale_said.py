@@ -36,7 +36,7 @@ class MarkerSaid:
 
 @dataclass(frozen=True, slots=True)
 class LengthSaid:
-    """The garment is so long (m), from end to end, or across the picture, or up it."""
+    """The garment's length (m): from end to end, or across the picture, or up it."""
 
     length_m: float
     across: Across

@@ -56,15 +56,15 @@ class SeenStack:
         return self.figure.pose(self.row)
 
     def beside(self, points: FloatArray) -> FloatArray:
-        """Return how far points of the part that moved last are beside where they should lie, shape (n, 2), m.
+        """Return the offsets of points of the part that moved last from where they should lie, shape (n, 2), m.
 
-        Of points, article frame, that are not of that part it is 0. Points of its line are where the crease is: it is
-        the edge that hands take.
+        Points and offsets are in the article frame; other points have no offset. Points of the fold's line count as on
+        the crease, because that is the edge that hands take.
         """
         return self._beside(self.row, points)
 
     def edge_beside(self, points: FloatArray) -> FloatArray:
-        """Return how far the edge is seen beside the fitted outline at points of the stack, shape (n, 2), m.
+        """Return the offsets of the edge as seen from the fitted outline, at points of the stack, shape (n, 2), m.
 
         Cloth turns over in loops, so an edge that is a crease lies inside of its line, further in one place than in
         another; at a corner both edges tell. Of points that are not of the fitted outline, or where little of it was

@@ -106,7 +106,7 @@ class SeenState:
 
 
 def see_state(data: bytes, scale: str | Calibration | None, garment: Garment, plan: Plan | None = None) -> SeenState:
-    """Return which state of a garment's folds a picture shows.
+    """Find which state of a garment's folds a picture shows.
 
     Args:
         data: a PNG or JPEG.
@@ -133,7 +133,7 @@ def see_state(data: bytes, scale: str | Calibration | None, garment: Garment, pl
 
 
 def _ought(plan: Plan, done: int) -> Pose2 | None:
-    """Return where a plan has the stack once these folds are done; None if it never is so."""
+    """Return where a plan has the stack once exactly these folds are done; None if that never occurs."""
     worlds = (plan.task.start, *(step.after for step in plan.steps))
     return next((world.placement for world in reversed(worlds) if world.done == done), None)
 

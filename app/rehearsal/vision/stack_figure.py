@@ -206,7 +206,7 @@ class Figure:
         error_m: float | None = None,
         inside_m: FloatArray | float = 0.0,
     ) -> StackFit:
-        """Return what is known of a placement.
+        """Return a placement with its error, or why it is not known.
 
         Args:
             row: the placement.

@@ -13,6 +13,7 @@ from planner import Plan
 from planner.robots.card import RobotCard
 from planner.robots.load_robot import load_robot
 from tests.app.drivers.joint_trajectory_controllers import JointTrajectoryControllers
+from tests.patience import PATIENCE_S, wait_until
 from tests.required import required
 
 
@@ -78,18 +79,13 @@ def test_ctrl_c_cancels_every_goal(controllers: JointTrajectoryControllers, plan
     controllers.holds, main = True, threading.main_thread().ident or 0
 
     def interrupt() -> None:
-        assert controllers.accepted.wait(30.0)
+        assert controllers.accepted.wait(PATIENCE_S)
         signal.pthread_kill(main, signal.SIGINT)  # wakes it from its wait, as the keyboard does
 
     threading.Thread(target=interrupt, daemon=True).start()
     ended, _ = run(plan, card, controllers.address)
     assert (ended.how, ended.done) == ("stopped", 0), ended.why
-    deadline = threading.Event()
-    for _ in range(300):
-        if controllers.cancelled:
-            break
-        deadline.wait(0.1)
-    assert controllers.cancelled
+    wait_until(lambda: controllers.cancelled)
 
 
 def test_a_connection_that_breaks_ends_the_run(

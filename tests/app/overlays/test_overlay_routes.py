@@ -1,4 +1,3 @@
-import asyncio
 import math
 from typing import Any
 
@@ -7,6 +6,7 @@ import numpy as np
 import pytest
 import shapely
 
+from tests.app.document_requests import planned
 from tests.app.samples import towel
 from tests.app.test_garbage import assert_problem
 
@@ -27,16 +27,6 @@ async def overlays(client: httpx.AsyncClient, document_id: str, query: str = "")
     return told
 
 
-async def planned_document(client: httpx.AsyncClient) -> str:
-    """Open a document whose plan can be played."""
-    document_id = await created(client)
-    for _ in range(600):
-        if (await overlays(client, document_id, "?show=slip"))["plan_version"] is not None:
-            return document_id
-        await asyncio.sleep(0.1)
-    raise AssertionError("it is never planned")
-
-
 def area(region: dict[str, Any]) -> float:
     def within(ring: list[list[float]]) -> float:
         return sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(ring, [*ring[1:], ring[0]], strict=True)) / 2
@@ -45,7 +35,7 @@ def area(region: dict[str, Any]) -> float:
 
 
 async def test_a_moment_of_the_plan_has_all_overlays(client: httpx.AsyncClient) -> None:
-    document_id = await planned_document(client)
+    document_id = await planned(client)
     told = await overlays(client, document_id, "?t_s=0")
     assert (told["t_s"], told["primitive"], told["done"], told["fold_step"]) == (0.0, 0, [], 0)
     assert all(told[part] is not None for part in PARTS)

@@ -1,4 +1,3 @@
-import asyncio
 import math
 from typing import Any
 
@@ -13,7 +12,9 @@ from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.reach_query import ReachQuery
 from planner.robots.load_robot import load_robot
 from planner.robots.pr2.robot import Pr2
-from tests.replay.planned import planned
+from tests.app.document_requests import planned
+from tests.patience import wait_until_async
+from tests.replay.planned import planned as shipped
 from tests.robots.model import can_reach
 
 pytestmark = pytest.mark.anyio
@@ -102,13 +103,13 @@ async def shortfall_of(client: httpx.AsyncClient, garment: str, **drawing: Any) 
     state = (await client.post("/api/documents", json={"garment": garment})).json()
     body = {"base_version": state["version"], "label": "Begin", "drawing": {**state["drawing"], **drawing}}
     await client.put(f"/api/documents/{state['id']}/drawing", json=body)
-    for _ in range(200):
-        told = (await client.get(f"/api/documents/{state['id']}/overlays?show=shortfall")).json()
-        if told["shortfall"] is not None:
-            shortfall: dict[str, Any] = told["shortfall"]
-            return shortfall
-        await asyncio.sleep(0.1)
-    raise AssertionError("nothing is told of the reach")
+
+    async def told() -> dict[str, Any] | None:
+        answer = await client.get(f"/api/documents/{state['id']}/overlays?show=shortfall")
+        shortfall: dict[str, Any] | None = answer.json()["shortfall"]
+        return shortfall
+
+    return await wait_until_async(told)
 
 
 async def test_where_the_table_is_too_deep_the_reach_ends_before_the_cross(client: httpx.AsyncClient) -> None:
@@ -131,7 +132,7 @@ async def test_after_a_drag_the_reach_is_shown_as_far_back_as_the_cloth_lies_on_
     client: httpx.AsyncClient,
 ) -> None:
     told = await shortfall_of(client, "scarf-halved")
-    reason = next(reason for reason in planned("scarf-halved").plan["reasons"] if reason["point"])
+    reason = next(reason for reason in shipped("scarf-halved").plan["reasons"] if reason["point"])
     assert math.hypot(*reason["offset_m"]) > 0.05
     # A hand takes the middle of the scarf's near end, 0.254 / 2 m from both corners, and lays it 1.524 m further on: it
     # rises as far as it has gone, until it is over the fold line, and comes down as far as it goes on.
@@ -148,13 +149,6 @@ async def test_after_a_drag_the_reach_is_shown_as_far_back_as_the_cloth_lies_on_
 
 
 async def test_a_document_that_is_planned_has_no_reach_to_show(client: httpx.AsyncClient) -> None:
-    state = (await client.post("/api/documents", json={"garment": "hand-towel"})).json()
-    path = f"/api/documents/{state['id']}/overlays"
-    for _ in range(200):
-        if (await client.get(f"{path}?show=slip")).json()["plan_version"] is not None:
-            break
-        await asyncio.sleep(0.1)
-    else:
-        raise AssertionError("it is never planned")
+    path = f"/api/documents/{await planned(client)}/overlays"
     for query in ("", "?station=front"):
         assert (await client.get(path + query)).json()["shortfall"] is None

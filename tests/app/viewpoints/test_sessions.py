@@ -2,7 +2,6 @@
 
 import itertools
 import math
-import time
 from collections.abc import Iterator
 from functools import partial
 
@@ -22,7 +21,9 @@ from planner import Scene
 from planner.robots.load_robot import load_robot
 from tests.app.drawing.drawings import towel_drawing
 from tests.app.viewpoints.viewer import EYE, Viewer
+from tests.patience import wait_until
 from tests.replay.planned import shipped_plan
+from tests.required import required
 
 CARD = load_robot("pr2").card
 Opened = tuple[Document, View3D]
@@ -124,6 +125,20 @@ def time_at_side(document: Document) -> float:
     return next(t for t in times if abs(shown.timeline.base_at(t).y_m) > 0.6)
 
 
+def see_robot_at(viewer: Viewer, document: Document, t_s: float) -> None:
+    """Go to a time of the plan, and wait until the robot is shown where it stands then."""
+    base = required(document.state.shown).timeline.base_at(t_s)
+    document.seek(t_s)
+    viewer.until(lambda: math.dist(viewer.robot[:2], (base.x_m, base.y_m)) < 0.01)
+
+
+def assert_next_is_a_button(viewer: Viewer, moves: int) -> None:
+    """Assert that after some moves nothing but a button has moved the camera."""
+    viewer.choose(Preset.TOP)
+    viewer.until(lambda: len(viewer.camera) > moves)
+    assert viewer.camera[moves][:2] == pytest.approx((0.0, 0.0), abs=0.01)
+
+
 def test_the_robots_eye_goes_along_when_the_base_drives_until_somebody_moves_the_camera(
     driven: tuple[Document, View3D],
 ) -> None:
@@ -140,12 +155,12 @@ def test_the_robots_eye_goes_along_when_the_base_drives_until_somebody_moves_the
         document.seek(at := time_at_side(document))
         beside = shown.timeline.base_at(at)
         viewer.until(lambda: math.dist(viewer.camera[-1][:2], (beside.x_m, beside.y_m)) < 0.4)
-        viewer.look(EYE, (800, 500))
-        time.sleep(0.2)
         moves = len(viewer.camera)
-        document.seek(0.0)
-        time.sleep(0.3)
-        assert len(viewer.camera) == moves
+        viewer.look(elsewhere := (0.5, 0.5, 2.0), (800, 500))
+        (client,) = view.server.get_clients().values()
+        wait_until(lambda: math.dist(client.camera.position, elsewhere) < 1e-6)
+        see_robot_at(viewer, document, 0.0)
+        assert_next_is_a_button(viewer, moves)
 
 
 def test_a_camera_that_nobody_has_moved_glides_to_the_side_where_the_robot_does_not_stand(
@@ -181,10 +196,9 @@ def test_a_camera_that_somebody_has_moved_stays_though_the_robot_stands_before_i
     driven: tuple[Document, View3D],
 ) -> None:
     document, view = driven
-    document.seek(0.0)
     with Viewer(view) as viewer:
         viewer.until(lambda: viewer.channel is not None)
+        see_robot_at(viewer, document, 0.0)
         moves = len(viewer.camera)
-        document.seek(time_at_side(document))
-        time.sleep(0.3)
-        assert len(viewer.camera) == moves
+        see_robot_at(viewer, document, time_at_side(document))
+        assert_next_is_a_button(viewer, moves)

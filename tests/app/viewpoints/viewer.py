@@ -18,6 +18,7 @@ from tests.patience import PATIENCE_S
 
 SUBPROTOCOL = Subprotocol("viser-v1.1.1")
 EYE = (0.0, 0.0, 2.0)
+ROBOT = "/robot"
 
 
 class Viewer:
@@ -25,6 +26,7 @@ class Viewer:
 
     Attributes:
         nodes: the names of the scene's nodes.
+        robot: where the scene has the robot (m).
         camera: the places that the server has sent the camera to.
     """
 
@@ -37,6 +39,7 @@ class Viewer:
             max_size=None,
         )
         self.nodes: set[str] = set()
+        self.robot: Point3 = (0.0, 0.0, 0.0)
         self.camera: list[Point3] = []
         self.look(eye, size)
 
@@ -111,5 +114,8 @@ class Viewer:
         elif kind == "SetCameraPositionMessage":
             x, y, z = message["position"]
             self.camera.append((x, y, z))
+        elif kind == "SetPositionMessage" and name == ROBOT:
+            x, y, z = message["position"]
+            self.robot = (x, y, z)
         elif name and "props" in message:
             self.nodes.add(name)

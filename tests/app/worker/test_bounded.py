@@ -30,14 +30,16 @@ def test_a_process_that_takes_too_much_processor_time_is_ended() -> None:
 
 
 def test_two_processes_take_turns(tmp_path: Path) -> None:
-    """Each adds its mark and looks for the other's while it has its turn."""
+    """Each has its turn until all have asked for theirs, and looks which of them have one."""
     program = (
-        "import time\n"
-        "folder, mark = Path(sys.argv[1]), sys.argv[2]\n"
+        "from tests.patience import wait_until\n"
+        "folder, name = Path(sys.argv[1]), sys.argv[2]\n"
+        "(folder / f'{name} asks').touch()\n"
         "with one_at_a_time(folder):\n"
-        "    (folder / mark).touch(); time.sleep(0.3)\n"
-        "    print(len(list(folder.iterdir()))); (folder / mark).unlink()\n"
+        "    (folder / f'{name} has').touch()\n"
+        "    wait_until(lambda: len(list(folder.glob('* asks'))) == 3)\n"
+        "    print(len(list(folder.glob('* has')))); (folder / f'{name} has').unlink()\n"
     )
-    commands = [[sys.executable, "-c", BEGIN + program, str(tmp_path), mark] for mark in "abc"]
+    commands = [[sys.executable, "-c", BEGIN + program, str(tmp_path), name] for name in "abc"]
     running = [subprocess.Popen(command, stdout=subprocess.PIPE, text=True) for command in commands]
     assert [one.communicate(timeout=PATIENCE_S)[0].strip() for one in running] == ["1", "1", "1"]

@@ -5,7 +5,6 @@ import signal
 import subprocess
 import sys
 import threading
-import time
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -21,10 +20,8 @@ from app.worker.workers import Workers
 from planner.errors import FoldError, FoldingError, GarmentError, UnknownGarmentError
 from planner.message import Message
 from planner.robots.own_robots import robots_folder, use_robots_folder
-from tests.app.processes import descendants, is_alive, wait_until
-from tests.patience import PATIENCE_S
-
-FOR_EVER_S = 600.0
+from tests.app.processes import descendants, is_alive
+from tests.patience import FOR_EVER_S, PATIENCE_S, wait_until
 
 
 def count(caller: Caller, up_to: int) -> int:
@@ -41,15 +38,13 @@ def run_for_ever(caller: Caller) -> None:
 
 def until_stopped(caller: Caller) -> int:
     caller.tell(os.getpid())
-    while not caller.should_stop():
-        time.sleep(0.001)
+    wait_until(caller.should_stop)
     return 1
 
 
 def wait_for(caller: Caller, file: Path) -> int:
     caller.tell(os.getpid())
-    while not file.exists():
-        time.sleep(0.001)
+    wait_until(file.exists)
     return os.getpid()
 
 
@@ -141,6 +136,8 @@ def test_who_waits_for_the_worker_of_a_key_can_be_stopped(workers: Workers, tmp_
 
 
 def test_no_more_idle_workers_are_kept_than_asked_for(workers: Workers, tmp_path: Path) -> None:
+    done(workers, count, 1)  # the template of all workers runs, and stays
+    workers.end_idle()
     before = descendants(os.getpid())
     running: list[int] = []
     with ThreadPoolExecutor(3) as threads:
