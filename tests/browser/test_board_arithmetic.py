@@ -337,6 +337,22 @@ def test_words_of_findings_leave_the_foot_of_the_board_to_its_hint(modules: Page
         assert placed["y"] == expected
 
 
+def test_figures_of_the_grid_give_way_to_words_written_over_them(modules: Page) -> None:
+    figures = [{"key": str(y), "tag": "text", "class": "grid-figure", "text": "20", "x": 4, "y": y} for y in (100, 160)]
+    lines = {"key": "fine", "tag": "path", "d": "M0 0"}
+    words = {
+        "key": "a",
+        "tag": "text",
+        "class": "drag-text",
+        "text": "dragged",
+        "text-anchor": "middle",
+        "x": 30,
+        "y": 103,
+    }
+    left = asked(modules, "words_apart", f"m.uncovered({json.dumps([lines, *figures])}, {json.dumps([words])})")
+    assert left == [lines, figures[1]]
+
+
 def test_words_of_findings_are_never_written_over_each_other(modules: Page) -> None:
     random = Random(18)
     kinds = ("reason-text", "drag-text", "beyond-text", "robot-name")
