@@ -46,7 +46,7 @@ def test_robots_are_compared_and_one_is_chosen(page: Page, new_sheet: Callable[[
     expect(rows.nth(0).get_by_role("button")).to_be_hidden()
     expect(rows.nth(0)).to_contain_text(re.compile(r"21\.3.s4"))
     expect(rows.nth(1)).to_have_attribute("data-status", "infeasible")
-    expect(rows.nth(1)).to_contain_text("the left hand is 30 cm short")
+    expect(rows.nth(1)).to_contain_text("the left grip is 30 cm out of reach")
     dialog.get_by_role("button", name="Use Two SO-101").click()
     expect(dialog).to_be_hidden()
     expect(page.get_by_role("combobox", name="Robot")).to_have_value("so101-pair")
