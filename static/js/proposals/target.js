@@ -21,7 +21,7 @@ export const SIDES_M = [0.01, 10.0];
 export const TOLERANCE_M = 0.01;
 
 /** The smallest that there is, and rolled up: names without a size. */
-export const SMALLEST = "smallest";
+const SMALLEST = "smallest";
 const ROLL = "roll";
 
 /** @typedef {keyof typeof SIZES_M | keyof typeof HUNG | keyof typeof SHARES | typeof ROLL | typeof SMALLEST} PresetName */
