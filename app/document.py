@@ -234,7 +234,7 @@ class Document(Played):
         self._state.change(lambda state: replace(state, is_dark=is_dark))
 
     def set_language(self, language: Language) -> None:
-        """Set the language of the instruction sheet."""
+        """Set the language of what is exported for people: instruction sheet, recording, films."""
         self._state.change(lambda state: replace(state, language=language))
 
     def set_effort(self, work_s: float | None) -> None:

@@ -94,7 +94,7 @@ class DocumentState:
         is_thorough: whether a user has requested more search than usual for this version.
         playback: the playback.
         is_dark: whether the background is dark; the last page to set it decides for all.
-        language: the language of the instruction sheet; decided in the same way.
+        language: the language of exports for people; decided in the same way.
         work_s: the limit on the work of a search (s on the machine of `planner.planning.budget`), None for the usual
             one; decided in the same way.
         preview: the plan of a change that is pointed at; the 3D view shows it in place of `shown`, and where it is not

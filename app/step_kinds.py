@@ -6,7 +6,7 @@ from typing import Any, Literal
 
 from app.language import Language, named, numeral, say, translated
 from planner.cloth.garment import Garment
-from planner.task.plan import PlanStep
+from planner.task.plan import Plan, PlanStep
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,6 +35,13 @@ def step_kind(name: str) -> StepKind:
 def step_words(step: PlanStep, garment: Garment) -> str:
     """Return a few words on what a step does; empty for a kind without words."""
     return step_kind(step.kind).words(step.details, garment)
+
+
+def step_caption(plan: Plan, number: int, language: Language) -> str:
+    """Return what is to be read during a step of a plan, counted from 0, in a reader's language."""
+    step = plan.steps[number]
+    kind, what = named(language, "kind", step.kind), step_kind(step.kind).on_sheet(step.details, plan.garment, language)
+    return f"{number + 1}/{len(plan.steps)}  {say(language, 'kind.whole', kind=kind, what=what) if what else kind}"
 
 
 def _fold(details: Mapping[str, Any], garment: Garment) -> str:

@@ -55,7 +55,7 @@ def _plan_csv(state: DocumentState, _: float, __: ShouldStop) -> bytes:
 def _recording(state: DocumentState, rate_hz: float, should_stop: ShouldStop) -> bytes:
     from app.files.recording import recording
 
-    return recording(plan_in(state), rate_hz, should_stop, is_dark=state.is_dark)
+    return recording(plan_in(state), rate_hz, should_stop, state.language, is_dark=state.is_dark)
 
 
 def _mp4(state: DocumentState, rate_hz: float, should_stop: ShouldStop) -> bytes:

@@ -15,14 +15,14 @@ from app.files.export import RATES_HZ
 from app.files.video import mp4_video
 from app.jobs.job_pool import ShouldStop
 from app.language import Language, numeral, translated
-from app.step_kinds import step_kind
+from app.step_kinds import step_caption
 from app.ui.colours import DARK, LIGHT
 from app.ui.scene_picture import ScenePainter
 from app.ui.viewpoints.following import Following, work_of
 from app.ui.viewpoints.presets import Lens
 from app.ui.withdrawal import withdrawn
 from planner.errors import UnsolvedPlanError
-from planner.motion.timeline import Sample, Timeline
+from planner.motion.timeline import Timeline
 from planner.robots.load_robot import load_robot
 from planner.task.plan import Plan
 
@@ -82,7 +82,8 @@ class _Film:
             is_over = number / rate_hz >= end_s
             seen = camera.view(frame.base, work_of(self._plan, frame.t_s), lens, is_over=is_over)
             picture = self._painter.picture(frame, self._plan.garment.layer_m, seen, self._size_px)
-            yield self._captioned(picture, self._packet if is_over else self._step(frame), frame.t_s)
+            caption = self._packet if is_over else step_caption(self._plan, frame.primitive, self._language)
+            yield self._captioned(picture, caption, frame.t_s)
 
     def still(self) -> bytes:
         """Return the picture in the middle of the last step with hands, as a PNG."""
@@ -94,11 +95,6 @@ class _Film:
         written = io.BytesIO()
         self._captioned(picture, self._packet, self._plan.cost_s or 0.0).save(written, "PNG", optimize=True)
         return written.getvalue()
-
-    def _step(self, frame: Sample) -> str:
-        step = self._plan.steps[frame.primitive]
-        words = step_kind(step.kind).on_sheet(step.details, self._plan.garment, self._language)
-        return f"{frame.primitive + 1}/{len(self._plan.steps)}  {words}"
 
     @property
     def _packet(self) -> str:

@@ -5,7 +5,8 @@ would have sent to a browser, with their times, and embeds them in its client.
 """
 
 from app.jobs.job_pool import ShouldStop
-from app.step_kinds import step_words
+from app.language import Language, translated
+from app.step_kinds import step_caption
 from app.ui.view_3d import View3D
 from app.ui.viser_patches import recording_page
 from app.ui.withdrawal import withdrawn
@@ -17,19 +18,20 @@ HOLD_S = 2.0
 """Time that the last frame stays before the player starts again (s)."""
 
 
-def recording(plan: Plan, rate_hz: float, should_stop: ShouldStop, *, is_dark: bool) -> bytes:
+def recording(plan: Plan, rate_hz: float, should_stop: ShouldStop, language: Language, *, is_dark: bool) -> bytes:
     """Return a solved plan as an HTML file; empty if stopped before the end.
 
     Args:
         plan: the plan.
         rate_hz: the frame rate, within `app.files.export.RATES_HZ`.
         should_stop: called before each frame.
+        language: the language of the title and the captions.
         is_dark: whether the background is dark.
 
     Raises:
         UnsolvedPlanError: the plan is not solved, so there is nothing to play.
     """
-    timeline, captions = Timeline.of(plan), _captions(plan)
+    timeline = Timeline.of(plan)
     card = load_robot(plan.task.robot).card
     view = View3D(card, plan.scene)
     try:
@@ -43,7 +45,7 @@ def recording(plan: Plan, rate_hz: float, should_stop: ShouldStop, *, is_dark: b
                 return b""
             recorder.insert_sleep(frame.t_s - before_s)
             view.show(frame)
-            view.caption(captions[frame.primitive])
+            view.caption(step_caption(plan, frame.primitive, language))
             before_s = frame.t_s
         for count in range(1, round(HOLD_S * rate_hz) + 1):
             recorder.insert_sleep(1.0 / rate_hz)
@@ -51,11 +53,4 @@ def recording(plan: Plan, rate_hz: float, should_stop: ShouldStop, *, is_dark: b
         page = recorder.as_html(dark_mode=is_dark)
     finally:
         view.close()
-    return recording_page(page, plan.garment.title).encode("utf-8", "replace")
-
-
-def _captions(plan: Plan) -> list[str]:
-    """Return what is to be read during each step."""
-    count = len(plan.steps)
-    words = [": ".join(part for part in (step.kind, step_words(step, plan.garment)) if part) for step in plan.steps]
-    return [f"{number} of {count}, {text}" for number, text in enumerate(words, 1)]
+    return recording_page(page, translated(language, plan.garment.title)).encode("utf-8", "replace")

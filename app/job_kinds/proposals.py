@@ -135,7 +135,9 @@ def propose(asked: ProposalsTask, progress: Progress) -> dict[str, Any]:
         if proposal.plan is None:
             progress(0.0, "", Found(proposal.to_dict(), None))
             return
-        body = told[proposal.number] = {**proposal.to_dict(), "plan_id": uuid.uuid4().hex}
+        body = {**proposal.to_dict(), "plan_id": uuid.uuid4().hex}
+        if proposal.number:
+            told[proposal.number] = body
         progress(
             len(told) / asked.most,
             f"{len(told)} found",

@@ -12,10 +12,9 @@ The region comes from a grid about the point, finer for a smaller shortfall; the
 
 from dataclasses import dataclass
 from functools import lru_cache, partial
-from typing import Annotated
 
 import numpy as np
-from pydantic import BaseModel, WithJsonSchema
+from pydantic import BaseModel
 
 from app.overlays.moment import Moment
 from app.overlays.reach_region import Grid, RegionAnswer, in_approach, region_where, rings_of, runs
@@ -75,13 +74,13 @@ class ShortfallAnswer(BaseModel):
     """The part of the surroundings of a point out of reach that the hand, in its orientation, cannot reach (m, rad).
 
     `beyond` is a part of a disc of `radius_m` at the point's height, `edge` the lines at which it ends; heading and
-    pitch are in the base frame.
+    pitch are in the base frame. A robot that stands fast has no station, and none from which to stand back.
     """
 
     fold: int | None
     arm: str
-    station: Annotated[str | None, WithJsonSchema({"type": "string"})]  # a robot that stands fast has no station
-    back_off_m: Annotated[float | None, WithJsonSchema({"type": "number"})]
+    station: str | None
+    back_off_m: float | None
     comfort_m: float
     point: Point3
     heading_rad: float

@@ -19,9 +19,9 @@ from app.ui.robot_view import link_colour
 from app.ui.rotation import yaw
 from app.ui.thick_cloth import ThickCloth, blended_normals
 from app.ui.viewpoint import Viewpoint
+from app.ui.weave import woven
 from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.table import table_parts
-from planner.motion.cloth_surface import ClothSurface
 from planner.motion.timeline import Sample
 from planner.robots.card import RobotCard
 from planner.task.scene import Scene
@@ -118,12 +118,14 @@ class ScenePainter:
         """
         wide, high = size_px
         lens = _Lens(seen, (_FINER * wide, _FINER * high))
-        parts = [*self._table, *self._cloth(frame.cloth, layer_m), *self._robot(frame.base, frame.joints)]
+        cloth = ThickCloth(frame.cloth, layer_m)
+        parts = [*self._table, *self._cloth(cloth), *self._robot(frame.base, frame.joints)]
         starts = np.cumsum([0, *(len(part.vertices) for part in parts)])
         vertices = np.concatenate([part.vertices for part in parts])
         triangles = np.concatenate([part.triangles + start for part, start in zip(parts, starts, strict=False)])
         lights = _brightness(np.concatenate([part.normals for part in parts]))
-        numbers, brightness = nearest(*lens.project(vertices), lights, triangles, lens.size_px)
+        projected = lens.project(vertices)
+        numbers, brightness = nearest(*projected, lights, triangles, lens.size_px)
         counts = [len(part.triangles) for part in parts]
         table = sum(counts[: len(self._table)])
         coarse = _Lens(seen, (wide // _COARSER, high // _COARSER))
@@ -133,12 +135,16 @@ class ScenePainter:
         is_floor, is_top = numbers < 0, (numbers >= 0) & (numbers < counts[0])
         brightness = np.where(is_floor, _resized(on_floor, lens.size_px), brightness)
         brightness = np.where(is_top, _resized(on_top, lens.size_px) * brightness, brightness)
+        is_cloth = (numbers >= table) & (numbers < table + 2 * len(cloth.triangles))
+        corners = triangles[numbers[is_cloth]]
+        shares, depths = _within(np.argwhere(is_cloth)[:, ::-1].astype(float), *(part[corners] for part in projected))
+        pattern = np.concatenate([cloth.pattern] * 2)[corners - starts[len(self._table)]]
+        brightness[is_cloth] *= woven((shares[..., None] * pattern).sum(axis=1), depths / lens.focal_px)
         colours = np.array([*(part.colour for part in parts), self._palette.floor], np.float32)
         painted = np.repeat(colours, [*counts, 1], axis=0)[numbers] * brightness[..., None]  # the floor's is the last
         return Image.fromarray(np.clip(painted, 0, 255).astype(np.uint8)).reduce(_FINER)
 
-    def _cloth(self, cloth: ClothSurface, layer_m: float) -> list[Part]:
-        thick = ThickCloth(cloth, layer_m)
+    def _cloth(self, thick: ThickCloth) -> list[Part]:
         (front, back), faces = thick.faces, thick.triangles
         palette = self._palette
         return [
@@ -166,13 +172,13 @@ class _Lens:
         right = np.cross(ahead, (0.0, 0.0, 1.0))
         right /= np.linalg.norm(right)
         self._axes = np.stack([right, np.cross(ahead, right), ahead])
-        self._focal_px = size_px[1] / 2.0 / math.tan(seen.fov_rad / 2.0)
+        self.focal_px = size_px[1] / 2.0 / math.tan(seen.fov_rad / 2.0)
 
     def project(self, points: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return where points are in the picture, shape (n, 2), and how far ahead of the lens, shape (n,), m."""
         there = (points - self.position) @ self._axes.T
         ahead = np.where(np.abs(there[:, 2:]) > 1e-6, there[:, 2:], 1e-6)
-        return self._focal_px * there[:, :2] / ahead + np.array(self.size_px) / 2.0, there[:, 2]
+        return self.focal_px * there[:, :2] / ahead + np.array(self.size_px) / 2.0, there[:, 2]
 
     def lit(self, vertices: FloatArray, triangles: Triangles, z_m: float) -> FloatArray:
         """Return how much light a level has where triangles keep the sun from it, shape (height, width), 1 at most."""
@@ -185,8 +191,8 @@ class _Lens:
     def ground_distances(self, z_m: float) -> FloatArray:
         """Return how far from the table's middle each pixel meets a level, shape (height, width), m; inf above it."""
         width, height = self.size_px
-        x = (np.arange(width) - width / 2.0) / self._focal_px
-        y = (np.arange(height)[:, None] - height / 2.0) / self._focal_px
+        x = (np.arange(width) - width / 2.0) / self.focal_px
+        y = (np.arange(height)[:, None] - height / 2.0) / self.focal_px
         rays = x[None, :, None] * self._axes[0] + y[..., None] * self._axes[1] + self._axes[2]
         with np.errstate(divide="ignore"):
             share = (z_m - self.position[2]) / rays[..., 2]
@@ -200,6 +206,22 @@ def _brightness(normals: FloatArray) -> FloatArray:
     for towards, share in _LAMPS:
         light += share * np.maximum(normals @ (towards / np.linalg.norm(towards)), 0.0)
     return np.asarray(light / _LEVEL)
+
+
+def _within(pixels: FloatArray, corners: FloatArray, depths: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return what share each corner has in the place of a triangle that a pixel shows, and how far ahead that is (m).
+
+    Args:
+        pixels: the pixels, shape (n, 2).
+        corners: where the triangles' corners are in the picture, shape (n, 3, 2).
+        depths: how far ahead of the lens they are, shape (n, 3), m.
+    """
+    (ax, ay), (bx, by), (px, py) = ((end - corners[:, 0]).T for end in (corners[:, 1], corners[:, 2], pixels))
+    area = ax * by - ay * bx
+    second, third = (px * by - py * bx) / area, (ax * py - ay * px) / area
+    near = np.stack([1.0 - second - third, second, third], axis=1) / depths  # 1 / depth is linear in the picture
+    whole = near.sum(axis=1)
+    return near / whole[:, None], 1.0 / whole
 
 
 def _resized(plane: FloatArray, size_px: tuple[int, int]) -> NDArray[np.float32]:

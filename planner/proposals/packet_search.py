@@ -90,6 +90,7 @@ class PacketSearch:
         self._blamed: list[tuple[DrawnFold, ...]] = []
         self.enumerated = 0
         self.nearest_m = self._begin.size_m
+        self._nearest: dict[int, Packet] = {}
         self.sketched: Iterator[Packet] = iter(())
 
     def packets(self) -> Iterator[Packet]:
@@ -102,7 +103,7 @@ class PacketSearch:
             for packet in filter(None, self._found()):
                 known = best.get(len(packet.folds))
                 is_smallest = known is None or _bulk_m2(packet.size_m) < _bulk_m2(known.size_m)
-                if is_smallest and packet.layers * self._thickness_m <= min(packet.size_m):
+                if is_smallest and self._is_wide(packet):
                     best[len(packet.folds)] = packet
             yield from sorted(best.values(), key=lambda packet: _bulk_m2(packet.size_m))
         else:
@@ -115,6 +116,15 @@ class PacketSearch:
     def is_blamed(self, packet: Packet) -> bool:
         """Return whether a packet begins with folds that the robot cannot do."""
         return any(packet.folds[: len(blamed)] == blamed for blamed in self._blamed)
+
+    @property
+    def nearest(self) -> list[Packet]:
+        """The packets that lack least to fit, the nearest first, each after one with more folds; of none is doubted."""
+        found = list[Packet]()
+        for packet in sorted(self._nearest.values(), key=self._excess_m):
+            if (not found or len(packet.folds) < len(found[-1].folds)) and self._is_wide(packet):
+                found.append(packet)
+        return found
 
     def paced(self) -> Iterator[Packet | None]:
         """Yield the same packets, and None where the next one takes long."""
@@ -177,6 +187,9 @@ class PacketSearch:
         if len(packet.folds) > self._max_folds:
             return
         self.nearest_m = min(self.nearest_m, packet.size_m, key=lambda size_m: excess_m(size_m, self._target_m))
+        if packet.moves and not packet.doubts:
+            known = self._nearest.get(len(packet.folds), packet)
+            self._nearest[len(packet.folds)] = min(known, packet, key=self._excess_m)
         is_fit = self._is_for_smallest or is_fitting(packet.size_m, self._target_m)
         if is_fit and self._face in ("any", packet.face):
             self._wait(self._rank(packet), packet, "yield")
@@ -193,6 +206,13 @@ class PacketSearch:
         ):
             if len(packet.folds) + len(move.creases) <= self._max_folds:
                 self._wait(self._promise(packet, move), packet, move)
+
+    def _is_wide(self, packet: Packet) -> bool:
+        """Return whether a packet is no narrower than high."""
+        return packet.layers * self._thickness_m <= min(packet.size_m)
+
+    def _excess_m(self, packet: Packet) -> float:
+        return excess_m(packet.size_m, self._target_m)
 
     def _wait(self, rank: float, packet: Packet, step: "Move | Turn", *, is_blamed: bool = False) -> None:
         heappush(self._queue, _Waiting(rank, next(self._serial), packet, step, is_blamed))

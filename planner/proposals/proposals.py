@@ -99,7 +99,7 @@ class Proposal:
         plan: the plan, or that there is none; None before one is looked for.
         is_loose: whether hands hold some cloth from further away than firm grips do: no other plan was found.
         number: its place among those that were tried, from 1: a better one takes the number of the one that it stands
-            in for.
+            in for; 0 of an untried one, and of one that does not fit.
     """
 
     garment: Garment
@@ -192,13 +192,13 @@ class Proposals:
 
 
 def all_proposals(found: Generator[Proposal, None, Tried], hear: Callable[[Proposal], None] | None = None) -> Proposals:
-    """Return all proposals of `propose_folds` but untried ones, in order; call `hear` with each when it is found."""
+    """Return all proposals of `propose_folds` that were tried and fit, in order; call `hear` with each when found."""
     proposals: dict[int, Proposal] = {}
     while True:
         try:
             one = next(found)
         except StopIteration as end:
-            proposals.pop(0, None)  # untried
+            proposals.pop(0, None)  # untried, or not fitting
             in_order = sorted(proposals.values(), key=lambda one: math.inf if one.cost_s is None else one.cost_s)
             return Proposals(tuple(in_order), end.value)
         proposals[one.number] = one
@@ -227,7 +227,8 @@ def propose_folds(
         to: the size, see `Target.of`; or a garment that is folded like this one is to be.
         robot: the robot's name.
         count: the most proposals.
-        untried: the most ways to fold to a size that come first, soon and without a plan: each fold can be done alone.
+        untried: the most ways to fold to a size that come first, soon and without a plan, preferably such that each
+            fold can be done alone; and where none can be done, the most that do not fit and can.
         max_folds: the most folds of a proposal, those that the garment has included.
         face: the face of the cloth that looks up at the end: "any", "front" or "back".
         scene: the scene; None for the one that suits the robot.
@@ -239,7 +240,8 @@ def propose_folds(
         Untried ways; then those that can be done as they are found, about in the order of what people like (where none
         is found with that work, with ten times as much); then others, up to the count, each the best of a way of which
         none can be done. At last the first one may come again with a quicker plan, those with loose grips with firm
-        ones, and any with the folds of a quicker variant.
+        ones, and any with the folds of a quicker variant. Where nothing fits or none can be done, those that come
+        nearest.
 
     Returns:
         What was tried.
@@ -281,22 +283,52 @@ def _sketched_and_planned(
     if untried:
         first = next(packets, None)
         if first is None:
+            yield from (_untried(task, packet) for packet in sketches.nearest[:untried])
+            if not (yield from _nearest(task, sketches, untried, should_stop)):
+                for _ in search.packets():
+                    if should_stop():
+                        break
+                yield from _nearest(task, search, untried, should_stop)
             return Tried(sketches.enumerated, sketches.nearest_m)
         packets = chain((first,), packets)
-    sketched, shown = _sketched(packets, robot, max(untried, _FIRST)), list[Packet]()
-    for packet in islice(sketched, untried):
-        garment = replace(task.garment, folds=packet.folds)
-        yield Proposal(garment, packet.size_m, packet.layers, packet.face, None)
-        shown.append(packet)
+    doubted, shown = list[Packet](), list[Packet]()
+    sketched = _sketched(packets, robot, max(untried, _FIRST), doubted)
+    for packet in islice(chain(sketched, doubted), untried):
+        yield _untried(task, packet)
+        shown += [packet] if packet.is_sketch else []
     search.sketched = islice(chain(shown, sketched), _FIRST)
-    return (yield from _planned(task, search, count, should_stop))
+    return (yield from _planned(task, search, count, should_stop, untried))
 
 
-def _sketched(packets: Iterator[Packet], robot: RobotCheck, most: int) -> Iterator[Packet]:
-    """Yield one packet of each way of which the robot can do each fold alone; few are looked at."""
+def _untried(task: Task, packet: Packet) -> Proposal:
+    return Proposal(replace(task.garment, folds=packet.folds), packet.size_m, packet.layers, packet.face, None)
+
+
+def _nearest(
+    task: Task, search: PacketSearch, most: int, should_stop: Callable[[], bool]
+) -> Generator[Proposal, None, bool]:
+    """Propose those that come nearest to the size, without numbers, if they can be done; return whether any can."""
+    is_any = False
+    for packet in islice(search.nearest, most):
+        proposal = _proposal(packet, _plan(task, packet.folds, should_stop))
+        if should_stop():
+            break
+        if proposal.status == "solved":
+            is_any = True
+            yield proposal
+    return is_any
+
+
+def _sketched(packets: Iterator[Packet], robot: RobotCheck, most: int, doubted: list[Packet]) -> Iterator[Packet]:
+    """Yield one packet of each way of which the robot can do each fold alone; few are looked at.
+
+    Those of other ways are added to `doubted`.
+    """
     ways = set[Way]()
     for packet in packets:
-        if packet.way not in ways and not packet.checked(robot).doubts:
+        if packet.way not in ways and packet.checked(robot).doubts:
+            doubted.append(packet)
+        elif packet.way not in ways:
             yield replace(packet, is_sketch=True)
         ways.add(packet.way)
         if len(ways) == _SKETCHES * most:
@@ -308,8 +340,12 @@ def _planned(
     search: PacketSearch | LikenessSearch | RollSearch,
     count: int,
     should_stop: Callable[[], bool],
+    nearest: int = 0,
 ) -> Generator[Proposal, None, Tried]:
-    """Propose what a search finds that the robot can do; variants of sketched ways only if they spare an arm motion."""
+    """Propose what a search finds that the robot can do; variants of sketched ways only if they spare an arm motion.
+
+    Where it can do none, so many are proposed at the end that come nearest.
+    """
     solved: set[Way] = set()
     failed: dict[Way, Proposal] = {}
     shown, fine = set[object](), set[tuple[DrawnFold, ...]]()
@@ -351,7 +387,12 @@ def _planned(
     if not should_stop():
         left = islice((one for way, one in failed.items() if way not in solved), count - len(shown))
         numbered = (replace(one, number=number) for number, one in enumerate(left, start=len(shown) + 1))
-        yield from numbered if shown else _tried_longer(task, numbered, should_stop)
+        is_any = bool(shown)
+        for one in numbered if shown else _tried_longer(task, numbered, should_stop):
+            is_any |= one.status == "solved"
+            yield one
+        if not is_any and isinstance(search, PacketSearch):
+            yield from _nearest(task, search, nearest, should_stop)
     if not should_stop() and any(_may_spare(task, one.garment.folds, one) for _, one in found):
         known = {one.garment.folds for _, one in found}
         variants += (packet for packet in islice(filter(None, packets), _MORE) if packet.folds not in known)

@@ -59,7 +59,14 @@ export async function* jobEvents(url, asked, signal) {
   const cancel = () => fetch(`${path}/cancel`, { method: "POST", keepalive: true }).catch(() => {});
   if (signal.aborted) cancel();
   signal.addEventListener("abort", cancel);
-  yield* eventStream(`${path}/events`, null, signal);
+  let isOver = false;
+  try {
+    yield* eventStream(`${path}/events`, null, signal);
+    isOver = true;
+  } finally {
+    signal.removeEventListener("abort", cancel);
+    if (!isOver && !signal.aborted) cancel();
+  }
 }
 
 /** @param {string} block lines of one event; comments are passed over */

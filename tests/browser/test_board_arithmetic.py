@@ -2,6 +2,8 @@
 
 import json
 import math
+from collections.abc import Sequence
+from pathlib import Path
 from random import Random
 from typing import Any
 
@@ -11,11 +13,15 @@ from playwright.sync_api import Page
 from app.drawing.curve import CURVE_MAX, CURVE_TOLERANCE_M, Curve
 from app.drawing.garment_drawing import blank_drawing
 from app.drawing.place_crease import NO_CLOTH
+from bench.fold_to_size import OUTLINES
 from planner import load_garment
 from planner.cloth.garment import FIRST_IS_RED
 from planner.cloth.outline import EDGE_MIN_M, POINTS_MAX
 from planner.geometry.pose import Point2
+from planner.geometry.region import Region
 from tests.browser.board_hand import SEVEN
+
+HELD_OUT = Path(__file__).resolve().parents[2] / "bench" / "held_out"
 
 
 def asked(modules: Page, module: str, question: str, room: str = "board") -> Any:
@@ -255,8 +261,28 @@ def test_a_garment_that_is_drawn_is_called_what_its_outline_looks_like(modules: 
     assert title(*SEVEN) == "Vest"
     legs = [(0.0, 0.0), (0.2, 0.0), (0.25, 0.6), (0.3, 0.0), (0.5, 0.0), (0.45, 1.0), (0.05, 1.0)]
     assert title(*legs) == title(*reversed(legs)) == "Trousers"
-    assert title(*load_garment("t-shirt").outline) == "T-shirt"
+    disc = [(math.cos(math.pi * n / 12), math.sin(math.pi * n / 12)) for n in range(24)]
+    assert title(*disc) == "Round cloth"
     assert title((0, 0), (0.6, 0), (0.3, 0.5)) == ""
+
+
+def test_no_garment_that_is_drawn_has_a_wrong_name(modules: Page) -> None:
+    held_out = {path.stem: load_garment(path).outline for path in HELD_OUT.glob("*.json")}
+    shipped = {name: load_garment(name).outline for name in ("jeans", "shirt", "skirt", "t-shirt", "tie", "vest")}
+    others = {name: outline for name, (_, outline) in OUTLINES.items()}
+    right = {"t-shirt": "T-shirt", "jeans": "Trousers", "leggings": "Trousers", "vest": "Vest"}
+    for outlines in (held_out, shipped, others):
+        for name, outline in outlines.items():
+            (found,) = asked(modules, "guessed_title", f"[m.guessedTitle({[list(point) for point in outline]})]")
+            is_sheet = outline_area(outline) > 0.99
+            assert found in ("", "Towel", "Scarf") if is_sheet else found == right.get(name, ""), name
+
+
+def outline_area(outline: Sequence[Point2]) -> float:
+    """Return the share of its box that an outline fills."""
+    region = Region.polygon(outline)
+    x0, y0, x1, y1 = region.bounds
+    return region.area / ((x1 - x0) * (y1 - y0))
 
 
 def test_the_smaller_part_moves_whichever_way_a_fold_is_drawn_and_both_can_be_had(modules: Page) -> None:
@@ -335,6 +361,22 @@ def test_words_of_findings_leave_the_foot_of_the_board_to_its_hint(modules: Page
     for y, expected in ((395, 364), (370, 364), (360, 360), (450, 450)):
         (placed,) = asked(modules, "words_apart", f"m.wordsApart({json.dumps([{**words, 'y': y}])}, 400)")
         assert placed["y"] == expected
+
+
+def test_figures_of_the_grid_give_way_to_words_written_over_them(modules: Page) -> None:
+    figures = [{"key": str(y), "tag": "text", "class": "grid-figure", "text": "20", "x": 4, "y": y} for y in (100, 160)]
+    lines = {"key": "fine", "tag": "path", "d": "M0 0"}
+    words = {
+        "key": "a",
+        "tag": "text",
+        "class": "drag-text",
+        "text": "dragged",
+        "text-anchor": "middle",
+        "x": 30,
+        "y": 103,
+    }
+    left = asked(modules, "words_apart", f"m.uncovered({json.dumps([lines, *figures])}, {json.dumps([words])})")
+    assert left == [lines, figures[1]]
 
 
 def test_words_of_findings_are_never_written_over_each_other(modules: Page) -> None:

@@ -49,11 +49,17 @@ def test_nothing_spills_at_any_width_nor_at_200_per_cent(wide: Page, width: int,
 
 
 @pytest.mark.parametrize("width", [1440, 960, 900, 800])
-def test_nothing_lies_over_the_tools_of_the_3d_view(wide: Page, width: int) -> None:
+def test_nothing_lies_over_the_tools_of_the_3d_view_nor_they_over_its_picture(wide: Page, width: int) -> None:
     wide.set_viewport_size({"width": width, "height": 500})
     wide.evaluate("document.getElementById('viewpoints').hidden = false")  # as if its 3D view were there
+    picture = wide.locator("#view3d").bounding_box()
+    assert picture is not None
     for name in ("Who can fold this?", "Follow", "Free"):
-        wide.get_by_role("button", name=name, exact=True).click(trial=True)
+        tool = wide.get_by_role("button", name=name, exact=True)
+        tool.click(trial=True)
+        box = tool.bounding_box()
+        assert box is not None
+        assert box["y"] + box["height"] <= picture["y"]
 
 
 def test_the_status_covers_nothing_of_the_bar(wide: Page) -> None:

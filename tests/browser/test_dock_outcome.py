@@ -54,7 +54,9 @@ def suggestions(page: Page) -> Locator:
 
 
 def test_no_plan_is_a_sentence_a_suggestion_and_a_way_back(page: Page, stuck: Desk) -> None:
-    expect(page.locator(".reason")).to_contain_text(re.compile(r"^Half: the (left|right) hand is [\d.]+ cm short"))
+    expect(page.locator(".reason")).to_contain_text(
+        re.compile(r"^Half: the (left|right) grip is [\d.]+ cm out of reach")
+    )
     expect(page.get_by_role("list", name="Plan").get_by_role("listitem")).to_have_count(0)
     expect(page.get_by_role("button", name="Play", exact=True)).to_be_disabled()
     move = suggestions(page).filter(has_text="Move the garment")
@@ -212,7 +214,7 @@ def test_how_far_the_cloth_was_dragged_by_then_is_said_where_there_is_room(modul
             explanation(about([0, 0]), state), explanation(about(null), state)];
         }"""
     )
-    brief = "Half: the left hand is 2 cm short."
+    brief = "Half: the left grip is 2 cm out of reach."
     way = "30 cm towards the robot and 40 cm to the left"
     assert told == [f"{brief[:-1]}, after the cloth was dragged {way}.", brief, brief, brief]
 
@@ -251,8 +253,8 @@ def test_what_is_short_at_least_is_said_to_be(modules: Page) -> None:
         }"""
     )
     assert told == [
-        "Half: the left hand is at least 80 cm short (too far).",
-        "Half: the left hand is 80 cm short (too far).",
+        "Half: the left grip is at least 80 cm out of reach (too far).",
+        "Half: the left grip is 80 cm out of reach (too far).",
     ]
 
 

@@ -137,3 +137,10 @@ def test_an_import_says_what_it_replaces_before_and_after(page: Page, new_sheet:
     expect(page.get_by_role("log", name="Notices")).to_contain_text("\u201cMy own towel\u201d was replaced")
     page.get_by_role("button", name="Undo").click()
     expect(bar(page).locator("option:checked")).to_contain_text("My own towel")
+
+
+def test_on_a_phone_a_title_of_25_letters_is_read_whole(phone: Page, new_sheet: NewSheet) -> None:
+    phone.goto(new_sheet(towel(title="Grandmother's blue shirts")).page_url)
+    title = bar(phone)
+    expect(title).to_contain_text("Grandmother's")
+    assert title.evaluate("(list) => list.scrollWidth <= list.clientWidth && list.scrollHeight <= list.clientHeight")

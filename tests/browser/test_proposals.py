@@ -71,7 +71,7 @@ def proposal(outline: list[list[float]], size_m: tuple[float, float]) -> dict[st
 
 
 def test_the_size_is_pulled_and_what_changes_begins_anew(page: Page, new_sheet: NewSheet) -> None:
-    """Where nothing fits the smallest packets are shown."""
+    """Where nothing fits, or none can be done, what comes nearest is shown."""
     asked: list[dict[str, Any]] = []
 
     def begin(route: Route) -> None:
@@ -80,15 +80,20 @@ def test_the_size_is_pulled_and_what_changes_begins_anew(page: Page, new_sheet: 
 
     def tell(route: Route) -> None:
         wanted = asked[-1]
+        untried = {**proposal(TOWEL["outline"], (0.4, 0.3)), "status": "untried", "cost_s": None, "number": 0}
+        del untried["plan_id"]
         if wanted["to"] == "suitcase":  # it is still looked for
-            untried = {**proposal(TOWEL["outline"], (0.4, 0.3)), "status": "untried", "cost_s": None}
-            del untried["plan_id"]
             route.fulfill(content_type="text/event-stream", body=f"event: found\ndata: {json.dumps(untried)}\n\n")
             return
         like = wanted["to"].get("like") if isinstance(wanted["to"], dict) else None
         long_m = 0.2 if wanted["to"] == "drawer" else 0.3 if like == "tie" else 0.4 if like else 0.1
         size_m = (max(x for x, _ in wanted["garment"]["outline"]), long_m)
-        found = [] if wanted["to"] == {"width_m": 0.1, "length_m": 0.25} else [proposal(TOWEL["outline"], size_m)]
+        is_unfit = wanted["to"] == {"width_m": 0.1, "length_m": 0.25}
+        found = [proposal(TOWEL["outline"], (0.4, 0.3) if is_unfit else size_m)]
+        if is_unfit:
+            found = [untried, {**found[0], "number": 0}]
+        elif wanted["to"] == "thirds" and wanted["robot"] == "pr2":
+            found[0].update(status="infeasible", cost_s=None)
         found = [{**one, "is_loose": like == "tie"} for one in found]
         lines = [f"event: found\ndata: {json.dumps(one)}\n\n" for one in found]
         end = {"status": "done", "progress": 1.0, "message": "", "result": {"proposals": found}}
@@ -125,14 +130,17 @@ def test_the_size_is_pulled_and_what_changes_begins_anew(page: Page, new_sheet: 
     expect(cards).to_contain_text(size(60, 30))
     expect(cards).to_contain_text("loose grips")
     assert asked[-1]["to"] == {"like": "tie"}
+    panel.get_by_role("button", name="Thirds").click()
+    expect(panel.get_by_role("status")).to_contain_text("PR2 cannot do the one way that was tried; ")
+    expect(cards).to_contain_text("No plan found")
+    assert (asked[-1]["robot"] == "pr2", "scene" in asked[-1], "placement" in asked[-1]) == (False, False, False)
     panel.get_by_role("button", name="Drawer").click()
     expect(like).to_have_value("")
     Hand(page).drag((0.4, 0.2), (0.35, 0.2))
     expect(page.get_by_role("status").filter(has_text=size(10, 25))).to_be_visible()
-    assert [(one["to"], len(one["garment"]["folds"])) for one in asked[-2:]] == [
-        ({"width_m": 0.1, "length_m": 0.25}, 1),
-        ("smallest", 1),
-    ]
+    expect(cards).to_have_count(1)
+    expect(cards).to_have_attribute("data-status", "solved")
+    assert (asked[-1]["to"], len(asked[-1]["garment"]["folds"])) == ({"width_m": 0.1, "length_m": 0.25}, 1)
     page.keyboard.press("Escape")
     expect(panel).to_be_hidden()
 

@@ -106,3 +106,11 @@ def test_the_amount_that_is_missing_and_the_way_of_a_drag_have_one_wording(modul
 def test_strip_and_panel_tell_the_drag_once(modules: Page, name: str) -> None:
     strip, _, panel = told(modules, REASONS[name], "cm")
     assert (strip.count("dragged"), panel.count("dragged")) == (1, 1)
+
+
+@pytest.mark.parametrize("name", ["short", "short at least", "too low", "without margin"])
+def test_strip_and_panel_word_a_shortfall_alike(modules: Page, name: str) -> None:
+    strip, _, panel = told(modules, REASONS[name], "cm")
+    lack = strip.partition(" grip ")[2].partition(", at best from")[0]
+    assert "reach" in lack
+    assert lack in panel

@@ -34,7 +34,7 @@ WOVEN = """() => {
 @pytest.fixture
 def saved(tmp_path: Path) -> Path:
     path = tmp_path / "hand-towel.html"
-    path.write_bytes(recording(shipped_plan("hand-towel"), 5.0, lambda: False, is_dark=False))
+    path.write_bytes(recording(shipped_plan("hand-towel"), 5.0, lambda: False, "en", is_dark=False))
     return path
 
 

@@ -28,15 +28,23 @@ def few(route: Route) -> None:
 
 
 def compare(route: Route) -> None:
-    """Answer a comparison at once: it takes its time too."""
+    """Begin a comparison, with the robot's name as the job's."""
     (robot,) = required(route.request.post_data_json)["robots"]
-    found = {"robot": robot, "help": None, **FOUND[robot]}
-    route.fulfill(status=202, json={"id": "7", "status": "done", "message": "", "result": {"robots": [found]}})
+    route.fulfill(status=202, json={"id": robot})
+
+
+def end_comparison(route: Route) -> None:
+    """Tell the result of a comparison at once: it takes its time too."""
+    robot = route.request.url.split("/")[-2]
+    result = {"robots": [{"robot": robot, "help": None, **FOUND[robot]}]}
+    end = {"status": "done", "progress": 1.0, "message": "", "result": result}
+    route.fulfill(content_type="text/event-stream", body=f"event: end\ndata: {json.dumps(end)}\n\n")
 
 
 def test_robots_are_compared_and_one_is_chosen(page: Page, new_sheet: Callable[[Garment], Sheet]) -> None:
     page.route("**/api/robots", few)
     page.route("**/api/comparisons", compare)
+    page.route("**/api/jobs/*/events", end_comparison)
     page.goto(new_sheet(napkin(folds=napkin()["folds"][:1])).page_url)
     page.get_by_role("button", name="Who can fold this?").click()
     dialog = page.get_by_role("dialog", name="Who can fold this?")
@@ -46,7 +54,7 @@ def test_robots_are_compared_and_one_is_chosen(page: Page, new_sheet: Callable[[
     expect(rows.nth(0).get_by_role("button")).to_be_hidden()
     expect(rows.nth(0)).to_contain_text(re.compile(r"21\.3.s4"))
     expect(rows.nth(1)).to_have_attribute("data-status", "infeasible")
-    expect(rows.nth(1)).to_contain_text("the left hand is 30 cm short")
+    expect(rows.nth(1)).to_contain_text("the left grip is 30 cm out of reach")
     dialog.get_by_role("button", name="Use Two SO-101").click()
     expect(dialog).to_be_hidden()
     expect(page.get_by_role("combobox", name="Robot")).to_have_value("so101-pair")

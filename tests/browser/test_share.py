@@ -38,6 +38,12 @@ def test_the_page_of_a_link_plays_and_has_nothing_that_changes_the_document(page
     expect(page.locator(".handle").filter(visible=True)).to_have_count(0)
     expect(page.locator(".hint-line")).to_be_empty()
     expect(page.get_by_role("button", name="Export", exact=True)).to_be_visible()
+    page.keyboard.press("?")
+    keys = page.get_by_role("dialog").locator("dt")
+    expect(keys).not_to_have_count(0)
+    for key in ("P", "F", "X", "Ctrl + Z", "Delete"):
+        expect(keys.filter(has_text=re.compile(f"^{re.escape(key)}$"))).to_have_count(0)
+    page.keyboard.press("Escape")
     before = sheet.state
     page.mouse.click(300, 300)
     page.keyboard.press("Delete")

@@ -24,6 +24,7 @@ from planner.proposals.proposals import (
     _turns,
     all_proposals,
 )
+from planner.proposals.target import is_fitting
 from planner.task.reason import Code
 from tests.required import required
 from tests.small_plan import small_plan
@@ -96,6 +97,25 @@ def test_each_is_told_as_it_is_found_after_different_ways_without_a_plan() -> No
     assert sorted(heard[2:], key=lambda one: one.cost_s or 0.0) == list(answer.proposals)
     assert [(one.status, one.plan, one.cost_s) for one in heard[:2]] == [("untried", None, None)] * 2
     assert heard[0].size_m != heard[1].size_m
+
+
+def test_a_robot_that_can_do_none_of_the_ways_shows_them_first_and_in_the_end_what_comes_nearest() -> None:
+    heard: list[Proposal] = []
+    jeans = replace(load_garment("jeans"), folds=())
+    answer = all_proposals(propose_folds(jeans, "shelf", robot="ur5e-single", count=2, untried=2), heard.append)
+    assert [one.status for one in heard[:4]] == ["untried"] * 2 + ["infeasible"] * 2
+    assert [one.number for one in heard[2:4]] == [1, 2]
+    assert list(answer.proposals) == heard[2:4]
+    assert {(one.number, one.status) for one in heard[4:]} == {(0, "solved")}
+    assert not any(is_fitting(one.size_m, (0.25, 0.30)) for one in heard[4:])
+
+
+def test_where_nothing_fits_what_comes_nearest_is_told_as_soon_as_that_is_known() -> None:
+    heard: list[Proposal] = []
+    answer = all_proposals(propose_folds(TOWEL, (0.02, 0.02), max_folds=1, untried=1), heard.append)
+    assert answer.proposals == ()
+    assert [(one.number, one.status) for one in heard] == [(0, "untried"), (0, "solved")]
+    assert heard[0].size_m == heard[1].size_m == answer.tried.nearest_m
 
 
 @pytest.mark.long

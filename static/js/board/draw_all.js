@@ -13,7 +13,7 @@ import { drawOverhang } from "./draw_overhang.js";
 import { drawReason } from "./draw_reason.js";
 import { drawRobot } from "./draw_robot.js";
 import { drawTable, drawTableEdge } from "./draw_table.js";
-import { wordsApart } from "./words_apart.js";
+import { uncovered, wordsApart } from "./words_apart.js";
 
 /** The layers, the lowest first. */
 export const LAYERS = /** @type {const} */ ([
@@ -42,7 +42,6 @@ export function drawAll(board) {
   const { sheets, view, tool, svg } = board;
   const { outline, propose } = board.tools;
   view.lay(board.isPlacing ? board.drawing.placement : null);
-  sheets.grid.draw(drawGrid(board));
   sheets.photo.draw(board.isPlacing ? [] : board.photo.items(view));
   sheets.table.draw(board.isPlacing ? drawTable(board) : drawTableEdge(board, "table is-faint"));
   sheets.under.draw(board.overlays.under());
@@ -50,7 +49,7 @@ export function drawAll(board) {
   sheets.over.draw(board.overlays.over());
   sheets.ghost.draw(drawGhost(board));
   sheets.folds.draw(board.isPlaying || board.previewed ? [] : drawFolds(board));
-  const findings = [
+  const found = [
     ...drawRobot(board),
     ...drawTableEdge(board, "table-line"),
     ...drawChecks(board),
@@ -59,10 +58,13 @@ export function drawAll(board) {
     ...drawReason(board),
     ...drawHolds(board),
   ];
-  sheets.findings.draw(wordsApart(findings, view.height));
+  const findings = wordsApart(found, view.height);
+  const inHand = [...tool.items(), ...(tool === outline ? [] : outline.items())];
+  sheets.grid.draw(uncovered(drawGrid(board), [...findings, ...inHand]));
+  sheets.findings.draw(findings);
   sheets.preview.draw([...drawAxis(board), ...drawPreview(board), ...drawQuickFix(board)]);
   sheets.handles.draw(board.isPlaying || tool === propose ? [] : drawHandles(board));
-  sheets.tool.draw([...tool.items(), ...(tool === outline ? [] : outline.items())]);
+  sheets.tool.draw(inHand);
   sheets.cursor.draw([...drawCursor(board), ...board.keyboard.items()]);
   const [x, y] = view.toPx([0, 0]);
   svg.dataset.originPx = `${x},${y}`;

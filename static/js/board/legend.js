@@ -36,7 +36,7 @@ export class Legend {
   draw() {
     const rows = legendRows(this.board);
     const { width, height } = this.board.place;
-    const wanted = JSON.stringify([rows, width, height]);
+    const wanted = JSON.stringify([rows, width, height, this.over.length]);
     if (wanted === this.shown && !this.isUnder()) return;
     this.shown = wanted;
     this.root.hidden = !rows.length;
@@ -44,23 +44,34 @@ export class Legend {
     if (rows.length) this.settle();
   }
 
-  /** Whether the fields of what is selected lie over it. */
-  isUnder() {
-    const fields = this.board.numbers.root;
-    if (this.root.hidden || fields.hidden) return false;
-    const [a, b] = [this.root.getBoundingClientRect(), fields.getBoundingClientRect()];
-    return a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+  /** What may lie over it: the fields of what is selected, and why there is no plan. */
+  get over() {
+    const why = /** @type {HTMLElement|null} */ (document.querySelector(".repair"));
+    return present([this.board.numbers.root, why ?? false]).filter(({ hidden }) => !hidden);
   }
 
-  /** In the corner with the least cloth and no fields; it stays there while the same is shown. */
+  isUnder() {
+    if (this.root.hidden) return false;
+    const a = this.root.getBoundingClientRect();
+    return this.over.some((part) => {
+      const b = part.getBoundingClientRect();
+      return a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+    });
+  }
+
+  /**
+   * In the corner with the least cloth and nothing over it; it stays there while the same is shown. Where only corners
+   * with cloth are left it is read out alone.
+   */
   settle() {
     const column = this.column();
     const covered = (IS_PHONE.matches ? CORNERS.slice(0, -1) : CORNERS).map((corner) => {
       this.root.className = `${column} ${corner}`;
       return { corner, cloth: this.isUnder() ? LOOKS ** 2 + 1 : this.cloth() };
     });
-    const { corner } = covered.reduce((best, next) => (next.cloth < best.cloth ? next : best));
-    this.root.className = `${column} ${corner}`;
+    const { corner, cloth } = covered.reduce((best, next) => (next.cloth < best.cloth ? next : best));
+    const isFull = cloth > LOOKS && covered.some((one) => one.cloth > LOOKS ** 2);
+    this.root.className = isFull ? "unseen" : `${column} ${corner}`;
   }
 
   /** Two columns where one is too high; where there is no room for them either, it is only read out. */

@@ -31,6 +31,12 @@ export function wordsApart(items, height) {
   return items.map((item) => (item && moved.has(item) ? { ...item, y: moved.get(item) } : item));
 }
 
+/** The grid without the figures over which words are written. @param {Items} grid @param {Items} items */
+export function uncovered(grid, items) {
+  const words = present(items).filter(({ tag, text }) => tag === "text" && text).map(placeOf);
+  return present(grid).filter((item) => !item.text || words.every((word) => !isOver(word, placeOf(item))));
+}
+
 /** @param {Item} item @returns {Place} */
 function placeOf({ text = "", x, y, class: name, "text-anchor": anchor }) {
   const wide = text.length * LETTER_PX;

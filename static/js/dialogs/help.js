@@ -3,6 +3,7 @@
 import { element } from "../dom.js";
 import { FOLD_KINDS, KIND_NAMES } from "../fold_kinds.js";
 import { say } from "../language/say.js";
+import { isViewOnly } from "../view_only.js";
 import { openDialog } from "./dialog.js";
 
 /** @import { FoldKind } from "pleat" */
@@ -112,10 +113,26 @@ const SECTIONS = [
   ],
 ];
 
+/** What is done by those who came by a link for looking. */
+const LOOKING = new Set([
+  say("help.two_fingers"),
+  say("help.swap"),
+  say("help.pull_up"),
+  say("help.go_to_step"),
+  say("help.zoom"),
+  say("help.pan"),
+  say("help.play"),
+  say("help.this_page"),
+]);
+
 export function showHelp() {
   const isTouched = matchMedia("(pointer: coarse)").matches;
   const ordered = isTouched ? [...TOUCH, ...SECTIONS] : [...SECTIONS, ...TOUCH];
-  const sections = ordered.map(([title, keys]) =>
+  const shown = ordered.map(([title, keys]) => /** @type {Section} */ ([
+    title,
+    keys.filter(([, text]) => !isViewOnly || LOOKING.has(text)),
+  ]));
+  const sections = shown.filter(([, keys]) => keys.length).map(([title, keys]) =>
     element(
       "section",
       "help-section",

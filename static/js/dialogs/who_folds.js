@@ -3,13 +3,14 @@
 import { button, element, sayable, toldAloud } from "../dom.js";
 import { sentence } from "../dock/reasons.js";
 import { capital, seconds } from "../dock/words.js";
+import { jobEvents } from "../event_stream.js";
 import { say } from "../language/say.js";
 import { inWords } from "../messages/in_words.js";
 import { length } from "../messages/lengths.js";
 import { openDialog } from "./dialog.js";
 import { fetched } from "./documents.js";
 
-/** @import { Job, Reason, RobotEntry, Says } from "pleat" */
+/** @import { Reason, RobotEntry, Says } from "pleat" */
 /** @import { Named } from "../messages/names.js" */
 
 /**
@@ -25,7 +26,6 @@ import { fetched } from "./documents.js";
 const COLUMNS = [say("robot.label"), say("robots.time"), say("robots.margin"), say("robots.take"), ""];
 const MARGIN = say("robots.margin_hint");
 const TIME_LIMIT_S = 10;
-const LOOK_EVERY_MS = 300;
 
 /** @param {import("../store.js").Store} store */
 export function showWhoFolds(store) {
@@ -38,8 +38,8 @@ export function showWhoFolds(store) {
   const table = element("table", "who-folds", element("thead", "", element("tr", "", ...heads)), body);
   const about = element("p", "dialog-text", say("robots.about"));
   const dialog = openDialog(say("robots.who"), "is-wide", about, table, said);
-  const comparing = new Comparing(garment);
-  dialog.addEventListener("close", () => comparing.stop());
+  const closing = new AbortController();
+  dialog.addEventListener("close", () => closing.abort());
 
   /** @param {string} name */
   const use = async (name) => {
@@ -52,42 +52,24 @@ export function showWhoFolds(store) {
     const rows = robots.map((entry) => new Row(entry, entry.name === robot.name, use, garment.folds));
     body.replaceChildren(...rows.map(({ root }) => root));
     for (const row of rows) {
-      if (comparing.isStopped) return;
       row.begin();
-      row.show(await comparing.find(row.name));
+      row.show(await compared(garment, row.name, closing.signal));
     }
-  })().catch((error) => comparing.isStopped || (said.textContent = sayable(error)));
+  })().catch((error) => closing.signal.aborted || (said.textContent = sayable(error)));
 }
 
-/** One job after the other; the one that runs is cancelled when nobody looks any more. */
-class Comparing {
-  /** @param {object} garment */
-  constructor(garment) {
-    this.garment = garment;
-    this.isStopped = false;
-    /** @type {string|null} the path of the job that runs */
-    this.job = null;
-  }
-
-  stop() {
-    this.isStopped = true;
-    if (this.job) fetched(`${this.job}/cancel`, "POST").catch(() => {});
-  }
-
-  /** @param {string} robot @returns {Promise<Found>} */
-  async find(robot) {
-    const asked = { garment: this.garment, robots: [robot], time_limit_s: TIME_LIMIT_S };
-    let job = /** @type {Job} */ (await fetched("../api/comparisons", "POST", asked));
-    this.job = `../api/jobs/${job.id}`;
-    if (this.isStopped) this.stop();
-    while (job.status === "queued" || job.status === "running") {
-      await new Promise((resolve) => setTimeout(resolve, LOOK_EVERY_MS));
-      job = await fetched(this.job);
-    }
-    this.job = null;
-    if (job.status !== "done") throw new Error(`${capital(job.message || say("robots.ended"))}.`);
-    return /** @type {{result: {robots: Found[]}}} */ (/** @type {unknown} */ (job)).result.robots[0];
-  }
+/**
+ * What a robot makes of a garment, by a job that is cancelled when nobody looks any more.
+ * @param {object} garment @param {string} robot @param {AbortSignal} signal
+ * @returns {Promise<Found>}
+ */
+async function compared(garment, robot, signal) {
+  const asked = { garment, robots: [robot], time_limit_s: TIME_LIMIT_S };
+  /** @type {{status: string, message: string, result: {robots: Found[]}}|null} */
+  let end = null;
+  for await (const { event, data } of jobEvents("../api/comparisons", asked, signal)) if (event === "end") end = data;
+  if (end?.status !== "done") throw new Error(`${capital(end?.message || say("robots.ended"))}.`);
+  return end.result.robots[0];
 }
 
 class Row {

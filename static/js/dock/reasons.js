@@ -4,7 +4,7 @@ import { say } from "../language/say.js";
 import { inWords } from "../messages/in_words.js";
 import { enough, length } from "../messages/lengths.js";
 import { called, place, word } from "../messages/names.js";
-import { causeInWords, draggedBy, roundedUp, shortBy, SMALL_M, toldReason } from "../messages/reasons.js";
+import { draggedBy, lack, roundedUp, SMALL_M, toldReason } from "../messages/reasons.js";
 import { foldName } from "./step_kinds.js";
 import { capital, seconds } from "./words.js";
 
@@ -17,8 +17,6 @@ const of = ({ fold }, folds) => (fold === null ? "" : `${called(folds, fold)}: `
 /** Statuses for which there is no plan and nothing is being worked out. */
 export const NO_PLAN = new Set(["infeasible", "budget_exceeded", "illegal", "failed"]);
 
-const UP_DOWN = 0.5;
-
 /** @type {Record<string, (reason: Reason) => string>} */
 const SAYS = {
   out_of_reach: outOfReach,
@@ -30,10 +28,6 @@ const SAYS = {
   slips: ({ needed_friction: friction }) =>
     friction ? say("why.slips.unless", { friction: roundedUp(friction) }) : say("why.slips"),
   collision: () => say("why.collision"),
-  line_off_table: ({ short_by_m: short, says }) => {
-    if (says?.code === "turn_off_table") return ""; // it is no line that folds, and the message says so
-    return short ? say("why.line_off_table.by", { length: length(short) }) : say("why.line_off_table");
-  },
   waits_for_fold: () => say("why.waits_for_fold"),
 };
 
@@ -142,32 +136,15 @@ function resting({ code, edge, beyond_m: beyond, off_m: off }) {
 }
 
 /** @param {Reason} reason */
-function outOfReach(reason) {
-  const { arm, station, short_by_m: short } = reason;
+function outOfReach({ says, ...reason }) {
+  const { arm, station } = reason;
   const from = station ? say("why.best_from", { station: place(station) }) : "";
-  if (reason.cause === "comfort_only") {
-    const why = limit(reason) || say("cause.too_far");
-    const { comfort_m: comfort } = /** @type {Says} */ (reason.says);
-    return say("why.comfort_only", { from, comfort: length(comfort ?? 0), by: shortBy(reason), why });
-  }
-  const causes = [cause(reason), limit(reason)].filter(Boolean).join(", ");
-  const told = { hand: word("hand", arm ?? "nearest"), why: causes ? ` (${causes})` : "", from };
-  if (!short) return say("why.hand_out_of_reach", told);
-  return say("why.hand_short", { ...told, by: shortBy(reason) });
+  const told = lack({ ...reason, ...says });
+  return say("why.out_of_reach", { arm: word("arm", arm ?? "nearest"), lack: told, from });
 }
 
 /** How much too close two hands would be; nothing where only wider grips help, which the message says. @param {Reason} reason */
 function tooClose({ says }) {
   const { code, apart_m: apart, needed_apart_m: needed } = /** @type {Says} */ (says);
   return code === "grips_too_close" ? say("why.grips_too_close.by", { length: length(needed - apart) }) : "";
-}
-
-/** @param {Reason} reason */
-const limit = ({ joint }) => (joint ? say("joint.limit", { joint: word("joint", joint) }) : "");
-
-/** @param {Reason} reason */
-function cause({ cause: name, towards }) {
-  if (name === "own_body") return say("why.own_body");
-  if (name !== "too_far" && name !== "too_near") return "";
-  return causeInWords(name, towards && Math.abs(towards[2]) > UP_DOWN ? (towards[2] < 0 ? "up" : "down") : "");
 }

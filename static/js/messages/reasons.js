@@ -140,18 +140,18 @@ export const REASONS = {
   not_with_the_others: () => say("message.not_with_the_others"),
 };
 
-/** By how much a point is out of reach, and why. @param {Says} says */
-function lack({ cause, joint, demand: asked, towards, comfort_m, wanted_comfort_m, ...says }) {
+/** By how much a point is out of reach, and why, as strip and panel say it. @param {Says} says */
+export function lack({ cause, joint, demand: asked, towards, comfort_m, wanted_comfort_m, ...says }) {
   const limit = joint ? say("joint.limit", { joint: word("joint", joint) }) : "";
   const by = shortBy(says);
-  const demand = DEMANDS[asked];
+  const demand = DEMANDS[asked] ?? "";
   if (cause === "comfort_only") {
-    const [comfort, wanted] = [length(comfort_m ?? 0), length(wanted_comfort_m)];
+    const [comfort, wanted] = [length(comfort_m ?? 0), length(wanted_comfort_m ?? 0)];
     return say("lack.comfort", { comfort, wanted, demand, why: limit || say("cause.too_far"), by });
   }
-  const isUpright = !says.is_at_least && Math.abs(towards[2]) > OBLIQUE;
-  const why = causeInWords(cause, isUpright ? (towards[2] > 0 ? "down" : "up") : "");
-  return say("lack.reach", { by, demand, why: [why, limit].filter(Boolean).join(", ") });
+  const isUpright = towards && !says.is_at_least && Math.abs(towards[2]) > OBLIQUE;
+  const causes = [causeInWords(cause, isUpright ? (towards[2] > 0 ? "down" : "up") : ""), limit].filter(Boolean).join(", ");
+  return say("lack.reach", { by, demand, why: causes && ` (${causes})` });
 }
 
 /** How much is missing, as strip, board and panel say it. @param {Says|Pick<Reason, "short_by_m"|"is_at_least">} data */
@@ -167,8 +167,9 @@ export function shortBy({ short_by_m: short, is_at_least: isAtLeast }) {
  */
 export const draggedBy = ({ offset_m: offset, says }) => (offset && !says?.drag ? moved(offset) : "");
 
-/** @param {string} cause @param {"up"|"down"|""} upright where it is too far or too near, if that is straight there */
-export function causeInWords(cause, upright) {
+/** @param {string|null} cause @param {"up"|"down"|""} upright where it is too far or too near, if that is straight there */
+function causeInWords(cause, upright) {
+  if (!cause) return "";
   if (cause === "too_far" || cause === "too_near") return say(upright ? `cause.${cause}.${upright}` : `cause.${cause}`);
   return say(cause === "joint_limit" ? "cause.joint_limit" : "cause.own_body");
 }

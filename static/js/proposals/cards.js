@@ -46,10 +46,11 @@ export class ProposalCards {
     if (!isHeld) this.place(); // else they stay where a hand is about to press
   }
 
-  /** The quickest first, those without a plan last. */
+  /** The quickest first, of those that do not fit the nearest; those without a plan last. */
   place() {
-    const cost = (/** @type {ProposalCard} */ { proposal }) => proposal.cost_s ?? Number.MAX_VALUE;
-    const roots = [...this.cards.values()].sort((a, b) => cost(a) - cost(b)).map(({ root }) => root);
+    const rank = (/** @type {ProposalCard} */ { proposal: { cost_s: cost, number } }) =>
+      cost === null ? Number.MAX_VALUE : number && cost;
+    const roots = [...this.cards.values()].sort((a, b) => rank(a) - rank(b)).map(({ root }) => root);
     if (roots.some((root, index) => root !== this.root.children[index])) this.root.replaceChildren(...roots);
   }
 }

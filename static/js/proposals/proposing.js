@@ -14,7 +14,7 @@ import { inEnglish, say } from "../language/say.js";
 import { inWords, ProposalCards } from "./cards.js";
 import { LikePicker } from "./like_picker.js";
 import { ProposalSearch } from "./proposal_search.js";
-import { isLike, isWithin, PRESETS, SMALLEST } from "./target.js";
+import { extentOf, isLike, isWithin, PRESETS } from "./target.js";
 
 /** @import { Garment } from "pleat" */
 /** @import { Proposal } from "./proposal_search.js" */
@@ -36,8 +36,6 @@ export class Proposing {
     this.search = new ProposalSearch();
     /** What is looked for, as text; empty for nothing. */
     this.asked = "";
-    /** Whether nothing fits, and the smallest packets are on show. */
-    this.isInstead = false;
     this.keepsFolds = false;
     this.cards = new ProposalCards(store, (proposal) => this.apply(proposal));
     this.presets = PRESETS.map((name) => ({ name, made: this.preset(name) }));
@@ -164,25 +162,18 @@ export class Proposing {
     if (asked === this.asked) return;
     this.end();
     this.asked = asked;
-    this.isInstead = false;
     if (wanted && !this.isSmall) this.search.start(wanted, REST_MS);
   }
 
   /** Whether the garment fits as it is drawn. */
   get isSmall() {
     const { sides } = this.tool;
-    return sides !== null && !this.keepsFolds && isWithin(this.board.drawing, sides);
+    return sides !== null && !this.keepsFolds && isWithin(extentOf(this.board.drawing), sides);
   }
 
-  /** Where nothing fits, the smallest packets are shown instead. */
+  /** Show what was found, and what is said about it. */
   showFound() {
-    const { found, shown, isRunning, isDone } = this.search;
-    const wanted = this.wanted();
-    if (wanted && isDone && !isRunning && !found.length && !this.isInstead && this.tool.sides) {
-      this.isInstead = true;
-      this.search.start({ ...wanted, to: SMALLEST }, 0);
-      return;
-    }
+    const { found, shown, isRunning } = this.search;
     this.cards.show(shown);
     const said = this.said();
     if (this.note.textContent !== said) this.note.textContent = said;
@@ -193,14 +184,23 @@ export class Proposing {
 
   /** What is said beside the cards. */
   said() {
-    const { found, isRunning, isDone, fault } = this.search;
+    const { found, near, shown, other, isRunning, isDone, isUnable, fault } = this.search;
     const { sides } = this.tool;
     if (fault) return say("search.fault", { fault });
     if (this.isSmall) return say("proposal.fits");
-    const instead = this.isInstead && sides ? say("proposal.nothing", { size: inWords(sides) }) : "";
-    const count = found.length ? say("proposal.found", { count: found.length }) : "";
-    if (isDone && !count && isLike(this.tool.to)) return say("proposal.unlike");
-    return instead || count || (isRunning ? say("proposal.looking") : isDone ? say("proposal.none") : "");
+    if (isUnable) {
+      const count = found.length;
+      const robot = this.store.state?.robot.title ?? "";
+      const then = near.length ? say("proposal.nearest_first") : other && say("proposal.other", { robot: other });
+      return say("proposal.unable", { robot, count, then });
+    }
+    const count = found.filter(({ cost_s: cost }) => cost !== null).length;
+    if (count) return say("proposal.found", { count });
+    if (isDone && isLike(this.tool.to)) return say("proposal.unlike");
+    if (sides && shown.length && !shown.some(({ size_m: size }) => isWithin(size, sides)))
+      return say("proposal.nothing", { size: inWords(sides), then: say("proposal.nearest") });
+    if (sides && isDone) return say("proposal.nothing", { size: inWords(sides), then: "" });
+    return isRunning ? say("proposal.looking") : isDone ? say("proposal.none") : "";
   }
 
   /** Its folds become the drawing's, as one step, unless this has changed since. @param {Proposal} proposal */

@@ -21,7 +21,7 @@ export const SIDES_M = [0.01, 10.0];
 export const TOLERANCE_M = 0.01;
 
 /** The smallest that there is, and rolled up: names without a size. */
-export const SMALLEST = "smallest";
+const SMALLEST = "smallest";
 const ROLL = "roll";
 
 /** @typedef {keyof typeof SIZES_M | keyof typeof HUNG | keyof typeof SHARES | typeof ROLL | typeof SMALLEST} PresetName */
@@ -59,9 +59,9 @@ export function extentOf(drawing) {
   return box ? [box.high[0] - box.low[0], box.high[1] - box.low[1]] : [0, 0];
 }
 
-/** Whether the garment is no larger than that, either way round. @param {Drawing} drawing @param {Point} sides */
-export function isWithin(drawing, sides) {
-  const [most, own] = [sides, extentOf(drawing)].map((two) => [...two].sort((a, b) => a - b));
+/** Whether a size is no larger than that, either way round. @param {Point} size @param {Point} sides */
+export function isWithin(size, sides) {
+  const [most, own] = [sides, size].map((two) => [...two].sort((a, b) => a - b));
   return own.every((side, index) => side <= most[index] + TOLERANCE_M);
 }
 

@@ -13,6 +13,7 @@ from app.language import ENGLISH
 from app.ui.colours import LIGHT
 from app.ui.scene_picture import Part, ScenePainter
 from app.ui.viewpoint import Viewpoint
+from app.ui.weave import woven
 from planner.geometry.pose import FloatArray
 from planner.motion.timeline import Timeline
 from planner.robots.load_robot import load_robot
@@ -60,11 +61,21 @@ def test_a_still_has_the_size_of_pictures_beside_links(plan: Plan) -> None:
     assert Image.open(io.BytesIO(still(plan, ENGLISH, is_dark=False))).size == STILL_PX
 
 
-def seen_from_above(plan: Plan, t_s: float) -> FloatArray:
+def seen_from_above(plan: Plan, t_s: float, height_m: float = 6.0) -> FloatArray:
     painter = ScenePainter(load_robot(plan.task.robot).card, plan.scene, LIGHT)
-    above = Viewpoint((0.0, -0.001, 6.0), (0.0, 0.0, 0.0))
+    above = Viewpoint((0.0, -0.001, height_m), (0.0, 0.0, 0.0))
     picture = painter.picture(Timeline.of(plan).at(t_s), plan.garment.layer_m, above, (600, 600))
     return np.asarray(picture, float)
+
+
+def test_cloth_is_painted_with_threads_along_its_pattern(plan: Plan) -> None:
+    picture = seen_from_above(plan, 0.0, 2.0)
+    is_cloth = np.abs(picture - LIGHT.cloth_front).max(axis=2) < 20.0
+    assert picture[is_cloth].mean(axis=1).std() > 1.0
+    near, far = (woven(np.random.default_rng(1).uniform(0.0, 1.0, (2000, 2)), np.full(2000, m)) for m in (1e-4, 0.1))
+    assert near.mean() == pytest.approx(1.0, abs=0.01)
+    assert 0.03 < near.std() < 0.1
+    assert np.all(far == 1.0)
 
 
 def test_cloth_is_painted_in_its_colour_as_large_as_it_is(plan: Plan) -> None:

@@ -8,6 +8,8 @@ import pytest
 import zstandard
 
 from app.files.recording import HOLD_S, recording
+from app.language import ENGLISH, LANGUAGES, Language, named, translated
+from app.step_kinds import step_caption
 from app.ui.withdrawal import LASTS_S
 from planner.task.plan import Plan
 from tests.replay.planned import shipped_plan
@@ -23,12 +25,16 @@ def plan() -> Plan:
 
 @pytest.fixture(scope="module")
 def page(plan: Plan) -> str:
-    return recording(plan, 2.0, lambda: False, is_dark=True).decode()
+    return recording(plan, 2.0, lambda: False, ENGLISH, is_dark=True).decode()
 
 
 @pytest.fixture(scope="module")
 def film(page: str) -> dict[str, Any]:
-    """Return the recording that the page plays, in viser's format: sizes, messages with their times, numbers."""
+    return played(page)
+
+
+def played(page: str) -> dict[str, Any]:
+    """Return the recording that a page plays, in viser's format: sizes, messages with their times, numbers."""
     packed = base64.b64decode(required(DATA.search(page)).group(1))
     whole = zstandard.ZstdDecompressor().decompress(packed[8:])
     length = int.from_bytes(whole[:8], "little")
@@ -66,10 +72,19 @@ def test_each_step_is_told_in_a_caption_while_it_goes_on(plan: Plan, film: dict[
         for text in [message.get("props", message.get("updates", {})).get("text")]
         if text is not None
     ]
-    assert [text.split(" of ")[0] for _, text in told if text] == [str(n) for n in range(1, len(plan.steps) + 1)]
+    assert [text.split("/")[0] for _, text in told if text] == [str(n) for n in range(1, len(plan.steps) + 1)]
     for (t_s, text), step in zip(told, plan.steps, strict=True):
         assert step.start_s <= t_s <= step.start_s + 0.5
-        assert step.kind in text
+        assert step.kind in text.lower()
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_recording_speaks_the_documents_language(plan: Plan, language: Language) -> None:
+    page = recording(plan, 1.0, lambda: False, language, is_dark=True).decode()
+    caption = step_caption(plan, 0, language)
+    assert f"<h1>{translated(language, plan.garment.title)}</h1>" in page
+    assert caption.startswith(f"1/{len(plan.steps)}  {named(language, 'kind', plan.steps[0].kind)}: ")
+    assert caption in str(played(page)["messages"])
 
 
 def test_the_page_is_one_file_with_the_garments_title_that_asks_for_nothing_elsewhere(page: str) -> None:
@@ -85,5 +100,5 @@ def test_it_stops_between_frames_when_nobody_wants_it_any_more(plan: Plan) -> No
         asked.append(True)
         return len(asked) > 3
 
-    assert recording(plan, 10.0, should_stop, is_dark=False) == b""
+    assert recording(plan, 10.0, should_stop, ENGLISH, is_dark=False) == b""
     assert len(asked) == 4

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import shapely
 
-from app.overlays.shortfall import Lack, NearReach, near_reach
+from app.overlays.shortfall import Lack, NearReach, ShortfallAnswer, near_reach
 from planner import load_garment
 from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.reach_query import ReachQuery
@@ -152,3 +152,9 @@ async def test_a_document_that_is_planned_has_no_reach_to_show(client: httpx.Asy
     path = f"/api/documents/{await planned(client)}/overlays"
     for query in ("", "?station=front"):
         assert (await client.get(path + query)).json()["shortfall"] is None
+
+
+def test_the_schema_tells_that_a_robot_without_a_station_is_not_at_one() -> None:
+    parts = ShortfallAnswer.model_json_schema()["properties"]
+    kinds = {name: [one["type"] for one in parts[name]["anyOf"]] for name in ("station", "back_off_m")}
+    assert kinds == {"station": ["string", "null"], "back_off_m": ["number", "null"]}

@@ -1,6 +1,7 @@
 """The legend explains every shade and line of the overlays that are drawn, and no other."""
 
 import itertools
+import re
 from collections.abc import Callable, Iterator
 
 import pytest
@@ -148,6 +149,13 @@ def test_the_legend_keeps_clear_of_the_placements_numbers(page: Page, legend: Lo
     is_beside = a["x"] >= b["x"] + b["width"] or b["x"] >= a["x"] + a["width"]
     assert is_beside or a["y"] >= b["y"] + b["height"] or b["y"] >= a["y"] + a["height"]
     Hand(page).tool("Select")
+
+
+def test_the_legend_keeps_clear_of_why_there_is_no_plan(page: Page, legend: Locator) -> None:
+    page.evaluate("Object.assign(document.querySelector('.repair'), { hidden: false }).style.minHeight = '60px'")
+    chip(page, "Reach").click()
+    expect(legend).to_have_class(re.compile("is-bottom|unseen"))
+    page.evaluate("document.querySelector('.repair').hidden = true")
 
 
 def test_the_bases_way_comes_into_view_and_the_view_goes_back_with_it(page: Page, legend: Locator) -> None:

@@ -95,7 +95,7 @@ def test_where_a_hand_falls_short_is_marked_with_how_much(page: Page, moved_desk
     expect(page.locator(".reason-text")).to_contain_text("too high")
     short = str(page.locator(".reason-text").text_content()).partition(" too")[0]
     arm = {"L": "left", "R": "right"}[required(page.locator(".reason-arm").text_content())]
-    expect(status).to_contain_text(f"the {arm} hand is {short} short")
+    expect(status).to_contain_text(f"the {arm} grip is {short} out of reach")
     expect(page.locator(".table-line")).to_have_count(1)
     # Straight below there is reach, at that height there is none: all that is near is hatched, and no edge is drawn.
     expect(page.locator(".beyond")).to_have_count(1)
@@ -149,7 +149,7 @@ def test_where_a_hand_falls_short_along_the_table_its_reach_ends_at_the_arrow(pa
     moved_desk.lay(moved_desk.garment("t-shirt"))
     only_front = {"stations": {"front": {"x_m": -0.95, "y_m": 0.0, "yaw_rad": 0.0}}, "back_off_max_m": 0.0}
     moved_desk.edit(lambda drawing: drawing["scene"].update(only_front))
-    expect(page.get_by_role("status")).to_contain_text("short (too far)")
+    expect(page.get_by_role("status")).to_contain_text("out of reach (too far)")
     expect(page.locator(".beyond-edge")).to_have_count(1)
     edge = page.locator(".beyond-edge")
     away = edge.evaluate(

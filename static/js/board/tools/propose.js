@@ -1,7 +1,7 @@
 /** The tool `Fold it for me`: a rectangle on the garment, the size that it is to be folded to, with handles to pull. */
 
 import { say } from "../../language/say.js";
-import { asked, isLike, isWithin, sidesOf, SIDES_M } from "../../proposals/target.js";
+import { asked, extentOf, isLike, isWithin, sidesOf, SIDES_M } from "../../proposals/target.js";
 import { lengthLabel } from "../draw_handles.js";
 import { middleOf } from "../edits.js";
 import { distance, minus, plus } from "../geometry.js";
@@ -70,7 +70,7 @@ export class ProposeTool extends Tool {
   /** What is no larger than the size as it lies is to be folded in half. */
   enter() {
     const { board, sides } = this;
-    if (sides && isWithin(board.drawing, sides)) this.to = "halves";
+    if (sides && isWithin(extentOf(board.drawing), sides)) this.to = "halves";
     board.store.select(null);
     board.store.showStep(0);
   }
