@@ -14,7 +14,8 @@ pairs that cover all with that radius are ranked.
 """
 
 import math
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from itertools import combinations
 from typing import TypeAlias
 
@@ -67,6 +68,10 @@ class GripCovers:
     def every(self) -> tuple[Cover, ...]:
         """All sets of grips, the firm ones first."""
         return self.firm if self.firm == self.covers else (*self.firm, *self.covers)
+
+    def among(self, serves: Callable[[Cover], bool]) -> "GripCovers":
+        """Return those of them that serve."""
+        return replace(self, covers=tuple(filter(serves, self.covers)), firm=tuple(filter(serves, self.firm)))
 
     @property
     def is_holdable(self) -> bool:

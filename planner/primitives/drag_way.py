@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from planner.cloth.grip_candidates import distinct_rows
 from planner.cloth.grips import GripCovers, grip_covers
 from planner.cloth.must_hold import must_hold
-from planner.cloth.trailing_strips import strip_tips
+from planner.cloth.trailing_strips import are_strips_held, strip_tips
 from planner.errors import RequestError
 from planner.geometry.pose import BoolArray, FloatArray, Point2
 from planner.geometry.reach_query import ReachQuery
@@ -95,9 +95,10 @@ def drag_covers(context: Context, done: int, offset: Point2, towards: Point2) ->
 def _drag_covers(context: Context, done: int, offset: Point2, towards: Point2) -> GripCovers:
     silhouette = context.sequence.cloth(done).silhouette
     lying = silhouette.intersection(context.table_in_article(offset).region)
-    vertices = must_hold(lying, towards, (), context.scene.support_angle_rad)
-    vertices = distinct_rows(np.concatenate([vertices, strip_tips(lying, towards)]))
-    return grip_covers(lying, vertices, context.sequence.garment.grip_radius_m, len(context.reach.arm_names))
+    vertices, tips = must_hold(lying, towards, (), context.scene.support_angle_rad), strip_tips(lying, towards)
+    vertices = distinct_rows(np.concatenate([vertices, tips]))
+    found = grip_covers(lying, vertices, context.sequence.garment.grip_radius_m, len(context.reach.arm_names))
+    return found.among(lambda cover: are_strips_held(np.array(cover).reshape(-1, 2), tips, towards))
 
 
 def drag_offsets(context: Context, most: int) -> FloatArray:
