@@ -15,7 +15,7 @@ pairs that cover all with that radius are ranked.
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import combinations
 from typing import TypeAlias
 
@@ -69,10 +69,6 @@ class GripCovers:
         """All sets of grips, the firm ones first."""
         return self.firm if self.firm == self.covers else (*self.firm, *self.covers)
 
-    def among(self, serves: Callable[[Cover], bool]) -> "GripCovers":
-        """Return those of them that serve."""
-        return replace(self, covers=tuple(filter(serves, self.covers)), firm=tuple(filter(serves, self.firm)))
-
     @property
     def is_holdable(self) -> bool:
         """Whether the grips allowed suffice."""
@@ -85,7 +81,12 @@ class GripCovers:
 
 
 def grip_covers(
-    piece: Region, vertices: FloatArray, radius_m: float, at_most: int, baseline: tuple[Segment, ...] = ()
+    piece: Region,
+    vertices: FloatArray,
+    radius_m: float,
+    at_most: int,
+    baseline: tuple[Segment, ...] = (),
+    is_lost: Callable[[FloatArray], BoolArray] | None = None,
 ) -> GripCovers:
     """Return the best sets of at most `at_most` grips that hold all vertices.
 
@@ -95,6 +96,7 @@ def grip_covers(
         radius_m: the radius within which one grip holds (m), inclusive.
         at_most: the number of grippers.
         baseline: the part of the boundary that stays in place.
+        is_lost: which vertices grips, shape (m, 2), do not hold though they are near them, shape (m, n); None for none.
     """
     points = tuple((float(x), float(y)) for x, y in vertices)
     if not points:
@@ -102,12 +104,15 @@ def grip_covers(
     if _needs_more(vertices, radius_m, at_most):
         return GripCovers(points, (), ())
     candidates = grip_candidates(piece, vertices, baseline)
-    covers = best_covers(candidates, vertices, radius_m, at_most)
-    firm = firm_covers(candidates, vertices, radius_m, at_most)
+    lost = None if is_lost is None else is_lost(candidates)
+    covers = best_covers(candidates, vertices, radius_m, at_most, lost=lost)
+    firm = firm_covers(candidates, vertices, radius_m, at_most, lost)
     return GripCovers(points, covers, firm, max(min(FIRM_M, radius_m), largest_m(firm, vertices)))
 
 
-def firm_covers(candidates: FloatArray, vertices: FloatArray, radius_m: float, at_most: int) -> tuple[Cover, ...]:
+def firm_covers(
+    candidates: FloatArray, vertices: FloatArray, radius_m: float, at_most: int, lost: BoolArray | None = None
+) -> tuple[Cover, ...]:
     """Return the best covers that hold all vertices within `FIRM_M`; if none does, the nearest within the radius.
 
     Args:
@@ -115,12 +120,13 @@ def firm_covers(candidates: FloatArray, vertices: FloatArray, radius_m: float, a
         vertices: the vertices that must be held, shape (n, 2), m.
         radius_m: the radius within which one grip holds (m).
         at_most: the number of grippers.
+        lost: which vertices each of the candidates does not hold though it is near them, shape (m, n); None for none.
     """
-    firm = best_covers(candidates, vertices, min(FIRM_M, radius_m), at_most)
+    firm = best_covers(candidates, vertices, min(FIRM_M, radius_m), at_most, lost=lost)
     if firm or radius_m <= FIRM_M:
         return firm
     nearest: tuple[Cover, ...] = ()
-    for covers in (best_covers(candidates, vertices, radius_m, count, count) for count in range(1, at_most + 1)):
+    for covers in (best_covers(candidates, vertices, radius_m, count, count, lost) for count in range(1, at_most + 1)):
         if covers and (not nearest or largest_m(covers, vertices) < largest_m(nearest, vertices) - LENGTH_M):
             nearest = covers
     return nearest
@@ -135,10 +141,17 @@ def largest_m(covers: tuple[Cover, ...], vertices: FloatArray) -> float:
 
 
 def best_covers(
-    candidates: FloatArray, vertices: FloatArray, radius_m: float, at_most: int, at_least: int = 1
+    candidates: FloatArray,
+    vertices: FloatArray,
+    radius_m: float,
+    at_most: int,
+    at_least: int = 1,
+    lost: BoolArray | None = None,
 ) -> tuple[Cover, ...]:
     """Return the best covers of the vertices among the given candidates, shape (m, 2), ties included."""
     distances = np.hypot(*(candidates[:, None, :] - vertices[None, :, :]).transpose(2, 0, 1))
+    if lost is not None:
+        distances[lost] = np.inf
     useful = (distances <= radius_m + LENGTH_M).any(axis=1)
     candidates, distances = candidates[useful], distances[useful]
     for count in range(at_least, at_most + 1):

@@ -5,8 +5,8 @@ hull hides its tip: a leg of trousers behind the other one. Cloth is pulled alon
 pushed; the tip is pulled only round the end of the slit, a reflex corner, by what comes in at the strip's root. Lines
 that lead there from the rear side of the tip make an angle with the drag whose tangent is the strip's length by its
 width. Beyond 45 degrees they pull more across the drag than along it, so that the strip turns about its root and its
-tip stays where friction holds it. So the tip of a strip that is longer than wide must be held as well, firmly and by a
-grip on the strip.
+tip stays where friction holds it. So the tip of a strip that is longer than wide must be held as well, by a grip on the
+strip.
 
 In simulated drags the jeans' leg, 4.8 times as long as wide, stayed behind by 11 to 13 cm, and a romper's leg, 1.4
 times as long as wide, stayed behind too; sleeves .9 times as long as wide came along.
@@ -16,8 +16,7 @@ import math
 
 import numpy as np
 
-from planner.cloth.grips import FIRM_M
-from planner.geometry.pose import FloatArray, Point2
+from planner.geometry.pose import BoolArray, FloatArray, Point2
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
 from planner.geometry.tolerance import LENGTH_M
@@ -43,18 +42,20 @@ def strip_tips(piece: Region, up: Point2) -> FloatArray:
     return np.array(found).reshape(-1, 2)
 
 
-def are_strips_held(grips: FloatArray, tips: FloatArray, up: Point2) -> bool:
-    """Return whether each trailing strip is held firmly by a grip on it: one across the slit does not pull it.
+def are_lost(grips: FloatArray, vertices: FloatArray, tips: FloatArray, up: Point2) -> BoolArray:
+    """Return which vertices grips do not hold because those are tips of trailing strips, shape (n, k).
+
+    A strip is held by a grip on it: one across the slit does not pull it.
 
     Args:
         grips: the grips, shape (n, 2), m.
-        tips: the strips' leading corners, as `strip_tips` returns them.
+        vertices: the vertices that must be held, the tips among them, shape (k, 2), m.
+        tips: the strips' leading corners, as `strip_tips` returns them, shape (t, 2), m.
         up: the unit vector of the drag.
     """
-    offsets = grips[:, None] - tips
-    is_on_strip = offsets @ np.array(up) <= LENGTH_M  # the slit is ahead of the tip
-    is_near = np.hypot(offsets[..., 0], offsets[..., 1]) <= FIRM_M + LENGTH_M
-    return bool((is_on_strip & is_near).any(axis=0).all())
+    offsets = grips[:, None] - vertices
+    is_tip = (np.abs(vertices[:, None] - tips).max(axis=2) <= LENGTH_M).any(axis=1)
+    return np.asarray(is_tip & (offsets @ np.array(up) > LENGTH_M))  # the slit is ahead of the tip
 
 
 def _trailing_end(slit: FloatArray, hull: FloatArray, ahead: FloatArray) -> FloatArray | None:

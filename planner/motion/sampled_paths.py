@@ -23,6 +23,10 @@ _SHORTCUT_TESTED_MAX = 5_000
 _STRIDE_RAD = 1.0
 """The farthest that a tree grows at once: the largest turn of a joint (rad)."""
 
+_ROUND_RAD, _NEAR_SHARE = 0.8, 0.25
+"""How far round the straight line some random configurations are at most, in each joint (rad), and which share of them:
+most detours are short, and the box of all configurations is wide."""
+
 _PART = 8
 """Lines count in parts of so many configurations: most of those into an obstacle end within a few."""
 
@@ -79,12 +83,15 @@ class SampledPaths:
         # be whole turns away in one of them, so ends are not compared, but how far it is from one to the other.
         away = (goal - start).round(_DIGITS)[None]
         mirror = self._mirror if self._mirror and self._mirror(away).tolist() < away.tolist() else None
+        low, high = self._middle - self._half, self._middle + self._half
+        round_it = np.where(self._half > 0.0, 0.5 * np.abs(goal - start) + _ROUND_RAD, 0.0)
         turn = 0
         while self.tested < TESTED_MAX:
             one, other = trees[turn], trees[1 - turn]
-            share = self._rng.uniform(-1.0, 1.0, len(start))
+            share, is_near = self._rng.uniform(-1.0, 1.0, len(start)), self._rng.random() < _NEAR_SHARE
             towards = share if mirror is None else mirror(share[None])[0]
-            grown = self._grow(one, self._middle + towards * self._half)
+            middle, half = (0.5 * (start + goal), round_it) if is_near else (self._middle, self._half)
+            grown = self._grow(one, np.clip(middle + towards * half, low, high))
             if grown is not None and (met := self._connect(other, one.nodes[grown])) is not None:
                 halves = one.way(grown), other.way(met)
                 there = np.concatenate([halves[0], halves[1][::-1][1:]])

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import product
 
 import numpy as np
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from planner.cloth.grip_candidates import distinct_rows
 from planner.cloth.grips import GripCovers, grip_covers
 from planner.cloth.must_hold import must_hold
-from planner.cloth.trailing_strips import are_strips_held, strip_tips
+from planner.cloth.trailing_strips import are_lost, strip_tips
 from planner.errors import RequestError
 from planner.geometry.pose import BoolArray, FloatArray, Point2
 from planner.geometry.reach_query import ReachQuery
@@ -97,8 +97,9 @@ def _drag_covers(context: Context, done: int, offset: Point2, towards: Point2) -
     lying = silhouette.intersection(context.table_in_article(offset).region)
     vertices, tips = must_hold(lying, towards, (), context.scene.support_angle_rad), strip_tips(lying, towards)
     vertices = distinct_rows(np.concatenate([vertices, tips]))
-    found = grip_covers(lying, vertices, context.sequence.garment.grip_radius_m, len(context.reach.arm_names))
-    return found.among(lambda cover: are_strips_held(np.array(cover).reshape(-1, 2), tips, towards))
+    radius_m, hands = context.sequence.garment.grip_radius_m, len(context.reach.arm_names)
+    is_lost = partial(are_lost, vertices=vertices, tips=tips, up=towards) if len(tips) else None
+    return grip_covers(lying, vertices, radius_m, hands, is_lost=is_lost)
 
 
 def drag_offsets(context: Context, most: int) -> FloatArray:
