@@ -13,7 +13,7 @@ from app.files.pieces import in_pieces, joined_name, named_pieces, piece_wanted
 from app.files.seam_allowance import Allowance, Line, seam_line
 from app.files.sketch import MirrorLine, Sketch
 from planner.cloth.outline import AREA_MIN_M2, EDGE_MIN_M, POINTS_MAX
-from planner.geometry.arrangement import are_tangled, enclosing_rings, signed_area, simplified
+from planner.geometry.arrangement import are_tangled, enclosing_rings, runs_along, signed_area, simplified
 from planner.geometry.pose import FloatArray
 from planner.geometry.segment import Segment
 
@@ -49,6 +49,7 @@ class FoundOutline:
         has_unfolded: whether any piece of the drawing was mirrored over a fold line.
         piece: the name of the piece that it is.
         pieces: the names of all pieces, the largest first.
+        loose: the number of open lines that are no part of any closed line.
     """
 
     points: FloatArray
@@ -62,6 +63,7 @@ class FoundOutline:
     has_unfolded: bool = False
     piece: str = ""
     pieces: tuple[str, ...] = ()
+    loose: int = 0
 
     def is_about(self, line: FloatArray) -> bool:
         """Return whether a line, shape (n, 2), may belong to this outline: not to another, and not far away."""
@@ -141,6 +143,8 @@ def find_outline(sketch: Sketch, unit_m: float, wanted: Line = "seam") -> FoundO
             break
     if not rings:
         raise broken("there is no closed line in it that could be the outline of a garment")
+    loose = [line.points for line in lines[: len(sketch.curves)] if len(line.points) > 1 and not line.is_closed]
+    used = runs_along(loose, [ring.points for ring in rings], _GAP_M) if loose else []
     every = _whole(rings, sketch.mirrors, unit_m)
     pieces = in_pieces([ring.points for ring in every])
     names = named_pieces([every[piece[0]].piece for piece in pieces])
@@ -163,6 +167,7 @@ def find_outline(sketch: Sketch, unit_m: float, wanted: Line = "seam") -> FoundO
         any(one.fold is not None for one in every),
         names[number],
         names,
+        used.count(False),
     )
 
 

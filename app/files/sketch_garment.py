@@ -123,6 +123,9 @@ def garment_of(
     title = " ".join((sketch.title or name).split())[:TITLE_MAX] or name
     notes = [*_piece_notes(sketch, found, graded), *_outline_notes(found, units, unit_m)]
     notes += map(Message.plain, sketch.notes)
+    if found.loose:
+        what, are = ("1 open line is", "it is") if found.loose == 1 else (f"{found.loose} open lines are", "they are")
+        notes.append(Message.plain(f"{what} neither blue nor red, so {are} no fold."))
     drawn = {
         "name": plain_name(title),
         "title": title,
