@@ -12,6 +12,7 @@ from pydantic import TypeAdapter
 from pydantic_core import from_json
 
 from app.api.problems import TooLargeError
+from planner.cloth.garment_files import drawing_in
 from planner.errors import RequestError
 from planner.json_form import JsonForm
 
@@ -74,7 +75,8 @@ def parsed(text: bytes | str) -> Any:  # noqa: ANN401
     try:
         return from_json(text, allow_inf_nan=False)
     except ValueError as error:
-        raise RequestError("body", f"the body is not JSON: {error}") from None
+        said = drawing_in(text) if isinstance(text, bytes) else None
+        raise RequestError("body", f"the body is not JSON: {said or error}") from None
 
 
 def _require_json_type(content_type: str | None) -> None:

@@ -8,6 +8,7 @@ from pydantic import ConfigDict, Field, PlainValidator
 from pydantic_core import PydanticCustomError
 
 from planner.cloth.garment import FOLDS_MAX, Garment
+from planner.cloth.garment_files import garment_in
 from planner.geometry.given import GivenPose
 from planner.planning.robot_task import with_robots_scene
 from planner.strict_model import LARGEST_M, Bounded, StrictModel
@@ -35,12 +36,12 @@ def _garment(value: Any) -> str | Garment:  # noqa: ANN401
     if isinstance(value, str):
         return value
     if isinstance(value, dict):
-        return Garment.from_dict(value)
+        return garment_in(value)
     raise PydanticCustomError("garment_type", "should be a garment's name or a garment")
 
 
 GarmentField = Annotated[str | Garment, PlainValidator(_garment, json_schema_input_type=str | Garment)]
-WholeGarment = Annotated[Garment, PlainValidator(Garment.from_dict, json_schema_input_type=Garment)]
+WholeGarment = Annotated[Garment, PlainValidator(garment_in, json_schema_input_type=Garment)]
 TimeLimit = Annotated[float, Interval(ge=TIME_LIMIT_S[0], le=TIME_LIMIT_S[1])]
 
 

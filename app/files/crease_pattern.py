@@ -43,11 +43,6 @@ class _Frame(BaseModel):
     file_title: str = ""
 
 
-def is_crease_pattern(values: Mapping[str, Any]) -> bool:
-    """Return whether a JSON object is a file in the FOLD format."""
-    return "file_spec" in values or "vertices_coords" in values
-
-
 def read_fold(values: Mapping[str, Any]) -> Sketch:
     """Return the drawing of a crease pattern.
 

@@ -33,6 +33,11 @@ class Curve(Protocol):
         ...
 
     @property
+    def block(self) -> int | None:
+        """The number of the block of a pattern in which its piece is alone; None if the file has no such blocks."""
+        ...
+
+    @property
     def extent(self) -> FloatArray:
         """Points whose convex hull holds the line except bulges of arcs, its ends first and last, shape (n, 2)."""
         ...
@@ -55,11 +60,13 @@ class SvgCurve:
         segments: its segments, each starting at the end of the previous one.
         matrix: the transform from its coordinates to the drawing's, shape (3, 3).
         piece: the name of the pattern piece that it belongs to, or None.
+        block: the number of the block of a pattern in which that piece is alone, or None.
     """
 
     segments: tuple[Segment, ...]
     matrix: FloatArray
     piece: str | None = None
+    block: int | None = None
 
     @property
     def extent(self) -> FloatArray:
@@ -97,12 +104,14 @@ class DrawnCurve:
         cut: returns points on it for a tolerance, shape (n, 2).
         is_bent: whether it is more than straight segments.
         piece: the name of the pattern piece that it belongs to, or None.
+        block: the number of the block of a pattern in which that piece is alone, or None.
     """
 
     extent: FloatArray
     cut: Callable[[float], FloatArray]
     is_bent: bool
     piece: str | None = None
+    block: int | None = None
 
     @staticmethod
     def through(points: FloatArray, *, is_bent: bool = False, piece: str | None = None) -> "DrawnCurve":

@@ -3,7 +3,7 @@
 import io
 import logging
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import islice
 
 import numpy as np
@@ -56,23 +56,25 @@ logging.getLogger("ezdxf").setLevel(logging.CRITICAL)
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Line:
-    """A connected line with its layer, fold kind and graded size."""
+    """A connected line with its layer, fold kind, graded size and the number of its block."""
 
     curve: DrawnCurve
     layer: str
     kind: str | None
     is_closed: bool
     size: str | None
+    block: int | None
 
 
 @dataclass(frozen=True, slots=True)
 class _Inherited:
-    """What entities in a block inherit from the block's insertion: layer, colour (ACI), size, name of the piece."""
+    """What entities in a block inherit from its insertion: layer, colour (ACI), size, name and number of the piece."""
 
     layer: str = "0"
     colour: int = 7
     size: str | None = None
     piece: str | None = None
+    block: int | None = None
 
 
 def read_dxf(data: bytes) -> Sketch:
@@ -88,6 +90,8 @@ def read_dxf(data: bytes) -> Sketch:
     except _BAD as error:
         raise broken(f"it is not DXF that can be read: {str(error)[:200]}") from None
     is_pattern = any(line.layer == BOUNDARY for line in lines)
+    if is_pattern:
+        lines = [replace(line, curve=replace(line.curve, block=line.block)) for line in lines]
     roles = [_role(line, is_pattern=is_pattern) for line in lines]
     others = roles.count(None)
     notes = ["It is a sewing pattern: layer 1 is the boundary of its pieces."] if is_pattern else []
@@ -140,8 +144,8 @@ def _all(drawing: Drawing) -> Iterator[tuple[DXFEntity, _Inherited]]:
     if len(space):
         yield from _within(space, _Inherited(), 0, counts)
         return
-    for block in blocks:
-        named = _Inherited(size=_size_of(block, block.name), piece=_piece_of(block, block.name))
+    for number, block in enumerate(blocks):
+        named = _Inherited(size=_size_of(block, block.name), piece=_piece_of(block, block.name), block=number)
         yield from _within(block, named, 0, counts)
 
 
@@ -167,7 +171,11 @@ def _within(
             block = entity.block()
             size, piece = (None, None) if block is None else (read(block, block.name) for read in (_size_of, _piece_of))
             inner = _Inherited(
-                _layer(entity, around), _colour(entity, around), size or around.size, piece or around.piece
+                _layer(entity, around),
+                _colour(entity, around),
+                size or around.size,
+                piece or around.piece,
+                counts["blocks inserted"] if around.block is None else around.block,
             )
             yield from _within(entity.virtual_entities(), inner, deep + 1, counts)
 
@@ -193,7 +201,9 @@ def _lines(drawing: Drawing, entity: DXFEntity, around: _Inherited) -> Iterator[
     kind = kind_by_name(layer) or kind_of(_rgb(drawing, entity, layer, around))
     for part in path.sub_paths():
         if len(part):
-            yield _Line(_curve(part, around.piece), layer, kind, part.is_closed, around.size or size_in(layer))
+            yield _Line(
+                _curve(part, around.piece), layer, kind, part.is_closed, around.size or size_in(layer), around.block
+            )
 
 
 def _curve(path: Path, piece: str | None) -> DrawnCurve:

@@ -131,12 +131,12 @@ def whole_line(ends: FloatArray, line: Segment) -> FloatArray | None:
     return np.array([far, image] if on_it else [image, far])
 
 
-def joined(rings: Sequence[FloatArray]) -> tuple[int, int, FloatArray] | None:
-    """Return the indices of the first two rings that are halves of one piece, and the piece; else None."""
+def joined(rings: Sequence[FloatArray], blocks: Sequence[int | None]) -> tuple[int, int, FloatArray] | None:
+    """Return the indices of the first two rings of one block that are halves of one piece, and the piece; else None."""
     areas = [abs(signed_area(ring)) for ring in rings]
     for one in range(len(rings)):
         for other in range(one + 1, len(rings)):
-            if abs(areas[one] - areas[other]) <= 0.02 * areas[one]:
+            if blocks[one] == blocks[other] and abs(areas[one] - areas[other]) <= 0.02 * areas[one]:
                 whole = joined_halves(rings[one], rings[other])
                 if whole is not None:
                     return one, other, whole

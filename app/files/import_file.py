@@ -7,10 +7,10 @@ from pathlib import PurePath
 from pydantic_core import from_json
 
 from app.distribution import missing
-from app.files.crease_pattern import is_crease_pattern, read_fold
+from app.files.crease_pattern import read_fold
 from app.files.crease_reading import Creases
 from app.files.import_errors import ImportedFileError, broken
-from app.files.pattern_panels import is_pattern_specification, read_panels
+from app.files.pattern_panels import read_panels
 from app.files.seam_allowance import Line
 from app.files.sketch import Sketch
 from app.files.sketch_garment import Imported, garment_of
@@ -19,9 +19,10 @@ from app.files.svg_sketch import read_svg
 from app.rehearsal.vision.vision_errors import LARGEST_PICTURE, NothingToldError, PictureError, ScaleNeededError
 from app.templates.catalogue import find_template
 from planner.cloth.garment import Garment
+from planner.cloth.garment_files import other_kind
 from planner.message import Message
 from planner.task.plan import Plan
-from planner.task.plan_files import ENDING, VERSION_FIELD
+from planner.task.plan_files import ENDING
 
 LARGEST_FILE = 2 << 20
 """Largest size of a drawing or garment file (bytes)."""
@@ -151,16 +152,18 @@ def read_json(data: bytes) -> tuple[Garment, tuple[Message, ...]] | Sketch:
         raise broken(f"it is not JSON: {error}") from None
     if not isinstance(values, dict):
         raise broken("it is not a JSON object")
-    if is_pattern_specification(values):
-        return read_panels(values)
-    if is_crease_pattern(values):
-        return read_fold(values)
-    if "pleat_robot" in values:
-        text = "it is the card of a robot: import it as a zip with its URDF and its meshes"
-        raise ImportedFileError("file", Message("robot_card_file", text))
-    if VERSION_FIELD in values:
-        return _garment_of(Plan.from_dict(values))
-    return Garment.from_dict(values), ()
+    match other_kind(values):
+        case "pattern":
+            return read_panels(values)
+        case "crease pattern":
+            return read_fold(values)
+        case "robot":
+            text = "it is the card of a robot: import it as a zip with its URDF and its meshes"
+            raise ImportedFileError("file", Message("robot_card_file", text))
+        case "plan":
+            return _garment_of(Plan.from_dict(values))
+        case None:
+            return Garment.from_dict(values), ()
 
 
 def _garment_of(plan: Plan) -> tuple[Garment, tuple[Message, ...]]:

@@ -1,7 +1,7 @@
 """Finds the outline of a garment among the curves of a drawing: the largest closed one, or that of a named piece."""
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from app.files.pieces import in_pieces, joined_name, named_pieces, piece_wanted
 from app.files.seam_allowance import Allowance, Line, seam_line
 from app.files.sketch import MirrorLine, Sketch
 from planner.cloth.outline import AREA_MIN_M2, EDGE_MIN_M, POINTS_MAX
-from planner.geometry.arrangement import are_tangled, enclosing_rings, signed_area, simplified
+from planner.geometry.arrangement import are_tangled, enclosing_rings, runs_along, signed_area, simplified
 from planner.geometry.pose import FloatArray
 from planner.geometry.segment import Segment
 
@@ -49,6 +49,8 @@ class FoundOutline:
         has_unfolded: whether any piece of the drawing was mirrored over a fold line.
         piece: the name of the piece that it is.
         pieces: the names of all pieces, the largest first.
+        loose: the number of open lines that are no part of any closed line.
+        block: the number of the block that it is drawn in, or None.
     """
 
     points: FloatArray
@@ -62,9 +64,13 @@ class FoundOutline:
     has_unfolded: bool = False
     piece: str = ""
     pieces: tuple[str, ...] = ()
+    loose: int = 0
+    block: int | None = None
 
-    def is_about(self, line: FloatArray) -> bool:
-        """Return whether a line, shape (n, 2), may belong to this outline: not to another, and not far away."""
+    def is_about(self, line: FloatArray, block: int | None) -> bool:
+        """Return whether a line, shape (n, 2), in a block may belong to this outline: not to another, nor far away."""
+        if block != self.block and None not in (block, self.block):
+            return False
         middle = (line[0] + line[-1]) / 2.0
         low, high = self.points.min(axis=0), self.points.max(axis=0)
         if np.all((middle >= low) & (middle <= high)):
@@ -82,11 +88,13 @@ class _Line:
         points: its points (m), shape (n, 2).
         is_bent: whether the curve is more than straight segments.
         piece: the name of the piece that it belongs to, or None.
+        block: the number of the block that it is drawn in, or None.
     """
 
     points: FloatArray
     is_bent: bool
     piece: str | None
+    block: int | None
 
     @property
     def is_closed(self) -> bool:
@@ -104,11 +112,13 @@ class _Ring:
         fold: where it was folded (m); None if it was drawn whole.
         is_joined: whether it is two halves.
         piece: the name of the piece that it belongs to, or None.
+        block: the number of the block that it is drawn in, or None.
     """
 
     points: FloatArray
     is_bent: bool
     piece: str | None
+    block: int | None
     fold: Segment | None = None
     is_joined: bool = False
 
@@ -141,8 +151,10 @@ def find_outline(sketch: Sketch, unit_m: float, wanted: Line = "seam") -> FoundO
             break
     if not rings:
         raise broken("there is no closed line in it that could be the outline of a garment")
+    loose = [line.points for line in lines[: len(sketch.curves)] if len(line.points) > 1 and not line.is_closed]
+    used = runs_along(loose, [ring.points for ring in rings], _GAP_M) if loose else []
     every = _whole(rings, sketch.mirrors, unit_m)
-    pieces = in_pieces([ring.points for ring in every])
+    pieces = in_pieces([ring.points for ring in every], [ring.block for ring in every])
     names = named_pieces([every[piece[0]].piece for piece in pieces])
     number = piece_wanted(names, sketch.piece)
     rings = [every[within] for within in pieces[number]]
@@ -163,6 +175,8 @@ def find_outline(sketch: Sketch, unit_m: float, wanted: Line = "seam") -> FoundO
         any(one.fold is not None for one in every),
         names[number],
         names,
+        used.count(False),
+        ring.block,
     )
 
 
@@ -170,7 +184,7 @@ def _flattened(curves: Iterable[Curve], unit_m: float) -> list[_Line]:
     lines: list[_Line] = []
     count = 0
     for curve in curves:
-        lines.append(_Line(curve.flattened(TOLERANCE_M / unit_m) * unit_m, curve.is_bent, curve.piece))
+        lines.append(_Line(curve.flattened(TOLERANCE_M / unit_m) * unit_m, curve.is_bent, curve.piece, curve.block))
         count += len(lines[-1].points)
         if count > 2 * CURVE_POINTS_MAX:
             raise broken(f"its curves need more than {2 * CURVE_POINTS_MAX} points")
@@ -191,14 +205,19 @@ def _cornered(ring: FloatArray) -> tuple[FloatArray, float, float]:
 def _rings(lines: Sequence[_Line]) -> list[_Ring]:
     """Return the closed lines that are large enough to be cloth, the largest first."""
     closed = [
-        _Ring(line.points[:-1], line.is_bent, line.piece) for line in lines if len(line.points) > 3 and line.is_closed
+        _Ring(line.points[:-1], line.is_bent, line.piece, line.block)
+        for line in lines
+        if len(line.points) > 3 and line.is_closed
     ]
-    loose = [line for line in lines if len(line.points) > 1 and not line.is_closed]
-    return _sorted([*closed, *_enclosing(loose)])
+    loose: dict[int | None, list[_Line]] = {}
+    for line in lines:
+        if len(line.points) > 1 and not line.is_closed:
+            loose.setdefault(line.block, []).append(line)
+    return _sorted([*closed, *(ring for block in loose.values() for ring in _enclosing(block))])
 
 
 def _enclosing(lines: Sequence[_Line]) -> list[_Ring]:
-    """Return the closed lines that open lines make together."""
+    """Return the closed lines that open lines of one block make together."""
     points = [line.points for line in lines]
     if not points:
         return []
@@ -208,7 +227,7 @@ def _enclosing(lines: Sequence[_Line]) -> list[_Ring]:
     for ring in enclosing_rings(points, _GAP_M):
         near = [line for line in lines if (line.is_bent or line.piece) and _overlap(ring, line.points)]
         piece = next((line.piece for line in near if line.piece), None)
-        found.append(_Ring(ring, any(line.is_bent for line in near), piece))
+        found.append(_Ring(ring, any(line.is_bent for line in near), piece, lines[0].block))
     return found
 
 
@@ -221,17 +240,21 @@ def _whole(rings: list[_Ring], mirrors: Sequence[MirrorLine], unit_m: float) -> 
     """Return the rings, the largest first, with half pieces made whole."""
     found = list(rings[_UNFOLDED_MAX:])
     for ring in rings[:_UNFOLDED_MAX]:
-        folds = (fold_edge(ring.points, mirror, unit_m) for mirror in mirrors[:_UNFOLDED_MAX])
+        own = [mirror for mirror in mirrors if mirror.curve.block in (None, ring.block)]
+        folds = (fold_edge(ring.points, mirror, unit_m) for mirror in own[:_UNFOLDED_MAX])
         fold = next((line for line in folds if line is not None), None)
         points = None if fold is None else unfolded(ring.points, fold)
-        found.append(ring if points is None else _Ring(points, ring.is_bent, ring.piece, fold))
+        found.append(ring if points is None else replace(ring, points=points, fold=fold))
     found = _sorted(found)
-    while (pair := joined([_cornered(ring.points)[0] for ring in found[:_PAIRED_MAX]])) is not None:
+    while True:
+        large = found[:_PAIRED_MAX]
+        pair = joined([_cornered(ring.points)[0] for ring in large], [ring.block for ring in large])
+        if pair is None:
+            return found
         one, other, points = pair
         piece = joined_name(found[one].piece, found[other].piece)
-        both = _Ring(points, found[one].is_bent or found[other].is_bent, piece, is_joined=True)
+        both = _Ring(points, found[one].is_bent or found[other].is_bent, piece, found[one].block, is_joined=True)
         found = _sorted([both, *(ring for number, ring in enumerate(found) if number not in (one, other))])
-    return found
 
 
 def _sorted(rings: Iterable[_Ring]) -> list[_Ring]:

@@ -77,12 +77,6 @@ class _Specification(_Read):
     properties: _Properties = _Properties()
 
 
-def is_pattern_specification(values: Mapping[str, Any]) -> bool:
-    """Return whether a JSON object is a pattern specification of GarmentCode."""
-    pattern = values.get("pattern")
-    return isinstance(pattern, dict) and isinstance(pattern.get("panels"), dict)
-
-
 def read_panels(values: Mapping[str, Any]) -> Sketch:
     """Return the drawing of a pattern's panels, side by side; a left and a right half that are sewn become one.
 

@@ -15,6 +15,8 @@ _ON_FOLD = (
     "stofvouw",
     "aupli",
     "surlepli",
+    "surlapliure",
+    "alapliure",
     "enelpliegue",
     "enelpliegedelatela",
     "aldoblez",

@@ -26,15 +26,17 @@ class Pieces:
     pieces: tuple[str, ...]
 
 
-def in_pieces(rings: Sequence[FloatArray]) -> list[list[int]]:
-    """Return the closed lines of each piece: its outline, and what lies in it.
+def in_pieces(rings: Sequence[FloatArray], blocks: Sequence[int | None]) -> list[list[int]]:
+    """Return the closed lines of each piece: its outline, and what of the same block lies in it.
 
     Args:
         rings: closed lines, the largest first, shape (n, 2) each.
+        blocks: the number of the block of each; pieces in several blocks may be drawn over each other.
     """
     pieces: list[list[int]] = []
     for number, ring in enumerate(rings[:_PIECES_MAX]):
-        around = next((piece for piece in pieces if is_within(ring, rings[piece[0]])), None)
+        near = (piece for piece in pieces if blocks[piece[0]] == blocks[number])
+        around = next((piece for piece in near if is_within(ring, rings[piece[0]])), None)
         if around is None:
             pieces.append([number])
         else:

@@ -123,6 +123,9 @@ def garment_of(
     title = " ".join((sketch.title or name).split())[:TITLE_MAX] or name
     notes = [*_piece_notes(sketch, found, graded), *_outline_notes(found, units, unit_m)]
     notes += map(Message.plain, sketch.notes)
+    if found.loose:
+        what, are = ("1 open line is", "it is") if found.loose == 1 else (f"{found.loose} open lines are", "they are")
+        notes.append(Message.plain(f"{what} neither blue nor red, so {are} no fold."))
     drawn = {
         "name": plain_name(title),
         "title": title,
@@ -194,7 +197,7 @@ def _folds(
     sketch: Sketch, found: FoundOutline, unit_m: float, origin: FloatArray, notes: list[Message]
 ) -> Iterator[dict[str, Any]]:
     """Yield the folds in the file's order, as in a garment file; append remarks on them to the notes."""
-    near = [line for line in sketch.folds if found.is_about(line.curve.extent * unit_m)]
+    near = [line for line in sketch.folds if found.is_about(line.curve.extent * unit_m, line.curve.block)]
     if len(near) < len(sketch.folds):
         notes.append(Message.plain(f"Fold lines away from the outline were left out: {len(sketch.folds) - len(near)}."))
     long = [line for line in near if math.dist(*(line.curve.extent[[0, -1]] * unit_m)) >= EDGE_MIN_M]

@@ -41,6 +41,14 @@ def is_white(style: Mapping[str, str]) -> bool:
     return rgb is not None and min(rgb) >= WHITE_MIN
 
 
+def is_black(style: Mapping[str, str]) -> bool:
+    """Return whether nothing of a shape, neither its edge nor its area, is painted in another colour than black."""
+    paints = (("stroke", is_stroked(style), "none"), ("fill", is_filled(style), "black"))
+    return all(
+        not shows or colour_of(style.get(name, usual), style) == (0.0, 0.0, 0.0) for name, shows, usual in paints
+    )
+
+
 def colour_of(paint: str, style: Mapping[str, str]) -> Rgb | None:
     """Return the colour of a paint; None if it has none."""
     return css_rgb(_own(paint, style))

@@ -10,7 +10,7 @@ import numpy as np
 from app.files.import_errors import broken
 from app.files.markup import Element
 from app.files.svg_lengths import Sides, numbers_in, user_units, viewport
-from app.files.svg_paint import is_hidden, is_invisible
+from app.files.svg_paint import is_black, is_hidden, is_invisible
 from app.files.svg_style import StyleSheet
 from planner.geometry.pose import FloatArray
 
@@ -23,6 +23,9 @@ _REFERENCES_DEEP = 20
 """Largest nesting depth of `use` references."""
 
 _URL = re.compile(r"url\(\s*['\"]?#([^'\")]+)['\"]?\s*\)")
+
+_DRAWN_HERE = frozenset({"mask", "g", "path", "rect", "circle", "ellipse", "line", "polyline", "polygon", "title"})
+"""Elements of a mask that are looked at; a mask with others, such as pictures, may show anything."""
 
 _QUARTERS = ((1, 1), (-1, 1), (-1, -1), (1, -1))
 
@@ -83,7 +86,7 @@ class _Drawn:
         if self._visited > VISITS_MAX or self._read > CHARACTERS_MAX:
             raise broken(f"line {element.line}: its references draw too much, more than {VISITS_MAX} elements")
         style = self._sheet.style(element, around.style)
-        if is_hidden(style):
+        if is_hidden(style) or self._is_masked(style.get("mask", ""), around):
             return
         here = replace(around, matrix=around.matrix @ transform_of(element), style=style)
         here = self._clipped(here, style.get("clip-path", ""))
@@ -100,16 +103,33 @@ class _Drawn:
 
     def _clipped(self, here: "_Around", clip_path: str) -> "_Around":
         """Return what is around an element's content, clipped; a clip that is relative to a box is not read."""
-        found = _URL.search(clip_path)
-        clip = None if found is None else self._by_id.get(found[1])
-        if clip is None or clip.tag != "clipPath" or clip.attributes.get("clipPathUnits") == "objectBoundingBox":
+        clip = self._named(clip_path, "clipPath")
+        if clip is None or clip.attributes.get("clipPathUnits") == "objectBoundingBox":
             return here
-        if here.deep >= _REFERENCES_DEEP:
-            raise broken(f"line {clip.line}: references go more than {_REFERENCES_DEEP} deep")
-        style = self._sheet.style(clip, {})
-        inner = _Around(here.matrix @ transform_of(clip), style, here.sides, here.deep + 1)
-        shapes = tuple(shape for child in clip.children for shape in self._within(child, inner))
+        shapes = self._content(clip, here, transform_of(clip))
         return replace(here, clips=(*here.clips, shapes)) if shapes else here
+
+    def _is_masked(self, mask: str, around: "_Around") -> bool:
+        """Return whether an element has a mask in which all is black, so that nothing of the element is seen."""
+        found = self._named(mask, "mask")
+        if found is None or found.attributes.get("mask-type") == "alpha":
+            return False
+        if any(one.tag not in _DRAWN_HERE for one in found.walk()):
+            return False
+        return all(is_black(shape.style) for shape in self._content(found, around, np.eye(3)))
+
+    def _named(self, reference: str, tag: str) -> Element | None:
+        """Return the element that a `url(#...)` names, if it has a tag; else None."""
+        found = _URL.search(reference)
+        element = None if found is None else self._by_id.get(found[1])
+        return element if element is not None and element.tag == tag else None
+
+    def _content(self, element: Element, around: "_Around", matrix: FloatArray) -> tuple[Shape, ...]:
+        """Return the shapes in a clip or a mask, moved by a matrix."""
+        if around.deep >= _REFERENCES_DEEP:
+            raise broken(f"line {element.line}: references go more than {_REFERENCES_DEEP} deep")
+        inner = _Around(around.matrix @ matrix, self._sheet.style(element, {}), around.sides, around.deep + 1)
+        return tuple(shape for child in element.children for shape in self._within(child, inner))
 
     def _referred(self, use: Element, here: "_Around") -> Iterator[Shape]:
         address = use.attributes.get("href", "")

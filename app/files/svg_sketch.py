@@ -41,6 +41,9 @@ _FARTHEST = 1e12
 _COARSE, _PAGE_SLACK = 1e-3, 0.005
 """Precision with which areas are compared, and by how much the page may differ from the sheet, as shares of it."""
 
+_GARMENT_SHARE = 0.05
+"""The least share of a page with an edge that a garment on it covers; what is smaller is a detail of what fills it."""
+
 _NAMED = frozenset({"g", "path", "polygon", "polyline", "rect", "use", "svg"})
 
 _FOREIGN = re.compile(r"[^MmZzLlHhVvCcSsQqTtAaEe0-9+\-.,\s]")
@@ -71,12 +74,14 @@ class _Area:
         has_edge: whether a line is drawn along its edge, in a colour that shows on paper.
         is_white: whether nothing of it shows on white paper.
         covers_sheet: whether it is a rectangle as large as the sheet, or larger.
+        share: its area as a share of the sheet's.
     """
 
     line: DrawnLine
     has_edge: bool
     is_white: bool
     covers_sheet: bool
+    share: float
 
 
 class _Reading:
@@ -92,7 +97,7 @@ class _Reading:
         self._says_on_fold: dict[Element, bool] = {}
         self._areas: list[_Area] = []
         self._lines: list[DrawnLine] = []
-        self._segments = self._others = 0
+        self._segments, self._has_open = 0, False
 
     @property
     def sides(self) -> Sides:
@@ -122,7 +127,7 @@ class _Reading:
             fold = FoldLine(kind, curve, _name(shape.element), _grip_radius(shape.element))
             self._lines.append(DrawnLine("fold", fold, size))
             return
-        self._others += 1
+        self._has_open = True
         self._lines.append(DrawnLine("outline", curve, size))
         if not has_stroke and len(curve.segments) > 1:  # its area is painted as if it were closed
             closing = Line(curve.segments[-1].end, curve.segments[0].start)
@@ -133,12 +138,14 @@ class _Reading:
         has_edge = has_stroke and (edge is None or min(edge) < WHITE_MIN)
         is_area_white = not has_area or is_white(shape.style)
         line = DrawnLine("outline", curve, size)
-        return _Area(line, has_edge, not has_edge and is_area_white, self._is_page(curve))
+        with np.errstate(all="ignore"):
+            area = abs(signed_area(self._coarse(curve)[:-1]))
+            share = float(area / np.prod(np.ptp(self._corners(), axis=0)))
+        return _Area(line, has_edge, not has_edge and is_area_white, self._is_page(curve, area), share)
 
     def sketch(self) -> Sketch:
         """Return the drawing."""
         why = "its width and height have no unit such as mm or in"
-        notes = (_others(self._others),) if self._others else ()
         sketch = Sketch(
             (),
             (),
@@ -146,7 +153,6 @@ class _Reading:
             why,
             self._root.title,
             self._kept,
-            notes,
             says_fold=self._kept is None and (bool(self._texts) or self._names_fold()),
         )
         return sketch.with_lines([*self._closed(), *self._lines])
@@ -154,14 +160,16 @@ class _Reading:
     def _closed(self) -> Iterator[DrawnLine]:
         """Yield the closed lines, each with its role.
 
-        A rectangle without an edge as large as the sheet is the page, unless it is dark and nothing else has an edge or
-        is white upon it. On a dark page what is white can be seen.
+        A rectangle as large as the sheet is the page: with an edge where a garment may be drawn on it; without one
+        unless it is dark and nothing else has an edge or is white upon it. On a dark page what is white can be seen.
         """
         is_page_dark = False
-        others = [one for one in self._areas if not (one.covers_sheet and not one.has_edge)]
+        others = [one for one in self._areas if one.has_edge or not one.covers_sheet]
+        inner = (one.share for one in others if not (one.covers_sheet or one.is_white))
+        is_drawn_on = self._kept is None and (self._has_open or max(inner, default=0.0) >= _GARMENT_SHARE)
         for one in self._areas:
-            is_page = one.covers_sheet and not one.has_edge
-            if is_page and not one.is_white:
+            is_page = one.covers_sheet and (is_drawn_on or not one.has_edge)
+            if is_page and not (one.is_white or one.has_edge):
                 is_page_dark = True
                 is_page = any(other.has_edge or other.is_white for other in others)
             role: Role = "page" if is_page else "white" if one.is_white and not is_page_dark else "outline"
@@ -221,14 +229,18 @@ class _Reading:
         closed = [np.concatenate([part, part[:1]]) for part in parts]
         return [DrawnCurve.through(points, is_bent=curve.is_bent, piece=curve.piece) for points in closed]
 
-    def _is_page(self, curve: Curve) -> bool:
-        points, box = self._coarse(curve), self._sheet.view_box
+    def _corners(self) -> FloatArray:
+        """Return the lowest and the highest coordinates of the sheet, shape (2, 2), in units of the drawing."""
+        box = self._sheet.view_box
         corners = np.array([[box.x, box.y, 1.0], [box.x + box.width, box.y + box.height, 1.0]])
-        sheet = np.sort((corners @ _upwards(self._sheet).T)[:, :2], axis=0)
+        return np.sort((corners @ _upwards(self._sheet).T)[:, :2], axis=0)
+
+    def _is_page(self, curve: Curve, area: float) -> bool:
+        points, sheet = self._coarse(curve), self._corners()
         low, high = points.min(axis=0), points.max(axis=0)
         slack = _PAGE_SLACK * np.ptp(sheet, axis=0)
         is_wide = bool(np.all(low <= sheet[0] + slack) and np.all(high >= sheet[1] - slack))
-        return is_wide and abs(signed_area(points[:-1])) >= (1.0 - _PAGE_SLACK) * float(np.prod(high - low))
+        return is_wide and area >= (1.0 - _PAGE_SLACK) * float(np.prod(high - low))
 
 
 def labels_of(element: Element) -> list[str]:
@@ -236,11 +248,6 @@ def labels_of(element: Element) -> list[str]:
     named = [element.attributes.get(name, "") for name in ("label", "id", "data-name", "name")]
     classes = [name for name in element.attributes.get("class", "").split() if "size" in name.lower()]
     return [label for label in (element.title or "", *named, *classes) if label]
-
-
-def _others(count: int) -> str:
-    what, are = ("1 open line is", "it is") if count == 1 else (f"{count} open lines are", "they are")
-    return f"{what} neither blue nor red, so {are} no fold."
 
 
 def _upwards(sheet: Sheet) -> FloatArray:

@@ -145,7 +145,7 @@ def _has(value: str | None, operator: str, wanted: str) -> bool:
 INHERITED = ("stroke", "fill", "stroke-width", "stroke-opacity", "fill-opacity", "color", "visibility")
 """The properties used here that an element passes on to its content."""
 
-_OWN = ("display", "opacity", "clip-path")
+_OWN = ("display", "opacity", "clip-path", "mask")
 RULES_MAX = 300
 """Largest number of style rules: every rule is matched against every element."""
 

@@ -1,17 +1,19 @@
 """Jobs in the database: each with its request, its progress and its result."""
 
 import json
+import math
 import time
 import uuid
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from typing import Any, Literal, TypeAlias
 
-from sqlalchemy import and_, delete, func, not_, select, update
+from sqlalchemy import Row, and_, delete, func, not_, select, update
 
 from app.store.database import Database
 from app.store.engines import has_ended
 from app.store.schema import JobRow
+from app.store.storage_error import StorageError
 from planner.errors import FoldingError
 
 JobStatus: TypeAlias = Literal["queued", "running", "done", "failed", "cancelled"]
@@ -72,6 +74,18 @@ class StoredJob:
 
 _COLUMNS = [getattr(JobRow, field.name) for field in fields(StoredJob)]
 
+_UNREADABLE = {"progress": 0.0, "created_s": 0.0, "started_s": None, "ended_s": None, "begun": 0, "revision": 0}
+"""What the numbers of a job are read as where its row has something else."""
+
+
+def _job(row: Row[Any]) -> StoredJob:
+    """Return the job in a row."""
+    values = dict(row._mapping)
+    for name, instead in _UNREADABLE.items():
+        if not isinstance(values[name], int | float) or not math.isfinite(values[name]):
+            values[name] = instead
+    return StoredJob(**values)
+
 
 class JobRepository:
     """The jobs of a database; safe to use from any thread."""
@@ -106,18 +120,18 @@ class JobRepository:
             row = session.execute(select(*_COLUMNS).where(JobRow.id == job_id)).one_or_none()
         if row is None:
             raise UnknownJobError(job_id)
-        return StoredJob(*row)
+        return _job(row)
 
     def body(self, job_id: str) -> Any:  # noqa: ANN401
         """Return the body that a job was asked with."""
         with self._database.reading("the job could not be read") as session:
-            return json.loads(session.scalars(select(JobRow.body).where(JobRow.id == job_id)).one())
+            return _json(session.scalars(select(JobRow.body).where(JobRow.id == job_id)).one())
 
     def result(self, job_id: str) -> Any:  # noqa: ANN401
         """Return a job's result; None if it has none."""
         with self._database.reading("the job could not be read") as session:
             text = session.scalar(select(JobRow.result).where(JobRow.id == job_id))
-        return None if text is None else json.loads(text)
+        return None if text is None else _json(text)
 
     def newest(self, most: int, before: str | None = None, without_cancelled: Sequence[str] = ()) -> list[StoredJob]:
         """Return the newest jobs, or the newest of those older than the job `before`.
@@ -135,7 +149,7 @@ class JobRepository:
                 if number is None:
                     raise UnknownJobError(before)
                 wanted = wanted.where(JobRow.number < number)
-            return [StoredJob(*row) for row in session.execute(wanted)]
+            return [_job(row) for row in session.execute(wanted)]
 
     def interrupted(self) -> list[StoredJob]:
         """Return the jobs that the end of a server interrupted, oldest first; they are this server's from now on."""
@@ -146,7 +160,7 @@ class JobRepository:
             is_interrupted = is_open, JobRow.server.in_(ended)
             found = session.execute(select(*_COLUMNS).where(*is_interrupted).order_by(JobRow.number)).all()
             session.execute(update(JobRow).where(*is_interrupted).values(server=own))
-        return [StoredJob(*row) for row in found]
+        return [_job(row) for row in found]
 
     def open_count(self, client: str) -> int:
         """Return how many of a client's jobs have not ended."""
@@ -157,6 +171,14 @@ class JobRepository:
     def _update(self, job: StoredJob, more: dict[str, Any]) -> None:
         with self._database.writing("the job could not be saved", is_lasting=False) as session:
             session.execute(update(JobRow).where(JobRow.id == job.id).values(**_values(job), **more))
+
+
+def _json(text: str) -> Any:  # noqa: ANN401
+    """Return the JSON in a row; raise `StorageError` if it is none."""
+    try:
+        return json.loads(text)
+    except (TypeError, ValueError, RecursionError) as error:
+        raise StorageError("the job could not be read", f"its row has no JSON: {error}") from None
 
 
 def _values(job: StoredJob) -> dict[str, Any]:

@@ -12,10 +12,11 @@ import logging
 import shutil
 import tempfile
 import threading
+import zlib
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
+from zipfile import ZIP_DEFLATED, BadZipFile, ZipFile, ZipInfo
 
 from sqlalchemy import delete, insert, select
 from sqlalchemy.orm import Session
@@ -32,6 +33,20 @@ from planner.robots.own_robots import CARD
 _BEFORE, _NEW = ".before-", ".new-"
 """Prefixes of the folders of robots that are being replaced, and of new ones."""
 
+_BAD = (
+    BadZipFile,
+    EOFError,
+    FileExistsError,
+    IsADirectoryError,
+    LookupError,
+    NotADirectoryError,
+    RuntimeError,
+    TypeError,
+    ValueError,
+    zlib.error,
+)
+"""Exceptions that a name that is none, or content that is no archive of a robot, raises; never a full disk."""
+
 _log = logging.getLogger(__name__)
 
 
@@ -43,6 +58,7 @@ class RobotRepository:
         self._folder = folder
         self._database = database
         self._digests: dict[str, str] = {}
+        self._left_out: dict[str, str] = {}
         self._lock = threading.RLock()
 
     def place(self, name: str) -> Path:
@@ -112,7 +128,7 @@ class RobotRepository:
         """
         place = self.place(name)
         with storing(f"robot {name!r} could not be removed"), self._lock:
-            if place.parent != self._folder or name.startswith(".") or not (place / CARD).is_file():
+            if not self._is_own(place) or not (place / CARD).is_file():
                 raise UnknownRobotError(name)
             digest = digest_of(place)
             with self._database.writing(f"robot {name!r} could not be removed") as session:
@@ -153,7 +169,7 @@ class RobotRepository:
             self.refresh()
 
     def refresh(self) -> None:
-        """Bring the folders up to date with the database.
+        """Bring the folders up to date with the database; leave out a robot that it has no good archive of.
 
         Raises:
             StorageError: the system or the database refuses.
@@ -163,8 +179,8 @@ class RobotRepository:
             with self._database.reading(what) as session:
                 rows = session.execute(_ROWS).all()
             for name, digest, is_there in rows:
-                if is_there and self._digests.get(name) != digest:
-                    self._fetch(name)
+                if is_there and digest not in (self._digests.get(name), self._left_out.get(name)):
+                    self._fetch(name, digest)
                 elif not is_there and self._digests.get(name) == digest:
                     self._drop(name)
 
@@ -175,17 +191,28 @@ class RobotRepository:
             _put(session, name, digest, packed(folder))
         self._digests[name] = digest
 
-    def _fetch(self, name: str) -> None:
-        """Make the folder of a robot what the database has."""
-        with self._database.reading(f"robot {name!r} could not be read") as session:
-            found = session.execute(select(RobotRow.digest, RobotRow.content).where(RobotRow.name == name)).first()
-        if found is None or found.content is None:
+    def _fetch(self, name: str, digest: str) -> None:
+        """Make the folder of a robot what the database has; where that is no robot, leave it as it is and log so."""
+        try:
+            with self._database.reading(f"robot {name!r} could not be read") as session:
+                found = session.execute(select(RobotRow.digest, RobotRow.content).where(RobotRow.name == name)).first()
+            if found is None or found.content is None:
+                return
+            if not self._is_own(self._folder / name):
+                raise ValueError("this is no name of a robot")
+            with self.beside() as beside:
+                unpack(found.content, beside)
+                self._swap(name, beside, lambda: None)
+        except _BAD as error:
+            self._left_out[name] = digest
+            _log.error("robot %r in the database cannot be read and is left out: %s", name, error)
             return
-        with self.beside() as beside:
-            unpack(found.content, beside)
-            self._swap(name, beside, lambda: None)
         self._digests[name] = found.digest
         _log.info("robot %r is as in the database", name)
+
+    def _is_own(self, place: Path) -> bool:
+        """Return whether a place is a folder of a robot: right in the folder of all, not one that is in the making."""
+        return place.parent == self._folder and not place.name.startswith(".")
 
     def _swap(self, name: str, unpacked: Path, and_then: Callable[[], None]) -> None:
         """Put a folder in the place of a robot's; if what follows raises an error, the earlier one is put back."""
@@ -251,8 +278,9 @@ def packed(folder: Path) -> bytes:
 
 
 def unpack(content: bytes, folder: Path) -> None:
-    """Unpack an archive that `packed` has made into an empty folder; raises `OSError`."""
+    """Unpack an archive that `packed` has made into an empty folder; raises `OSError`, or one of `_BAD`."""
     with ZipFile(io.BytesIO(content)) as archive:
+        archive.getinfo(CARD)
         archive.extractall(folder)
     sync_tree(folder)
 

@@ -18,6 +18,9 @@ from planner.geometry.tolerance import GRID_M, LENGTH_M
 _FINER = 0.2
 """The share of a gap that is closed first, so that ends which nearly meet do not go to others further away."""
 
+_PLACES = 9
+"""Places along a line at which it is looked at whether it runs along an edge."""
+
 _TOGETHER = 50
 """Segments whose crossings are counted at once: each may cross all others."""
 
@@ -96,6 +99,24 @@ def perimeter(ring: FloatArray) -> float:
 def away_from(points: FloatArray, ring: FloatArray) -> FloatArray:
     """Return how far points, shape (n, 2), are from a ring's edges, shape (n,), m."""
     return np.asarray(shapely.distance(shapely.LinearRing(ring), shapely.points(points)))
+
+
+def runs_along(lines: Sequence[FloatArray], rings: Sequence[FloatArray], within_m: float) -> list[bool]:
+    """Return whether each line, shape (n, 2), runs along an edge of a ring for a part of it, and does not only cross.
+
+    Args:
+        lines: the lines (m).
+        rings: the rings, each shape (n, 2), m.
+        within_m: the largest distance of a line that runs along an edge (m).
+    """
+    shares = np.linspace(0.0, 1.0, _PLACES + 2)[1:-1]
+    places = shapely.line_interpolate_point(
+        np.array([shapely.LineString(line) for line in lines])[:, None], shares, normalized=True
+    )
+    edges = shapely.STRtree([shapely.LinearRing(ring) for ring in rings])
+    near, _ = edges.query(places.ravel(), predicate="dwithin", distance=within_m)
+    count = Counter(np.unique(near) // _PLACES)
+    return [count[number] > 1 for number in range(len(lines))]
 
 
 def simplified(ring: FloatArray, tolerance_m: float) -> FloatArray:

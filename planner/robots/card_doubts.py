@@ -4,19 +4,21 @@ Stations at which the base would stand in the table or its legs are among them.
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import combinations, pairwise
+from itertools import combinations, pairwise, product
 from typing import Protocol, TypeAlias
 
+import coal
 import numpy as np
+import pinocchio as pin
 
-from planner.geometry.pose import Pose2
+from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.table import Table
 from planner.robots.chain import length_of
-from planner.robots.collision.link_shapes import link_shapes
-from planner.robots.collision.rigid_groups import BODY, Skeleton
-from planner.robots.described_robot import DescribedRobot
+from planner.robots.collision.link_shapes import LinkShape, link_shapes
+from planner.robots.collision.rigid_groups import BODY, Carrier, Skeleton
+from planner.robots.described_robot import DescribedArm, DescribedRobot
 
 TOGETHER_M = 0.05
 """Arms whose roots are nearer than this stand in each other (m)."""
@@ -27,13 +29,19 @@ _CROSSED_M = 0.05
 _NEAR_M = 0.1
 """A base that stands as near to the table's middle has no side on which the table is (m)."""
 
-_SMALL_M = 1e-3
-"""A part of a robot whose every side is shorter is in the wrong unit (m)."""
+_SMALL_M, _SMALL_LINK_M = 1e-3, 5e-3
+"""A part of a robot whose every side is shorter is in the wrong unit; all parts of an arm's long link together (m)."""
+
+_LONG = 10.0
+"""A link is long if the next joint, or the tool, is so many times further away than its parts are large."""
+
+_INSIDE_M = 5e-3
+"""Arms stand in each other if they would still touch this much further apart (m)."""
 
 
 @dataclass(frozen=True, slots=True)
 class ArmsTogether:
-    """Two arms that begin in one place.
+    """Two arms that begin in one place, or whose first links lie inside each other.
 
     Attributes:
         arms: their names.
@@ -59,7 +67,7 @@ class ArmsCrossed:
 
 @dataclass(frozen=True, slots=True)
 class StationFacesAway:
-    """A station at which the base has the table behind it.
+    """A station at which the base has the table beside it or behind it.
 
     Attributes:
         station: its name.
@@ -94,29 +102,49 @@ def card_doubts(robot: DescribedRobot) -> tuple[Doubt, ...]:
     Raises:
         RobotError: a mesh cannot be read or is too large.
     """
-    return (*_odd_parts(robot), *_arms(robot), *_stations(robot.card.scene.stations, robot.card.scene.table))
-
-
-def _odd_parts(robot: DescribedRobot) -> Iterator[OddPart]:
-    """Yield each link once that has an odd shape, its oddest."""
     skeleton = Skeleton(robot)
+    shapes = link_shapes(skeleton.model, robot.urdf)
+    arms = _arms(robot, skeleton, shapes)
+    return (*_odd_parts(robot, skeleton, shapes), *arms, *_stations(robot.card.scene.stations, robot.card.scene.table))
+
+
+def _odd_parts(robot: DescribedRobot, skeleton: Skeleton, shapes: Sequence[LinkShape]) -> Iterator[OddPart]:
+    """Yield each link once that has an odd shape, its oddest."""
     longest = max(length_of(arm.chain) for arm in robot.arms)
     robot_m = longest + max(float(np.linalg.norm(arm.root)) for arm in robot.arms)
     found: dict[str, OddPart] = {}
-    for shape in link_shapes(skeleton.model, robot.urdf):
-        size_m = float(np.ptp(shape.corners, axis=0).max())
-        is_carried = skeleton.carrier(shape.joint).arm != BODY
-        if size_m < _SMALL_M or size_m > (longest if is_carried else robot_m):
+    sizes = [float(np.ptp(shape.corners, axis=0).max()) for shape in shapes]
+    carriers = [skeleton.carrier(shape.joint) for shape in shapes]
+    largest: dict[Carrier, float] = {}
+    for carrier, size_m in zip(carriers, sizes, strict=True):
+        largest[carrier] = max(size_m, largest.get(carrier, 0.0))
+    for shape, carrier, size_m in zip(shapes, carriers, sizes, strict=True):
+        is_carried = carrier.arm != BODY
+        is_small = size_m < _SMALL_M or (is_carried and _is_small(robot, carrier, largest[carrier]))
+        if is_small or size_m > (longest if is_carried else robot_m):
             known = found.get(shape.link)
             if known is None or size_m > known.size_m:
                 found[shape.link] = OddPart(shape.link, size_m, longest if is_carried else robot_m)
     yield from found.values()
 
 
-def _arms(robot: DescribedRobot) -> Iterator[ArmsTogether | ArmsCrossed]:
-    for one, other in combinations(robot.arms, 2):
-        apart_m = float(np.linalg.norm(one.root - other.root))
-        if apart_m < TOGETHER_M:
+def _is_small(robot: DescribedRobot, carrier: Carrier, size_m: float) -> bool:
+    """Return whether the largest part of an arm's link is tiny, though the link reaches far."""
+    chain = robot.arms[carrier.arm].chain
+    beyond = (*chain.offsets[1:], chain.tool_offset)[carrier.joint]
+    return not carrier.is_finger and size_m < _SMALL_LINK_M and float(np.linalg.norm(beyond)) > _LONG * size_m
+
+
+def _arms(
+    robot: DescribedRobot, skeleton: Skeleton, shapes: Sequence[LinkShape]
+) -> Iterator[ArmsTogether | ArmsCrossed]:
+    # Arms of one URDF stand where their maker has put them, and their housings may reach into each other.
+    is_mounted = len(robot.card.mounts) > 1
+    first = [_first_links(number, arm, skeleton, shapes) if is_mounted else [] for number, arm in enumerate(robot.arms)]
+    for (one, its), (other, others) in combinations(zip(robot.arms, first, strict=True), 2):
+        apart = other.root - one.root
+        apart_m = float(np.linalg.norm(apart))
+        if apart_m < TOGETHER_M or _are_inside(its, others, _INSIDE_M / apart_m * apart):
             yield ArmsTogether((one.card.name, other.card.name), apart_m)
     for one, other in pairwise(robot.arms):
         left_m = float(other.root[1] - one.root[1])
@@ -124,8 +152,38 @@ def _arms(robot: DescribedRobot) -> Iterator[ArmsTogether | ArmsCrossed]:
             yield ArmsCrossed((one.card.name, other.card.name), left_m)
 
 
+_Placed: TypeAlias = tuple[str, coal.CollisionGeometry, pin.SE3]
+"""A shape in the base frame: its link, the shape, its place."""
+
+
+def _first_links(number: int, arm: DescribedArm, skeleton: Skeleton, shapes: Sequence[LinkShape]) -> list[_Placed]:
+    """Return the shapes of the link that an arm stands on, and of the first that moves, all joints of arms at 0."""
+    model = skeleton.model
+    joint = model.frames[model.getFrameId(arm.card.joints[0], pin.FrameType.JOINT)]
+    foot, frame = model.frames[joint.parentFrame].name, skeleton.frames[number][0]
+    found = []
+    for shape in shapes:
+        carrier = skeleton.carrier(shape.joint)
+        if shape.link == foot and carrier.arm == BODY:
+            found.append((shape.link, shape.geometry, skeleton.placement(shape)))
+        elif carrier == Carrier(number, 0):
+            found.append((shape.link, shape.geometry, frame * skeleton.placement(shape)))
+    return found
+
+
+def _are_inside(some: Sequence[_Placed], others: Sequence[_Placed], away: FloatArray) -> bool:
+    """Return whether shapes of two arms would still touch if the others stood further away by a vector (m)."""
+    for (link, shape, place), (other_link, other, other_place) in product(some, others):
+        moved = pin.SE3(other_place.rotation, other_place.translation + away)
+        if link != other_link and coal.collide(
+            shape, place, other, moved, coal.CollisionRequest(), coal.CollisionResult()
+        ):
+            return True
+    return False
+
+
 def _stations(stations: tuple[tuple[str, Pose2], ...], table: Table) -> Iterator[StationFacesAway]:
-    """Yield the stations from which the nearest point of the table, or its middle from within, lies behind the base."""
+    """Yield the stations whose base has the nearest point of the table, or its middle from within, beside or behind."""
     for name, base in stations:
         x = min(max(base.x_m, -0.5 * table.depth_m), 0.5 * table.depth_m)
         y = min(max(base.y_m, -0.5 * table.width_m), 0.5 * table.width_m)
@@ -134,7 +192,7 @@ def _stations(stations: tuple[tuple[str, Pose2], ...], table: Table) -> Iterator
         if math.hypot(*to) < _NEAR_M:
             continue
         away_rad = abs(math.remainder(math.atan2(to[1], to[0]) - base.yaw_rad, math.tau))
-        if away_rad > 0.5 * math.pi + 1e-3:
+        if away_rad > 0.5 * math.pi - 1e-3:
             yield StationFacesAway(name, away_rad)
 
 

@@ -4,13 +4,11 @@ import json
 from pathlib import Path
 
 from planner.cloth.garment import Garment
-from planner.cloth.garment_files import load_garment, read_json
+from planner.cloth.garment_files import load_garment, other_kind, read_json
 from planner.errors import RequestError
 from planner.task.plan import Plan
 
 ENDING = ".plan.json"
-VERSION_FIELD = "pleat_plan"
-"""The field of the version, which distinguishes a plan file from a garment file."""
 
 
 def write_plan(plan: Plan, path: Path) -> None:
@@ -36,6 +34,6 @@ def load(source: str) -> Garment | Plan:
     path = Path(source)
     if path.is_file():
         data = read_json(path)
-        if isinstance(data, dict) and VERSION_FIELD in data:
+        if isinstance(data, dict) and other_kind(data) == "plan":
             return Plan.from_dict(data)
     return load_garment(source)

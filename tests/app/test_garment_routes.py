@@ -57,6 +57,18 @@ async def test_a_body_with_another_name_is_refused(client: httpx.AsyncClient) ->
     assert answer.json()["errors"][0]["field"] == "name"
 
 
+@pytest.mark.parametrize(
+    ("content", "said"), [(b'{"pattern": {"panels": {}}}', "a pattern of GarmentCode"), (b"<svg/>", "an SVG drawing")]
+)
+async def test_a_body_of_another_kind_is_named_with_where_it_can_be_opened(
+    client: httpx.AsyncClient, content: bytes, said: str
+) -> None:
+    answer = await client.put("/api/garments/other", content=content, headers={"content-type": "application/json"})
+    assert answer.status_code == 422
+    assert said in answer.json()["detail"]
+    assert "POST /api/imports" in answer.json()["detail"]
+
+
 @pytest.mark.parametrize("name", ["nothing", "UPPER", "..%2fsettings", "%00", "a" * 70, ".hidden"])
 async def test_a_name_that_is_not_there_is_not_found(client: httpx.AsyncClient, name: str) -> None:
     for answer in (await client.get(f"/api/garments/{name}"), await client.delete(f"/api/garments/{name}")):

@@ -1,8 +1,10 @@
 import threading
+from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from sqlalchemy import text
 
 from app.jobs.job_desk import BEGUN_MAX, OPEN_OF_CLIENT_MAX
 from app.jobs.job_pool import BusyError
@@ -99,6 +101,29 @@ def test_a_job_that_ended_the_server_again_and_again_is_given_up(tmp_path: Path)
     with desk(tmp_path) as jobs:
         jobs.resume()
         assert jobs.job(job.id).status == "failed"
+
+
+@pytest.mark.parametrize("progress", ["'a half'", "x'00'", "9e999"])
+def test_a_progress_that_is_no_number_is_read_as_none_done(tmp_path: Path, progress: str) -> None:
+    with closing(Database(tmp_path / "pleat.db")) as database:
+        repository = JobRepository(database)
+        bad, good = (repository.add("halve", "me", "", {"number": 1}) for _ in range(2))
+        with database.writing("the row could not be written") as session:
+            session.execute(text(f"UPDATE jobs SET progress = {progress} WHERE id = :id"), {"id": bad.id})
+        assert repository.job(bad.id) == bad
+        assert repository.newest(10) == [good, bad]
+        assert repository.interrupted() == [bad, good]
+
+
+def test_an_interrupted_job_whose_request_cannot_be_read_is_marked(tmp_path: Path) -> None:
+    with desk(tmp_path) as jobs, closing(Database(tmp_path / "pleat.db")) as database:
+        repository = JobRepository(database)
+        bad, good = (repository.add("halve", "me", "", {"number": 1}) for _ in range(2))
+        with database.writing("the row could not be written") as session:
+            session.execute(text("UPDATE jobs SET body = '{x' WHERE id = :id"), {"id": bad.id})
+        jobs.resume()
+        assert jobs.job(bad.id).status == "failed"
+        assert ended(jobs, good).status == "done"
 
 
 def test_a_full_queue_and_a_client_with_too_many_jobs_are_refused(tmp_path: Path) -> None:

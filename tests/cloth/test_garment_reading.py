@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from planner.cloth.garment_files import load_garment, shipped_garment_names
-from planner.errors import GarmentError, GarmentFileError, UnknownGarmentError
+from planner.errors import FoldingError, GarmentError, GarmentFileError, UnknownGarmentError
 
 TOWEL = {"name": "towel", "outline": [[0, 0], [0.4, 0], [0.4, 0.3]]}
 
@@ -58,6 +58,28 @@ def test_bytes_that_are_no_text_are_no_json(tmp_path: Path) -> None:
     path = tmp_path / "towel.json"
     path.write_bytes(b"\xff\xfe\x00")
     with pytest.raises(GarmentFileError, match="is no JSON"):
+        load_garment(path)
+
+
+@pytest.mark.parametrize(
+    ("content", "said"),
+    [
+        (b'{"pattern": {"panels": {"front": {}}}, "properties": {}}', "GarmentCode.*POST /api/imports"),
+        (b'\xef\xbb\xbf{"file_spec": 1.1, "vertices_coords": []}', "FOLD.*POST /api/imports"),
+        (b'{"pleat_plan": 1}', "plan file.*POST /api/imports"),
+        (b'{"pleat_robot": 1, "name": "bench"}', "card of a robot.*POST /api/robots/imports"),
+        (b"<svg/>", "SVG.*POST /api/imports"),
+        (b'<?xml version="1.0"?>\n<!-- by hand -->\n<!DOCTYPE svg [<!ENTITY a "b">]>\n<svg width="3"/>', "SVG"),
+        (b"999\nby hand\n  0\r\nSECTION\r\n", "DXF.*POST /api/imports"),
+        (b"AutoCAD Binary DXF\r\n\x1a\0", "DXF"),
+        (b"\x89PNG\r\n\x1a\n", "PNG"),
+        (b"\xff\xd8\xff\xe0", "JPEG"),
+    ],
+)
+def test_a_file_of_another_kind_is_named_with_where_it_can_be_opened(tmp_path: Path, content: bytes, said: str) -> None:
+    path = tmp_path / "towel.json"
+    path.write_bytes(content)
+    with pytest.raises(FoldingError, match=said):
         load_garment(path)
 
 

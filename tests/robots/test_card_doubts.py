@@ -21,7 +21,7 @@ def changed(folder: Path, change: Callable[[dict[str, Any]], None], name: str = 
     return read_described(folder / "mine.json")
 
 
-@pytest.mark.parametrize("name", ["panda-pair", "ur5e-single"])
+@pytest.mark.parametrize("name", ["panda-pair", "tiago-pro", "ur5e-single"])
 def test_a_shipped_card_leaves_no_doubt(name: str) -> None:
     assert name in shipped_robots()
     assert card_doubts(read_robot(name)) == ()
@@ -32,6 +32,17 @@ def test_arms_that_are_mounted_in_one_place_are_told(tmp_path: Path) -> None:
         card["mounts"][1] = card["mounts"][0] | {"name": card["mounts"][1]["name"]}
 
     assert card_doubts(changed(tmp_path, change)) == (ArmsTogether(("left", "right"), 0.0),)
+
+
+@pytest.mark.parametrize(("apart_m", "is_told"), [(0.08, True), (0.12, True), (0.4, False)])
+def test_arms_whose_first_links_lie_inside_each_other_are_told(tmp_path: Path, apart_m: float, is_told: bool) -> None:
+    def change(card: dict[str, Any]) -> None:
+        for mount, side in zip(card["mounts"], (0.5, -0.5), strict=True):
+            mount["y_m"] = side * apart_m
+
+    doubts = card_doubts(changed(tmp_path, change))
+    told = [(doubt.arms, round(doubt.apart_m, 9)) for doubt in doubts if isinstance(doubt, ArmsTogether)]
+    assert told == ([(("left", "right"), apart_m)] if is_told else [])
 
 
 def test_arms_that_are_not_named_from_left_to_right_are_told(tmp_path: Path) -> None:
@@ -45,8 +56,8 @@ def test_arms_that_are_not_named_from_left_to_right_are_told(tmp_path: Path) -> 
     assert doubt.left_m == pytest.approx(0.7)
 
 
-@pytest.mark.parametrize("yaw_rad", [math.pi, -2.0, 1.8])
-def test_a_base_that_turns_its_back_on_the_table_is_told(tmp_path: Path, yaw_rad: float) -> None:
+@pytest.mark.parametrize("yaw_rad", [math.pi, -2.0, 1.8, 0.5 * math.pi, -1.571])
+def test_a_base_that_turns_its_back_or_its_side_to_the_table_is_told(tmp_path: Path, yaw_rad: float) -> None:
     def change(card: dict[str, Any]) -> None:
         card["scene"]["stations"]["edge"]["yaw_rad"] = yaw_rad
 
@@ -67,7 +78,9 @@ ARM = """<robot name="arm">
 </robot>"""
 
 
-@pytest.mark.parametrize(("scale", "size_m"), [("1 1 1", 360.0), ("0.1 0.1 0.1", 36.0), ("0.000001 " * 3, 0.00036)])
+@pytest.mark.parametrize(
+    ("scale", "size_m"), [("1 1 1", 360.0), ("0.1 0.1 0.1", 36.0), ("0.000001 " * 3, 0.00036), ("0.00001 " * 3, 0.0036)]
+)
 def test_a_part_in_another_unit_is_told_with_its_size(tmp_path: Path, scale: str, size_m: float) -> None:
     [doubt] = card_doubts(bench(tmp_path, scale))
     assert isinstance(doubt, OddPart)

@@ -124,7 +124,7 @@ def segment_cut_out(alpha: Image, outside: BoolArray | None = None) -> Segmented
     wide = cv2.copyMakeBorder(alpha, margin, margin, margin, margin, cv2.BORDER_CONSTANT, value=(0,))
     line, contrast = snapped(np.dstack([np.asarray(wide, np.uint8)] * 3), _outline(found) + margin, reach=3.0)
     line = line - margin
-    is_trimmed = all(edge.any() for edge in (found[0], found[-1], found[:, 0], found[:, -1]))
+    is_trimmed = all(edge.any() for edge in (alpha[0], alpha[-1], alpha[:, 0], alpha[:, -1]))
     at_border = 0.0 if is_trimmed else _at_border(line, alpha.shape, 2.0)
     return Segmented(line, 1.0, contrast, at_border, pieces.cloths, pieces.stripes)
 

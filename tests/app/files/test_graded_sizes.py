@@ -1,6 +1,8 @@
 """Patterns in several sizes: one is taken by its name, and none is the seam line of another."""
 
 import io
+import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -10,6 +12,7 @@ from ezdxf.document import Drawing
 from app.files.import_errors import ImportedFileError
 from app.files.import_file import import_file
 from app.files.piece_labels import in_order, size_in
+from app.files.pieces import Pieces
 from app.files.sketch_garment import Imported
 
 GROWTH_MM: dict[str, float] = {"S": -10, "M": 0, "L": 10}
@@ -36,10 +39,10 @@ def pattern(sizes: dict[str, float], *, sample: str | None = None, say: bool = T
     return made
 
 
-def read(made: Drawing, size: str | None = None) -> Imported:
+def read(made: Drawing, size: str | None = None, piece: str | None = None) -> Imported:
     text = io.StringIO()
     made.write(text)
-    return import_file("back.dxf", text.getvalue().encode(), size=size)
+    return import_file("back.dxf", text.getvalue().encode(), size=size, piece=piece)
 
 
 def sides(imported: Imported) -> tuple[float, float]:
@@ -67,6 +70,29 @@ def test_a_size_is_taken_by_its_name(size: str, wide: float) -> None:
 def test_the_sample_size_is_taken_where_the_pattern_names_one() -> None:
     assert sides(read(pattern({"36": -20, "38": -10, "40": 0, "42": 10}, sample="40"))) == (0.5, 0.7)
     assert sides(read(pattern(GROWTH_MM, sample="XL"))) == (0.5, 0.7)
+
+
+@pytest.mark.parametrize("is_closed", [True, False], ids=["closed lines", "open lines"])
+def test_pieces_in_blocks_that_lie_over_each_other_are_told_by_their_blocks(is_closed: bool) -> None:
+    made = filemanagement.new("R12")
+    made.modelspace().add_text("UNITS: METRIC", dxfattribs={"layer": "1"})
+    for name, x, y in (("BACK", 200, 300), ("SLEEVE", 150, 250), ("YOKE", 280, 100)):
+        block = made.blocks.new(name)
+        ring = [(-x, -y), (x, -y), (x, y), (-x, y), (-x, -y)]
+        block.add_line((-x, 0), (x, 0), dxfattribs={"layer": "8", "color": 5})
+        if is_closed:
+            block.add_polyline2d(ring, dxfattribs={"layer": "1"})
+        for start, end in () if is_closed else pairwise(ring):
+            block.add_line(start, end, dxfattribs={"layer": "1"})
+        if name == "YOKE":
+            block.add_line((0, -y), (0, y), dxfattribs={"layer": "6"})
+        made.modelspace().add_blockref(name, (0, 0), dxfattribs={"layer": "1"})
+    assert read(made).pieces == Pieces("BACK", ("BACK", "SLEEVE", "YOKE"))
+    for piece, size in (("BACK", (0.4, 0.6)), ("sleeve", (0.3, 0.5)), ("YOKE", (0.56, 0.2))):
+        found = read(made, piece=piece)
+        assert sides(found) == size
+        (fold,) = found.garment.folds
+        assert math.dist(fold.start, fold.end) == pytest.approx(size[0])
 
 
 @pytest.mark.parametrize("size", ["XL", "", "40"])

@@ -51,6 +51,7 @@ def is_symmetric(imported: Imported) -> bool:
         '<path class="note" id="front.cutonfold" d="M 0 12 H 2 V 58 H 0"/>',
         '<path id="p1" d="M 0 12 L 2 12 L 2 58 L 0 58"/><text><textPath href="#p1">Cut on fold</textPath></text>',
         '<path id="p1" d="M 0 12 V 58"/><text><textPath href="#p1"><tspan>Im Stoffbruch</tspan></textPath></text>',
+        '<path id="p1" d="M 0 12 V 58"/><text><textPath href="#p1">Couper sur la pliure</textPath></text>',
         '<path marker-start="url(#cutonfoldFrom)" marker-end="url(#cutonfoldTo)" d="M 0 12 H 2 V 58 H 0"/>',
         '<line id="place_on_fold" x1="0" y1="58" x2="0" y2="12" stroke="black"/>',
         '<path class="fold-line on-fold" d="M 1.5 15 V 55"/>',
@@ -58,7 +59,7 @@ def is_symmetric(imported: Imported) -> bool:
         '<path d="M 0 10 V 60" data-name="Mirror Line"/>',
         '<path id="au_pli" stroke="blue" d="M 0.05 10 V 60"/>',
     ],
-    ids=range(9),
+    ids=range(10),
 )
 def test_a_piece_cut_on_the_fold_is_mirrored_over_the_edge_that_is_marked(mark: str) -> None:
     found = read(f'<path d="{HALF}"/>', mark)

@@ -36,15 +36,40 @@ def sides(imported: Imported) -> tuple[float, float]:
         '<style>.page { fill: color(display-p3 1 1 1) }</style><rect class="page" width="100%" height="100%"/>',
         '<rect width="50" height="40" fill="#dde7ee"/>',
         '<rect width="50" height="40" fill="white" stroke="white"/>',
+        '<rect width="50" height="40" fill="none" stroke="black"/>',
+        '<rect x=".05" y=".05" width="49.9" height="39.9" fill="white" stroke="#ccc"/>',
         '<rect width="25" height="40" fill="white"/><rect x="25" width="25" height="40" fill="white"/>',
     ],
-    ids=range(10),
+    ids=range(12),
 )
 def test_the_page_is_no_outline(page: str) -> None:
     found = read(page, PIECE, FOLD)
     assert sides(found) == (0.4, 0.3)
     assert [fold.kind for fold in found.garment.folds] == ["blue"]
     assert not any("does not fit" in note.text for note in found.notes)
+
+
+def test_a_page_with_an_edge_is_no_outline_of_what_open_lines_draw() -> None:
+    page, lines = '<rect width="50" height="40" fill="none" stroke="black"/>', '<g stroke="black">{}</g>'
+    piece = '<path d="M 5 5 H 45 V 35" fill="none"/><path d="M 45 35 H 5 V 5" fill="none"/>'
+    assert sides(read(page, lines.format(piece), FOLD)) == (0.4, 0.3)
+    assert sides(read(page, lines.format('<line x1="9" y1="9" x2="9" y2="30"/>'))) == (0.5, 0.4)
+
+
+def test_what_an_all_black_mask_hides_is_not_seen() -> None:
+    mask = '<mask id="m"><rect width="50" height="40" fill="{}"/></mask>'
+    box = '<rect x="1" y="1" width="48" height="38" fill="#555" mask="url(#m)"/>'
+    assert sides(read(mask.format("black"), box, PIECE)) == (0.4, 0.3)
+    assert sides(read(mask.format("white"), box, PIECE)) == (0.48, 0.38)
+    assert sides(read('<mask id="m"><text>A</text></mask>', box, PIECE)) == (0.48, 0.38)
+
+
+def test_open_lines_that_make_the_outline_are_not_said_to_be_no_folds() -> None:
+    lines = ["5,5 45,5", "45,5 45,35", "45,35 5,35", "5,35 5,5", "5,35 5,5"]
+    drawn = [f'<polyline points="{line}" fill="none" stroke="black"/>' for line in lines]
+    assert not any("no fold" in note.text for note in read(*drawn).notes)
+    found = read(*drawn, '<polyline points="25,5 25,35" fill="none" stroke="black"/>')
+    assert [note.text[:11] for note in found.notes if "no fold" in note.text] == ["1 open line"]
 
 
 def test_a_page_without_a_view_box_is_as_large_as_the_sheet() -> None:

@@ -1,10 +1,13 @@
 """Robots on the disk and in the database: interrupted changes, other servers, folders of versions before."""
 
+import io
 from collections.abc import Iterator
 from contextlib import closing
 from pathlib import Path
+from zipfile import ZipFile
 
 import pytest
+from sqlalchemy import text
 
 from app.store.database import Database
 from app.store.robot_repository import RobotRepository
@@ -21,6 +24,14 @@ def unpacked(folder: Path, content: str) -> Path:
 
 def files(folder: Path) -> dict[str, str]:
     return {str(path.relative_to(folder)): path.read_text() for path in folder.rglob("*") if path.is_file()}
+
+
+def packed_files(contents: dict[str, str]) -> bytes:
+    target = io.BytesIO()
+    with ZipFile(target, "w") as archive:
+        for name, content in contents.items():
+            archive.writestr(name, content)
+    return target.getvalue()
 
 
 @pytest.fixture
@@ -92,6 +103,36 @@ def test_a_robot_that_the_database_refuses_is_as_before(
     assert files(tmp_path / "robots") == {"bench/robot.json": "first"}
     assert robots.take("bench", unpacked(tmp_path / "robots" / ".new-3", "third")) is False
     assert files(tmp_path / "robots") == {"bench/robot.json": "third"}
+
+
+@pytest.mark.parametrize(
+    ("name", "content"),
+    [
+        ("bad", b"no zip"),
+        ("bad", packed_files({"robot.json": "card", "arm.stl": "mesh"})[:-40]),
+        ("bad", packed_files({"arm.stl": "mesh"})),
+        ("bad", packed_files({"robot.json": "card", "robot.json/arm.stl": "mesh"})),
+        ("bad", "a text"),
+        ("", packed_files({"robot.json": "card"})),
+        ("../bad", packed_files({"robot.json": "card"})),
+        (".before-good", packed_files({"robot.json": "card"})),
+    ],
+)
+def test_a_bad_row_hides_no_other_robot_and_is_logged_once(
+    tmp_path: Path, own: Database, caplog: pytest.LogCaptureFixture, name: str, content: bytes | str
+) -> None:
+    unpacked(tmp_path / "first" / "good", "card")
+    RobotRepository(tmp_path / "first", own).take_over()
+    with own.writing("the row could not be written") as session:
+        values = {"name": name, "content": content}
+        session.execute(text("INSERT INTO robots VALUES (:name, 'x', :content)"), values)
+    robots = RobotRepository(tmp_path / "robots", own)
+    robots.take_over()
+    robots.refresh()
+    assert files(tmp_path / "robots") == {"good/robot.json": "card"}
+    assert not (tmp_path / "bad").exists()
+    errors = [record.getMessage() for record in caplog.records if record.levelname == "ERROR"]
+    assert len(errors) == 1 and repr(name) in errors[0]
 
 
 def test_servers_on_one_database_have_each_others_robots(tmp_path: Path, postgresql_server: str) -> None:

@@ -91,15 +91,19 @@ def jpeg(image: Image, focal_35_mm: int | None = None) -> bytes:
     return file.getvalue()
 
 
-def cut_out(rings: Sequence[FloatArray], colour: int = 12, *, is_trimmed: bool = False) -> bytes:
-    """Return a PNG, 1000 pixels a metre, whose background is transparent, black behind."""
+def cut_out(rings: Sequence[FloatArray], colour: int = 12, *, is_trimmed: bool = False, soft: float = 0.0) -> bytes:
+    """Return a PNG, 1000 pixels a metre, whose background is transparent, black behind; its edges may be soft."""
     low = np.min([ring.min(axis=0) for ring in rings], axis=0)
     wide = np.max([ring.max(axis=0) for ring in rings], axis=0) - low
-    margin = 0 if is_trimmed else 60
+    margin = 0 if is_trimmed and not soft else 60
     columns, rows = (np.ceil(1000 * wide) + 2 * margin).astype(int)
     alpha = np.zeros((rows, columns), np.uint8)
     for ring in rings:
         cells = (1000 * (ring - low) * [1.0, -1.0] + [margin, 1000 * wide[1] + margin - 1]).round().astype(np.int32)
         cv2.fillPoly(alpha, [cells], 255)
+    if soft:
+        alpha = np.asarray(cv2.GaussianBlur(alpha, (0, 0), soft), np.uint8)
+    if is_trimmed:
+        alpha = alpha[np.ix_(alpha.any(axis=1), alpha.any(axis=0))]
     grey = np.where(alpha > 0, colour, 0).astype(np.uint8)
     return cv2.imencode(".png", np.dstack([grey, grey, grey, alpha]))[1].tobytes()

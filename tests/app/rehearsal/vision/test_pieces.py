@@ -42,9 +42,10 @@ def test_a_cut_out_is_seen_by_what_is_opaque_whatever_its_colour(colour: int) ->
     assert size_off(seen, ring) < 0.01
 
 
-def test_a_cut_out_trimmed_to_its_size_is_whole() -> None:
+@pytest.mark.parametrize("soft", [0.0, 0.7])
+def test_a_cut_out_trimmed_to_its_size_is_whole(soft: float) -> None:
     ring = garment("t-shirt", yaw_rad=0.0)
-    seen = see(cut_out([ring], is_trimmed=True), "shirt", f"{np.ptp(ring[:, 0]):.3f}m:width")
+    seen = see(cut_out([ring], is_trimmed=True, soft=soft), "shirt", f"{np.ptp(ring[:, 0]):.3f}m:width")
     assert seen.sure.unknown is None
     assert size_off(seen, ring) < 0.01
 
