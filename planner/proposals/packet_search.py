@@ -40,6 +40,9 @@ _VARIANTS = 3
 _OBLONG_M = 0.001
 """Added to each side, so that of rectangles of one area the squarer one counts as smaller (m)."""
 
+_SMALLER = 0.7
+"""The size of a packet beside the smallest known, at most, so that it is shown while smaller ones are sought."""
+
 _LAST = 1000.0
 """An effort that puts a packet after all others."""
 
@@ -91,6 +94,7 @@ class PacketSearch:
         self.enumerated = 0
         self.nearest_m = self._begin.size_m
         self._nearest: dict[int, Packet] = {}
+        self._smallest: dict[int, Packet] = {}
         self.sketched: Iterator[Packet] = iter(())
 
     def packets(self) -> Iterator[Packet]:
@@ -99,15 +103,22 @@ class PacketSearch:
         For the smallest packet: the smallest for each number of folds, the smallest first. None is narrower than high.
         """
         if self._is_for_smallest:
-            best: dict[int, Packet] = {}
-            for packet in filter(None, self._found()):
-                known = best.get(len(packet.folds))
-                is_smallest = known is None or _bulk_m2(packet.size_m) < _bulk_m2(known.size_m)
-                if is_smallest and self._is_wide(packet):
-                    best[len(packet.folds)] = packet
-            yield from sorted(best.values(), key=lambda packet: _bulk_m2(packet.size_m))
+            if not self._smallest:
+                for _ in self.shrinking():
+                    pass
+            yield from sorted(self._smallest.values(), key=lambda packet: _bulk_m2(packet.size_m))
         else:
             yield from filter(None, self._found())
+
+    def shrinking(self) -> Iterator[Packet]:
+        """Search for the smallest packet of each number of folds; yield the first, and those that are much smaller."""
+        for packet in filter(None, self._found()):
+            bulk_m2, known = _bulk_m2(packet.size_m), self._smallest.get(len(packet.folds))
+            known_m2 = math.inf if known is None else _bulk_m2(known.size_m)
+            if bulk_m2 < known_m2 and self._is_wide(packet):
+                self._smallest[len(packet.folds)] = packet
+                if bulk_m2 < _SMALLER * known_m2:
+                    yield packet
 
     def blame(self, folds: tuple[DrawnFold, ...]) -> None:
         """Have all packets that begin with some folds wait, because the robot cannot do these."""

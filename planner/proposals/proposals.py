@@ -263,7 +263,7 @@ def propose_folds(
         return _planned(task, RollSearch(garment, max_folds), count, stops)
     robot_check = RobotCheck(task)
     if target.is_smallest:
-        return _planned(task, PacketSearch(garment, target, max_folds, face), count, stops)
+        return _smallest(task, PacketSearch(garment, target, max_folds, face), count, untried, stops)
     sketches = PacketSearch(garment, target, max_folds, face)
     search = PacketSearch(garment, target, max_folds, face, robot_check)
     return _sketched_and_planned(task, sketches, search, robot_check, count, untried, stops)
@@ -298,6 +298,18 @@ def _sketched_and_planned(
         shown += [packet] if packet.is_sketch else []
     search.sketched = islice(chain(shown, sketched), _FIRST)
     return (yield from _planned(task, search, count, should_stop, untried))
+
+
+def _smallest(
+    task: Task, search: PacketSearch, count: int, untried: int, should_stop: Callable[[], bool]
+) -> Generator[Proposal, None, Tried]:
+    """Propose ever smaller packets, without plans, while the smallest are sought; then those that the robot can do."""
+    for number, packet in enumerate(search.shrinking()):
+        if should_stop():
+            break
+        if number < untried:
+            yield _untried(task, packet)
+    return (yield from _planned(task, search, count, should_stop))
 
 
 def _untried(task: Task, packet: Packet) -> Proposal:

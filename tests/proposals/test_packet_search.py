@@ -133,6 +133,14 @@ def test_smallest_packets_come_smallest_first_one_for_each_number_of_folds() -> 
     assert [packet.box_m2 for packet in found] == pytest.approx([0.24 / 2**n for n in (4, 3, 2, 1, 0)], rel=1e-3)
 
 
+def test_some_packets_are_shown_while_smaller_ones_are_sought() -> None:
+    search = PacketSearch(BLANKET, Target.of("smallest"), 4)
+    shown = [(packet, search.enumerated) for packet in search.shrinking()]
+    assert {len(packet.folds) for packet, _ in shown} == {0, 1, 2, 3, 4}
+    assert shown[1][1] < search.enumerated / 4
+    assert [len(packet.folds) for packet in search.packets()] == [4, 3, 2, 1, 0]
+
+
 def test_a_mirrored_garment_is_folded_the_same_ways() -> None:
     shirt = replace(load_garment("t-shirt"), folds=())
     mirrored = replace(shirt, outline=tuple((-x, y) for x, y in reversed(shirt.outline)))
