@@ -41,8 +41,9 @@ _FARTHEST = 1e12
 _COARSE, _PAGE_SLACK = 1e-3, 0.005
 """Precision with which areas are compared, and by how much the page may differ from the sheet, as shares of it."""
 
-_GARMENT_SHARE = 0.05
-"""The least share of a page with an edge that a garment on it covers; what is smaller is a detail of what fills it."""
+_GARMENT_SHARES = (0.05, 0.8)
+"""The least and the largest share of a page with an edge that a garment on it covers: what is smaller is a detail of
+what fills the page, what is larger its seam line."""
 
 _NAMED = frozenset({"g", "path", "polygon", "polyline", "rect", "use", "svg"})
 
@@ -166,7 +167,8 @@ class _Reading:
         is_page_dark = False
         others = [one for one in self._areas if one.has_edge or not one.covers_sheet]
         inner = (one.share for one in others if not (one.covers_sheet or one.is_white))
-        is_drawn_on = self._kept is None and (self._has_open or max(inner, default=0.0) >= _GARMENT_SHARE)
+        least, most = _GARMENT_SHARES
+        is_drawn_on = self._kept is None and (self._has_open or least <= max(inner, default=0.0) <= most)
         for one in self._areas:
             is_page = one.covers_sheet and (is_drawn_on or not one.has_edge)
             if is_page and not (one.is_white or one.has_edge):
