@@ -14,6 +14,7 @@ from there any more. "Infeasible" is therefore no proof where steps were rejecte
 
 Where one of the other ways leads to the same state and takes no longer, the search can go on as if nothing had failed,
 and the rest are found only once no path is left that takes no longer than the one at which the step was rejected.
+A step that takes longer than it seemed to may have hidden ways that are quicker than it is; then too, a few are tried.
 """
 
 import math
@@ -59,6 +60,29 @@ class _Rejection:
         most_s = self.culprit.duration_s + TIME_S
         for other in self.elsewhere:
             if other.duration_s <= most_s and other.after.key == self.culprit.after.key:
+                yield (*self.before, other)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Slow:
+    """A step that takes longer than it seemed to, after which the search knows no way that would be quicker.
+
+    Attributes:
+        step: the step.
+        before: the steps before it in its transfer.
+        lasts_s: what it takes (s).
+        path_s: the time that its path seemed to take (s).
+    """
+
+    step: Step
+    before: tuple[Step, ...]
+    lasts_s: float
+    path_s: float
+
+    def quicker(self, count: int) -> Iterator[tuple[Step, ...]]:
+        """Yield some other ways to do the same that seem to take less, each with the steps before it."""
+        for other in self.step.elsewhere(count):
+            if other.duration_s < self.lasts_s - TIME_S:
                 yield (*self.before, other)
 
 
@@ -136,6 +160,8 @@ class MotionValidator:
         self._given_up = _FailureMemory(search_limits.failures)
         self._doubted: set[tuple[object, ...]] = set()
         self._postponed: list[_Rejection] = []
+        self._slow: list[_Slow] = []
+        self._besides: dict[object, tuple[Step, ...]] = {}
         self.rejected: list[tuple[Step, ...]] = []
         self.slower: tuple[PlanSegment, ...] = ()
         self.sequence_costs = SequenceCosts()
@@ -154,7 +180,8 @@ class MotionValidator:
             if situation not in self._others or step_key(step) in self._real_steps:
                 found.append(step)
         for situation in situations:
-            found += [other.begun_in(state) for other in self._others.get(situation, ())]
+            others = (*self._others.get(situation, ()), *self._besides.get(situation, ()))
+            found += [other.begun_in(state) for other in others]
         costs_s = [self.known_s(step) for step in found]
         return [(step, cost_s) for step, cost_s in zip(found, costs_s, strict=True) if cost_s < math.inf]
 
@@ -193,13 +220,13 @@ class MotionValidator:
             if made is not None:
                 transfers.append((part, made))
             elif is_transfer(part):
-                self._all_agree(transfers)
+                self._all_agree(transfers, seemed_s)
                 self._reject(part, seemed_s)
                 return None
         plan_segments = linked(self._sooner(linked(found, self.maker)), self.maker, hastens=True)
         if duration_s(plan_segments) <= seemed_s + TIME_S:
             return plan_segments
-        is_known = self._all_agree(transfers)
+        is_known = self._all_agree(transfers, seemed_s)
         for late in self.sequence_costs.noted(steps, plan_segments):
             is_known = False
             self._doubt(late)
@@ -343,7 +370,23 @@ class MotionValidator:
         for rejection in due:
             self._replace(rejection)
             self._postponed.remove(rejection)
-        return bool(due)
+        late = [slow for slow in self._slow if slow.path_s < path_s - TIME_S]
+        is_quicker = False
+        for slow in late:
+            is_quicker |= self._go_beside(slow)
+            self._slow.remove(slow)
+        return bool(due) or is_quicker
+
+    def _go_beside(self, slow: _Slow) -> bool:
+        """Add a way that is quicker than a slow step, beside those that the search has; return whether there is one."""
+        search_limits, situation = self._search_limits, slow.step.situation
+        ways = self.maker.candidates(self._in_time(slow.quicker(search_limits.spread)))
+        for candidate in islice(ways, search_limits.enough):
+            made = self._noted(candidate)
+            if made is not None and made.durations_s()[-1] < slow.lasts_s - TIME_S:
+                self._besides[situation] = (*self._besides.get(situation, ()), candidate.steps[-1])
+                return True
+        return False
 
     def _in_time(self, choices: Iterable[tuple[Step, ...]]) -> Iterator[tuple[Step, ...]]:
         for steps in choices:
@@ -359,16 +402,18 @@ class MotionValidator:
         """Return the least time that a step is known to take (s)."""
         return max(step.duration_s, self._least_s.get(step_key(step), 0.0))
 
-    def _all_agree(self, transfers: Sequence[tuple[tuple[Step, ...], Transfer]]) -> bool:
+    def _all_agree(self, transfers: Sequence[tuple[tuple[Step, ...], Transfer]], path_s: float) -> bool:
         """Return whether the steps of all transfers take as long as was known; note their true durations."""
-        agreed = [self._agrees(steps, made) for steps, made in transfers]
+        agreed = [self._agrees(steps, made, path_s) for steps, made in transfers]
         return all(agreed)
 
-    def _agrees(self, steps: tuple[Step, ...], made: Transfer) -> bool:
+    def _agrees(self, steps: tuple[Step, ...], made: Transfer, path_s: float) -> bool:
         is_known = True
-        for step, lasts_s in zip(steps, made.durations_s(), strict=True):
+        for number, (step, lasts_s) in enumerate(zip(steps, made.durations_s(), strict=True)):
             known = self.known_s(step)
-            is_known &= lasts_s <= known + TIME_S
+            if lasts_s > known + TIME_S:
+                is_known = False
+                self._slow.append(_Slow(step, steps[:number], lasts_s, path_s))
             self._least_s[step_key(step)] = max(lasts_s, known)
             self._real_steps.add(step_key(step))
             self._given_up.succeed(step)
