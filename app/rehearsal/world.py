@@ -28,6 +28,7 @@ class GripMotion:
         heading_rad: the direction in which its fingers point, horizontal, table frame, while one is under the cloth and
             one over it (rad); None where they are side by side, or nobody has said.
         layers: how many layers from the top down they take where they close, at a free edge of these; None: all.
+        goes_on_m: how far the open hand goes on in that direction before it is drawn back (m).
     """
 
     arm: str
@@ -38,6 +39,7 @@ class GripMotion:
     turned_rad: tuple[float, ...] = ()
     heading_rad: float | None = None
     layers: int | None = None
+    goes_on_m: float = 0.0
 
     def at(self, t_s: float) -> FloatArray:
         """Return the tool's position at a time since the step's start (s), shape (3,), m."""

@@ -7,7 +7,7 @@ on a stack it lies between that and what was folded, and is drawn out from there
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -15,8 +15,8 @@ from app.rehearsal.physics.pinch import OPENING_M, PAD_M
 from planner.geometry.pose import FloatArray
 from planner.robots.card_parts import GripperFile
 
-DRAWN_M_S = 0.2
-"""How quickly an open hand is drawn back from cloth that it has laid down (m/s); an assumption."""
+_DRAWN_M_S, _GOES_ON_M_S = 0.2, 0.1
+"""How quickly an open hand is drawn back from cloth that it has laid down, and goes on before (m/s); assumptions."""
 
 _STACK_SHARE = 0.5
 """The height of the highest stack that a pinch holds, as a share of how wide fingers open at a stack.
@@ -68,6 +68,33 @@ class Box:
 
     middle: FloatArray
     axes: FloatArray
+
+    def shifted(self, ahead_m: float) -> "Box":
+        """Return it further along its length (m)."""
+        return replace(self, middle=self.middle + ahead_m * self.axes[:, 0])
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Leaving:
+    """The finger of an open hand that is still under the cloth that it has laid down.
+
+    Attributes:
+        finger: where it is.
+        ahead_m: how far it goes on where it points (m).
+        back_m: how far it is drawn back from there until it is out (m).
+    """
+
+    finger: Box
+    ahead_m: float
+    back_m: float
+
+    def after(self, time_s: float) -> "Leaving | None":
+        """Return it a time later (s); None once it is out."""
+        if self.ahead_m > 0.0:
+            way_m = min(_GOES_ON_M_S * time_s, self.ahead_m)
+            return Leaving(self.finger.shifted(way_m), self.ahead_m - way_m, self.back_m)
+        way_m = _DRAWN_M_S * time_s
+        return None if self.back_m <= way_m else Leaving(self.finger.shifted(-way_m), 0.0, self.back_m - way_m)
 
 
 def around(points: FloatArray, closing: FloatArray, heading_rad: float, size: FingerSize, open_m: float) -> list[Box]:

@@ -1,12 +1,11 @@
 """A world simulated in MuJoCo: the article as a flex on a table, grips that move its vertices."""
 
-from collections.abc import Callable, Mapping
-from dataclasses import replace
+from collections.abc import Callable, Iterable, Mapping
 
 import numpy as np
 
 from app.rehearsal.physics.fabric import Fabric, Resolution
-from app.rehearsal.physics.fingers import DRAWN_M_S, Box, FingerSize, lowest
+from app.rehearsal.physics.fingers import Box, FingerSize, Leaving, lowest
 from app.rehearsal.physics.hand_way import HandWay, pinched_by
 from app.rehearsal.physics.held_cloth import HeldCloth
 from app.rehearsal.physics.pinch import OPENING_M, PAD_M, fingertip
@@ -78,7 +77,7 @@ class PhysicsWorld:
         self.simulation = ClothSimulation(rest, self._pattern, triangles, fabric, resolution, table, sizes)
         self._grips: dict[str, HeldCloth] = {}
         self._under: dict[str, list[Box]] = {}
-        self._leaving: dict[str, tuple[Box, float]] = {}
+        self._leaving: dict[str, Leaving] = {}
         if task.start.done or not self._top.covers(rest):
             sequence = replayed(task.garment)
             gap_m = fabric.layer_m
@@ -99,7 +98,7 @@ class PhysicsWorld:
         if all(found.values()) or not motion.needs_all:
             self._follow(motion)
         else:
-            self._let_go({grip.arm for grip in motion.grips})
+            self._let_go(motion.grips)
         if not self._grips:
             self._settle()
         return Performed(found)
@@ -162,7 +161,7 @@ class PhysicsWorld:
                 if way.grip.arm in self._grips:
                     self.simulation.hold(way.at(now_s))
                     self._put_fingers(way.grip.arm, way.fingers_at(now_s, self._fingers[way.grip.arm]))
-            self._let_go({grip.arm for grip in grips if grip.opens and grip.times_s[-1] <= now_s})
+            self._let_go(grip for grip in grips if grip.opens and grip.times_s[-1] <= now_s)
             self._step()
         self._grips |= {way.grip.arm: way.held_at(last_s) for way in ways if way.grip.arm in self._grips}
 
@@ -179,22 +178,26 @@ class PhysicsWorld:
     def _new_way(self, grip: GripMotion, is_fold: bool) -> HandWay:
         return HandWay(grip, self._grips[grip.arm], is_fold, self._top, self._fingers[grip.arm].thickness_m)
 
-    def _let_go(self, arms: set[str]) -> None:
-        """Open hands; the upper finger is out of the way then, the one under the cloth is drawn out."""
-        for arm in arms & self._grips.keys():
-            self.simulation.release(frozenset(self._grips.pop(arm).vertices))
-            boxes = self._under.pop(arm, [])
-            if boxes:
-                self._leaving[arm] = lowest(boxes), self._fingers[arm].length_m + PAD_M
+    def _let_go(self, grips: Iterable[GripMotion]) -> None:
+        """Open hands; the upper finger is out of the way then, the one under the cloth goes on and is drawn out."""
+        for grip in grips:
+            cloth = self._grips.pop(grip.arm, None)
+            if cloth is not None:
+                self.simulation.release(frozenset(cloth.vertices))
+                boxes = self._under.pop(grip.arm, [])
+                if boxes:
+                    back_m = self._fingers[grip.arm].length_m + PAD_M + grip.goes_on_m
+                    self._leaving[grip.arm] = Leaving(lowest(boxes), grip.goes_on_m, back_m)
 
     def _draw_back(self) -> None:
-        """Draw the fingers of open hands back by one time step, and put them away once they are out."""
-        for arm, (box, left_m) in list(self._leaving.items()):
-            way_m = DRAWN_M_S * self.simulation.step_s
-            self._leaving[arm] = replace(box, middle=box.middle - way_m * box.axes[:, 0]), left_m - way_m
-            if left_m <= way_m:
+        """Move the fingers of open hands on by one time step, and put them away once they are out."""
+        for arm, leaving in list(self._leaving.items()):
+            later = leaving.after(self.simulation.step_s)
+            if later is None:
                 del self._leaving[arm]
-            self.simulation.put_fingers(self._hands[arm], [self._leaving[arm][0]] if arm in self._leaving else [])
+            else:
+                self._leaving[arm] = later
+            self.simulation.put_fingers(self._hands[arm], [] if later is None else [later.finger])
 
     def _settle(self) -> None:
         """Simulate until the cloth that was let go rests; cloth at rest is not simulated."""

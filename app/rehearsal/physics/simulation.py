@@ -1,76 +1,18 @@
 """Cloth in MuJoCo: vertices that can be held, moved and let go, and time that passes."""
 
-import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from app.rehearsal.physics.bending import Hinges
 from app.rehearsal.physics.fabric import Fabric, Resolution
 from app.rehearsal.physics.fingers import Box, FingerSize
 from app.rehearsal.physics.model import FREE, IN_HAND, SOCKETS, model_xml
 from app.rehearsal.physics.weave import Weave
 from planner.geometry.pose import FloatArray
 from planner.geometry.table import Table
-
-_FLAT = 0.2
-"""The angle from folded flat up to which the moment fades out (rad): folded flat, a hinge has no side to open to."""
-
-_MOST = (math.pi - _FLAT) / math.sin(_FLAT)
-"""The largest factor: that of a hinge at this angle from folded flat."""
-
-_TINY_M4 = 1e-24
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Hinges:
-    """The edges at which two triangles meet: cloth bends there with a moment that grows as the angle does.
-
-    MuJoCo's energy of bending is quadratic in the vertices' places, so it grows as 1 - cos of the angle, and its moment
-    as the sine: an edge doubled back at one row of the mesh had next to none that opened it, and stayed there under its
-    own weight, where a strip of cloth as stiff springs open. The moment of a strip grows as its curvature.
-
-    Attributes:
-        numbers: of the edges, shape (k,).
-        corners: the two ends of each and the corner of either triangle beyond it, shape (k, 4).
-        flat: MuJoCo's coefficients, which hold for small angles, shape (k, c).
-    """
-
-    numbers: NDArray[np.int64]
-    corners: NDArray[np.int64]
-    flat: FloatArray
-
-    @staticmethod
-    def of(model: mujoco.MjModel) -> "Hinges":
-        """Return the hinges of a model whose one flex bends."""
-        numbers = np.flatnonzero((model.flex_edgeflap >= 0).all(axis=1))
-        corners = np.column_stack([model.flex_edge, model.flex_edgeflap])[numbers]
-        return Hinges(numbers, corners, model.flex_bending.reshape(len(model.flex_edge), -1)[numbers].copy())
-
-    def stiffen(self, model: mujoco.MjModel, positions: FloatArray) -> None:
-        """Give a model the coefficients for where its vertices are, shape (n, 3), m."""
-        scale = angle_over_sine(bent_rad(positions[self.corners]))
-        model.flex_bending.reshape(len(model.flex_edge), -1)[self.numbers] = self.flat * scale[:, None]
-
-
-def bent_rad(corners: FloatArray) -> FloatArray:
-    """Return the angles between pairs of triangles, 0 where they lie in one plane, shape (k,), rad.
-
-    Args:
-        corners: the two ends of the edge that they share and the corner of either beyond it, shape (k, 4, 3), m.
-    """
-    along, one, other = (corners[:, i] - corners[:, 0] for i in (1, 2, 3))
-    first, second = np.cross(along, one), np.cross(other, along)
-    sizes = np.linalg.norm(first, axis=1) * np.linalg.norm(second, axis=1)
-    cosines = (first * second).sum(axis=1) / np.maximum(sizes, _TINY_M4)
-    return np.asarray(np.arccos(np.clip(cosines, -1.0, 1.0)))
-
-
-def angle_over_sine(angles: FloatArray) -> FloatArray:
-    """Return the bounded ratios of angles (rad) to their sines: by so much a moment linear in the angle is larger."""
-    return np.asarray(np.minimum(1.0 / np.maximum(np.sinc(angles / math.pi), 1.0 / _MOST), _MOST))
 
 
 class ClothSimulation:
@@ -103,7 +45,7 @@ class ClothSimulation:
         xml = model_xml(rest, pattern, triangles, fabric, resolution, table, fingers)
         self._model = mujoco.MjModel.from_xml_string(xml)
         self._model.eq_data[:, :6] = 0.0  # ties pull a vertex onto its socket, whatever the distance at the start was
-        self._hinges = Hinges.of(self._model)
+        self._hinges = Hinges(self._model, rest, fabric.bend_friction_per_m)
         self._weave = Weave.of(pattern, triangles, fabric, resolution.edge_m)
         self._data = mujoco.MjData(self._model)
         self._vertex_bodies = np.array([self._model.body(f"v{i}").id for i in range(len(rest))])
@@ -127,9 +69,10 @@ class ClothSimulation:
         return frozenset(self._held)
 
     def put(self, positions: FloatArray) -> None:
-        """Put the vertices somewhere, at rest, shape (n, 3), m."""
+        """Put the vertices somewhere, at rest and bent as they have lain for long, shape (n, 3), m."""
         self._data.qpos[:] = (positions - self._rest).ravel()
         self._data.qvel[:] = 0.0
+        self._hinges.rest(positions)
         mujoco.mj_forward(self._model, self._data)
 
     def push(self, velocity: FloatArray) -> None:

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from app.rehearsal.physics.fabric import Fabric, Resolution
-from app.rehearsal.physics.fingers import FingerSize, around, lowest
+from app.rehearsal.physics.fingers import Box, FingerSize, Leaving, around, lowest
 from app.rehearsal.physics.physics_world import PhysicsWorld
 from app.rehearsal.step_motions import step_motions
 from app.rehearsal.world import GripMotion, StepMotion
@@ -71,7 +71,7 @@ def test_cloth_that_lies_upon_a_finger_is_held_up_by_it_until_that_is_drawn_out(
     table = world()
     table.perform(hold(opens=False))
     edge = list(table.simulation.held)
-    table._let_go({"left"})
+    table._let_go(hold(opens=False).grips)
     for _ in range(5):
         table._step()
     lies_m = table.simulation.positions[edge, 2].min()
@@ -79,6 +79,17 @@ def test_cloth_that_lies_upon_a_finger_is_held_up_by_it_until_that_is_drawn_out(
     table._settle()
     assert not table._leaving
     assert table.simulation.positions[edge, 2].max() < 0.005
+
+
+def test_the_finger_of_an_open_hand_goes_on_and_then_back_until_it_is_out() -> None:
+    leaving: Leaving | None = Leaving(Box(np.zeros(3), np.eye(3)), 0.03, 0.1)
+    places = []
+    while leaving is not None:
+        places.append(float(leaving.finger.middle[0]))
+        leaving = leaving.after(0.01)
+    assert max(places) == pytest.approx(0.03)
+    assert places[-1] == pytest.approx(0.03 - 0.1, abs=0.003)
+    assert np.argmax(places) > (len(places) - np.argmax(places)) / 2.0  # it is drawn back more quickly
 
 
 def test_a_stack_higher_than_fingers_hold_slips_out_of_them() -> None:

@@ -6,9 +6,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from app.rehearsal.physics.bending import angle_over_sine, bent_rad, moments_rad
 from app.rehearsal.physics.fabric import Fabric, Resolution
 from app.rehearsal.physics.pinch import clamped, pinched
-from app.rehearsal.physics.simulation import ClothSimulation, angle_over_sine, bent_rad
+from app.rehearsal.physics.simulation import ClothSimulation
 from planner.geometry.table import Table, TableTop
 from planner.geometry.woven_mesh import woven_mesh
 from tests.builders import rectangle
@@ -92,7 +93,7 @@ def test_cloth_over_an_edge_droops_as_a_cantilever_of_its_bending_length() -> No
     # Peirce (1930): where a strip of length l hangs over an edge and the line to its end is theta below the horizontal,
     # its bending length is l (cos(theta / 2) / (8 tan(theta)))^(1/3): half of l at 41.5 degrees.
     bending, edge = 0.03, 0.005
-    fabric = Fabric(bending_length_m=bending, drag_per_s=5.0)
+    fabric = Fabric(bending_length_m=bending, bend_friction_per_m=0.0, drag_per_s=5.0)
     points, triangles = woven_mesh(rectangle(2.0 * bending + 2.0 * edge, 2.0 * edge), edge)
     rest = np.column_stack([points, np.zeros(len(points))])
     cloth = ClothSimulation(rest, points, triangles, fabric, Resolution(edge, 0.004))
@@ -110,7 +111,7 @@ def test_the_loop_at_a_fold_is_as_high_as_an_elastica_makes_it() -> None:
     # A strip that lies on itself leaves the table without curvature and comes to lie without. Between is a loop of the
     # heavy elastica: without thickness and tension, as a boundary value problem, .907 bending lengths high.
     bending, half, edge, duration = 0.03, 0.15, 0.01, 2.0
-    fabric = Fabric(bending_length_m=bending)
+    fabric = Fabric(bending_length_m=bending, bend_friction_per_m=0.0)
     cloth = lying(2.0 * half, 2.0 * edge, fabric, edge, -half)
     flat = cloth.positions
     end = np.flatnonzero(flat[:, 0] > half - 1e-6)
@@ -148,6 +149,42 @@ def test_the_moment_at_a_hinge_grows_as_its_angle(angle_rad: float) -> None:
     corners = np.array([[[0, 0, 0], [0, 1, 0], [-1, 0, 0], [math.cos(angle_rad), 0.3, math.sin(angle_rad)]]])
     assert bent_rad(corners) == pytest.approx([angle_rad], abs=1e-6)
     assert angle_over_sine(bent_rad(corners)) * math.sin(angle_rad) == pytest.approx([angle_rad], abs=1e-6)
+
+
+def test_bent_on_and_back_a_hinge_resists_by_its_friction_more_and_less_than_its_stiffness() -> None:
+    friction, slid = np.array([0.5]), np.array([0.0])
+    told = {}
+    for way, angles in (("on", np.arange(0.0, 2.5, 0.01)), ("back", np.arange(2.5, 0.0, -0.01))):
+        for angle in angles:
+            moment, slid = moments_rad(np.array([angle]), slid, friction)
+            told[way, round(float(angle), 2)] = float(moment[0])
+    for angle in (0.7, 1.2, 1.9):
+        assert told["on", angle] - angle == pytest.approx(0.5)
+        assert angle - told["back", angle] == pytest.approx(0.5)
+    assert told["on", 2.49] > told["back", 2.45] > 1.95  # it turns over within two thirds of the friction
+    assert told["back", 0.3] == 0.0
+
+
+def opened_m(friction_per_m: float) -> float:
+    """Return how far the end of a narrow strip, laid down folded in half, slides back (m)."""
+    half, edge, duration = 0.05, 0.012, 1.0
+    fabric = Fabric(bend_friction_per_m=friction_per_m, self_friction=0.1)
+    cloth = lying(2.0 * half, 0.03, fabric, edge, -half)
+    flat = cloth.positions
+    end = np.flatnonzero(flat[:, 0] > half - 1e-6)
+    for left in np.arange(half, -half, -2.0 * half / duration * cloth.step_s):
+        cloth.hold({int(i): np.array([left, flat[i, 1], fabric.layer_m + half - abs(left)]) for i in end})
+        cloth.step()
+    laid = float(cloth.positions[end, 0].mean())
+    cloth.release(frozenset(end.tolist()))
+    cloth.run(1.0)
+    return float(cloth.positions[end, 0].mean()) - laid
+
+
+def test_a_crease_whose_threads_rub_pushes_a_light_end_back_less() -> None:
+    free_m = opened_m(0.0)
+    assert free_m > 0.005
+    assert opened_m(Fabric().bend_friction_per_m) < 0.6 * free_m
 
 
 def test_a_crease_folded_flat_rolls_on_when_the_upper_layer_is_pulled() -> None:
