@@ -28,6 +28,18 @@ TRIED = 4
 """Transfers for which joint paths are sought."""
 
 
+def _rolling(step: Step) -> int:
+    """Return how many hands roll over with the cloth: they lay it down more exactly than those that do not."""
+    return sum(hand is not None and any(hand.rolls_rad) for hand in step.extremes()[0].hands) if step.grips else 0
+
+
+def _best(found: list[tuple[int, Step]]) -> list[Step]:
+    """Return the first of the steps in which most hands roll, and the first of all, which is the most natural one."""
+    most = max(rolling for rolling, _ in found)
+    best = next(one for rolling, one in found if rolling == most)
+    return [best, *(one for _, one in found if one is not best)][:_EACH]
+
+
 class EdgeHands:
     """Finds segments in which more hands hold edges than in those given."""
 
@@ -101,14 +113,16 @@ class EdgeHands:
 
     def _sought(self, step: Step) -> list[Step]:
         alike = takewhile(lambda one: one.duration_s <= step.duration_s + TIME_S, islice(step.variants(), _LOOKED_AT))
-        of_count: dict[int, list[Step]] = {}
+        most = len(step.grips)
+        of_count: dict[int, list[tuple[int, Step]]] = {}
         for one in alike:
-            if one.task == step.task:
-                edges = self._edges(one)
-                of_count.setdefault(edges, []).append(one)
-                if edges == len(step.grips) and len(of_count[edges]) == _EACH:
+            edges = self._edges(one) if one.task == step.task else 0
+            if edges:
+                found = of_count.setdefault(edges, [])
+                found.append((_rolling(one), one))
+                if edges == most and sum(rolling == most for rolling, _ in found) == _EACH:
                     break
-        return [one for count in sorted(of_count, reverse=True) if count for one in of_count[count][:_EACH]]
+        return [one for edges in sorted(of_count, reverse=True) for one in _best(of_count[edges])]
 
     def _edges(self, step: Step) -> int:
         """Return how many hands point so far down that they may hold edges."""

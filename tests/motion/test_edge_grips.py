@@ -10,12 +10,13 @@ import pytest
 
 from app.files.grasp_poses import grasp_poses
 from planner import Plan, load_garment
-from planner.geometry.pose import FloatArray
+from planner.geometry.pose import FloatArray, Pose2
 from planner.motion.edge_hands import EdgeHands
 from planner.motion.joint_trajectory import CLOSED_M, OPEN_M
 from planner.planning.plan_check import require_replay
 from planner.robots.card import EDGE_OPEN_M, HELD_M
 from planner.task.world_state import GripKind
+from tests.builders import fold, garment
 from tests.planning.found import found_plan
 from tests.replay import hulls
 from tests.replay.hands import TOOLS, robot
@@ -155,3 +156,13 @@ def test_hands_at_edges_cost_no_time(monkeypatch: pytest.MonkeyPatch, name: str)
     without = found_plan(load_garment(name), time_limit_s=60.0).plan
     assert {grip.kind for step in without.steps for grip in step.grips} == {"top"}
     assert required(shipped_plan(name).cost_s) <= required(without.cost_s) + 1e-6
+
+
+def test_of_equally_quick_hands_at_edges_one_that_rolls_over_with_the_cloth_is_taken() -> None:
+    corners = ((0.2, 0.0), (0.4, 0.0), (0.5, 0.17), (0.4, 0.34), (0.2, 0.34), (0.1, 0.17))
+    tip = fold((0.2, 0.0), (0.2, 0.34), name="tip")
+    plan = found_plan(garment(corners, tip, placement=Pose2(-0.5, -0.3, 0.0))).plan
+    (step,) = (number for number, one in enumerate(plan.steps) if one.kind == "fold")
+    hands = [hand for one in required(plan.trajectory).of_step(step) for hand in one.phase.hands if hand]
+    assert {grip.kind for grip in plan.steps[step].grips} == {"edge"}
+    assert max(abs(roll) for hand in hands for roll in hand.rolls_rad) == pytest.approx(math.pi)
