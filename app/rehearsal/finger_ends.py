@@ -5,8 +5,8 @@ hold, so cloth turns over round their ends, down the finger under it and back. W
 cloth at these ends, and once the fingers are drawn out the edge falls forward, as far beyond them as it was behind: a
 hand that ended where the plan has the edge would lay it down beyond that by twice what fingers reach ahead and by their
 thickness, and would draw the crease inside of its line on the way. So such hands turn the ends of their fingers about
-the line. Cloth whose threads rub may stay doubled back there, so once open they go on to where the plan has the edge,
-and push it over.
+the line. Cloth whose threads rub may stay doubled back there, so once open they go on until it is pushed over, past
+where the plan has the edge.
 """
 
 import math
@@ -20,6 +20,9 @@ from app.rehearsal.world import GripMotion, StepMotion
 
 _LEAST_WAY_M = 4.0 * PAD_M
 """The shortest horizontal path of a hand on which there is room to land short (m)."""
+
+_PAST_M = 0.02
+"""How far past the edge's place open hands go on (m): about a row of the simulated mesh, as long as a bend can be."""
 
 
 def round_finger_ends(
@@ -70,4 +73,4 @@ def _turned(grip: GripMotion, thickness_m: float, most_m: float) -> GripMotion:
     points[:, :2] -= short_m[:, None] * way[:2] / way_m
     on_table = points[0, 2] + way[2] * done
     points[:, 2] = on_table + (1.0 - 2.0 * scale * ahead_m / way_m) * (points[:, 2] - on_table)
-    return replace(grip.along(points), goes_on_m=float(short_m[-1]))
+    return replace(grip.along(points), goes_on_m=float(short_m[-1]) + _PAST_M)
