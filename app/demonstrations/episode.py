@@ -18,6 +18,7 @@ from app.rehearsal.physics.fabric import Fabric, Resolution
 from app.rehearsal.physics.physics_world import PhysicsWorld
 from app.rehearsal.step_motions import posture_at
 from app.rehearsal.trace import RunTrace, traced
+from app.worker.stop import StoppedError
 from planner.geometry.pose import FloatArray
 from planner.plans import make_plan
 from planner.robots.card_parts import CameraFile
@@ -100,10 +101,6 @@ def _moved(given: CameraFile, rng: np.random.Generator, most_m: float, most_rad:
     )
 
 
-class StopError(Exception):
-    """The demonstration is not wanted any more."""
-
-
 def demonstration(
     task: Task,
     seed: int,
@@ -117,12 +114,12 @@ def demonstration(
     The robot does exactly what the plan says, so its joints are the plan's; nothing is corrected.
 
     Raises:
-        StopError: it was stopped.
+        StoppedError: it was stopped.
     """
     varied = Variation.of(task, seed, has_wrists=has_wrists)
     plan = make_plan(varied.task, should_stop=should_stop)
     if should_stop():
-        raise StopError
+        raise StoppedError
     if not plan.is_solved:
         return None
     trace, pattern = _performed(plan, varied, seed, should_stop, resolution)
@@ -137,7 +134,7 @@ def _performed(
     def begun(film: Callable[[], None]) -> PhysicsWorld:
         def tick() -> None:
             if should_stop():
-                raise StopError
+                raise StoppedError
             film()
 
         fine = resolution or Resolution.of(plan.garment.pattern.area)

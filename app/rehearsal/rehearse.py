@@ -15,22 +15,16 @@ from app.rehearsal.noise import NOISE, Noise
 from app.rehearsal.physics.fabric import Fabric, Resolution
 from app.rehearsal.result import RehearsalResult, Run
 from app.worker.process import Caller
+from app.worker.stop import StoppedError
 from app.worker.workers import Team
-from planner.errors import FoldingError, RequestError, UnsolvedPlanError
+from planner.errors import RequestError, UnsolvedPlanError
 from planner.geometry.pose import Pose2
 from planner.task.plan import Plan
 from planner.task.task import Task
 
 RUNS_MAX = 1000
 _LOOK_S = 0.2
-"""The interval at which a rehearsal looks for progress and for its cancellation (s)."""
-
-
-class CancelledError(FoldingError):
-    """A rehearsal was cancelled before its end."""
-
-    def __str__(self) -> str:
-        return "the rehearsal was cancelled"
+"""The interval at which a rehearsal looks for progress (s)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,7 +70,6 @@ def rehearse(
     plan: Plan,
     options: RehearsalOptions,
     progress: Callable[[float], None] = lambda _: None,
-    is_cancelled: Callable[[], bool] = lambda: False,
 ) -> RehearsalResult:
     """Perform a plan in simulated worlds, and judge each step; the same options give the same result.
 
@@ -84,12 +77,10 @@ def rehearse(
         plan: a solved plan.
         options: how often, and in what worlds.
         progress: told the fraction that is done, now and then.
-        is_cancelled: asked now and then whether to stop.
 
     Raises:
         UnsolvedPlanError: the plan has no steps to rehearse.
         RequestError: MuJoCo or OpenCV is not installed.
-        CancelledError: it was cancelled.
     """
     if plan.trajectory is None:
         raise UnsolvedPlanError(plan.status)
@@ -97,10 +88,10 @@ def rehearse(
     seeds = range(options.seed, options.seed + options.runs)
     workers = min(options.runs, options.workers or min(2, os.cpu_count() or 1))
     if workers > 1:
-        return RehearsalResult(_side_by_side(plan, options, seeds, workers, progress, is_cancelled))
+        return RehearsalResult(_side_by_side(plan, options, seeds, workers, progress))
     runs: list[Run] = []
     for seed in seeds:
-        runs.append(one_run(plan, options, seed, _share(progress, len(runs), options.runs), is_cancelled))
+        runs.append(one_run(plan, options, seed, _share(progress, len(runs), options.runs)))
     return RehearsalResult(tuple(runs))
 
 
@@ -109,9 +100,9 @@ def one_run(
     options: RehearsalOptions,
     seed: int,
     progress: Callable[[float], None],
-    is_cancelled: Callable[[], bool],
+    should_stop: Callable[[], bool] = lambda: False,
 ) -> Run:
-    """Perform a plan once."""
+    """Perform a plan once; raise `StoppedError` once it should stop."""
     # Here: they need MuJoCo and the whole planner, which a server that only passes rehearsals on does not load.
     from app.rehearsal.camera_world import CameraWorld
     from app.rehearsal.filmed_world import FilmedWorld, Tick
@@ -129,17 +120,17 @@ def one_run(
 
     def begun(film: Tick) -> PhysicsWorld:
         def tick() -> None:
-            if is_cancelled():
-                raise CancelledError
+            if should_stop():
+                raise StoppedError
             film()
 
         return PhysicsWorld(plan.task, fabric, resolution, seed, placement, tick)
 
     def planned_again(task: Task) -> Plan:
         world.end()
-        again = make_plan(task, should_stop=is_cancelled)
-        if is_cancelled():
-            raise CancelledError
+        again = make_plan(task, should_stop=should_stop)
+        if should_stop():
+            raise StoppedError
         return again
 
     told = _rising(progress)
@@ -202,7 +193,6 @@ def _side_by_side(
     seeds: range,
     workers: int,
     progress: Callable[[float], None],
-    is_cancelled: Callable[[], bool],
 ) -> tuple[Run, ...]:
     shares = [0.0] * len(seeds)
     with Team(workers) as team:
@@ -216,6 +206,4 @@ def _side_by_side(
             progress(sum(shares) / len(seeds))
             for one in ended:
                 one.result()
-            if is_cancelled():
-                raise CancelledError
         return tuple(one.result() for one in runs)

@@ -11,7 +11,7 @@ class StoppedError(FoldingError):
     """The work was stopped."""
 
     def __str__(self) -> str:
-        return "the search was stopped"
+        return "the work was stopped"
 
 
 class Stop:

@@ -17,10 +17,10 @@ from app.cli import demonstrate as command
 from app.demonstrations import demonstrate as demonstrations
 from app.demonstrations.dataset import DemonstrationDataset
 from app.demonstrations.demonstrate import demonstrate
-from app.demonstrations.episode import PLACE_M, TURN_RAD, StopError, Variation, demonstration
+from app.demonstrations.episode import PLACE_M, TURN_RAD, Variation, demonstration
 from app.files import lerobot_dataset
 from app.files.lerobot_dataset import CAMERAS, FPS, Episode, Pictures, picture_stats
-from app.worker.stop import Stop
+from app.worker.stop import Stop, StoppedError
 from app.worker.workers import Workers
 from planner import Task
 from planner.errors import RequestError
@@ -77,7 +77,7 @@ def test_a_demonstration_has_a_picture_of_each_camera_and_a_state_for_each_frame
 
 def test_what_does_not_hold_is_no_demonstration() -> None:
     assert demonstration(task(), 1, lambda: False, COARSER) is None, "rows 5 cm apart do not fold on the line"
-    with pytest.raises(StopError):
+    with pytest.raises(StoppedError):
         demonstration(task(), 1, lambda: True, COARSE)
 
 

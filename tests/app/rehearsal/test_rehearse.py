@@ -6,10 +6,11 @@ import pytest
 
 from app.rehearsal.physics.fabric import Fabric, Resolution
 from app.rehearsal.physics.physics_world import PhysicsWorld
-from app.rehearsal.rehearse import CancelledError, RehearsalOptions, rehearse
+from app.rehearsal.rehearse import RehearsalOptions, one_run, rehearse
 from app.rehearsal.result import RehearsalResult, Run, success_bounds
 from app.rehearsal.step_motions import step_motions
 from app.rehearsal.world import GripMotion
+from app.worker.stop import StoppedError
 from planner import Task
 from planner.errors import RequestError, UnsolvedPlanError
 from tests.app.rehearsal.towel import COARSE, COARSER, towel_plan, verdict_on
@@ -83,18 +84,18 @@ def test_a_garment_is_simulated_as_finely_as_suits_its_size(monkeypatch: pytest.
 
     def noted(_self: PhysicsWorld, _task: Task, _fabric: Fabric, resolution: Resolution, *_rest: object) -> None:
         taken.append(resolution)
-        raise CancelledError
+        raise StoppedError
 
     monkeypatch.setattr(PhysicsWorld, "__init__", noted)
     for options in (RehearsalOptions(), RehearsalOptions(resolution=COARSE)):
-        with pytest.raises(CancelledError):
+        with pytest.raises(StoppedError):
             rehearse(towel_plan(), options)
     assert taken == [Resolution.of(0.12), COARSE]
 
 
-def test_a_rehearsal_that_is_cancelled_stops() -> None:
-    with pytest.raises(CancelledError):
-        rehearse(towel_plan(), RehearsalOptions(resolution=COARSE), is_cancelled=lambda: True)
+def test_a_run_that_should_stop_stops() -> None:
+    with pytest.raises(StoppedError):
+        one_run(towel_plan(), RehearsalOptions(resolution=COARSE), 0, lambda _: None, should_stop=lambda: True)
 
 
 def test_what_has_no_plan_cannot_be_rehearsed() -> None:
