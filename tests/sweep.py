@@ -5,7 +5,7 @@ from collections.abc import Collection, Iterable
 import pytest
 
 QUICK_ARTICLES = ("skirt", "letter-towel")
-"""Shipped articles that between them are dragged, folded by one hand and by two, and folded back while held."""
+"""Shipped garments that between them are dragged, folded by one hand and by two, and folded back while held."""
 
 
 def sweep(name: str, cases: Iterable[str], quick: Collection[str] = QUICK_ARTICLES) -> pytest.MarkDecorator:

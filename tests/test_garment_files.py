@@ -15,7 +15,7 @@ FILES = sorted((Path(__file__).parent.parent / "garments").glob("*.json"))
 FIELDS = {"name", "title", "outline", "areal_density_kg_m2", "folds", "grip_radius_m", "placement"}
 FOLD_FIELDS = {"name", "kind", "start", "end", "grip_radius_m"}
 
-# Folds of each article in Table 1 of the paper.
+# Folds of each garment in Table 1 of the paper.
 FOLD_COUNTS = {
     "t-shirt": 5,
     "jeans": 2,
@@ -46,7 +46,7 @@ def read(path: Path) -> dict[str, Any]:
 
 
 def outline_on_table(garment: dict[str, Any]) -> Polygon:
-    """Return the outline in the table frame: turned about the article's origin, then moved to the placement."""
+    """Return the outline in the table frame: turned about the garment's origin, then moved to the placement."""
     placed = garment["placement"]
     turned = rotate(Polygon(garment["outline"]), placed["yaw_rad"], origin=(0, 0), use_radians=True)
     return translate(turned, placed["x_m"], placed["y_m"])
@@ -80,7 +80,7 @@ def mirrored(shape: Polygon, fold: dict[str, Any]) -> Polygon:
     return translate(rotate(flipped, angle, origin=(0, 0)), ax, ay)
 
 
-def test_the_nine_articles_are_shipped_with_as_many_folds_as_in_the_paper() -> None:
+def test_the_nine_garments_are_shipped_with_as_many_folds_as_in_the_paper() -> None:
     counts = {path.stem: len(read(path)["folds"]) for path in FILES}
     assert {name: counts.get(name) for name in FOLD_COUNTS} == FOLD_COUNTS
 
@@ -144,7 +144,7 @@ def test_folds_right_across_the_cloth_end_on_the_silhouette_of_their_turn(name: 
 
 
 @each_garment
-def test_an_article_lies_on_the_table_with_its_near_edge_at_the_front(path: Path) -> None:
+def test_a_garment_lies_on_the_table_with_its_near_edge_at_the_front(path: Path) -> None:
     garment = read(path)
     cloth = outline_on_table(garment)
     assert TABLE.contains(cloth)
@@ -154,7 +154,7 @@ def test_an_article_lies_on_the_table_with_its_near_edge_at_the_front(path: Path
 
 
 @each_garment
-def test_an_article_is_turned_with_its_top_away_from_the_front_unless_it_folds_better_otherwise(path: Path) -> None:
+def test_a_garment_is_turned_with_its_top_away_from_the_front_unless_it_folds_better_otherwise(path: Path) -> None:
     garment = read(path)
     expected = TURNED_RAD.get(garment["name"], -math.pi / 2)
     assert garment["placement"]["yaw_rad"] == pytest.approx(expected)

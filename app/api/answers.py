@@ -82,7 +82,7 @@ class RobotTaken(RobotEntry):
 
 
 class LayerAnswer(BaseModel):
-    """A layer of the folded cloth, article frame (m)."""
+    """A layer of the folded cloth, garment frame (m)."""
 
     polygon: list[Point]
     face: Literal["front", "back"]
@@ -222,7 +222,7 @@ class PlanAnswer(BaseModel):
 
 
 class PictureAnswer(BaseModel):
-    """Cloth and base between two steps, from above: layers in the article frame (m), bottom to top."""
+    """Cloth and base between two steps, from above: layers in the garment frame (m), bottom to top."""
 
     layers: list[LayerAnswer]
     placement: Pose2

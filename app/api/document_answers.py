@@ -142,7 +142,7 @@ class QuickFixesAnswer(BaseModel):
 
 
 class PlaceAnswer(BaseModel):
-    """A placement, as a displacement of the garment (article frame, m), and the cost of the plan there (s)."""
+    """A placement, as a displacement of the garment (garment frame, m), and the cost of the plan there (s)."""
 
     move: Point
     placement: Pose2

@@ -174,7 +174,7 @@ def _figures(answer: VersionPlan) -> dict[str, Any]:
 
 
 def _planned_grips(state: DocumentState) -> dict[int, tuple[Point2, ...]]:
-    """Return the grips of each fold that the plan of this version makes, article frame as it lies before the fold."""
+    """Return the grips of each fold that the plan of this version makes, garment frame as it lies before the fold."""
     if state.answer is None or not state.is_answered:
         return {}
     steps = state.answer.plan.steps

@@ -118,7 +118,7 @@ STREAM = event_stream(
 
 
 class CellAnswer(BaseModel):
-    """A placement of the article frame (m), and the cost of the plan there (s); null: there is no plan."""
+    """A placement of the garment frame (m), and the cost of the plan there (s); null: there is no plan."""
 
     x_m: float
     y_m: float

@@ -58,7 +58,7 @@ class Corner:
 
     Attributes:
         id: the corner's id in this drawing.
-        point: its position, article frame (m).
+        point: its position, garment frame (m).
         curve: the curve of the edge to the next corner; None where that is straight.
     """
 
@@ -131,7 +131,7 @@ class End:
     """An end of a fold.
 
     Attributes:
-        point: its position, article frame, on the cloth as the fold finds it (m).
+        point: its position, garment frame, on the cloth as the fold finds it (m).
         tie: its tie; None for an end just drawn, or if no tie can be found.
     """
 
@@ -187,7 +187,7 @@ class Drawing:
         areal_density_kg_m2: the cloth's mass per area (kg/m2).
         grip_radius_m: the radius of cloth that one grip holds, unless a fold has its own (m).
         folds: the folds in the user's order.
-        placement: the article frame in the table frame.
+        placement: the garment frame in the table frame.
         scene: table, stations and costs.
         start_station: the station at which the robot starts; may be missing from the scene.
         comfort_radius_m: the comfort radius (m).

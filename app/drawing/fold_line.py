@@ -33,7 +33,7 @@ class FoundLine:
 
     Attributes:
         crease: the fold with its current ends and ties.
-        line: its line, article frame.
+        line: its line, garment frame.
         folded: the result of folding.
     """
 

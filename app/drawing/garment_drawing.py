@@ -43,7 +43,7 @@ def drawing_of(garment: Garment, scene: Scene | None = None, robot: str = DEFAUL
 
 
 def blank_drawing() -> Drawing:
-    """Return a drawing without outline or folds, with the article frame's origin in the middle of the table."""
+    """Return a drawing without outline or folds, with the garment frame's origin in the middle of the table."""
     return Drawing(
         name="untitled",
         title="Untitled",

@@ -37,7 +37,7 @@ class PlacedCrease:
     Attributes:
         start: its first end; the cloth to the left of start -> end moves.
         end: its second end.
-        line: the segment from start to end, article frame.
+        line: the segment from start to end, garment frame.
         folded: the result of folding.
     """
 
@@ -63,7 +63,7 @@ def grab_and_drop(solution: Solution, after: int | None, grabbed: Point2, droppe
     Args:
         solution: the solved drawing.
         after: the number of its folds done before; None for all.
-        grabbed: the point, article frame, on the cloth after those folds (m).
+        grabbed: the point, garment frame, on the cloth after those folds (m).
         dropped: its target (m).
         kind: the fold's kind.
 

@@ -17,8 +17,8 @@ class Problem:
         field: the field at fault, as in ``outline[3]`` or ``folds[0].start``.
         message: the problem in words, with numbers and units.
         fold: the fold's index, or None.
-        points: the points to mark, article frame (m).
-        lines: the lines to mark (an edge, a fold's line), article frame (m).
+        points: the points to mark, garment frame (m).
+        lines: the lines to mark (an edge, a fold's line), garment frame (m).
         says: the message as data, if it has numbers.
     """
 

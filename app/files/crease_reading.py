@@ -41,7 +41,7 @@ class ReadCreases:
     """The fold lines of a drawing, read with one of the two meanings.
 
     Attributes:
-        folds: all folds, article frame; the legal ones lie on the cloth, the others stay as drawn.
+        folds: all folds, garment frame; the legal ones lie on the cloth, the others stay as drawn.
         legal: the number of legal folds, up to the first illegal one.
         cut_m: by fold index, the length cut off or added to the line (m), if it is more than a little.
         problem: the problem of the first illegal fold; None if all are legal.

@@ -33,7 +33,7 @@ class FoldMesh:
     """Faces and vertices, and their positions at each step; step 0 is the cloth spread out.
 
     Attributes:
-        places: the position of each vertex, shape (steps, vertices, 2), article frame (m).
+        places: the position of each vertex, shape (steps, vertices, 2), garment frame (m).
         faces: the vertices of each face, counter-clockwise in the pattern.
         layers: for each step the layer of each face, as its index in the stack from the bottom.
         is_turned: for each step whether each face shows its back.
@@ -143,7 +143,7 @@ _Edges = dict[tuple[int, int], tuple[int, ...]]
 def fold_format(
     garment: Garment, cloths: Sequence[ClothState], should_stop: ShouldStop = lambda: False
 ) -> dict[str, Any]:
-    """Return a garment and its folding as a FOLD file, lengths in m in the article frame.
+    """Return a garment and its folding as a FOLD file, lengths in m in the garment frame.
 
     Args:
         garment: the garment.

@@ -1,6 +1,6 @@
 """Writes a garment as SVG: lengths in cm, outline and folds as lines, to be read again without loss.
 
-Arrows show the direction of a fold; the cloth to its left moves. The drawing's coordinates are the article frame's in
+Arrows show the direction of a fold; the cloth to its left moves. The drawing's coordinates are the garment frame's in
 centimetres, with y down.
 """
 

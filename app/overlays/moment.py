@@ -7,7 +7,7 @@ import numpy as np
 
 from app.document_state import DocumentState
 from planner.cloth.cloth_state import ClothState
-from planner.cloth.g_state import TableInArticle
+from planner.cloth.g_state import TableInGarment
 from planner.errors import FoldingError, RequestError
 from planner.geometry.pose import FloatArray, Pose2, wrapped_angle
 from planner.geometry.tolerance import EDGE_RAD, LENGTH_M, TIME_S
@@ -32,7 +32,7 @@ class Moment:
         base: the base in the table frame.
         station: the base's station; None while it drives.
         back_off_m: its standoff from the station (m).
-        placement: the article frame in the table frame.
+        placement: the garment frame in the table frame.
         cloth: the stack as it lies there.
         done: the folds done, in the user's order.
         plan: the plan; None for the garment as drawn.
@@ -54,22 +54,22 @@ class Moment:
     reason: Reason | None = None
 
     @cached_property
-    def table(self) -> TableInArticle:
-        """The table top in the article frame."""
-        return TableInArticle.seen_from(self.placement, self.scene.table)
+    def table(self) -> TableInGarment:
+        """The table top in the garment frame."""
+        return TableInGarment.seen_from(self.placement, self.scene.table)
 
     @property
-    def base_in_article(self) -> Pose2:
-        """The base in the article frame."""
-        return self.in_article(self.base)
+    def base_in_garment(self) -> Pose2:
+        """The base in the garment frame."""
+        return self.in_garment(self.base)
 
-    def in_article(self, pose: Pose2) -> Pose2:
-        """Return a pose of the table frame in the article frame."""
+    def in_garment(self, pose: Pose2) -> Pose2:
+        """Return a pose of the table frame in the garment frame."""
         x, y = self.placement.to_inner(np.array([pose.x_m, pose.y_m]))
         return Pose2(float(x), float(y), pose.yaw_rad - self.placement.yaw_rad)
 
-    def to_article(self, points: FloatArray) -> FloatArray:
-        """Return points of the table frame, shape (..., 2) or (..., 3), in the article frame."""
+    def to_garment(self, points: FloatArray) -> FloatArray:
+        """Return points of the table frame, shape (..., 2) or (..., 3), in the garment frame."""
         return self.placement.to_inner(points)
 
 

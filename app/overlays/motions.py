@@ -41,7 +41,7 @@ class PathGripAnswer(BaseModel):
 
 
 class PathsAnswer(BaseModel):
-    """The hands' paths of a primitive, in the article frame as the garment lies when the primitive begins."""
+    """The hands' paths of a primitive, in the garment frame as the garment lies when the primitive begins."""
 
     primitive: int
     kind: str
@@ -50,7 +50,7 @@ class PathsAnswer(BaseModel):
 
 
 def base_overlay(moment: Moment) -> BaseWayAnswer | None:
-    """Return the base's path over all steps, article frame; None without a plan."""
+    """Return the base's path over all steps, garment frame; None without a plan."""
     if moment.plan is None or moment.frame is None:
         return None
     parts = [_base_points(moment.plan, number) for number in range(len(moment.plan.steps))]
@@ -58,7 +58,7 @@ def base_overlay(moment: Moment) -> BaseWayAnswer | None:
     passed = _without_stops(np.concatenate(parts[: moment.frame.primitive + 1]))
     first = len(_without_stops(np.concatenate(parts[: moment.frame.primitive]))) if moment.frame.primitive else 1
     return BaseWayAnswer(
-        way=moment.to_article(way).tolist(),
+        way=moment.to_garment(way).tolist(),
         stands=[_stand(moment, number, step) for number, step in enumerate(moment.plan.steps)],
         gone=_gone(passed, first, np.array([moment.base.x_m, moment.base.y_m])),
     )
@@ -105,7 +105,7 @@ def _gone(passed: FloatArray, first: int, base: FloatArray) -> int:
 
 def _stand(moment: Moment, number: int, step: PlanStep) -> StandAnswer:
     pose = step.base.pose
-    x, y = moment.to_article(np.array([pose.x_m, pose.y_m]))
+    x, y = moment.to_garment(np.array([pose.x_m, pose.y_m]))
     yaw_rad = wrapped_angle(pose.yaw_rad - moment.placement.yaw_rad)
     return StandAnswer(primitive=number, point=(float(x), float(y)), yaw_rad=yaw_rad)
 
@@ -131,7 +131,7 @@ def _grips(plan: Plan, number: int) -> list[PathGripAnswer]:
 
 
 def _plane(placement: Pose2, point: Sequence[float]) -> Point2:
-    """Return a point of the table frame in the article frame, seen from above."""
+    """Return a point of the table frame in the garment frame, seen from above."""
     x, y, *_ = placement.to_inner(np.array(point)).tolist()
     return x, y
 

@@ -43,7 +43,7 @@ class ReachAnswer(BaseModel):
 
 
 class OverlaysAnswer(BaseModel):
-    """The overlays at one moment, in the article frame as the garment lies then."""
+    """The overlays at one moment, in the garment frame as the garment lies then."""
 
     version: int
     plan_version: int | None
@@ -62,7 +62,7 @@ class OverlaysAnswer(BaseModel):
 
 
 def overlays(state: DocumentState, moment: Moment, shown: Collection[str]) -> OverlaysAnswer:
-    """Return the overlays at a moment, in the article frame; those not in `shown` are None."""
+    """Return the overlays at a moment, in the garment frame; those not in `shown` are None."""
     frame = moment.frame
     is_in_order = moment.done == tuple(range(len(moment.done)))
     made = {name: make(moment) if name in shown else None for name, make in OVERLAYS.items()}
@@ -81,7 +81,7 @@ def overlays(state: DocumentState, moment: Moment, shown: Collection[str]) -> Ov
 
 
 def _robot(moment: Moment) -> RobotAnswer:
-    card, base = load_robot(moment.robot).card, moment.base_in_article
+    card, base = load_robot(moment.robot).card, moment.base_in_garment
     length, width = card.base_size_m
     corners = np.array([(-length, -width), (length, -width), (length, width), (-length, width)]) / 2.0
     return RobotAnswer(
@@ -95,8 +95,8 @@ def _robot(moment: Moment) -> RobotAnswer:
 
 def _reach(moment: Moment) -> list[ReachAnswer]:
     """Return for each arm the region where it can take cloth on the table, with and without the comfort radius."""
-    scene, base = moment.scene, moment.base_in_article
-    to_article = Isometry.rotation(base.yaw_rad, base.x_m, base.y_m)
+    scene, base = moment.scene, moment.base_in_garment
+    to_garment = Isometry.rotation(base.yaw_rad, base.x_m, base.y_m)
     ask = partial(reach_regions, load_robot(moment.robot), scene.torso_m, table_height_m=scene.table.height_m)
     with ThreadPoolExecutor() as both:  # uncached it takes long, mostly outside the interpreter
         with_comfort, bare = both.map(ask, (moment.comfort_m, 0.0))
@@ -104,20 +104,20 @@ def _reach(moment: Moment) -> list[ReachAnswer]:
         ReachAnswer(
             arm=arm.name,
             comfort_m=moment.comfort_m,
-            regions=_on_table(moment, with_comfort[number], to_article),
-            bare=_on_table(moment, bare[number], to_article),
+            regions=_on_table(moment, with_comfort[number], to_garment),
+            bare=_on_table(moment, bare[number], to_garment),
         )
         for number, arm in enumerate(load_robot(moment.robot).card.arms)
     ]
 
 
-def _on_table(moment: Moment, region: Region, to_article: Isometry) -> list[RegionAnswer]:
-    """Return the part of a region of the base frame that lies on the table, article frame.
+def _on_table(moment: Moment, region: Region, to_garment: Isometry) -> list[RegionAnswer]:
+    """Return the part of a region of the base frame that lies on the table, garment frame.
 
     Close to the base, single orientations reach in between the limits of others. This leaves a fringe of teeth along
     the table's edge, which is useless and left out.
     """
-    even = region.evened(NOTCH_M, FRINGE_M).moved(to_article)
+    even = region.evened(NOTCH_M, FRINGE_M).moved(to_garment)
     return [RegionAnswer.of(part) for part in even.intersection(moment.table.region).pieces]
 
 

@@ -91,15 +91,15 @@ class ShortfallAnswer(BaseModel):
 
 
 def shortfall_overlay(moment: Moment) -> ShortfallAnswer | None:
-    """Return the reach near the point of the moment's reason, article frame; None if it is not about reach."""
+    """Return the reach near the point of the moment's reason, garment frame; None if it is not about reach."""
     reason = moment.reason
     lack = None if reason is None else _lack(moment, reason)
     if reason is None or lack is None:
         return None
     robot = load_robot(moment.robot)
     near = near_reach(robot, moment.scene.torso_m, moment.comfort_m, lack)
-    base = moment.in_article(lack.base)
-    to_article = Isometry.rotation(base.yaw_rad, base.x_m, base.y_m)
+    base = moment.in_garment(lack.base)
+    to_garment = Isometry.rotation(base.yaw_rad, base.x_m, base.y_m)
     x, y = base.to_outer(np.array(lack.seen[:2]))
     return ShortfallAnswer(
         fold=reason.fold,
@@ -111,7 +111,7 @@ def shortfall_overlay(moment: Moment) -> ShortfallAnswer | None:
         heading_rad=lack.approach.heading_rad,
         pitch_rad=lack.approach.pitch_rad,
         radius_m=lack.radius_m,
-        beyond=[RegionAnswer.of(part) for part in near.beyond.moved(to_article).pieces],
+        beyond=[RegionAnswer.of(part) for part in near.beyond.moved(to_garment).pieces],
         edge=[base.to_outer(line).tolist() for line in near.edge],
     )
 

@@ -79,7 +79,7 @@ class SlipAnswer(BaseModel):
 
 
 def slip_overlay(moment: Moment) -> SlipAnswer:
-    """Return how far the cloth may hang over each edge and the area hanging now, article frame."""
+    """Return how far the cloth may hang over each edge and the area hanging now, garment frame."""
     cloth, friction = CutCloth.of(moment.cloth), moment.scene.friction
     edges = dict(zip(EDGE_NAMES, moment.table.edges, strict=True))
     hanging = {name: cloth.area_beyond(edge) for name, edge in edges.items()}

@@ -105,13 +105,13 @@ class Slide:
 
 
 def carry(start: Pose2, end: Pose2) -> Isometry:
-    """Return the isometry that carries an article from one placement to another, table frame."""
+    """Return the isometry that carries a garment from one placement to another, table frame."""
     to, back = (Isometry.rotation(pose.yaw_rad, pose.x_m, pose.y_m) for pose in (end, start))
     return to.after(back.inverse)
 
 
 def carried_pose(placement: Pose2, carried: Isometry) -> Pose2:
-    """Return the placement of an article that was carried elsewhere by an isometry."""
+    """Return the placement of a garment that was carried elsewhere by an isometry."""
     x, y = carried.apply_point((placement.x_m, placement.y_m))
     return Pose2(x, y, placement.yaw_rad + math.atan2(carried.c, carried.a))
 

@@ -18,7 +18,7 @@ class Noise:
         base_rad: its heading (rad).
         arm_m: a tool's position, each axis in the plane (m); in a step in which a hand closes the same all the way.
         miss: the probability that fingers close beside cloth that is there.
-        placement_m: where the article lies at the start (m).
+        placement_m: where the garment lies at the start (m).
         placement_rad: how it is turned at the start (rad).
         camera_m: how far the camera is from where it is believed to be, each axis in the plane, all run long (m).
         friction: the relative error of the friction coefficient.

@@ -23,7 +23,7 @@ def planned_positions(
         sequence: the garment's folds.
         pattern: the points in the pattern's frame, shape (n, 2), m.
         done: the folds done, as a bit mask.
-        placement: the article frame in the table frame.
+        placement: the garment frame in the table frame.
         table: the table, beyond whose edges cloth hangs.
         gap_m: the height of a layer above the one below (m).
     """

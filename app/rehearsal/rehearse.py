@@ -36,7 +36,7 @@ class RehearsalOptions:
         seed: the seed of the first run; each run after it has the next.
         noise: the name of the noise, one of `NOISE`.
         feedback: whether the robot looks before each step and corrects it.
-        resolution: how finely the world is simulated; None as finely as suits the article's size.
+        resolution: how finely the world is simulated; None as finely as suits the garment's size.
         gate: what counts as held.
         workers: processes at most; None for two, or one on a machine with one core.
         traced: the number of the first runs of which a trace is kept.

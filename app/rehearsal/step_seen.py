@@ -76,6 +76,6 @@ class StepSeen:
         return to_table.after(over).after(to_table.inverse)
 
     def to_table(self, vector: Point2) -> Point2:
-        """Return a vector of the article frame in the table frame, as the cloth lies."""
+        """Return a vector of the garment frame in the table frame, as the cloth lies."""
         yaw_rad = self.step.before.placement.yaw_rad + math.atan2(self.carried.c, self.carried.a)
         return Isometry.rotation(yaw_rad).apply_point(vector)

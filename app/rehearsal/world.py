@@ -104,17 +104,17 @@ class StepMotion:
 
     @property
     def is_drag(self) -> bool:
-        """Whether the article as a whole is moved over the table."""
+        """Whether the garment as a whole is moved over the table."""
         return step_kind(self.kind).moves == "cloth"
 
     @property
     def is_fold(self) -> bool:
-        """Whether a part of the article is turned over."""
+        """Whether a part of the garment is turned over."""
         return step_kind(self.kind).moves == "part"
 
     @property
     def is_pulled(self) -> bool:
-        """Whether the article follows the base as it drives."""
+        """Whether the garment follows the base as it drives."""
         return step_kind(self.kind).is_pulled
 
 

@@ -14,7 +14,7 @@ from planner.geometry.pose import Point2
 
 @dataclass(frozen=True, slots=True)
 class PictureFold:
-    """A fold line, article frame (m)."""
+    """A fold line, garment frame (m)."""
 
     kind: str
     start: Point2
@@ -26,7 +26,7 @@ class Picture:
     """The thumbnail of a drawing.
 
     Attributes:
-        outline: the polygon that stands for the outline, article frame (m).
+        outline: the polygon that stands for the outline, garment frame (m).
         folds: the fold lines in the user's order.
     """
 

@@ -25,9 +25,9 @@ class Cut:
     """A pattern made from measures.
 
     Attributes:
-        outline: the pattern's corners, article frame (m).
+        outline: the pattern's corners, garment frame (m).
         folds: the folds in their order.
-        placement: the article frame in the table frame.
+        placement: the garment frame in the table frame.
     """
 
     outline: tuple[Point2, ...]

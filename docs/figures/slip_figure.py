@@ -6,14 +6,14 @@ import numpy as np
 
 from docs.figures.drawing import BACK, BLUE, EDGE, FAINT, FRONT, INK, NONE, RED, TABLE, Drawing, Style, View
 from planner.cloth.cloth_state import ClothState
-from planner.cloth.g_state import TableInArticle, unrest
+from planner.cloth.g_state import TableInGarment, unrest
 from planner.geometry.pose import Point2, Pose2
 from planner.geometry.region import Region
 from planner.geometry.table import Table
 
 _HERE = Pose2(0.0, 0.0, 0.0)
 _TABLE = Table()
-_TOP = TableInArticle.seen_from(_HERE, _TABLE)
+_TOP = TableInGarment.seen_from(_HERE, _TABLE)
 _LENGTH_M = 1.0
 _FRICTIONS = np.linspace(0.0, 4.0, 41)
 _MARKED = (0.5, 1.0, 4.0)

@@ -15,7 +15,7 @@ _SPREAD_OUT_KEPT = 16
 
 
 class ClothState:
-    """A stack of layers in the article frame; never changed after it is made.
+    """A stack of layers in the garment frame; never changed after it is made.
 
     Attributes:
         layers: from bottom to top.
@@ -37,7 +37,7 @@ class ClothState:
 
     @cached_property
     def silhouette(self) -> Region:
-        """The region that the whole stack covers, article frame."""
+        """The region that the whole stack covers, garment frame."""
         return Region.union(layer.region for layer in self.layers)
 
     @property

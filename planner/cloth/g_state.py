@@ -1,6 +1,6 @@
 """The test for a g-state (paper, section 4): cloth that stays as it is when left alone on the table.
 
-All computations are in the article frame: moving the table's rectangle there is one cheap operation, moving a
+All computations are in the garment frame: moving the table's rectangle there is one cheap operation, moving a
 stack of layers to the table is not.
 """
 
@@ -33,7 +33,7 @@ class Unrest:
         says: what would move, with the numbers.
         severity: the distance from rest: how far the cloth would have to be moved (m), 1 if that is unknown; for cloth
             that slips, how much the friction coefficient falls short.
-        point: where it would move, article frame (m); None if that is no single place.
+        point: where it would move, garment frame (m); None if that is no single place.
         needed_friction: for cloth that slips, the friction coefficient that would hold it.
     """
 
@@ -50,8 +50,8 @@ class Unrest:
 
 
 @dataclass(frozen=True, eq=False)
-class TableInArticle:
-    """The table top seen from the article frame.
+class TableInGarment:
+    """The table top seen from the garment frame.
 
     Attributes:
         table: the table.
@@ -62,9 +62,9 @@ class TableInArticle:
     corners: FloatArray
 
     @staticmethod
-    def seen_from(placement: Pose2, table: Table) -> "TableInArticle":
-        """Return the table top as seen from an article with this placement."""
-        return TableInArticle(table, placement.to_inner(np.array(table.corners)))
+    def seen_from(placement: Pose2, table: Table) -> "TableInGarment":
+        """Return the table top as seen from a garment with this placement."""
+        return TableInGarment(table, placement.to_inner(np.array(table.corners)))
 
     @cached_property
     def region(self) -> Region:
@@ -95,10 +95,10 @@ class TableInArticle:
 
 
 EDGE_NAMES = ("right", "far", "left", "near")
-"""The table's edges, in the order of `TableInArticle.edges`, as seen from the station `front`."""
+"""The table's edges, in the order of `TableInGarment.edges`, as seen from the station `front`."""
 
 
-def unrest(cloth: ClothState, top: TableInArticle, friction: float, support_angle_rad: float) -> Unrest | None:
+def unrest(cloth: ClothState, top: TableInGarment, friction: float, support_angle_rad: float) -> Unrest | None:
     """Return why the cloth, left alone, would move; None if it is in a g-state.
 
     Args:
@@ -125,7 +125,7 @@ def unrest_at(
     cloth: ClothState, placement: Pose2, table: Table, friction: float, support_angle_rad: float
 ) -> Unrest | None:
     """Return the `unrest` of a stack with a placement; cached, because garments that begin alike share stacks."""
-    return unrest(cloth, TableInArticle.seen_from(placement, table), friction, support_angle_rad)
+    return unrest(cloth, TableInGarment.seen_from(placement, table), friction, support_angle_rad)
 
 
 @dataclass(frozen=True, slots=True)
@@ -137,7 +137,7 @@ class _Hanging:
     edge: int
 
 
-def _hanging_parts(cloth: ClothState, beyond: Region, top: TableInArticle) -> Iterator[_Hanging]:
+def _hanging_parts(cloth: ClothState, beyond: Region, top: TableInGarment) -> Iterator[_Hanging]:
     """Return the hanging parts of each layer; `beyond` is the part of the silhouette beyond the table."""
     for number, layer in enumerate(cloth.layers):
         if not top.contains(layer.region):
@@ -146,7 +146,7 @@ def _hanging_parts(cloth: ClothState, beyond: Region, top: TableInArticle) -> It
                 yield _Hanging(number, part, int(top.inside(part.coordinates).max(axis=0).argmin()))
 
 
-def _covered_corner(cloth: ClothState, beyond: Region, top: TableInArticle) -> Unrest | None:
+def _covered_corner(cloth: ClothState, beyond: Region, top: TableInGarment) -> Unrest | None:
     for edge, (x, y) in zip(top.edges, top.table.corners, strict=True):
         if cloth.silhouette.contains(edge.start, margin_m=LENGTH_M):
             depth = cloth.silhouette.boundary_distance(edge.start)
@@ -179,7 +179,7 @@ def _contact(part: Region, edge: Segment) -> tuple[Segment, ...]:
     )
 
 
-def _loose_part(hanging: list[_Hanging], top: TableInArticle, support_angle_rad: float) -> Unrest | None:
+def _loose_part(hanging: list[_Hanging], top: TableInGarment, support_angle_rad: float) -> Unrest | None:
     """Return the first hanging part of a layer that nothing immobilises (Theorem 1; Figure 4, right)."""
     for hung in hanging:
         edge = top.edges[hung.edge]
@@ -193,7 +193,7 @@ def _loose_part(hanging: list[_Hanging], top: TableInArticle, support_angle_rad:
     return None
 
 
-def needed_friction(cloth: ClothState, top: TableInArticle) -> float:
+def needed_friction(cloth: ClothState, top: TableInGarment) -> float:
     """Return the least friction coefficient at which the cloth does not slip; 0 where nothing pulls at it."""
     if top.contains(cloth.silhouette):
         return 0.0
@@ -211,7 +211,7 @@ def is_held(pull_m2: float, lying_m2: float, friction: float) -> bool:
     return pull_m2 <= max(friction * lying_m2 * (1.0 + LENGTH_M), AREA_M2)
 
 
-def _slip(cloth: ClothState, parts: list[_Hanging], top: TableInArticle, friction: float) -> Unrest | None:
+def _slip(cloth: ClothState, parts: list[_Hanging], top: TableInGarment, friction: float) -> Unrest | None:
     """Return why the cloth slips: its net pull over the edges exceeds the friction of the cloth that lies."""
     hanging = _hanging_areas(parts, top)
     pull, lying = _pull(hanging, top), _lying(cloth, hanging)
@@ -223,12 +223,12 @@ def _slip(cloth: ClothState, parts: list[_Hanging], top: TableInArticle, frictio
     return Unrest("slips", worded("slips", values), needed - friction, needed_friction=needed)
 
 
-def _hanging_areas(parts: list[_Hanging], top: TableInArticle) -> list[float]:
+def _hanging_areas(parts: list[_Hanging], top: TableInGarment) -> list[float]:
     """Return the area that hangs over each edge, layers counted (m^2)."""
     return [sum(hung.part.area for hung in parts if hung.edge == edge) for edge in range(len(top.edges))]
 
 
-def _pull(hanging: list[float], top: TableInArticle) -> float:
+def _pull(hanging: list[float], top: TableInGarment) -> float:
     """Return the net pull of the cloth that hangs over the edges (m^2)."""
     return float(np.hypot(*(np.array(hanging) @ np.array([edge.left for edge in top.edges]))))
 

@@ -44,7 +44,7 @@ class DrawnFold:
     Attributes:
         name: the name that the user gave it.
         kind: its kind (`FOLD_KINDS`): "blue" folds every layer, "red" only those that the fold before it moved.
-        start: first end in the article frame (m), on the boundary of the silhouette at the time of the fold.
+        start: first end in the garment frame (m), on the boundary of the silhouette at the time of the fold.
         end: second end (m).
         grip_radius_m: the radius within which one grip holds the cloth (m).
     """
@@ -83,11 +83,11 @@ class Garment:
     Attributes:
         name: its name, also the file's.
         title: its name for people.
-        outline: the pattern's corners in the article frame (m), the first not repeated.
+        outline: the pattern's corners in the garment frame (m), the first not repeated.
         areal_density_kg_m2: the cloth's mass per area.
         folds: the folds in the user's order.
         grip_radius_m: the radius within which one grip holds the cloth, unless a fold has its own (m).
-        placement: the article frame in the table frame.
+        placement: the garment frame in the table frame.
         thickness_m: the cloth's thickness where fingers press it (m).
     """
 
@@ -146,7 +146,7 @@ class Garment:
 
     @property
     def pattern(self) -> Region:
-        """The cloth spread out, in the article frame."""
+        """The cloth spread out, in the garment frame."""
         return Region.polygon(self.outline)
 
 

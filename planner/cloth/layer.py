@@ -22,7 +22,7 @@ class Layer:
 
     Attributes:
         pattern_piece: the piece as it lay in the pattern.
-        isometry: from the pattern to where the piece lies now, article frame.
+        isometry: from the pattern to where the piece lies now, garment frame.
     """
 
     def __init__(self, pattern_piece: Region, isometry: Isometry) -> None:
@@ -31,7 +31,7 @@ class Layer:
 
     @cached_property
     def region(self) -> Region:
-        """The region that the layer covers, article frame."""
+        """The region that the layer covers, garment frame."""
         return self.pattern_piece.moved(self.isometry)
 
     @property
@@ -46,19 +46,19 @@ class Layer:
 
     @property
     def ring(self) -> FloatArray:
-        """The boundary of the folded layer, article frame, counter-clockwise, shape (n, 2), m; nothing is rounded."""
+        """The boundary of the folded layer, garment frame, counter-clockwise, shape (n, 2), m; nothing is rounded."""
         ring = self.isometry.apply(self.pattern_piece.whole_ring)
         return ring[::-1] if self.isometry.is_mirrored else ring
 
     def reflected(self, line: Segment) -> "Layer":
-        """Return the layer folded over a line of the article frame."""
+        """Return the layer folded over a line of the garment frame."""
         return Layer(self.pattern_piece, Isometry.reflection(line).after(self.isometry))
 
     def cut(self, line: Segment, moving: Region) -> tuple[tuple["Layer", ...], tuple["Layer", ...], tuple[float, ...]]:
         """Return the layer's parts inside the moving part, its other parts, and the areas of slivers (m^2).
 
         Args:
-            line: the fold line, article frame.
+            line: the fold line, garment frame.
             moving: the part of the silhouette to the left of the line.
         """
         back = self.isometry.inverse
@@ -73,11 +73,11 @@ class Layer:
         )
 
     def to_pattern(self, point: Point2) -> Point2:
-        """Return the position in the pattern of a point of the layer, article frame (m)."""
+        """Return the position in the pattern of a point of the layer, garment frame (m)."""
         return self.isometry.inverse.apply_point(point)
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the layer as JSON: its polygon in the article frame and the face that looks up."""
+        """Return the layer as JSON: its polygon in the garment frame and the face that looks up."""
         return {"polygon": [[float(x), float(y)] for x, y in self.ring], "face": self.face}
 
 

@@ -48,7 +48,7 @@ class VertexCheck:
     """A corner of the part that a fold moves.
 
     Attributes:
-        point: its position before the fold, article frame (m).
+        point: its position before the fold, garment frame (m).
         support: what holds it.
     """
 
@@ -65,7 +65,7 @@ def vertex_checks(part: Region, line: Segment, support_angle_rad: float) -> tupl
     """Return the check of every corner of the part that moves, counter-clockwise.
 
     Args:
-        part: the silhouette of the part, article frame.
+        part: the silhouette of the part, garment frame.
         line: the fold line; the part is to its left.
         support_angle_rad: the angle from straight above within which cloth counts as above (rad).
     """
@@ -103,7 +103,7 @@ class FoldCheck:
         name: the fold's name.
         kind: the fold's kind, by name.
         vertices: every corner of the part that moves, and why it must be held or need not be.
-        grips: the grips that hold what must be held, article frame (m); empty when the hands do not suffice.
+        grips: the grips that hold what must be held, garment frame (m); empty when the hands do not suffice.
         grips_needed: the number of grips; None when it exceeds the number of hands.
         reason: why the hands cannot hold it, and what would help; None if they can.
     """
@@ -122,7 +122,7 @@ class FoldCheck:
 
     @property
     def must_hold(self) -> tuple[Point2, ...]:
-        """The corners that must be held, article frame (m)."""
+        """The corners that must be held, garment frame (m)."""
         return tuple(vertex.point for vertex in self.vertices if vertex.must_be_held)
 
     def to_dict(self) -> dict[str, Any]:

@@ -221,7 +221,7 @@ def _offset_then(context: Context, obstacle: Obstacle, state: State) -> Point2:
 
 
 def _held_by(context: Context, step: Step, contact: BlockingContact | None) -> Point2 | None:
-    """Return the point that the colliding hand holds, article frame (m)."""
+    """Return the point that the colliding hand holds, garment frame (m)."""
     for grip in step.grips:
         if contact is not None and grip.arm == contact.arm:
             return point2(context.placed(step.before.offset).to_inner(np.array(grip.pick[:2])))

@@ -4,7 +4,7 @@ There are hundreds: stations, places that drags lead to, choices of grips and ar
 lacks takes a few milliseconds, a lower bound on it some microseconds. So the attempts are checked in the order of their
 bounds, and once a bound exceeds the least shortfall found, no better attempt is left.
 
-The relaxation that quickly proves that a fold is impossible lets the article lie wherever drags lead and lets the hands
+The relaxation that quickly proves that a fold is impossible lets the garment lie wherever drags lead and lets the hands
 hold whatever a drag could have left them with, whether or not the robot can make those drags. A reason must not, since
 a person would try in vain to repair it there. So a place counts only if the search reached it, or if one drag leads to
 it from the start or from a place that the search reached.
@@ -175,7 +175,7 @@ class _Candidate:
 
     @property
     def state(self) -> State:
-        """The state with the article at the place."""
+        """The state with the garment at the place."""
         return self.attempt.at(self.place)
 
 

@@ -3,7 +3,7 @@
 Blocked folds come first, each with its causes, the smallest repair first. Folds that only wait for them come last.
 Where every fold can be done, but not all of them in sequence, the blocked folds are those left when the most were done.
 
-A fold can be tried in many ways: with the article here or there, from different stations, with free hands or with what
+A fold can be tried in many ways: with the garment here or there, from different stations, with free hands or with what
 a drag has left held. In each way one or several things stand against it. A cause is something that alone stands against
 some way: once it is removed, the fold can be done. The mildest of each kind is reported. If several things stand
 against the fold in every way, those of the way that comes nearest are reported together.
@@ -71,7 +71,7 @@ def reasons(context: Context, reached: Collection[Situation], impossible: Collec
 def reason_at_start(context: Context, unrest: Unrest) -> Reason:
     """Return why there is no plan for cloth that does not stay as it lies at the start."""
     state = context.start
-    spread, top = context.sequence.cloth(state.done).silhouette, context.table_in_article(state.offset)
+    spread, top = context.sequence.cloth(state.done).silhouette, context.table_in_garment(state.offset)
     is_too_large = all(spread.contains(edge.start) for edge in top.edges)
     says = worded("at_start", {"what": unrest.says.to_dict(), "is_too_large": is_too_large})
     return of_obstacle(context, Obstacle(None, Code(unrest.code), says, unrest.severity, state, unrest.point))

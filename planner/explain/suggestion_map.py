@@ -25,7 +25,7 @@ class Cell:
     """A placement and its cost.
 
     Attributes:
-        placement: the article frame in the table frame.
+        placement: the garment frame in the table frame.
         cost_s: the cost of the plan (s); None if there is none.
     """
 

@@ -65,7 +65,7 @@ class Replay:
     Attributes:
         outline: the pattern's corners (m).
         cloths: the stack before each fold, and after the last.
-        lines: the fold lines, article frame.
+        lines: the fold lines, garment frame.
     """
 
     outline: tuple[Point2, ...]
@@ -82,7 +82,7 @@ class Replay:
 
 
 def place_of(attachment: Attachment, replay: Replay, kind: str) -> Point2 | None:
-    """Return the place of an attachment after the folds so far, article frame (m).
+    """Return the place of an attachment after the folds so far, garment frame (m).
 
     Args:
         attachment: the attachment.
@@ -108,7 +108,7 @@ def attached(place: Point2, replay: Replay, kind: str) -> Attachment | None:
     lie alike, the one moved least often is preferred.
 
     Args:
-        place: article frame, after the folds so far (m).
+        place: garment frame, after the folds so far (m).
         replay: the folds so far.
         kind: the kind of the fold whose line it is for.
 

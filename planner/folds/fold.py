@@ -16,7 +16,7 @@ class Fold:
         index: its place in the user's order.
         name: the user's name for it.
         kind: its kind, by name.
-        line: the fold line in the article frame, ends on the silhouette's boundary; its left moves.
+        line: the fold line in the garment frame, ends on the silhouette's boundary; its left moves.
         grip_radius_m: the radius within which one grip holds the cloth (m).
     """
 

@@ -40,7 +40,7 @@ def fold_cloth(cloth: ClothState, line: Segment, kind: str, crease: Segment | No
 
     Args:
         cloth: the stack before.
-        line: the fold line, article frame.
+        line: the fold line, garment frame.
         kind: the fold's kind, by name.
         crease: the line of the fold before, which joins the layers that a red fold moves to the rest; others take no
             notice of it.

@@ -107,7 +107,7 @@ def overlap_graph(folded_parts: Sequence[Region], red: Sequence[bool]) -> "nx.Di
     """Return the folds' dependencies: overlapping parts, and red folds that follow at once.
 
     Args:
-        folded_parts: for each fold the region that its part covers before and after it moves, article frame.
+        folded_parts: for each fold the region that its part covers before and after it moves, garment frame.
         red: for each fold whether it is red.
     """
     graph: nx.DiGraph[int] = nx.DiGraph()

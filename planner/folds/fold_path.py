@@ -56,7 +56,7 @@ class RestHeights:
         return self.raised_m == 0.0
 
     def at(self, points: FloatArray) -> FloatArray:
-        """Return the heights over points of the article frame, shape (n, 2) -> (n,), m."""
+        """Return the heights over points of the garment frame, shape (n, 2) -> (n,), m."""
         if self.are_even:
             return np.full(len(points), REST_HEIGHT_M)
         is_there = [layer.region.distances_to(points) <= SNAP_M for layer in self.cloth.layers]
@@ -79,7 +79,7 @@ class FoldPath:
         rising_top: the top until the apex: cloth beyond an edge that starts out held at the table's height, not
             hanging, moves as if the table continued there.
         edge_clear_m: how far outside an edge's plane a tool holds cloth that hangs there (m).
-        placement: the article frame in the table frame.
+        placement: the garment frame in the table frame.
         stacks: the heights at which tools rest before and after the fold; None where they are the same everywhere.
     """
 

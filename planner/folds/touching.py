@@ -27,7 +27,7 @@ def is_order_free(
     Args:
         pattern: the cloth spread out.
         folds: the folds in the user's order, at least up to b.
-        moving: for each the part that it moves in that order, before it moves, article frame.
+        moving: for each the part that it moves in that order, before it moves, garment frame.
         dag: the dependencies found so far.
         a: the earlier fold.
         b: the later fold, to which no path leads from a.

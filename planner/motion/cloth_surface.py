@@ -56,7 +56,7 @@ class ClothMoment(NamedTuple):
         done: the folds done, as a bit mask.
         fold: the fold in progress; None if no cloth is lifted.
         sweep: its sweep, from 0 to 2 (`FoldPath.swept`).
-        placement: the article frame in the table frame.
+        placement: the garment frame in the table frame.
         top: the table top over which cloth does not hang.
         droop: how far cloth beyond its edges has turned down: 0 level, 1 hanging.
     """
@@ -82,7 +82,7 @@ class _Pieces:
     """Flat cloth.
 
     Attributes:
-        triangles: article frame, counter-clockwise, shape (n, 3, 2), m.
+        triangles: garment frame, counter-clockwise, shape (n, 3, 2), m.
         numbers: the layer of each, shape (n,).
         is_back: whether it shows its back, shape (n,).
         to_pattern: the map of each to the pattern, shape (n, 2, 3): a matrix and what is added (m).
@@ -132,7 +132,7 @@ class _Mesh:
     """A growing mesh of cloth at one placement: flat on the table, over its edges, or standing.
 
     Attributes:
-        placement: the article frame in the table frame.
+        placement: the garment frame in the table frame.
         top: the table top over which cloth does not hang.
         droop: how far cloth beyond its edges has turned down.
         layer_m: the height of a layer (m).
@@ -231,7 +231,7 @@ class ClothSurfaces:
         mesh.erect(standing, path, sweep, lifted)
 
     def _held(self, fold: int) -> FloatArray:
-        """Return the points that are held during a fold, shape (n, 2), article frame (m)."""
+        """Return the points that are held during a fold, shape (n, 2), garment frame (m)."""
         if fold not in self._holds:
             line = self._sequence.folds[fold].line
             self._holds[fold] = must_hold(self._sequence.moving(fold), line.left, (line,), 0.0)
@@ -239,7 +239,7 @@ class ClothSurfaces:
 
 
 def placed(line: Segment, placement: Pose2) -> Segment:
-    """Return a segment of the article frame in the table frame."""
+    """Return a segment of the garment frame in the table frame."""
     start, end = placement.to_outer(np.array([line.start, line.end])).tolist()
     return Segment(tuple(start), tuple(end))
 
@@ -263,10 +263,10 @@ class ClothPoints:
             layers = [*folded.cloth.layers[:staying], *folded.layers]
         if (numbers := self._numbers.get((done, fold))) is None:
             numbers = self._numbers[done, fold] = nearest_layers(layers, self._pattern)
-        article = np.empty_like(self._pattern)
+        lying = np.empty_like(self._pattern)
         for number, layer in enumerate(layers):
-            article[numbers == number] = layer.isometry.apply(self._pattern[numbers == number])
-        unrolled = np.column_stack([placement.to_outer(article), np.zeros(len(article))])
+            lying[numbers == number] = layer.isometry.apply(self._pattern[numbers == number])
+        unrolled = np.column_stack([placement.to_outer(lying), np.zeros(len(lying))])
         heights = np.arange(len(layers))
         if fold is not None:
             line, moves = self._sequence.folds[fold].line, numbers >= staying

@@ -71,7 +71,7 @@ class LiftedCloth:
         """Return the lifted cloth of a fold.
 
         Args:
-            line: the fold line, article frame.
+            line: the fold line, garment frame.
             depth_m: the largest distance of the moving part from it (m).
             sweep: how far the fold has come (`FoldPath`).
             held: the points that are held, shape (n, 2), m.

@@ -104,7 +104,7 @@ class LyingCloths:
         context = self._context
         if context.is_all_on_table(state.done, state.offset):
             return self._whole_pieces(state.done)
-        top = context.table_in_article(state.offset).region
+        top = context.table_in_garment(state.offset).region
         return convex_pieces(context.sequence.cloth(state.done).silhouette.intersection(top))
 
     def _whole_pieces(self, done: int) -> tuple[FloatArray, ...]:

@@ -34,7 +34,7 @@ class Sample:
         joints: every actuated joint by its URDF name (rad, m for prismatic ones).
         velocities: every actuated joint's velocity just after that time (rad/s, m/s for prismatic ones).
         grippers_m: each gripper's opening by the arm's name (m).
-        placement: the article frame in the table frame.
+        placement: the garment frame in the table frame.
         cloth: the cloth.
         top: the table top over which the cloth does not hang, open where it is held out beyond an edge.
     """

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from planner.deadline import Deadline
 from planner.planning.problem import Problem
 
-# Fitted to the CPU time of 25 requests on two busy cores of 2026: the articles here and there on the table, and cloth
+# Fitted to the CPU time of 25 requests on two busy cores of 2026: the garments here and there on the table, and cloth
 # with two dozen loose folds.
 _LOOK_S, _QUERY_S, _GLANCE_S, _TRY_S, _TRANSIT_S = 3.5e-4, 4e-7, 1e-3, 1.6e-2, 2e-2
 """Work for a look at a state or at what may leave it, for a query of the exact kernel about a tool point, for a look at

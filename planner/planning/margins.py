@@ -8,7 +8,7 @@ from itertools import combinations
 
 import numpy as np
 
-from planner.cloth.g_state import TableInArticle, needed_friction
+from planner.cloth.g_state import TableInGarment, needed_friction
 from planner.geometry.pose import Approach, FloatArray
 from planner.geometry.reach_query import ReachQuery
 from planner.planning.problem import Problem
@@ -123,7 +123,7 @@ def _rest(problem: Problem, plan: Plan) -> tuple[float, float]:
     frictions, insides_m = [], []
     for world in (plan.task.start, *(step.after for step in plan.steps)):
         if not world.held:
-            cloth, top = sequence.cloth(world.done), TableInArticle.seen_from(world.placement, table)
+            cloth, top = sequence.cloth(world.done), TableInGarment.seen_from(world.placement, table)
             frictions.append(needed_friction(cloth, top))
             insides_m.append(float(top.inside(cloth.silhouette.coordinates).min()))
     return max(frictions, default=0.0), min(insides_m, default=0.0)

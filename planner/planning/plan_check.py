@@ -143,7 +143,7 @@ def _require_cloth(problem: Problem, step: PlanStep, before: State, after: State
     moved_m = math.dist((start.x_m, start.y_m), (end.x_m, end.y_m))
     dragged_m = float(step.details.get("distance_m", 0.0))
     if abs(moved_m - dragged_m) > LENGTH_M or abs(end.yaw_rad - start.yaw_rad) > ANGLE_RAD:
-        raise RequestError("after.placement", f"the article has moved by {moved_m} m, not by {dragged_m} m")
+        raise RequestError("after.placement", f"the garment has moved by {moved_m} m, not by {dragged_m} m")
 
 
 def _tools(problem: Problem, step: PlanStep, before: State, after: State) -> HeldTools | None:

@@ -33,7 +33,7 @@ class Problem:
 
     Attributes:
         task: the task.
-        context: the garment's folds, the scene, the robot's reach, where the article lies.
+        context: the garment's folds, the scene, the robot's reach, where the garment lies.
         robot: the robot.
         maker: plans the robot's transfers.
     """

@@ -68,7 +68,7 @@ def scene_filled_up(scene: Mapping[str, Any], whole: Mapping[str, Any]) -> dict[
 
 
 def default_placement(garment: Garment, robot: str = DEFAULT_ROBOT) -> Pose2:
-    """Return where an article lies at the start for a robot, table frame.
+    """Return where a garment lies at the start for a robot, table frame.
 
     It is the garment's own placement for the default robot, for whose table garments are made. For another robot the
     middle of the bounding box lies where the card says, or as near to that as leaves no edge beyond the table. It is
@@ -90,7 +90,7 @@ def default_placement(garment: Garment, robot: str = DEFAULT_ROBOT) -> Pose2:
 
 
 def near_placement(garment: Garment, table: Table, yaw_rad: float) -> Pose2:
-    """Return the placement of an article turned by an angle whose near edge lies just inside the table's (m)."""
+    """Return the placement of a garment turned by an angle whose near edge lies just inside the table's (m)."""
     turned = Pose2(0.0, 0.0, yaw_rad)
     corners = turned.to_outer(np.array(garment.outline))
     (x0, y0), (_, y1) = corners.min(axis=0).tolist(), corners.max(axis=0).tolist()
@@ -98,7 +98,7 @@ def near_placement(garment: Garment, table: Table, yaw_rad: float) -> Pose2:
 
 
 def _size(garment: Garment, turned: Pose2) -> FloatArray:
-    """Return how long and wide a turned article is (m)."""
+    """Return how long and wide a turned garment is (m)."""
     return np.asarray(np.ptp(turned.to_outer(np.array(garment.outline)), axis=0))
 
 

@@ -1,8 +1,8 @@
-"""Single-fold relaxation: decide whether a fold can be done at all, wherever the article lies and the robot stands.
+"""Single-fold relaxation: decide whether a fold can be done at all, wherever the garment lies and the robot stands.
 
 To prove that no plan exists, A* must exhaust its states, and there are many: every placement that drags can bring
 about, every standoff, every hold. But usually one fold is to blame, and it can be checked by itself with everything
-else relaxed: the article lies wherever drags could carry it, the robot stands at any station and standoff, and it holds
+else relaxed: the garment lies wherever drags could carry it, the robot stands at any station and standoff, and it holds
 whatever a drag could have left it with. If the fold cannot be done even then, no plan exists.
 
 Most of these cases do not differ in anything that matters. A drag or a standoff along the base's x axis only shifts a
@@ -101,7 +101,7 @@ class SingleFold:
         )
 
     def _is_possible_nearby(self, case: Case, fold: int) -> bool:
-        """Return whether a fold can be done from the station of the start where a few drags may bring the article.
+        """Return whether a fold can be done from the station of the start where a few drags may bring the garment.
 
         A quick check before all cases are checked.
         """
@@ -119,14 +119,14 @@ class SingleFold:
         line = self._context.sequence.folds[fold].line
         moves = Pose2(0.0, 0.0, self._context.placement.yaw_rad).to_inner(self._offsets)
         lines = np.array([line.start, line.end]) + moves[:, None]
-        return np.asarray(self._offsets[self._context.table_in_article(UNDRAGGED).region.touches(lines)])
+        return np.asarray(self._offsets[self._context.table_in_garment(UNDRAGGED).region.touches(lines)])
 
     def _note_lines_off(self, fold: int, sets: tuple[int, ...]) -> None:
         """Note the place at which a fold line that is never on the table is nearest to it."""
         context = self._context
         line = context.sequence.folds[fold].line
         offsets = [(float(x), float(y)) for x, y in self._offsets]
-        nearest = min(offsets, key=lambda offset: context.table_in_article(offset).region.distance_to(line))
+        nearest = min(offsets, key=lambda offset: context.table_in_garment(offset).region.distance_to(line))
         for done in sets:
             for obstacle in geometric_obstacles(context, State(done, nearest, self._station, 0), fold):
                 context.obstacles.note(obstacle)

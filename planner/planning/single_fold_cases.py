@@ -1,4 +1,4 @@
-"""Enumerate what the hands may hold when a fold begins, wherever drags have carried the article."""
+"""Enumerate what the hands may hold when a fold begins, wherever drags have carried the garment."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -32,7 +32,7 @@ class Case:
     station: int | None = None
 
     def state(self, station: int, offset: FloatArray) -> State:
-        """Return this case as a state with the robot at a station and the article dragged by an offset (m)."""
+        """Return this case as a state with the robot at a station and the garment dragged by an offset (m)."""
         place = (float(offset[0]), float(offset[1]))
         return State(self.done, place, station, 0, self.held, dragged=1 if self.held else 0)
 
@@ -68,7 +68,7 @@ class Cases:
     def _offsets_that_matter(self, done: int, fold: int) -> Iterator[Point2]:
         """Yield the offsets from which a drag may leave held what serves a fold, without equivalent ones.
 
-        All offsets at which the whole article lies on the table are equivalent. Where a part hangs, only the edge can
+        All offsets at which the whole garment lies on the table are equivalent. Where a part hangs, only the edge can
         be gripped, so what must be held in the fold has to be within a grip's radius of the table.
         """
         context = self._context
@@ -77,14 +77,14 @@ class Cases:
         for offset in ((float(x), float(y)) for x, y in self._offsets):
             if self._budget.is_over:
                 return
-            is_whole = context.table_in_article(offset).contains(silhouette)
+            is_whole = context.table_in_garment(offset).contains(silhouette)
             if (is_whole and is_whole_seen) or not (is_whole or self._is_near(fold, offset)):
                 continue
             is_whole_seen |= is_whole
             yield offset
 
     def _covers(self, done: int, offset: Point2, station: int) -> tuple[Cover, ...]:
-        """Return the grips with which the article may be dragged."""
+        """Return the grips with which the garment may be dragged."""
         context = self._context
         towards = towards_robot(context, station)
         if hangs_ahead(context, done, offset, towards):
@@ -105,5 +105,5 @@ class Cases:
         arms = len(context.reach.arm_names)
         vertices = np.array(context.sequence.covers(fold, context.scene.support_angle_rad, arms).vertices)
         radius = context.sequence.folds[fold].grip_radius_m + LENGTH_M
-        edges = context.table_in_article(offset).edges
+        edges = context.table_in_garment(offset).edges
         return all(float(e.left_distances(vertices.reshape(-1, 2)).min(initial=0.0)) >= -radius for e in edges)

@@ -51,7 +51,7 @@ class Trial:
         context = self.context
         rests = {(state.done, state.place): state for state in self.states or ()}
         found = (
-            needed_friction(context.sequence.cloth(s.done), context.table_in_article(s.offset)) for s in rests.values()
+            needed_friction(context.sequence.cloth(s.done), context.table_in_garment(s.offset)) for s in rests.values()
         )
         return max(found, default=0.0)
 

@@ -26,7 +26,7 @@ class ArmDragStep(DragStep):
 
     @property
     def distance_m(self) -> float:
-        """The distance over which the article is dragged (m)."""
+        """The distance over which the garment is dragged (m)."""
         return math.hypot(*self._move)
 
     @property
@@ -36,7 +36,7 @@ class ArmDragStep(DragStep):
 
     @property
     def towards(self) -> Point2:
-        """The direction of the drag: a unit vector, article frame."""
+        """The direction of the drag: a unit vector, garment frame."""
         return along(self.context, self._move)
 
     @property
@@ -78,7 +78,7 @@ class ArmDragStep(DragStep):
 
 
 class ArmDrag:
-    """Drags the article in eight directions by two arm motions, to reach and to pull, and lets go."""
+    """Drags the garment in eight directions by two arm motions, to reach and to pull, and lets go."""
 
     kind = ArmDragStep.kind
     begins_with_driving = True

@@ -1,6 +1,6 @@
 """The planning context: what all primitives of one task share.
 
-It holds the garment's folds, the scene, the robot's reach and the article's placement. The *standoff* (`standoff` in
+It holds the garment's folds, the scene, the robot's reach and the garment's placement. The *standoff* (`standoff` in
 names) is how far the base stands back from its station; the search knows it in steps of a grid.
 """
 
@@ -12,7 +12,7 @@ from typing import Any, NamedTuple, TypeVar, cast
 
 import numpy as np
 
-from planner.cloth.g_state import TableInArticle, Unrest, unrest_at
+from planner.cloth.g_state import TableInGarment, Unrest, unrest_at
 from planner.cloth.garment import Garment
 from planner.cloth.grips import Cover, GripCovers
 from planner.deadline import ENDLESS, Deadline
@@ -40,7 +40,7 @@ class Hands(NamedTuple):
     """The grips and arms that may perform a fold, whatever their approaches.
 
     Attributes:
-        cover: the points held, article frame (m).
+        cover: the points held, garment frame (m).
         arms: the arm that holds each point.
         path: the fold's path, table frame.
         points: the grips in the table frame's unrolled plane, shape (grips, 2), m.
@@ -66,15 +66,15 @@ class ClothMemory:
 
     Attributes:
         unrest: by folds done and place on the grid, why the cloth would not stay; None if it stays.
-        tables: by place on the grid, the table seen from the article.
+        tables: by place on the grid, the table seen from the garment.
         extents: by folds done, the smallest and largest coordinates of the cloth before any drag.
-        placed: by offset, the article's placement.
+        placed: by offset, the garment's placement.
         drag_covers: by folds done, offset where it matters, direction and hands, the grips for a drag.
         hands: by all that they depend on, the hands that may perform a fold; see `fold_trials`.
     """
 
     unrest: dict[tuple[int, int, int], Unrest | None] = field(default_factory=dict)
-    tables: dict[tuple[int, int], TableInArticle] = field(default_factory=dict)
+    tables: dict[tuple[int, int], TableInGarment] = field(default_factory=dict)
     extents: dict[int, tuple[FloatArray, FloatArray]] = field(default_factory=dict)
     placed: dict[Point2, Pose2] = field(default_factory=dict)
     drag_covers: dict[tuple[int, Point2 | None, Point2, int], GripCovers] = field(default_factory=dict)
@@ -117,7 +117,7 @@ class Context:
         sequence: the garment and its legal folds.
         scene: table, stations, costs.
         reach: the robot's reach.
-        placement: the article frame in the table frame at the start.
+        placement: the garment frame in the table frame at the start.
         circle_m: radius of the circle round the base that must clear the table when it turns (m).
         behind_max_m: how far the part that a fold moves may reach behind its line's extension (m).
         grips_apart_m: the smallest distance between two grips that two hands can take (m).
@@ -203,7 +203,7 @@ class Context:
         return tuple(keys)
 
     def placed(self, offset: Point2) -> Pose2:
-        """Return the article's placement after drags by `offset`."""
+        """Return the garment's placement after drags by `offset`."""
         found = self.cloth.placed.get(offset)
         if found is None:
             found = self.cloth.placed[offset] = self.placement.moved(*offset)
@@ -243,16 +243,16 @@ class Context:
         above_floor = points + np.array([0.0, 0.0, self.scene.table.height_m])
         return self.station_pose(station).to_inner(above_floor)
 
-    def table_in_article(self, offset: Point2) -> TableInArticle:
-        """Return the table top in the article frame after drags by `offset`."""
+    def table_in_garment(self, offset: Point2) -> TableInGarment:
+        """Return the table top in the garment frame after drags by `offset`."""
         key = (grid_key(offset[0]), grid_key(offset[1]))
         found = self.cloth.tables.get(key)
         if found is None:
-            found = self.cloth.tables[key] = TableInArticle.seen_from(self.placed(offset), self.scene.table)
+            found = self.cloth.tables[key] = TableInGarment.seen_from(self.placed(offset), self.scene.table)
         return found
 
     def is_on_table(self, point: Point2, offset: Point2) -> bool:
-        """Return whether a point of the article, article frame, is over the table top after drags by `offset`."""
+        """Return whether a point of the garment, in its frame, is over the table top after drags by `offset`."""
         return self._is_over_top(self.placement.to_outer(np.array(point)), offset)
 
     def is_all_on_table(self, done: int, offset: Point2) -> bool:

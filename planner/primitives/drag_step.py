@@ -44,7 +44,7 @@ class DragStep:
 
     @property
     def distance_m(self) -> float:
-        """The distance over which the article is dragged (m)."""
+        """The distance over which the garment is dragged (m)."""
         return (self.after.standoff - self.first_stand) / STANDOFFS_PER_M
 
     @cached_property
@@ -60,7 +60,7 @@ class DragStep:
 
     @property
     def towards(self) -> Point2:
-        """The direction of the drag: a unit vector, article frame."""
+        """The direction of the drag: a unit vector, garment frame."""
         return towards_robot(self.context, self.before.station)
 
     @cached_property

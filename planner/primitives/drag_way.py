@@ -1,4 +1,4 @@
-"""Find the hands, the grips and the standoffs with which an article can be dragged (paper, Theorem 2), and where to."""
+"""Find the hands, the grips and the standoffs with which a garment can be dragged (paper, Theorem 2), and where to."""
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
@@ -28,20 +28,20 @@ from planner.task.trajectory import Segment
 def longest_drag(context: Context) -> int:
     """Return the length of the longest drag, in steps of the grid of drags.
 
-    It is the article's length: the longer side of its smallest enclosing rectangle.
+    It is the garment's length: the longer side of its smallest enclosing rectangle.
     """
     return math.floor(context.sequence.garment.pattern.length * DRAGS_PER_M + LENGTH_M)
 
 
 def dragged(context: Context, offset: Point2, station: int, steps: int) -> Point2:
-    """Return the article's offset from the start (m) after a drag from a station by `steps` of the grid of drags."""
+    """Return the garment's offset from the start (m) after a drag from a station by `steps` of the grid of drags."""
     yaw = context.station_pose(station).yaw_rad
     distance = steps / DRAGS_PER_M
     return (offset[0] - distance * math.cos(yaw), offset[1] - distance * math.sin(yaw))
 
 
 def arm_drag_steps(context: Context, station: int) -> tuple[Point2, ...]:
-    """Return the article's displacement in one step of a drag by the arms in each direction, table frame (m).
+    """Return the garment's displacement in one step of a drag by the arms in each direction, table frame (m).
 
     They lead to the eight neighbours on a grid along the axes of the station.
     """
@@ -53,18 +53,18 @@ def arm_drag_steps(context: Context, station: int) -> tuple[Point2, ...]:
 
 
 def arm_dragged(offset: Point2, step: Point2, steps: int) -> Point2:
-    """Return the article's offset from the start (m) after a drag by the arms by some steps."""
+    """Return the garment's offset from the start (m) after a drag by the arms by some steps."""
     return (offset[0] + steps * step[0], offset[1] + steps * step[1])
 
 
 def towards_robot(context: Context, station: int) -> Point2:
-    """Return the direction of a drag from a station: a unit vector, article frame."""
+    """Return the direction of a drag from a station: a unit vector, garment frame."""
     heading = context.station_pose(station).yaw_rad + math.pi - context.placement.yaw_rad
     return (math.cos(heading), math.sin(heading))
 
 
 def along(context: Context, move: Point2) -> Point2:
-    """Return the direction of a displacement in the table frame: a unit vector, article frame."""
+    """Return the direction of a displacement in the table frame: a unit vector, garment frame."""
     heading = math.atan2(move[1], move[0]) - context.placement.yaw_rad
     return (math.cos(heading), math.sin(heading))
 
@@ -72,7 +72,7 @@ def along(context: Context, move: Point2) -> Point2:
 def hangs_ahead(context: Context, done: int, offset: Point2, towards: Point2) -> bool:
     """Return whether cloth already hangs over an edge towards which a drag would go."""
     coordinates = context.sequence.cloth(done).silhouette.coordinates
-    for edge in context.table_in_article(offset).edges:
+    for edge in context.table_in_garment(offset).edges:
         outwards = -(edge.left[0] * towards[0] + edge.left[1] * towards[1])
         if outwards > ANGLE_RAD and edge.left_distances(coordinates).min() < -LENGTH_M:
             return True
@@ -94,7 +94,7 @@ def drag_covers(context: Context, done: int, offset: Point2, towards: Point2) ->
 
 def _drag_covers(context: Context, done: int, offset: Point2, towards: Point2) -> GripCovers:
     silhouette = context.sequence.cloth(done).silhouette
-    lying = silhouette.intersection(context.table_in_article(offset).region)
+    lying = silhouette.intersection(context.table_in_garment(offset).region)
     vertices, tips = must_hold(lying, towards, (), context.scene.support_angle_rad), strip_tips(lying, towards)
     vertices = distinct_rows(np.concatenate([vertices, tips]))
     radius_m, hands = context.sequence.garment.grip_radius_m, len(context.reach.arm_names)
@@ -103,7 +103,7 @@ def _drag_covers(context: Context, done: int, offset: Point2, towards: Point2) -
 
 
 def drag_offsets(context: Context, most: int) -> FloatArray:
-    """Return the offsets to which drags can carry the article with a part of it on the table, shape (n, 2), m.
+    """Return the offsets to which drags can carry the garment with a part of it on the table, shape (n, 2), m.
 
     The search for offsets stops once there are more than `most`.
     """
@@ -140,7 +140,7 @@ class DragWay:
 
     Attributes:
         arms: the arm that holds each grip.
-        grips: the points held, article frame (m).
+        grips: the points held, garment frame (m).
         picks: the grips as tool points in the table frame, shape (grips, 3), m.
         approaches: for each standoff each arm's approach, shape (standoffs, grips); -1 where out of reach.
         move: what the arms move the cloth by (m), table frame; (0, 0) where the base drags it.
@@ -164,7 +164,7 @@ class DragWay:
 
     @cached_property
     def taken(self) -> dict[int, Point2]:
-        """The point that each arm holds, article frame (m)."""
+        """The point that each arm holds, garment frame (m)."""
         return dict(zip(self.arms, self.grips, strict=True))
 
     @cached_property
@@ -181,11 +181,11 @@ class DragWays:
         self._found: dict[tuple[object, ...], tuple[DragWay, ...]] = {}
 
     def of(self, state: State) -> tuple[DragWay, ...]:
-        """Return all choices of arms and grips with which the base can drag the article from where it lies."""
+        """Return all choices of arms and grips with which the base can drag the garment from where it lies."""
         return self._of(state, _STILL)
 
     def by_arms(self, state: State, move: Point2) -> tuple[DragWay, ...]:
-        """Return all choices of arms and grips that can move the article from where it lies (m), table frame.
+        """Return all choices of arms and grips that can move the garment from where it lies (m), table frame.
 
         The hands keep their orientation, and the base stands still.
         """
@@ -237,7 +237,7 @@ def dragged_tools(ways: Sequence[DragWay], step: PlanStep, taken: Mapping[int, P
     Args:
         ways: the ways in which it can be done.
         step: the drag.
-        taken: the point that each arm holds, article frame (m).
+        taken: the point that each arm holds, garment frame (m).
 
     Raises:
         RequestError: these grips hold in none of the ways.
@@ -263,7 +263,7 @@ def hands_at(
     Args:
         context: the planning context.
         state: the state before the drag.
-        grip: the point held, article frame (m).
+        grip: the point held, garment frame (m).
         arm: the arm that takes it.
         pick: the grip as a tool point in the table frame, shape (3,), m.
         move: what the arm moves it by, table frame (m).

@@ -33,7 +33,7 @@ def geometric_obstacles(context: Context, state: State, fold: int) -> Iterator[O
     """Yield all obstacles to a fold in a state that do not depend on the arms."""
     folds = context.sequence.folds
     if not is_line_on_table(context, fold, state.offset):
-        off = context.table_in_article(state.offset).region.distance_to(folds[fold].line)
+        off = context.table_in_garment(state.offset).region.distance_to(folds[fold].line)
         says = worded("line_off_table", {"off_m": float(off)}, folds, fold)
         yield Obstacle(fold, Code.LINE_OFF_TABLE, says, off, state)
     behind = -context.kept(depths)[fold][0]
@@ -66,4 +66,4 @@ def is_line_on_table(context: Context, fold: int, offset: Point2) -> bool:
     """Return whether a part of a fold's line is over the table top after drags by `offset`."""
     line = context.sequence.folds[fold].line
     is_end_on_table = context.is_on_table(line.start, offset) or context.is_on_table(line.end, offset)
-    return is_end_on_table or bool(context.table_in_article(offset).region.overlaps_with(line))
+    return is_end_on_table or bool(context.table_in_garment(offset).region.overlaps_with(line))

@@ -41,7 +41,7 @@ class End:
 
 
 class FoldQuery:
-    """The query about a fold from a station, with the article in a place and with given grips held."""
+    """The query about a fold from a station, with the garment in a place and with given grips held."""
 
     def __init__(self, context: Context, state: State, fold: int) -> None:
         """Collect the trials for a state, whatever its standoff, and note what rules the fold out."""
@@ -161,7 +161,7 @@ class FoldQueries:
 
 
 class FoldStands:
-    """The least driving that each fold takes, by the article's place and the base's station, begun with empty hands.
+    """The least driving that each fold takes, by the garment's place and the base's station, begun with empty hands.
 
     The search repeats the query for each state, since the cloth may have changed. But what a fold moves is the same
     after every set of folds, and so are its grips. Only the directions from which a grip may be approached depend on
@@ -180,7 +180,7 @@ class FoldStands:
 
         Args:
             fold: the fold's index; a blue fold.
-            offset: how far the article has been dragged (m).
+            offset: how far the garment has been dragged (m).
             station: where the robot stands.
 
         Returns:

@@ -42,7 +42,7 @@ class FoldTrial:
 
     Attributes:
         fold: the fold's index.
-        cover: the points held, article frame (m).
+        cover: the points held, garment frame (m).
         arms: the arm that holds each point.
         path: the fold's path, table frame.
         points: the grips in the table frame's unrolled plane, shape (grips, 2), m.
@@ -72,7 +72,7 @@ class FoldTrial:
 
     @cached_property
     def taken(self) -> dict[int, Point2]:
-        """The point that each arm holds, article frame (m)."""
+        """The point that each arm holds, garment frame (m)."""
         return dict(zip(self.arms, self.cover, strict=True))
 
     def is_like(self, other: "FoldTrial") -> bool:
@@ -162,7 +162,7 @@ class _Flat(NamedTuple):
 
 
 class _OnTable:
-    """The paths of folds whose grips stay above the table: wherever the article lies, they are the same but moved."""
+    """The paths of folds whose grips stay above the table: wherever the garment lies, they are the same but moved."""
 
     def __init__(self, context: Context) -> None:
         self._context = context
@@ -282,7 +282,7 @@ class Surroundings:
         self._free = [set(folds) - nx.ancestors(waits, f) - nx.descendants(waits, f) - {f} for f in folds]
 
     def are_same(self, fold: int, grip: Point2) -> bool:
-        """Return whether the cloth round a fold's grip, article frame, is the same after all sets of other folds."""
+        """Return whether the cloth round a fold's grip, garment frame, is the same after all sets of other folds."""
         if (fold, grip) not in self._known:
             self._known[fold, grip] = not any(self._is_beside(other, grip) for other in self._free[fold])
         return self._known[fold, grip]

@@ -59,7 +59,7 @@ def can_follow(context: Context, station: int, trial: FoldTrial, stands: int | N
 
 
 def attempt_of(state: State, trial: FoldTrial, places: FloatArray) -> Attempt:
-    """Return the record of a trial that failed at each of some offsets of the article, shape (n, 2), m."""
+    """Return the record of a trial that failed at each of some offsets of the garment, shape (n, 2), m."""
     return Attempt(trial.fold, state, trial.cover, trial.arms, trial.path, trial.points, trial.approaches, places)
 
 

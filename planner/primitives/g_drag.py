@@ -20,7 +20,7 @@ from planner.task.plan import PlanStep
 
 
 class GDrag:
-    """Drags the article towards the robot, in steps of 10 cm."""
+    """Drags the garment towards the robot, in steps of 10 cm."""
 
     kind = DragStep.kind
     begins_with_driving = True

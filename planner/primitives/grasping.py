@@ -98,8 +98,8 @@ def holdings(taken: Mapping[int, Point2], vertices: Sequence[Point2], arm_names:
     """Return what each arm holds, from the leftmost to the rightmost, each vertex with the grip nearest to it.
 
     Args:
-        taken: the grip of each arm, article frame (m).
-        vertices: the points that must be held, article frame (m).
+        taken: the grip of each arm, garment frame (m).
+        vertices: the points that must be held, garment frame (m).
         arm_names: the names of all arms.
     """
     nearest = [min(taken, key=lambda arm: (math.dist(taken[arm], vertex), arm)) for vertex in vertices]
@@ -114,7 +114,7 @@ class Taking(Protocol):
 
     @property
     def taken(self) -> dict[int, Point2]:
-        """The point that each arm holds, article frame (m)."""
+        """The point that each arm holds, garment frame (m)."""
         ...
 
 
@@ -140,8 +140,8 @@ def approaches_from_outside(
     Args:
         context: the planning context.
         done: the folds finished, as a bit mask.
-        heading_in_base: direction of the article's x axis in the base frame (rad).
-        grip: a point of the stack, article frame (m).
+        heading_in_base: direction of the garment's x axis in the base frame (rad).
+        grip: a point of the stack, garment frame (m).
         arm: the arm that takes it.
     """
     return context.kept(_Pinches).of(context, done, heading_in_base, grip, side_of(context, arm))
@@ -175,7 +175,7 @@ class _Pinches:
         return self._known[key]
 
     def _inward_heading(self, context: Context, done: int, grip: Point2) -> float | None:
-        """Return the direction into the cloth, article frame (rad); None for a grip that is not at its edge."""
+        """Return the direction into the cloth, garment frame (rad); None for a grip that is not at its edge."""
         if (done, grip) not in self._headings:
             inward = context.sequence.cloth(done).silhouette.inward_bisector(grip)
             self._headings[done, grip] = None if inward is None else math.atan2(inward[1], inward[0])
@@ -283,7 +283,7 @@ class _HeldCovers:
 
 
 def lifted_points(context: Context, fold: int, held: tuple[Held, ...]) -> list[Point2]:
-    """Return the grips held that lie on the part that a fold moves, article frame (m)."""
+    """Return the grips held that lie on the part that a fold moves, garment frame (m)."""
     line, moving = context.sequence.folds[fold].line, context.sequence.moving(fold)
     return [h.point for h in held if _is_lifted(h.point, moving, line)]
 

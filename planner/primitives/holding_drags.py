@@ -49,7 +49,7 @@ class _Outcomes:
 
     Attributes:
         done: the folds done, as a bit mask.
-        offset: how far the article has been carried since the start, table frame (m).
+        offset: how far the garment has been carried since the start, table frame (m).
         station: the base's station.
         held: the grips held.
         count: the length of the drag, in steps of the grid of drags.

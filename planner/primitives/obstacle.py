@@ -24,7 +24,7 @@ from planner.task.reason import Code
 Situation: TypeAlias = tuple[int, int, int, tuple[tuple[int, int, int], ...], bool, int]
 """The part of a state that decides whether a fold is possible.
 
-The folds done (a bit mask), the article's place, the grips held, whether they are held from a drag, and the standoff:
+The folds done (a bit mask), the garment's place, the grips held, whether they are held from a drag, and the standoff:
 -1 if nothing is held, because the base may then drive.
 """
 
@@ -66,7 +66,7 @@ class Obstacle:
             infinite: unknown.
         state: the state in which the fold was stopped; of a drag the state in which it begins; None where that does not
             matter.
-        point: the place of the obstacle, article frame (m); of a drag the point that the hand holds; None where there
+        point: the place of the obstacle, garment frame (m); of a drag the point that the hand holds; None where there
             is no single place.
         contact: of a collision the contact, where that is known.
         dragged_to: of a collision in a drag that the fold would need, the offset to which the drag leads (m).
@@ -90,17 +90,17 @@ class Obstacle:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Attempt:
-    """A way to fold that the arms could not follow, at one place of the article or at any of several.
+    """A way to fold that the arms could not follow, at one place of the garment or at any of several.
 
     Attributes:
         fold: the fold's index.
         state: the state in which it was tried, at one of the places.
-        cover: the points held, article frame (m).
+        cover: the points held, garment frame (m).
         arms: the arm of each grip.
         path: the fold's path in that state.
         points: the grips in the table frame's unrolled plane in that state, shape (grips, 2), m.
         approaches: for each grip the approaches that were allowed.
-        places: offsets of the article at which it was tried, shape (n, 2), m.
+        places: offsets of the garment at which it was tried, shape (n, 2), m.
     """
 
     fold: int
@@ -113,14 +113,14 @@ class Attempt:
     places: FloatArray
 
     def at(self, index: int) -> State:
-        """Return the state with the article at one of the places."""
+        """Return the state with the garment at one of the places."""
         x, y = (float(c) for c in self.places[index])
         state = self.state
         return State(state.done, (x, y), state.station, state.standoff, state.held, state.dragged)
 
     @property
     def kind(self) -> tuple[object, ...]:
-        """The key it shares with attempts that differ in the article's place only."""
+        """The key it shares with attempts that differ in the garment's place only."""
         state = self.state
         grips = tuple((grid_key(x), grid_key(y)) for x, y in self.cover)
         return (self.fold, state.done, state.station, bool(state.held), state.is_dragged, grips, self.arms)
@@ -161,7 +161,7 @@ class Obstacles:
         return tuple(o for o in self._met.values() if o.fold == fold)
 
     def attempts(self, fold: int) -> Iterator[Attempt]:
-        """Yield the attempts at one fold; those that differ in the article's place only are merged into one."""
+        """Yield the attempts at one fold; those that differ in the garment's place only are merged into one."""
         for alike in self._tried.values():
             first = alike[0]
             if first.fold == fold:

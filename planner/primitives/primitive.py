@@ -125,7 +125,7 @@ class Deferred(Generic[S]):
         steps: computes them; some of the results may be deferred once more.
         is_spare: whether they are of no use as long as all other ways to and from the grasp of `towards` are validated
             and take no longer than they seem.
-        is_there: whether all of them leave the article and the robot where `towards` says; if not, only the folds done
+        is_there: whether all of them leave the garment and the robot where `towards` says; if not, only the folds done
             and whether something is held count of it.
     """
 
@@ -179,7 +179,7 @@ class Primitive(Protocol):
 
         Args:
             step: the step.
-            taken: the point that each arm holds, article frame (m).
+            taken: the point that each arm holds, garment frame (m).
             before: the state it starts in.
             after: the state it leads to.
 

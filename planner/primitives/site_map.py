@@ -72,15 +72,15 @@ class Service:
 
 
 SiteKey = tuple[int, int, int]
-"""A site on the grid: the article's place (x, y) and the station."""
+"""A site on the grid: the garment's place (x, y) and the station."""
 
 
 @dataclass(frozen=True, slots=True)
 class Site:
-    """A place of the article and a station.
+    """A place of the garment and a station.
 
     Attributes:
-        offset: how far the article has been dragged (m).
+        offset: how far the garment has been dragged (m).
         station: where the robot stands.
     """
 

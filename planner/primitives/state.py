@@ -27,7 +27,7 @@ class Held:
 
     Attributes:
         arm: the arm's number, from left to right.
-        point: the point held, article frame (m).
+        point: the point held, garment frame (m).
         key: the grip on the grid.
     """
 
@@ -45,7 +45,7 @@ class State:
 
     Attributes:
         done: the folds finished, as a bit mask.
-        offset: how far drags have carried the article since the start, table frame (m).
+        offset: how far drags have carried the garment since the start, table frame (m).
         station: index of the base's station in the scene's order.
         standoff: how many grid steps the base stands back from its station.
         held: the grips held; empty when the hands are.
@@ -83,12 +83,12 @@ class State:
 
     @property
     def grasp(self) -> tuple[object, ...]:
-        """The grips held, the station and the article's place, but not the standoff."""
+        """The grips held, the station and the garment's place, but not the standoff."""
         return (self.place, self.station, self.is_dragged, *(h.key for h in self.held))
 
     @property
     def place(self) -> tuple[int, int]:
-        """The article's place, in steps of the grid."""
+        """The garment's place, in steps of the grid."""
         return self.key[1], self.key[2]
 
     def __eq__(self, other: object) -> bool:

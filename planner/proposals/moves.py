@@ -1,6 +1,6 @@
 """The moves that people fold by: in half, in thirds, sides in, flaps in. A move is one fold or several.
 
-Lines run along the axes of the article frame, or, for flaps and edges that are slanted, through corners and along the
+Lines run along the axes of the garment frame, or, for flaps and edges that are slanted, through corners and along the
 bisector of two edges. The part that moves is the smaller one, so it lands on the other as far as it can.
 """
 

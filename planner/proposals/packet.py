@@ -62,7 +62,7 @@ class Packet:
 
     @cached_property
     def size_m(self) -> Sides:
-        """The sides of the smallest rectangle along the article frame's axes that holds the silhouette (m)."""
+        """The sides of the smallest rectangle along the garment frame's axes that holds the silhouette (m)."""
         x0, y0, x1, y1 = self.cloth.silhouette.bounds
         return (x1 - x0, y1 - y0)
 

@@ -93,7 +93,7 @@ class Proposal:
 
     Attributes:
         garment: the garment with the folds proposed.
-        size_m: the sides of the packet along the article frame's x and y axes (m).
+        size_m: the sides of the packet along the garment frame's x and y axes (m).
         layers: the most layers that lie on one another.
         face: the face of the cloth that is seen most from above: "front" or "back".
         plan: the plan, or that there is none; None before one is looked for.

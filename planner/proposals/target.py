@@ -13,7 +13,7 @@ SIDE_MIN_M, SIDE_MAX_M = 0.01, 10.0
 """The shortest and the longest side of a target (m)."""
 
 Sides = tuple[float, float]
-"""The sides of a rectangle along x and y of the article frame, or in any order (m)."""
+"""The sides of a rectangle along x and y of the garment frame, or in any order (m)."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -93,7 +93,7 @@ class SuitableScene:
     Attributes:
         table: the table.
         stations: where the base may stand, table frame.
-        placement: where an article lies, table frame.
+        placement: where a garment lies, table frame.
         torso_m: how far the lift is raised.
     """
 

@@ -152,7 +152,7 @@ class Plan:
 
     @property
     def final_placement(self) -> Pose2 | None:
-        """The article frame in the table frame at the end; None unless solved."""
+        """The garment frame in the table frame at the end; None unless solved."""
         return self.end.placement if self.is_solved else None
 
     @property

@@ -1,6 +1,6 @@
 """The scene: table, stations, and every number of the cost model, with its default.
 
-No default stands anywhere else. In the default scene a PR2 can fold all nine articles of the paper's Table 1: the
+No default stands anywhere else. In the default scene a PR2 can fold all nine garments of the paper's Table 1: the
 table is 1.60 m deep and 0.98 m wide, and the base centre is 0.15 m outside the edge at each of five stations.
 """
 

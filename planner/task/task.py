@@ -143,7 +143,7 @@ class Task:
         Args:
             garment: the garment.
             scene: the scene; None for the default one.
-            options: `placement`, where the article lies at the start, by default the garment's own; `start_station`,
+            options: `placement`, where the garment lies at the start, by default the garment's own; `start_station`,
                 where the robot stands then, by default "front"; or `start`, the whole state of the world then; `robot`,
                 by default `DEFAULT_ROBOT`; and the fields of `Limits`.
 
@@ -159,7 +159,7 @@ class Task:
         return Task(garment, where, options.get("robot", DEFAULT_ROBOT), start, limits)
 
     def at(self, placement: Pose2) -> "Task":
-        """Return this task with the article elsewhere at the start."""
+        """Return this task with the garment elsewhere at the start."""
         return replace(self, start=replace(self.start, placement=placement))
 
     def within(self, comfort_radius_m: float) -> "Task":
@@ -204,7 +204,7 @@ class Task:
 
 
 def at_station(scene: Scene, placement: Pose2, station: str, back_off_m: float = 0.0) -> WorldState:
-    """Return the state before all folds: the article laid down, hands free, the base at a station.
+    """Return the state before all folds: the garment laid down, hands free, the base at a station.
 
     Raises:
         RequestError: there is no such station.

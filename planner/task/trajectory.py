@@ -73,7 +73,7 @@ class ClothMotion:
 
     Attributes:
         done: the folds finished before, as a bit mask.
-        start: the article's placement at the start of the phase (article frame in table frame).
+        start: the garment's placement at the start of the phase (garment frame in table frame).
         end: the placement at its end; in between it is interpolated.
         fold: the fold in progress, or None.
         sweep: the progress of that fold at the start and the end of the phase: 0 flat, 1 standing over
@@ -171,7 +171,7 @@ class Segment:
         return np.array([end.x_m - start.x_m, end.y_m - start.y_m, wrapped_angle(end.yaw_rad - start.yaw_rad)])
 
     def placement_at(self, t_s: float) -> Pose2:
-        """Return the article's placement at a time of the plan (s)."""
+        """Return the garment's placement at a time of the plan (s)."""
         cloth = self.phase.cloth
         return cloth.start.between(cloth.end, self.fraction_at(t_s))
 

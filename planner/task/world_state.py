@@ -46,7 +46,7 @@ class Holding:
 
     Attributes:
         arm: the arm's name.
-        point: the grip's position, article frame as the cloth lies before the step (m).
+        point: the grip's position, garment frame as the cloth lies before the step (m).
         vertices: the vertices that this grip holds of those that must be held, same frame (m).
     """
 
@@ -95,7 +95,7 @@ class HeldPoint:
 
     Attributes:
         arm: the arm's name.
-        point: the point, article frame (m).
+        point: the point, garment frame (m).
     """
 
     arm: str
@@ -108,7 +108,7 @@ class WorldState:
 
     Attributes:
         folds_done: the indices of the folds done, in the order in which they were made.
-        placement: the article frame in the table frame.
+        placement: the garment frame in the table frame.
         base: the base's place.
         held: the points that are held, arm by arm; empty when all hands are free.
         dragged_m: the length of the drag after which the cloth is still held (m); 0 if nothing is held, or if it is

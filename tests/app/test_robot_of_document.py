@@ -103,7 +103,7 @@ def test_back_at_the_default_robot_the_cloth_lies_at_its_near_edge() -> None:
     assert min(y for _, y in corners) == pytest.approx(-max(y for _, y in corners))
 
 
-def test_an_unfinished_outline_goes_to_where_the_card_has_articles_lie() -> None:
+def test_an_unfinished_outline_goes_to_where_the_card_has_garments_lie() -> None:
     drawing = outlined(towel_drawing())
     assert with_robot(solve(drawing), "so101-pair").placement == Pose2(-0.04, 0.0, 0.0)
 

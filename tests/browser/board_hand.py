@@ -1,4 +1,4 @@
-"""A hand on the drafting board that works in the article frame."""
+"""A hand on the drafting board that works in the garment frame."""
 
 from playwright.sync_api import Locator, Page, expect
 
@@ -9,14 +9,14 @@ SEVEN = [(0.0, 0.0), (0.5, 0.0), (0.5, 0.4), (0.375, 0.6), (0.25, 0.5), (0.125, 
 
 
 class Hand:
-    """A mouse led to points of the article frame (m), wherever the board shows them."""
+    """A mouse led to points of the garment frame (m), wherever the board shows them."""
 
     def __init__(self, page: Page) -> None:
         self.page = page
         self.board: Locator = page.get_by_role("application", name="Drafting board")
 
     def px(self, point: Point) -> Point:
-        """Return the position in the window of a point of the article frame (px), once the board shows a document."""
+        """Return the position in the window of a point of the garment frame (px), once the board shows a document."""
         expect(self.board).to_have_attribute("aria-busy", "false")
         box = self.board.bounding_box()
         assert box is not None

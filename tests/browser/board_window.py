@@ -76,7 +76,7 @@ class Window:
         self.page.wait_for_function(HAS_ANSWER, arg=version)
 
     def shown(self) -> dict[str, Any]:
-        """Return all that is shown of the document, lengths in metres of the article frame."""
+        """Return all that is shown of the document, lengths in metres of the garment frame."""
         self.clear()
         return self.seen()
 

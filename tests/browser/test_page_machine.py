@@ -184,7 +184,7 @@ class PageMachine(TwoWindows):
     @rule(who=either, ahead_cm=st.integers(-60, -40))
     def place(self, who: int, ahead_cm: int) -> None:
         before = self.state["drawing"]["placement"]
-        # Turned by -90 degrees: the article's y is the table's x.
+        # Turned by -90 degrees: the garment's y is the table's x.
         middle_m = before["x_m"] + (max(y for _, y in self.outline) + min(y for _, y in self.outline)) / 2
         if round(100 * middle_m, 1) == ahead_cm:
             return

@@ -1,6 +1,6 @@
 """Whether cloth left alone stays as it is. The table is 1.6 x 0.98 m; its near edge is x = -0.8, its left one y = 0.49.
 
-Unless a test says otherwise the article frame is the table frame.
+Unless a test says otherwise the garment frame is the table frame.
 """
 
 import math
@@ -9,7 +9,7 @@ import random
 import pytest
 
 from planner.cloth.cloth_state import ClothState
-from planner.cloth.g_state import TableInArticle, Unrest, unrest
+from planner.cloth.g_state import TableInGarment, Unrest, unrest
 from planner.folds.fold_cloth import fold_cloth
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Point2, Pose2
@@ -24,7 +24,7 @@ HERE = Pose2(0.0, 0.0, 0.0)
 
 
 def why(cloth: ClothState, friction: float = 1.0, support_deg: float = 0.0) -> Unrest | None:
-    return unrest(cloth, TableInArticle.seen_from(HERE, TABLE), friction, math.radians(support_deg))
+    return unrest(cloth, TableInGarment.seen_from(HERE, TABLE), friction, math.radians(support_deg))
 
 
 def over_near_edge(hanging_m: float, lying_m: float, width_m: float = 0.4) -> ClothState:
@@ -60,7 +60,7 @@ def test_what_balances_holds_without_friction_however_the_drawing_is_turned(leng
     # Drawn from a corner and put over the table's middle: the areas on both sides differ in their last digits.
     there = Isometry.rotation(turn, 0.037, 0.0)
     points = [there.inverse.apply_point(p) for p in rectangle_points(0.2, length_m, -0.1, -length_m / 2)]
-    assert unrest(spread(points), TableInArticle.seen_from(Pose2(0.037, 0.0, turn), TABLE), 0.0, 0.0) is None
+    assert unrest(spread(points), TableInGarment.seen_from(Pose2(0.037, 0.0, turn), TABLE), 0.0, 0.0) is None
 
 
 def test_of_two_opposite_edges_only_the_difference_pulls() -> None:
@@ -132,7 +132,7 @@ def test_a_flap_that_reaches_back_onto_the_table_stays() -> None:
     assert why(with_hanging_flap(-1.1, -0.9)) is None
 
 
-def test_where_the_article_frame_lies_makes_no_difference() -> None:
+def test_where_the_garment_frame_lies_makes_no_difference() -> None:
     rng = random.Random(10)
     for _ in range(60):
         points = [(x - 0.7, 0.8 * y) for x, y in star(rng, 7)]
@@ -142,7 +142,7 @@ def test_where_the_article_frame_lies_makes_no_difference() -> None:
         there = Isometry.rotation(turn, dx, dy)
         moved = spread([there.inverse.apply_point(p) for p in points])
         here = why(spread(points), support_deg=5.0)
-        seen = unrest(moved, TableInArticle.seen_from(Pose2(dx, dy, turn), TABLE), 1.0, math.radians(5.0))
+        seen = unrest(moved, TableInGarment.seen_from(Pose2(dx, dy, turn), TABLE), 1.0, math.radians(5.0))
         assert (here and here.code) == (seen and seen.code)
 
 

@@ -45,7 +45,7 @@ def test_what_is_left_out_has_its_default() -> None:
 def test_without_a_placement_the_bounding_box_lies_in_the_middle_with_its_top_away() -> None:
     placement = Garment.from_dict(LEAST).placement
     assert placement.yaw_rad == -math.pi / 2
-    # At -90 degrees the article's (x, y) goes to (y, -x): its middle (0.2, 0.15) to (0.15, -0.2).
+    # At -90 degrees the garment's (x, y) goes to (y, -x): its middle (0.2, 0.15) to (0.15, -0.2).
     assert (placement.x_m, placement.y_m) == pytest.approx((-0.15, 0.2))
 
 

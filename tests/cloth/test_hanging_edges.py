@@ -1,6 +1,6 @@
 """Cloth that hangs from any edge of the table, from several at once, and round its corners.
 
-The table is 1.6 x 0.98 m unless a test says otherwise; the article frame is the table frame. A place beside an edge is
+The table is 1.6 x 0.98 m unless a test says otherwise; the garment frame is the table frame. A place beside an edge is
 given as (along, out): along it from its middle, and how far beyond it (negative: on the table).
 """
 
@@ -10,7 +10,7 @@ from collections.abc import Sequence
 import pytest
 
 from planner.cloth.cloth_state import ClothState
-from planner.cloth.g_state import TableInArticle, Unrest, unrest
+from planner.cloth.g_state import TableInGarment, Unrest, unrest
 from planner.geometry.pose import Point2, Pose2
 from planner.geometry.region import Region
 from planner.geometry.table import Table
@@ -35,7 +35,7 @@ def block(low: float, high: float, lying_m: float, hanging_m: float) -> list[Poi
 
 
 def why(cloth: ClothState, friction: float = 1.0, support_deg: float = 0.0, table: Table = TABLE) -> Unrest | None:
-    return unrest(cloth, TableInArticle.seen_from(Pose2(0.0, 0.0, 0.0), table), friction, math.radians(support_deg))
+    return unrest(cloth, TableInGarment.seen_from(Pose2(0.0, 0.0, 0.0), table), friction, math.radians(support_deg))
 
 
 def union(*parts: Sequence[Point2]) -> ClothState:

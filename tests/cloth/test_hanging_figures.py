@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from planner.cloth.cloth_state import ClothState
-from planner.cloth.g_state import TableInArticle, Unrest, unrest
+from planner.cloth.g_state import TableInGarment, Unrest, unrest
 from planner.cloth.must_hold import must_hold
 from planner.folds.fold_cloth import fold_cloth
 from planner.geometry.isometry import Isometry
@@ -45,7 +45,7 @@ def on_table(hanging: Sequence[Point2]) -> ClothState:
 
 
 def why(cloth: ClothState, support_deg: float = 0.0) -> Unrest | None:
-    return unrest(cloth, TableInArticle.seen_from(Pose2(0.0, 0.0, 0.0), TABLE), 1.0, math.radians(support_deg))
+    return unrest(cloth, TableInGarment.seen_from(Pose2(0.0, 0.0, 0.0), TABLE), 1.0, math.radians(support_deg))
 
 
 # Each shape hangs from y = 0, is named by what it looks like, and has its loose vertices with it.
@@ -198,7 +198,7 @@ def test_not_quite_along_the_edge_it_does_not_stay_either() -> None:
 
 
 def test_the_figures_two_folds_are_told_apart_when_planning() -> None:
-    # The towel in its own frame, y away from the robot; at yaw -90 degrees article (x, y) is at table (y - 1.1,
+    # The towel in its own frame, y away from the robot; at yaw -90 degrees garment (x, y) is at table (y - 1.1,
     # 0.2 - x).
     outline = [(0.0, 0.0), (0.4, 0.0), (0.4, 0.8), (0.0, 0.8)]
     start, placement = State(0, (0.0, 0.0), 0, 0), Pose2(-1.1, 0.2, -math.pi / 2)

@@ -58,6 +58,6 @@ def test_cloth_without_slits_leaves_nothing_behind(turn: Point2) -> None:
 
 @pytest.mark.parametrize("up", [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)])
 @pytest.mark.parametrize("name", ["t-shirt", "vest", "shirt", "skirt", "jeans"])
-def test_of_the_shipped_articles_trouser_legs_and_the_straps_of_the_vest_stay_behind(name: str, up: Point2) -> None:
+def test_of_the_shipped_garments_trouser_legs_and_the_straps_of_the_vest_stay_behind(name: str, up: Point2) -> None:
     stays = bool(len(strip_tips(replayed(load_garment(name)).cloth(0).silhouette, up)))
     assert stays == (name in ("jeans", "vest") and up[1] == 0.0)

@@ -30,7 +30,7 @@ from tests.replay.planned import shipped_plan
 
 @pytest.mark.long
 @pytest.mark.parametrize("name", ["tie-halved", "scarf-halved"])
-def test_an_article_that_cannot_be_halved_is_told_to_be_folded_nearer_its_end(name: str) -> None:
+def test_a_garment_that_cannot_be_halved_is_told_to_be_folded_nearer_its_end(name: str) -> None:
     cloth = load_garment(name)
     known = shipped_plan(name)
     found = next(s for s in suggestions(Task.of(cloth, time_limit_s=60.0), plan=known) if s.kind == "fold_line")

@@ -4,7 +4,7 @@ import type { components } from "./api";
 
 type Schemas = components["schemas"];
 
-/** A point: of the article frame, or of the board (m, or px). */
+/** A point: of the garment frame, or of the board (m, or px). */
 export type Point = [number, number];
 export type Point3 = Schemas["Grip"]["pick"];
 export type Pose = Schemas["Pose2"];

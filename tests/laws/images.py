@@ -31,7 +31,7 @@ def reordered(problem: Problem, rng: Random) -> Problem:
 
 
 def redrawn(problem: Problem, turn_rad: float, by: Point2) -> Problem:
-    """Return the cloth at the same place, drawn elsewhere in the article frame and turned."""
+    """Return the cloth at the same place, drawn elsewhere in the garment frame and turned."""
     frame = Pose2(*by, turn_rad)
 
     def moved(point: Point2) -> Point2:

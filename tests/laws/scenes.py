@@ -45,7 +45,7 @@ class Problem:
     """A garment on a table, and a robot at one of the stations.
 
     Attributes:
-        garment: with the folds wanted; its placement is the article's.
+        garment: with the folds wanted; its placement is kept.
         scene: the scene.
         start: where the robot stands at the start.
         comfort_m: the comfort radius (m).

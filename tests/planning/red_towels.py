@@ -1,6 +1,6 @@
 """Towels whose last flap is folded again, by red folds.
 
-The towel is 0.4 x 0.6 m. At yaw -90 degrees its upper edge lies away from `front`: article (x, y) is at table
+The towel is 0.4 x 0.6 m. At yaw -90 degrees its upper edge lies away from `front`: garment (x, y) is at table
 (y - 0.75, 0.2 - x). Its near part, y < 0.25, comes over first: its free edge, y = 0 before, lands at y = 0.5.
 """
 

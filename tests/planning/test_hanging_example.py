@@ -34,7 +34,7 @@ LINES_M = (0.4403, 0.8807)
 
 
 class LyingDrag(GDrag):
-    """Drags that leave all of the article on the table."""
+    """Drags that leave all of the garment on the table."""
 
     def __init__(self, context: Context) -> None:
         super().__init__(context)

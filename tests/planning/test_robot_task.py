@@ -29,7 +29,7 @@ def test_a_robot_whose_base_is_fixed_has_one_station_and_no_standoff() -> None:
     assert (scene.table.depth_m, scene.table.width_m, scene.table.height_m) == (0.8, 1.0, 0.75)
 
 
-def test_an_article_lies_where_another_robots_card_says_turned_as_drawn() -> None:
+def test_a_garment_lies_where_another_robots_card_says_turned_as_drawn() -> None:
     towel = load_garment("hand-towel")
     placed, suits = default_placement(towel, "ur5e-pair"), robot_card_file("ur5e-pair").scene.placement
     corners = placed.to_outer(np.array(towel.outline))
@@ -37,19 +37,19 @@ def test_an_article_lies_where_another_robots_card_says_turned_as_drawn() -> Non
     assert placed.yaw_rad == towel.placement.yaw_rad
 
 
-def test_an_article_that_the_table_has_room_for_lies_on_it() -> None:
+def test_a_garment_that_the_table_has_room_for_lies_on_it() -> None:
     shirt, table = load_garment("t-shirt"), default_scene("ur5e-pair").table
     corners = np.abs(default_placement(shirt, "ur5e-pair").to_outer(np.array(shirt.outline))).max(axis=0)
     assert (corners <= [table.depth_m / 2 + 1e-9, table.width_m / 2 + 1e-9]).all()
 
 
-def test_an_article_that_is_longer_than_the_table_is_deep_lies_across_it() -> None:
+def test_a_garment_that_is_longer_than_the_table_is_deep_lies_across_it() -> None:
     tie = garment([(0.0, 0.0), (0.1, 0.0), (0.1, 0.95), (0.0, 0.95)])
     corners = default_placement(tie, "ur5e-pair").to_outer(np.array(tie.outline))
     assert np.ptp(corners[:, 1]) == pytest.approx(0.95)
 
 
-def test_an_article_lies_for_the_default_robot_where_its_file_says() -> None:
+def test_a_garment_lies_for_the_default_robot_where_its_file_says() -> None:
     shirt = load_garment("t-shirt")
     assert task_for(shirt).start.placement == shirt.placement
 

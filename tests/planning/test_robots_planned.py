@@ -36,10 +36,10 @@ def test_a_plan_reads_back_and_replays(plan: Plan) -> None:
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("article", ["tie", "scarf"])
+@pytest.mark.parametrize("garment", ["tie", "scarf"])
 @pytest.mark.parametrize("robot", ["ur5e-pair", "panda-pair", "baxter"])
-def test_cloth_that_hangs_far_over_the_edge_of_the_table_is_folded(robot: str, article: str) -> None:
-    hanging = make_plan(load_garment(article), robot=robot, time_limit_s=60.0)
+def test_cloth_that_hangs_far_over_the_edge_of_the_table_is_folded(robot: str, garment: str) -> None:
+    hanging = make_plan(load_garment(garment), robot=robot, time_limit_s=60.0)
     assert hanging.is_solved, hanging.reasons
     table_m = hanging.scene.table.height_m
     assert min(grip.pick[2] for step in hanging.steps for grip in step.grips) < table_m - 0.1

@@ -69,7 +69,7 @@ def test_it_asks_often_whether_to_stop_and_then_calls_nothing_impossible(name: s
         assert looked_at(stop_after) == (False, stop_after + 1)
 
 
-def test_drags_lead_only_where_some_of_the_article_can_lie_on_the_table() -> None:
+def test_drags_lead_only_where_some_of_the_garment_can_lie_on_the_table() -> None:
     found = found_plan(load_garment("hand-towel"))
     offsets = drag_offsets(found.context, OFFSETS_MAX)
     half_depth, half_width = Scene().table.depth_m / 2, Scene().table.width_m / 2

@@ -32,7 +32,7 @@ TOWEL = (0.4, 0.3)
 
 
 def towel(x_m: float = -0.2, y_m: float = 0.2) -> Garment:
-    """Return a towel whose fold moves its near half; article (x, y) is at table (x_m + y, y_m - x)."""
+    """Return a towel whose fold moves its near half; garment (x, y) is at table (x_m + y, y_m - x)."""
     near_half = fold((TOWEL[0], 0.15), (0.0, 0.15))
     return garment(rectangle_points(*TOWEL), near_half, placement=Pose2(x_m, y_m, -math.pi / 2))
 

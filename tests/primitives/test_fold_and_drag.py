@@ -1,6 +1,6 @@
 """Folds and drags of a robot that reaches everything: what is left are cloth, grips, and the base's grid.
 
-The towel is 0.4 x 0.3 m. At yaw -90 degrees its upper edge lies away from `front`: article (x, y) is at table
+The towel is 0.4 x 0.3 m. At yaw -90 degrees its upper edge lies away from `front`: garment (x, y) is at table
 (px + y, py - x).
 """
 
@@ -141,7 +141,7 @@ def test_a_fold_before_a_red_one_keeps_hold_and_the_red_one_saves_the_reach() ->
     assert second.grips[0].pick == pytest.approx((-0.51, 0.2, 0.02))
 
 
-def test_drags_go_towards_the_robot_by_tenths_of_a_metre_up_to_the_articles_length() -> None:
+def test_drags_go_towards_the_robot_by_tenths_of_a_metre_up_to_the_garments_length() -> None:
     # 0.3 m along the way of the drag, 0.4 m long: at most 0.4, but 0.3 would leave nothing on the table, and at
     # 0.2 m 0.15 m hang against 0.15 m lying: that just stays.
     steps = drags_of(context(towel(NEAR_HALF)))

@@ -54,7 +54,7 @@ def test_a_corner_a_micrometre_askew_is_pinched_from_the_cones_rim_as_a_true_one
     assert len(approaches_from_outside(problem, 0, 0.0, (0.0, 0.0), 0)) == 5
 
 
-def test_the_article_turned_turns_the_headings() -> None:
+def test_the_garment_turned_turns_the_headings() -> None:
     assert headings((0.0, 0.15), 31.0, turn_deg=90.0) == [60, 90, 120, 999]
 
 

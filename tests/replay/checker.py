@@ -27,7 +27,7 @@ FIRM_M = 0.08
 def check(
     garment: dict[str, Any], scene: dict[str, Any], plan: dict[str, Any], start: str = "front"
 ) -> list[dict[str, Way]]:
-    """Replay a plan that starts at a station with the article at the garment's placement.
+    """Replay a plan that starts at a station with the garment at its placement.
 
     Returns for each primitive the way of each arm that holds cloth.
     """
@@ -91,7 +91,7 @@ class Checker(World):
             assert self.held_from != "fold", f"{name}: interrupts a chain of red folds"
 
     def _picked(self, grip: dict[str, Any], name: str) -> Place:
-        """Return the point of the article that a grip takes, or holds already."""
+        """Return the point of the garment that a grip takes, or holds already."""
         pick, arm = tuple(grip["pick"]), grip["arm"]
         if self.held:
             assert arm in self.held, f"{name}: the {arm} arm holds nothing, and there is no time to reach"
@@ -187,7 +187,7 @@ class Checker(World):
         assert drags > 0.5 and abs(drags - round(drags)) < 1e-6, f"a drag of {distance} m is no multiple of 0.10 m"
         rectangle = shapely.minimum_rotated_rectangle(MultiPoint(self.garment["outline"])).exterior.coords
         length = max(math.dist(rectangle[i], rectangle[i + 1]) for i in (0, 1))
-        assert distance <= length + 1e-5, f"a drag of {distance} m, the article is {length:.3f} m long"
+        assert distance <= length + 1e-5, f"a drag of {distance} m, the garment is {length:.3f} m long"
         towards = (-math.cos(yaw), -math.sin(yaw))
         silhouette = flat.together(self._on_table())
         assert not self.table.hangs_towards(silhouette, towards), "a drag towards an edge from which cloth hangs"

@@ -13,7 +13,7 @@ from tests.replay.flat import SLIVER_M2, Line, cut_along, mirrored, polygons, to
 
 @dataclass(frozen=True)
 class Sheet:
-    """A layer of the folded article, in the article frame."""
+    """A layer of the folded garment, in the garment frame."""
 
     shape: BaseGeometry
     is_front_up: bool

@@ -215,7 +215,7 @@ def test_a_base_that_ends_at_another_station_is_caught() -> None:
         ("the cost", lambda plan: plan.update(cost_s=plan["cost_s"] + 1)),
         ("starts at", lambda plan: nth(plan, "fold", 1).update(start_s=0.0)),
         ("the plan is infeasible", lambda plan: plan.update(status="infeasible")),
-        ("the article ends", lambda plan: plan["final_placement"].update(x_m=0.0)),
+        ("the garment ends", lambda plan: plan["final_placement"].update(x_m=0.0)),
         ("is another one", lambda plan: plan["final_layers"].reverse()),
         ("is another one", lambda plan: plan["final_layers"][-1].update(face="front")),
         ("of cloth became", lambda plan: plan["final_layers"].pop()),

@@ -87,8 +87,8 @@ class World:
 
     def _require_placement(self, placement: dict[str, Any]) -> None:
         gap = math.dist((self.x, self.y), (placement["x_m"], placement["y_m"]))
-        assert gap < NEAR_M, f"the article ends {gap:.4f} m from where the plan says"
-        assert abs(math.remainder(placement["yaw_rad"] - self.yaw, math.tau)) < 1e-6, "the article was turned"
+        assert gap < NEAR_M, f"the garment ends {gap:.4f} m from where the plan says"
+        assert abs(math.remainder(placement["yaw_rad"] - self.yaw, math.tau)) < 1e-6, "the garment was turned"
 
     def _require_arms(self, grips: list[dict[str, Any]], what: str, *, are_new: bool) -> None:
         arms = [grip["arm"] for grip in grips]

@@ -1,4 +1,4 @@
-"""A world simulated in MuJoCo: the article as a flex on a table, grips that move its vertices."""
+"""A world simulated in MuJoCo: the garment as a flex on a table, grips that move its vertices."""
 
 from collections.abc import Callable, Iterable, Mapping
 
@@ -30,7 +30,7 @@ _RESTED_S = 0.1
 
 
 class PhysicsWorld:
-    """An article on a table, simulated.
+    """A garment on a table, simulated.
 
     Time passes only while hands hold cloth, and until what they let go has come to rest: between the steps nothing
     moves the cloth.
@@ -50,14 +50,14 @@ class PhysicsWorld:
         placement: Pose2 | None = None,
         tick: Callable[[], None] = lambda: None,
     ) -> None:
-        """Lay the article on the table as a task begins.
+        """Lay the garment on the table as a task begins.
 
         Args:
             task: garment, table and the state at the start.
             fabric: the cloth.
             resolution: mesh, time step and effort.
             seed: of the mesh.
-            placement: where the article really lies; None for where the task says.
+            placement: where the garment really lies; None for where the task says.
             tick: called after every time step; may raise to end the simulation.
         """
         self.resolution = resolution

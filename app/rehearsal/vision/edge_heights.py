@@ -33,7 +33,7 @@ class EdgeHeights:
     """The heights of a stack's outline.
 
     Attributes:
-        outline: the outline, article frame.
+        outline: the outline, garment frame.
         borders: which parts of it are creases.
         layers: what each layer covers.
         layer_m: the height of a layer (m).
@@ -63,7 +63,7 @@ class EdgeHeights:
         Args:
             camera: the camera.
             pixels: the pixels, shape (n, 2).
-            placement: about where the stack lies, the article frame in the table frame.
+            placement: about where the stack lies, the garment frame in the table frame.
         """
         places = camera.on_plane(pixels, self.middle_m)
         inner = placement.to_inner(places)
@@ -78,7 +78,7 @@ class EdgeHeights:
         """Return half of the height of the edge at points of the outline, shape (n,), m.
 
         Args:
-            points: the points, shape (n, 2), article frame.
+            points: the points, shape (n, 2), garment frame.
             outwards: unit vectors that lead out of the stack there, shape (n, 2).
         """
         inside = points - _INSIDE_M * outwards

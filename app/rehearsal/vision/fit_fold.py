@@ -75,7 +75,7 @@ class FoldedOutline:
         return float(np.hypot(*(self.astray(offset_m, turn_rad).apply(planned) - planned).T).max())
 
     def astray(self, offset_m: float, turn_rad: float) -> Isometry:
-        """Return the isometry from where the part that moved should lie to where it lies, article frame."""
+        """Return the isometry from where the part that moved should lie to where it lies, garment frame."""
         return Isometry.reflection(self.crease(offset_m, turn_rad)).after(Isometry.reflection(self.line))
 
     def on_other_sides(self, figure: Figure, row: FloatArray) -> list[FloatArray]:
@@ -101,7 +101,7 @@ class FoldedOutline:
 
     @property
     def line(self) -> Segment:
-        """The fold's line, article frame, the part that moved to its left."""
+        """The fold's line, garment frame, the part that moved to its left."""
         return self.sequence.folds[self.index].line
 
     @property

@@ -21,7 +21,7 @@ def fit_stack(contour: FloatArray, stack: ClothState, near: Pose2 | None = None)
     Args:
         contour: points of the visible outline in the table frame, shape (n, 2), m, at least 8, in any order; points
             that are not of the outline (an arm's edge) do little harm while they are fewer than a third.
-        stack: the stack, article frame.
+        stack: the stack, garment frame.
         near: where it ought to lie; decides between placements that look alike, and is tried first.
 
     Raises:

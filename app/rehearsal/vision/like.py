@@ -35,7 +35,7 @@ class Likened:
 
     Attributes:
         garment: the garment, its folds with it.
-        placement: its article frame in the frame of the outline.
+        placement: its garment frame in the frame of the outline.
         distances: how far the outline's points are outside its own (m).
     """
 

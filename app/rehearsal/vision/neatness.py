@@ -40,8 +40,8 @@ class Neatness:
 
         Args:
             contour: points evenly along the outline seen, shape (n, 2), m.
-            stack: the outline as planned, article frame.
-            lies: the article frame where the stack was fitted, in the frame of the contour.
+            stack: the outline as planned, garment frame.
+            lies: the garment frame where the stack was fitted, in the frame of the contour.
             ought: where the plan has it in that frame, if that is known.
         """
         inner = lies.to_inner(contour)

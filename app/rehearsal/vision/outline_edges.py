@@ -95,7 +95,7 @@ _AT_EDGE_M = 0.0015
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CreaseEdges:
-    """The borders of all layers of a stack, article frame.
+    """The borders of all layers of a stack, garment frame.
 
     Attributes:
         creases: where they are joined to each other.
@@ -125,7 +125,7 @@ class CreaseEdges:
         """Return which points of the outline, shape (n, 2), are of a crease, not of an edge; shape (n,).
 
         Args:
-            points: article frame (m).
+            points: garment frame (m).
             slack_m: how far the crease of the last fold may be from where it is planned (m).
         """
         if not len(self.creases.starts):

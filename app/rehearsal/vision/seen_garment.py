@@ -58,7 +58,7 @@ class Seen:
 
     Attributes:
         garment: the garment, upright in its own frame.
-        placement: the article frame where it lies in `frame`.
+        placement: the garment frame where it lies in `frame`.
         frame: "sheet", "marker", "picture" or "table"; see `OnTable.frame`.
         scale_from: what gave the scale.
         sure: how sure it is.
@@ -175,7 +175,7 @@ def _doubt(seen: OnTable, straight: Straightened, outline: FloatArray) -> Messag
 
 
 def _upright(corners: FloatArray, axis_rad: float, up_rad: float) -> tuple[FloatArray, Pose2]:
-    """Return corners in an article frame with a line of symmetry along x or y, and its placement.
+    """Return corners in a garment frame with a line of symmetry along x or y, and its placement.
 
     Of the frame's four turns the one with y nearest to up is taken. Its origin is at the lower left of the corners.
     """

@@ -52,13 +52,13 @@ class SeenStack:
 
     @property
     def placement(self) -> Pose2:
-        """The article frame in the table frame."""
+        """The garment frame in the table frame."""
         return self.figure.pose(self.row)
 
     def beside(self, points: FloatArray) -> FloatArray:
         """Return the offsets of points of the part that moved last from where they should lie, shape (n, 2), m.
 
-        Points and offsets are in the article frame; other points have no offset. Points of the fold's line count as on
+        Points and offsets are in the garment frame; other points have no offset. Points of the fold's line count as on
         the crease, because that is the edge that hands take.
         """
         return self._beside(self.row, points)
@@ -68,7 +68,7 @@ class SeenStack:
 
         Cloth turns over in loops, so an edge that is a crease lies inside of its line, further in one place than in
         another; at a corner both edges tell. Of points that are not of the fitted outline, or where little of it was
-        seen, it is 0. Points and vectors are of the article frame.
+        seen, it is 0. Points and vectors are of the garment frame.
         """
         found = np.zeros_like(points)
         for number, normals, away in self._seen_round(points):
@@ -77,11 +77,11 @@ class SeenStack:
         return found
 
     def is_edge_hidden(self, points: FloatArray) -> bool:
-        """Return whether nothing was seen of the edge at one of some points of it, article frame."""
+        """Return whether nothing was seen of the edge at one of some points of it, garment frame."""
         return any(not len(away) for _, _, away in self._seen_round(points))
 
     def places(self, points: FloatArray) -> FloatArray:
-        """Return where points of the stack, article frame, lie, shape (n, 2), table frame, m."""
+        """Return where points of the stack, garment frame, lie, shape (n, 2), table frame, m."""
         return self._places(self.row, points)
 
     def errors(self, points: FloatArray) -> FloatArray:
@@ -129,7 +129,7 @@ class SeenStack:
 
     @property
     def _edges(self) -> OutlineEdges:
-        """The fitted outline, article frame."""
+        """The fitted outline, garment frame."""
         if self.folded is None:
             return self.figure.edges
         return OutlineEdges.of(self.folded.region(float(self.row[3]), float(self.row[4])))

@@ -59,7 +59,7 @@ class Figure:
     """A stack's outline about its middle, so that turning and moving it do not depend on each other.
 
     Attributes:
-        middle: the middle of the outline, article frame, shape (2,), m.
+        middle: the middle of the outline, garment frame, shape (2,), m.
         edges: its edges.
         spaced: points evenly along it, shape (POINTS, 2), m.
         corners: the corners of its convex hull, shape (k, 2), m.
@@ -90,7 +90,7 @@ class Figure:
         return replace(self, edges=edges, spaced=edges.spaced(POINTS), area=outline.area)
 
     def pose(self, row: FloatArray) -> Pose2:
-        """Return the placement of the article frame."""
+        """Return the placement of the garment frame."""
         turned = Pose2(0.0, 0.0, float(row[2]))
         x, y = row[:2] - turned.to_outer(self.middle)
         return Pose2(float(x), float(y), float(row[2]))

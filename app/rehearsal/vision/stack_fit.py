@@ -13,7 +13,7 @@ class Expected:
     """A placement and how sure it is: standard deviations each way and of the angle.
 
     Attributes:
-        placement: the article frame in the table frame.
+        placement: the garment frame in the table frame.
         within_m: of its place (m). Laid down by hand, or dragged, cloth is within some centimetres of where it ought to
             be.
         within_rad: of its angle (rad).
@@ -40,7 +40,7 @@ class StackFit:
     """A stack's placement, and how sure it is.
 
     Attributes:
-        placement: the article frame in the table frame; the best there is, also where `unknown` says it may be wrong.
+        placement: the garment frame in the table frame; the best there is, also where `unknown` says it may be wrong.
         error_m: how far off the corners of the stack may be: about 95 of 100 are nearer than that to where they are
             said to be (m).
         residual_m: the median distance of the points seen from the fitted outline (m).

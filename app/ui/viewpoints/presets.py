@@ -48,7 +48,7 @@ class Ground:
 
 
 def on_table(drawing: Drawing, points: Iterable[Point2]) -> tuple[Point2, ...]:
-    """Return points of the article frame in the table frame (m)."""
+    """Return points of the garment frame in the table frame (m)."""
     placed = drawing.placement.to_outer(np.array(list(points), dtype=float).reshape(-1, 2))
     return tuple((float(x), float(y)) for x, y in placed)
 

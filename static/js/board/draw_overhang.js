@@ -49,7 +49,7 @@ export function drawOverhang(board) {
   ];
 }
 
-/** The table's corners as the article sees them, counter-clockwise. @param {Drawing} drawing */
+/** The table's corners as the garment sees them, counter-clockwise. @param {Drawing} drawing */
 export const tableIn = ({ placement, scene: { table } }) =>
   cornersWithin(table.depth_m / 2, table.width_m / 2).map((corner) => toInner(placement, corner));
 

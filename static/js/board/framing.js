@@ -116,7 +116,7 @@ export class Framing {
     return Boolean(tool.isBusy || state?.gesture || store.selection);
   }
 
-  /** A box of the article frame as it lies on the board (px). @param {{low: Point, high: Point}} box */
+  /** A box of the garment frame as it lies on the board (px). @param {{low: Point, high: Point}} box */
   onBoard({ low, high }) {
     const corners = /** @type {Point[]} */ ([low, high, [low[0], high[1]], [high[0], low[1]]]);
     return /** @type {{low: Point, high: Point}} */ (boxOf(corners.map((corner) => this.board.view.toPx(corner))));
@@ -174,7 +174,7 @@ export class Framing {
     this.board.render();
   }
 
-  /** To the table's axes, and back to the article's as they were seen before. @param {boolean} isBack */
+  /** To the table's axes, and back to the garment's as they were seen before. @param {boolean} isBack */
   turn(isBack) {
     const { view, drawing } = this.board;
     if (isBack && this.before) Object.assign(view, this.before);
@@ -186,7 +186,7 @@ export class Framing {
   /**
    * See the robot's way as well, which mostly is beside the cloth; without one, what was seen before unless the view has
    * been moved since.
-   * @param {Point[]|null} points article frame
+   * @param {Point[]|null} points garment frame
    */
   showAlso(points) {
     const { view, svg } = this.board;

@@ -19,7 +19,7 @@ export class Keyboard {
   /** @param {import("./board.js").Board} board */
   constructor(board) {
     this.board = board;
-    /** Where the cross is, article frame (m). @type {Point|null} */
+    /** Where the cross is, garment frame (m). @type {Point|null} */
     this.cross = null;
     /** Whether the cross, and not the mouse, leads. */
     this.isOn = false;

@@ -19,7 +19,7 @@ const PINCH = 5;
 /**
  * @typedef {object} Pointer
  * @property {Point} px from the board's top left
- * @property {Point} at article frame (m)
+ * @property {Point} at garment frame (m)
  * @property {boolean} isTouch
  * @property {boolean} isKeyboard
  * @property {boolean} ctrl

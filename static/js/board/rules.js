@@ -30,7 +30,7 @@ export const CURVE_TOLERANCE_M = 0.001;
 
 export const CURVE_MAX = 2.0;
 
-/** A fold's first name by the direction of its line: the side from which the cloth comes; article frame, y up. */
+/** A fold's first name by the direction of its line: the side from which the cloth comes; garment frame, y up. */
 export const SIDES = {"along_y": "left side over", "against_y": "right side over", "along_x": "top down", "against_x": "bottom up"};
 
 /** What a garment is called before anybody has named it. */

@@ -24,7 +24,7 @@ const MOST_PX = 8;
 const TURN_RAD = Math.PI / 12;
 
 /**
- * @typedef {object} Snapped article frame (m)
+ * @typedef {object} Snapped garment frame (m)
  * @property {Point} at
  * @property {string} name
  * @property {string} key

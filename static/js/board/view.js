@@ -1,6 +1,6 @@
 /**
- * Where the article frame is on the board. Mostly its axes are the screen's, y up. While the garment is being placed
- * the table's are: its far side up, as the robot at the station `front` sees it, and the article lies on it turned.
+ * Where the garment frame is on the board. Mostly its axes are the screen's, y up. While the garment is being placed
+ * the table's are: its far side up, as the robot at the station `front` sees it, and the garment lies on it turned.
  */
 
 import { minus, plus, times, turned } from "./geometry.js";
@@ -20,16 +20,16 @@ export class View {
     this.scale = 500;
     /** Where the plane's origin is, from the top left (px). @type {Point} */
     this.origin = [0, 0];
-    /** The article frame in the plane. */
+    /** The garment frame in the plane. */
     this.pose = { at: /** @type {Point} */ ([0, 0]), turn: 0 };
   }
 
-  /** @param {Point} p of the article frame (m) @returns {Point} px */
+  /** @param {Point} p of the garment frame (m) @returns {Point} px */
   toPx(p) {
     return this.planeToPx(plus(turned(p, this.pose.turn), this.pose.at));
   }
 
-  /** @param {Point} px @returns {Point} article frame (m) */
+  /** @param {Point} px @returns {Point} garment frame (m) */
   toM(px) {
     return turned(minus(this.pxToPlane(px), this.pose.at), -this.pose.turn);
   }
@@ -49,7 +49,7 @@ export class View {
     return this.planeToPx([-y, x]);
   }
 
-  /** Lay the article down as it is on the table; null: its own axes are shown. @param {Pose|null} placement */
+  /** Lay the garment down as it is on the table; null: its own axes are shown. @param {Pose|null} placement */
   lay(placement) {
     this.pose = placement
       ? { at: /** @type {Point} */ ([-placement.y_m, placement.x_m]), turn: placement.yaw_rad + Math.PI / 2 }

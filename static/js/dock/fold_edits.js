@@ -20,7 +20,7 @@ export const renamed = (id, name) => withFold(id, (fold) => (fold.name = name));
 /** @param {string} id @param {FoldKind} kind */
 export const recoloured = (id, kind) => withFold(id, (fold) => (fold.kind = kind));
 
-/** @param {string} id @param {number|null} radius metres; null: the article's */
+/** @param {string} id @param {number|null} radius metres; null: the garment's */
 export const gripped = (id, radius) => withFold(id, (fold) => (fold.grip_radius_m = radius));
 
 /** @param {string} id */

@@ -39,16 +39,16 @@ export class FoldFields {
 
   /**
    * @param {Fold} fold of the drawing
-   * @param {{called: string, isFirst: boolean, isLast: boolean, articleRadius: number}} now
+   * @param {{called: string, isFirst: boolean, isLast: boolean, garmentRadius: number}} now
    */
-  show(fold, { called, isFirst, isLast, articleRadius }) {
+  show(fold, { called, isFirst, isLast, garmentRadius }) {
     for (const radio of this.colours) {
       const isOn = radio.dataset.kind === fold.kind;
       radio.setAttribute("aria-checked", String(isOn));
       radio.tabIndex = isOn ? 0 : -1;
     }
     this.radios.setAttribute("aria-label", say("fold.colour_of", { fold: called }));
-    this.radius.placeholder = length(articleRadius);
+    this.radius.placeholder = length(garmentRadius);
     this.told = fold.grip_radius_m === null ? "" : length(fold.grip_radius_m);
     if (!this.isTyped) this.radius.value = this.told;
     this.radius.setAttribute("aria-label", say("fold.radius_of", { fold: called }));

@@ -32,7 +32,7 @@ const DONE_BEFORE = say("fold_state.before");
  * @typedef {object} Now
  * @property {number} index
  * @property {number} count of folds
- * @property {number} articleRadius metres
+ * @property {number} garmentRadius metres
  * @property {boolean} isDoneBefore whether it is done before the plan starts
  * @property {boolean} isAssumed whether its own radius is taken to be more than that
  * @property {{index: number, name: string}[]} waits what it waits for
@@ -71,7 +71,7 @@ export class FoldRow {
   }
 
   /** @param {Fold} fold of the drawing @param {Now} now */
-  show(fold, { index, count, articleRadius, isDoneBefore, isAssumed, waits, problem }) {
+  show(fold, { index, count, garmentRadius, isDoneBefore, isAssumed, waits, problem }) {
     this.fold = fold;
     this.index = index;
     const called = foldName(fold, index);
@@ -79,7 +79,7 @@ export class FoldRow {
     this.root.dataset.kind = fold.kind;
     this.root.classList.toggle("is-illegal", problem !== "");
     this.name.title = problem || movedBy(fold.kind);
-    const assumed = isAssumed ? say("assumption.grip", { radius: length(fold.grip_radius_m ?? articleRadius) }) : "";
+    const assumed = isAssumed ? say("assumption.grip", { radius: length(fold.grip_radius_m ?? garmentRadius) }) : "";
     if (assumed !== this.assumed.dataset.text) {
       this.assumed.dataset.text = assumed;
       this.assumed.replaceChildren(...(assumed ? [assumptionChip(assumed, () => this.verbs.onGrip(null))] : []));
@@ -92,7 +92,7 @@ export class FoldRow {
     this.problem = problem;
     this.isDoneBefore = isDoneBefore;
     this.mark.title = isDoneBefore ? DONE_BEFORE : "";
-    this.fields.show(fold, { called, isFirst: index === 0, isLast: index === count - 1, articleRadius });
+    this.fields.show(fold, { called, isFirst: index === 0, isLast: index === count - 1, garmentRadius });
     relabel(this.eye, say("fold.show_before", { fold: called }));
     this.showState(this.state, true);
   }

@@ -68,14 +68,14 @@ export class Folds {
   show() {
     const { state } = this.store;
     if (!state || this.order.isDragging) return;
-    const { folds, grip_radius_m: articleRadius } = state.drawing;
+    const { folds, grip_radius_m: garmentRadius } = state.drawing;
     for (const [id] of [...this.rows].filter(([id]) => !folds.some((fold) => fold.id === id))) this.rows.delete(id);
     folds.forEach((fold, index) => {
       const row = this.rows.get(fold.id) ?? this.add(fold.id);
       row.show(fold, {
         index,
         count: folds.length,
-        articleRadius,
+        garmentRadius,
         isDoneBefore: this.done.includes(index),
         isAssumed: isWide(state.drawing, fold),
         waits: waitsFor(this.plan, index).map((other) => ({ index: other, name: foldName(folds[other], other) })),

@@ -20,7 +20,7 @@ export async function foldedPicture(id) {
 
 /**
  * @param {Pick<Plan, "final_layers">["final_layers"]} layers bottom to top
- * @param {number} turn of the article frame on the picture (rad)
+ * @param {number} turn of the garment frame on the picture (rad)
  */
 export function layersPicture(layers, turn) {
   const rings = layers.map(({ polygon }) => polygon.map((point) => turned(point, turn)));

@@ -83,7 +83,7 @@ def test_the_base_is_between_the_points_gone_and_the_next(jeans: tuple[Document,
     move = next(primitive for primitive in plan.primitives if primitive.kind == "move")
     moment = at(document, move.start_s + 0.5 * move.duration_s)
     told = required(base_overlay(moment))
-    base = np.array([moment.base_in_article.x_m, moment.base_in_article.y_m])
+    base = np.array([moment.base_in_garment.x_m, moment.base_in_garment.y_m])
     before, after = np.array(told.way[told.gone - 1]), np.array(told.way[told.gone])
     assert math.dist(before, base) + math.dist(base, after) == pytest.approx(math.dist(before, after), abs=1e-4)
 
@@ -113,7 +113,7 @@ def test_the_cloth_goes_along_with_a_drag() -> None:
     assert before.placement.x_m - after.placement.x_m == pytest.approx(drag.to_dict()["distance_m"])
 
 
-def test_without_a_plan_the_article_lies_as_drawn_and_the_robot_waits() -> None:
+def test_without_a_plan_the_garment_lies_as_drawn_and_the_robot_waits() -> None:
     document = Document(draft_of(drawing_of(load_garment("t-shirt"))))
     moment = moment_of_plan(document.state, 5.0)
     assert (moment.plan, moment.station, moment.placement) == (None, "front", load_garment("t-shirt").placement)

@@ -75,7 +75,7 @@ async def test_a_station_can_be_asked_for_without_a_plan(client: httpx.AsyncClie
     told = await overlays(client, document_id, "?station=left&back_off_m=0.2&show=reach,slip")
     assert (told["robot"]["station"], told["robot"]["back_off_m"]) == ("left", 0.2)
     assert told["plan_version"] is told["t_s"] is told["base"] is told["paths"] is None
-    # The article's x is the table's -y, its y the table's x - 0.7 ... so `left`, at (0.45, 0.64 + 0.2), is seen at:
+    # The garment's x is the table's -y, its y the table's x - 0.7 ... so `left`, at (0.45, 0.64 + 0.2), is seen at:
     assert [told["robot"]["pose"][name] for name in ("x_m", "y_m")] == pytest.approx([0.2 - 0.84, 0.45 + 0.7])
 
 
@@ -119,7 +119,7 @@ async def test_a_lift_that_goes_nowhere_is_a_problem_of_the_scene(client: httpx.
     assert problem["errors"][0]["field"] == "scene.torso_m"
 
 
-async def test_the_map_of_places_says_where_the_article_would_come(client: httpx.AsyncClient) -> None:
+async def test_the_map_of_places_says_where_the_garment_would_come(client: httpx.AsyncClient) -> None:
     document_id = await created(client)
     wanted = {"step_m": 0.4, "time_limit_s": 20}
     found = (await client.post(f"/api/documents/{document_id}/overlays/places", json=wanted)).json()
@@ -127,7 +127,7 @@ async def test_the_map_of_places_says_where_the_article_would_come(client: httpx
     assert here["placement"] == pytest.approx(towel()["placement"])
     assert here["cost_s"] == pytest.approx(9.2)  # a fold, and 5 cm of driving, at a quarter of a metre a second
     assert found["best"]["cost_s"] == min(cell["cost_s"] for cell in found["cells"] if cell["cost_s"] is not None)
-    # Turned by -90 degrees, the article's y is the table's x: 0.4 m away along the table is (0, 0.4) on the article.
+    # Turned by -90 degrees, the garment's y is the table's x: 0.4 m away along the table is (0, 0.4) on the garment.
     moves = {tuple(np.round(cell["move"], 6) + 0.0): cell["placement"] for cell in found["cells"]}
     assert moves[(0.0, 0.4)]["x_m"] == pytest.approx(towel()["placement"]["x_m"] + 0.4)
 

@@ -119,7 +119,7 @@ async def test_where_the_table_is_too_deep_the_reach_ends_before_the_cross(clien
     plan = (await client.post("/api/plans", json={"garment": "t-shirt", "scene": scene})).json()
     reason = next(reason for reason in plan["reasons"] if reason["point"])
     assert (told["arm"], told["station"], told["fold"]) == (reason["arm"], "front", reason["fold"])
-    # The shirt lies unturned, so the article's axes are the table's.
+    # The shirt lies unturned, so the garment's axes are the table's.
     placement = load_garment("t-shirt").placement
     x, y, z = reason["point"]
     assert told["point"] == pytest.approx([x - placement.x_m, y - placement.y_m, z])

@@ -4,7 +4,7 @@ import pytest
 from app.overlays.moment import Moment
 from app.overlays.slip import CutCloth, limit_m, slip_overlay
 from planner.cloth.cloth_state import ClothState
-from planner.cloth.g_state import TableInArticle, unrest
+from planner.cloth.g_state import TableInGarment, unrest
 from planner.folds.fold_cloth import fold_cloth
 from planner.geometry.pose import Point2, Pose2
 from planner.geometry.segment import Segment
@@ -60,7 +60,7 @@ def test_the_lines_are_where_the_planner_says_that_the_cloth_slips() -> None:
         # Laid so that the line is on its edge, the cloth is about to slip: 4 mm further out it does.
         for further, is_at_rest in ((-0.004, True), (0.004, False)):
             placement = laid(limit.edge, list(limit.line), further, scene)
-            top = TableInArticle.seen_from(placement, scene.table)
+            top = TableInGarment.seen_from(placement, scene.table)
             found = unrest(cloth, top, scene.friction, scene.support_angle_rad)
             assert (found is None) == is_at_rest, limit.edge
             assert found is None or found.code == "slips"
@@ -77,7 +77,7 @@ def laid(edge: str, line: list[Point2], further_m: float, scene: Scene) -> Pose2
 
 
 def test_what_hangs_now_is_told_by_the_edge() -> None:
-    # 0.4 m wide, 1 m long, article and table frames parallel: its lowest y is 0.2 m beyond the right edge at -0.49.
+    # 0.4 m wide, 1 m long, garment and table frames parallel: its lowest y is 0.2 m beyond the right edge at -0.49.
     told = slip_overlay(lying(spread(rectangle_points(0.4, 0.8)), Pose2(0.0, -0.69, 0.0)))
     assert told.hanging_m2 == pytest.approx({"right": 0.08, "far": 0.0, "left": 0.0, "near": 0.0})
     assert (told.lying_m2, told.pull_m2) == pytest.approx((0.24, 0.08))

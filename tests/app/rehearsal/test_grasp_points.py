@@ -30,7 +30,7 @@ def seen_before(plan: Plan, step: PlanStep, stack: SeenStack | None, carried_m: 
 
 def test_a_part_that_moved_last_is_taken_where_it_was_seen() -> None:
     # The near half was folded up at y = .25 m. With its crease 4 mm to the left of the line, towards y = 0, its edge is
-    # 8 mm short. The article is turned by -90 degrees: its -y is -x of the table.
+    # 8 mm short. The garment is turned by -90 degrees: its -y is -x of the table.
     plan = shipped_plan("letter-towel")
     folded = FoldedOutline(plan.sequence, 0, 0)
     seen = SeenStack(Figure.of(plan.sequence.cloth(1)), folded, np.array([0, 0, 0, 0.004, 0, 0.0]), np.eye(6))
@@ -65,7 +65,7 @@ def test_a_hand_takes_an_edge_where_it_is_seen() -> None:
         ),
     )
     offsets = where_seen(seen_before(plan, step, seen))
-    assert step.before.placement.yaw_rad == pytest.approx(-math.pi / 2.0)  # the article's y is the table's x
+    assert step.before.placement.yaw_rad == pytest.approx(-math.pi / 2.0)  # the garment's y is the table's x
     assert offsets["middle"] == pytest.approx((0.0065, 0.0), abs=1e-3)
     assert offsets["corner"] == pytest.approx((0.009, 0.0), abs=1.5e-3)
     assert offsets["edge"] == pytest.approx((0.0, 0.0), abs=1e-4)

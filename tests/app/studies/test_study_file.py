@@ -160,7 +160,7 @@ def test_given_stations_stay_where_they_are_given() -> None:
         ({"middle": {"x_m": 0.0, "y_m": 0.0, "yaw_rad": 0.0}}, Pose2(-0.15, -0.1, 0.0)),
     ],
 )
-def test_an_article_lies_where_the_placements_say(placements: Any, expected: Pose2) -> None:
+def test_a_garment_lies_where_the_placements_say(placements: Any, expected: Pose2) -> None:
     task = study(placements=placements).cell(0).task
     assert task is not None
     found = task.start.placement

@@ -1,4 +1,4 @@
-"""A window for all tests of a module, since loading takes long, and articles laid out in it."""
+"""A window for all tests of a module, since loading takes long, and garments laid out in it."""
 
 from collections.abc import Iterator
 

@@ -87,7 +87,7 @@ def test_the_wheel_zooms_at_the_cursor_and_the_origin_is_told_truly(page: Page, 
     before = float(str(hand.board.get_attribute("data-px-per-m")))
     page.mouse.wheel(0, -300)
     page.wait_for_function(f"Number(document.getElementById('drafting-board').dataset.pxPerM) > {1.2 * before}")
-    under = ((at[0] - x0) / before, (y0 - at[1]) / before)  # what was under the cursor, article frame
+    under = ((at[0] - x0) / before, (y0 - at[1]) / before)  # what was under the cursor, garment frame
     assert hand.px(under) == pytest.approx(at, abs=0.01)
     box = page.locator(".corner").nth(6).bounding_box()
     assert box is not None

@@ -15,7 +15,7 @@ import { bendEdge, insertCorner, moveCorners } from "../outline_edits.js";
 
 /** @typedef {(pointer: Pointer) => Change} Dragged the change that brings what is dragged to a pointer */
 /**
- * What was pressed, and where (article frame in m, px); with Alt an edge's middle becomes a corner.
+ * What was pressed, and where (garment frame in m, px); with Alt an edge's middle becomes a corner.
  * @typedef {{hit: Hit|null, at: Point, px: Point, alt: boolean}} Press
  */
 

@@ -32,7 +32,7 @@ const TURNS = { ",": NUDGE_TURN_RAD, ".": -NUDGE_TURN_RAD };
  * @property {Point} plane where it was pressed, in the plane that is shown (m)
  * @property {Point} px
  * @property {Pose} placement
- * @property {Point} middle the garment's (article frame, m)
+ * @property {Point} middle the garment's (garment frame, m)
  * @property {Point} centre the same on the table (m)
  */
 
@@ -54,7 +54,7 @@ export class PlaceTool extends Tool {
     this.board.store.select({ kind: "garment", ids: [] });
   }
 
-  /** The garment's middle, article frame. */
+  /** The garment's middle, garment frame. */
   get middle() {
     return middleOf(this.board.drawing);
   }
@@ -155,7 +155,7 @@ export class PlaceTool extends Tool {
     const { view } = this.board;
     const centre = view.toPx(held.middle);
     const [x, y] = minus(pointer.px, centre);
-    let yaw = Math.atan2(-y, x) - Math.PI; // the handle is the article's +y, the plane's up the table's x
+    let yaw = Math.atan2(-y, x) - Math.PI; // the handle is the garment's +y, the plane's up the table's x
     let name = "";
     const square = Math.round(yaw / (Math.PI / 2)) * (Math.PI / 2);
     if (pointer.shift) [yaw, name] = [Math.round(yaw / TURN_RAD) * TURN_RAD, "15\u00B0"];
@@ -224,7 +224,7 @@ export class PlaceTool extends Tool {
 }
 
 /**
- * The placement with which an article's point lies at a place of the table.
+ * The placement with which a garment's point lies at a place of the table.
  * @param {Point} at
  * @param {Point} middle
  * @param {number} yaw

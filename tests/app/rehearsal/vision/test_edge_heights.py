@@ -45,7 +45,7 @@ def beside_the_table() -> Camera:
 
 
 def loop_seen(camera: Camera, y_m: float) -> FloatArray:
-    """The pixel at which the outermost point of a loop at y, article frame, is seen: the one furthest out."""
+    """The pixel at which the outermost point of a loop at y, garment frame, is seen: the one furthest out."""
     turns = np.linspace(-math.pi / 2.0, math.pi / 2.0, 721)
     rounds = np.column_stack([np.cos(turns), 1.0 + np.sin(turns)]) * HALF_M
     placed = LIES.to_outer(np.column_stack([np.full(len(turns), 0.343), y_m + HALF_M - rounds[:, 0]]))
