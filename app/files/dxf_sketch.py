@@ -18,6 +18,7 @@ from ezdxf.lldxf.const import DXFError
 from ezdxf.math import Vec3
 from ezdxf.path import Path, make_path
 
+from app.files.colour_spaces import Rgb
 from app.files.curve import POINTS_MAX, DrawnCurve, finite
 from app.files.dxf_layers import (
     BOUNDARY,
@@ -30,7 +31,7 @@ from app.files.dxf_layers import (
     size_by_text,
     unit_by_text,
 )
-from app.files.fold_colour import Rgb, kind_of
+from app.files.fold_colour import kind_of
 from app.files.import_errors import broken
 from app.files.piece_labels import piece_in, says_on_fold, size_in
 from app.files.sketch import DrawnLine, FoldLine, MirrorLine, Role, Sketch

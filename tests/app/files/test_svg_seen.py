@@ -207,7 +207,30 @@ def test_a_selector_asks_for_all_of_its_steps() -> None:
         ("#00f icc-color(cmyk, 1, 1, 0, 0)", "blue"),
         ("hwb(0 10% 10%)", "red"),
         ("forestgreen", None),
-        ("color(xyz 0.1 0.2 0.9)", None),
+        ("color(xyz 0.18 0.07 0.95)", "blue"),
+        ("color(xyz-d50 0.436 0.222 0.014)", "red"),
+        ("color(srgb-linear 0.02 0.02 0.8)", "blue"),
+        ("color(own 0.1 0.2 0.9)", None),
+        ("oklch(0.45 0.31 264)", "blue"),
+        ("oklch(45.2% 78% 264.05deg / 0.9)", "blue"),
+        ("OKLCH(62.8% 0.2577 29.23)", "red"),
+        ("oklch(0.6 0.4 0.08turn)", "red"),
+        ("oklch(0.6 0 264)", None),
+        ("oklch(60% 0.2 142)", None),
+        ("oklab(0.452 -0.032 -0.312)", "blue"),
+        ("oklab(62.8% 56.2% 31.5%)", "red"),
+        ("lab(29.57 68.3 -112.03)", "blue"),
+        ("lab(54.29% 64.6% 55.9%)", "red"),
+        ("lch(29.57 131.2 301.4)", "blue"),
+        ("lch(54.3% 71% 40.85deg / 80%)", "red"),
+        ("lch(50 none none)", None),
+        ("hsl(240 100% 50%)", "blue"),
+        ("hsl(240deg, 80%, 40%)", "blue"),
+        ("hsla(0.6667turn 100% 40% / 1)", "blue"),
+        ("hsl(4.19rad 90% 50%)", "blue"),
+        ("hsl(0 100 50)", "red"),
+        ("hwb(266.7grad 0% 20%)", "blue"),
+        ("var(--own, oklch(0.45 0.31 264))", "blue"),
         ("url(#gradient)", None),
     ],
 )
@@ -215,3 +238,52 @@ def test_a_line_is_a_fold_by_its_colour_however_that_is_written(paint: str, kind
     drawn = f'<path d="M 15 5 V 35" style="stroke: {paint}" fill="none"/>'
     kinds = [fold.kind for fold in read(PIECE, FOLD, drawn).garment.folds]
     assert kinds == (["blue"] if kind is None else ["blue", kind])
+
+
+@pytest.mark.parametrize(
+    ("sheet", "more", "paint", "kind"),
+    [
+        (":root { --fold: #f00 }", "", "var(--fold)", "red"),
+        ("svg { --fold: oklch(0.63 0.26 29) }", "", "var( --fold , blue)", "red"),
+        ("", 'style="--fold: red"', "var(--fold)", "red"),
+        (":root { --ink: Red; --fold: var(--ink) }", "", "var(--fold)", "red"),
+        (":root { --Fold: blue; --fold: red }", "", "var(--fold)", "red"),
+        (":root { --Fold: red; --fold: blue }", "", "VAR(--Fold)", "red"),
+        (":root { --parts: 255, 0, 0 }", "", "rgb(var(--parts))", "red"),
+        (":root { --fold: blue } g { --fold: red !important }", "", "var(--fold)", "red"),
+        (":root { --ink: red; --fold: blue } g { --fold: initial }", "", "var(--fold, var(--ink))", "red"),
+        (":root { --fold: red; } g { --fold: inherit }", "", "var(--fold)", "red"),
+        (":root { --one: var(--two); --two: var(--one) }", "", "var(--one, red)", "red"),
+        (":root { --one: var(--one) }", "", "var(--one)", None),
+        ("", "", "var(--none)", None),
+        ("", "", "var(--none,)", None),
+        ("", "", "var(--none", None),
+        ("g { stroke: red }", "", "var(--none)", "red"),
+    ],
+    ids=range(16),
+)
+def test_a_colour_may_be_a_variable(sheet: str, more: str, paint: str, kind: str | None) -> None:
+    for drawn in (f'stroke="{paint}"', f'style="stroke: {paint}"'):
+        line = f'<g><path d="M 15 5 V 35" {drawn} fill="none"/></g>'
+        kinds = [fold.kind for fold in read(f"<style>{sheet}</style>", PIECE, FOLD, line, more=more).garment.folds]
+        assert kinds == (["blue"] if kind is None else ["blue", kind])
+
+
+def test_a_variable_counts_in_a_mask_as_where_the_mask_stands() -> None:
+    mask = '<g style="--paper: white"><mask id="m"><rect width="50" height="40" fill="var(--paper)"/></mask></g>'
+    assert sides(read(mask, '<rect x="1" y="1" width="48" height="38" fill="#555" mask="url(#m)"/>')) == (0.48, 0.38)
+
+
+@pytest.mark.parametrize("value", ["var(--n{0}) var(--n{0})", "var(--n{0}, var(--n{0}))", "var(--n{0})"])
+def test_variables_that_multiply_each_other_take_no_time(value: str) -> None:
+    declared = "; ".join(f"--n{n}: {value.format(n - 1)}" for n in range(1, 100))
+    for first in ("--n0:;", "--n0: red;", ""):
+        line = '<path d="M 15 5 V 35" stroke="var(--n99, red)" fill="none"/>' * 100
+        found = read(f"<style>* {{ {first} {declared} }}</style>", PIECE, FOLD, line)
+        assert found.garment.folds[0].kind == "blue"
+
+
+def test_a_drawing_with_too_many_variables_is_refused() -> None:
+    paints = "".join(f'<path stroke="var(--n{n})"/>' for n in range(201))
+    with pytest.raises(ImportedFileError, match="more than 200 variables"):
+        read(paints, PIECE)
