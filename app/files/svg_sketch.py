@@ -16,6 +16,7 @@ from app.files.markup import Element, read_markup
 from app.files.piece_labels import piece_in, says_on_fold, size_in
 from app.files.sketch import DrawnLine, FoldLine, MirrorLine, Role, Sketch
 from app.files.svg_lengths import Sheet, Sides, sheet_of
+from app.files.svg_page import box_of, is_frame, is_frame_around, is_page, may_be_garment
 from app.files.svg_paint import WHITE_MIN, colour_of, is_filled, is_stroked, is_white
 from app.files.svg_shapes import Shape, shapes_of
 from planner.errors import FieldError
@@ -38,12 +39,8 @@ _BAD = (ArithmeticError, AssertionError, AttributeError, LookupError, TypeError,
 _FARTHEST = 1e12
 """Largest coordinate of a curve, in units of the drawing."""
 
-_COARSE, _PAGE_SLACK = 1e-3, 0.005
-"""Precision with which areas are compared, and by how much the page may differ from the sheet, as shares of it."""
-
-_GARMENT_SHARES = (0.05, 0.8)
-"""The least and the largest share of a page with an edge that a garment on it covers: what is smaller is a detail of
-what fills the page, what is larger its seam line."""
+_COARSE = 1e-3
+"""Precision with which areas are compared, as a share of the sheet."""
 
 _NAMED = frozenset({"g", "path", "polygon", "polyline", "rect", "use", "svg"})
 
@@ -75,14 +72,18 @@ class _Area:
         has_edge: whether a line is drawn along its edge, in a colour that shows on paper.
         is_white: whether nothing of it shows on white paper.
         covers_sheet: whether it is a rectangle as large as the sheet, or larger.
-        share: its area as a share of the sheet's.
+        may_be_frame: whether it is a rectangle that nothing is painted in, as far from all edges of the sheet.
+        box: its lowest and highest coordinates, shape (2, 2), in units of the drawing.
+        size: the area in it.
     """
 
     line: DrawnLine
     has_edge: bool
     is_white: bool
     covers_sheet: bool
-    share: float
+    may_be_frame: bool
+    box: FloatArray
+    size: float
 
 
 class _Reading:
@@ -138,11 +139,19 @@ class _Reading:
         edge = colour_of(shape.style.get("stroke", ""), shape.style) if has_stroke else None
         has_edge = has_stroke and (edge is None or min(edge) < WHITE_MIN)
         is_area_white = not has_area or is_white(shape.style)
-        line = DrawnLine("outline", curve, size)
+        points, sheet = self._coarse(curve), self._corners()
+        box = box_of(points)
         with np.errstate(all="ignore"):
-            area = abs(signed_area(self._coarse(curve)[:-1]))
-            share = float(area / np.prod(np.ptp(self._corners(), axis=0)))
-        return _Area(line, has_edge, not has_edge and is_area_white, self._is_page(curve, area), share)
+            area = abs(float(signed_area(points[:-1])))
+        return _Area(
+            DrawnLine("outline", curve, size),
+            has_edge,
+            not has_edge and is_area_white,
+            is_page(box, area, sheet),
+            has_edge and is_area_white and is_frame(box, area, sheet),
+            box,
+            area,
+        )
 
     def sketch(self) -> Sketch:
         """Return the drawing."""
@@ -163,19 +172,42 @@ class _Reading:
 
         A rectangle as large as the sheet is the page: with an edge where a garment may be drawn on it; without one
         unless it is dark and nothing else has an edge or is white upon it. On a dark page what is white can be seen.
+        A frame is an outline only if nothing else is.
         """
         is_page_dark = False
-        others = [one for one in self._areas if one.has_edge or not one.covers_sheet]
-        inner = (one.share for one in others if not (one.covers_sheet or one.is_white))
-        least, most = _GARMENT_SHARES
-        is_drawn_on = self._kept is None and (self._has_open or least <= max(inner, default=0.0) <= most)
-        for one in self._areas:
-            is_page = one.covers_sheet and (is_drawn_on or not one.has_edge)
-            if is_page and not (one.is_white or one.has_edge):
+        frame = self._frame()
+        drawn = [one for one in self._areas if one is not frame]
+        others = [one for one in drawn if one.has_edge or not one.covers_sheet]
+        inner = (one.size for one in others if not (one.covers_sheet or one.is_white))
+        is_drawn_on = self._kept is None and (
+            self._has_open or may_be_garment(max(inner, default=0.0), self._corners())
+        )
+        for one in drawn:
+            is_paper = one.covers_sheet and (is_drawn_on or not one.has_edge)
+            if is_paper and not (one.is_white or one.has_edge):
                 is_page_dark = True
-                is_page = any(other.has_edge or other.is_white for other in others)
-            role: Role = "page" if is_page else "white" if one.is_white and not is_page_dark else "outline"
+                is_paper = any(other.has_edge or other.is_white for other in others)
+            role: Role = "page" if is_paper else "white" if one.is_white and not is_page_dark else "outline"
             yield replace(one.line, role=role)
+        if frame is not None:
+            yield replace(frame.line, role="white")
+
+    def _frame(self) -> _Area | None:
+        """Return the rectangle a little inside of the sheet that is only a frame around a garment; None if none is."""
+        frame = max(
+            (one for one in self._areas if one.may_be_frame and not one.covers_sheet),
+            key=lambda one: one.size,
+            default=None,
+        )
+        if frame is None or self._kept is not None:
+            return None
+        areas = [
+            (one.box, one.size) for one in self._areas if one is not frame and not (one.covers_sheet or one.is_white)
+        ]
+        curves = [one.line for one in self._lines if one.role == "outline"]
+        lines = [box_of(self._coarse(cast(Curve, curve))) for curve in curves]
+        folds = [one.line.curve.extent[[0, -1]] for one in self._lines if isinstance(one.line, FoldLine)]
+        return frame if is_frame_around(frame.box, areas, lines, folds) else None
 
     def _names_fold(self) -> bool:
         """Return whether a closed shape or a group is named as cut on the fold."""
@@ -236,13 +268,6 @@ class _Reading:
         box = self._sheet.view_box
         corners = np.array([[box.x, box.y, 1.0], [box.x + box.width, box.y + box.height, 1.0]])
         return np.sort((corners @ _upwards(self._sheet).T)[:, :2], axis=0)
-
-    def _is_page(self, curve: Curve, area: float) -> bool:
-        points, sheet = self._coarse(curve), self._corners()
-        low, high = points.min(axis=0), points.max(axis=0)
-        slack = _PAGE_SLACK * np.ptp(sheet, axis=0)
-        is_wide = bool(np.all(low <= sheet[0] + slack) and np.all(high >= sheet[1] - slack))
-        return is_wide and area >= (1.0 - _PAGE_SLACK) * float(np.prod(high - low))
 
 
 def labels_of(element: Element) -> list[str]:

@@ -56,6 +56,70 @@ def test_a_page_with_an_edge_is_no_outline_of_what_open_lines_draw() -> None:
     assert sides(read(page, lines.format('<line x1="9" y1="9" x2="9" y2="30"/>'))) == (0.5, 0.4)
 
 
+FRAME = '<rect x="1" y="1" width="48" height="38" fill="none" stroke="black"/>'
+
+
+@pytest.mark.parametrize(
+    "frame",
+    [
+        FRAME,
+        '<path d="M 49 39 H 1 V 1 H 49 Z" fill="none" stroke="#888"/>',
+        '<rect x="2.1" y="2" width="45.9" height="36" fill="white" stroke="black"/>',
+        '<rect x="1" y="1" width="48" height="38" rx="1" fill="none" stroke="navy"/>',
+        f'<rect width="100%" height="100%" fill="white"/>{FRAME}',
+        f'<rect width="50" height="40" fill="none" stroke="black"/>{FRAME}',
+        f'{FRAME}<path d="M 42 36 H 48 V 38 H 42 Z" fill="none" stroke="black"/>',
+    ],
+    ids=range(7),
+)
+def test_a_frame_a_little_inside_of_the_page_is_no_outline(frame: str) -> None:
+    found = read(frame, PIECE, FOLD)
+    assert sides(found) == (0.4, 0.3)
+    assert [fold.kind for fold in found.garment.folds] == ["blue"]
+
+
+def test_a_frame_is_no_outline_of_what_open_lines_draw() -> None:
+    lines = '<g stroke="black" fill="none"><path d="M 5 5 H 45 V 35"/><path d="M 45 35 H 5 V 5"/></g>'
+    assert sides(read(FRAME, lines, FOLD)) == (0.4, 0.3)
+    cross = '<g stroke="black" fill="none"><path d="M 25 5 V 35"/><path d="M 5 20 H 45"/></g>'
+    assert sides(read(FRAME, cross)) == (0.48, 0.38)
+
+
+@pytest.mark.parametrize(
+    "inner",
+    [
+        "",
+        '<line x1="25" y1="1" x2="25" y2="39" stroke="blue"/>',
+        '<line x1="25" y1="3" x2="25" y2="37" stroke="blue"/><line x1="3" y1="20" x2="24" y2="20" stroke="red"/>',
+        '<line x1="25" y1="0" x2="25" y2="40" stroke="blue"/>',
+        '<line x1="25" y1="1" x2="25" y2="39" stroke="black"/>',
+        '<rect x="2" y="2" width="46" height="36" fill="none" stroke="black" stroke-dasharray="1"/>',
+        '<circle cx="9" cy="9" r="3" stroke="black"/>',
+        '<rect x="20" y="8" width="10" height="12" stroke="gray"/><path d="M 25 1 V 39" stroke="blue"/>',
+        '<rect x="4" y="4" width="12" height="12" stroke="gray"/><path d="M 25 3 V 37" stroke="blue"/>',
+    ],
+    ids=range(9),
+)
+def test_a_towel_that_its_page_fits_with_a_margin_stays_the_outline(inner: str) -> None:
+    assert max(sides(read(FRAME, inner))) >= 0.46
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        '<rect x="1" y="1" width="40" height="38" fill="none" stroke="black"/>',
+        '<rect x="5.5" y="5.5" width="39" height="29" fill="none" stroke="black"/>',
+        '<rect x="1" y="1" width="48" height="38" fill="#dca" stroke="black"/>',
+        '<path d="M 1 1 H 49 V 30 L 40 39 H 1 Z" fill="none" stroke="black"/>',
+        f'{FRAME}<circle cx="45" cy="38" r="1.9" stroke="black"/>',
+    ],
+    ids=range(5),
+)
+def test_what_is_unlike_a_frame_stays_the_outline(other: str) -> None:
+    found = read(other, '<rect x="8" y="8" width="20" height="20" fill="none" stroke="black"/>')
+    assert max(sides(found)) >= 0.39
+
+
 def test_what_an_all_black_mask_hides_is_not_seen() -> None:
     mask = '<mask id="m"><rect width="50" height="40" fill="{}"/></mask>'
     box = '<rect x="1" y="1" width="48" height="38" fill="#555" mask="url(#m)"/>'
