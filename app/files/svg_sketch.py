@@ -13,7 +13,7 @@ from app.files.curve import Curve, DrawnCurve, Segment, SvgCurve
 from app.files.fold_colour import kind_of
 from app.files.import_errors import broken
 from app.files.markup import Element, read_markup
-from app.files.piece_labels import piece_in, says_on_fold, size_in
+from app.files.piece_labels import names_fold, piece_in, says_on_fold, size_in
 from app.files.sketch import DrawnLine, FoldLine, MirrorLine, Role, Sketch
 from app.files.svg_lengths import Sheet, Sides, sheet_of
 from app.files.svg_page import box_of, is_frame, is_frame_around, is_page, may_be_garment
@@ -92,11 +92,13 @@ class _Reading:
     def __init__(self, root: Element, sheet: Sheet) -> None:
         self._root, self._sheet = root, sheet
         self._kept = _kept(root)
-        self._texts = [e for e in root.walk() if e.tag in ("text", "textPath") and says_on_fold(e.whole_text())]
-        self._on_fold = {e.attributes.get("href", "")[1:] for text in self._texts for e in text.walk()} - {""}
+        texts = [(e, e.whole_text()) for e in root.walk() if e.tag in ("text", "textPath")]
+        self._texts = [e for e, text in texts if says_on_fold(text)]
+        self._fold_words = [e for e, text in texts if names_fold(text)]
+        self._on_fold, self._named_fold = _paths_of(self._texts), _paths_of(self._fold_words)
         self._sizes: dict[Element, str | None] = {}
         self._pieces: dict[Element, str | None] = {}
-        self._says_on_fold: dict[Element, bool] = {}
+        self._says_on_fold: dict[tuple[Element, bool], bool] = {}
         self._areas: list[_Area] = []
         self._lines: list[DrawnLine] = []
         self._segments, self._has_open = 0, False
@@ -121,11 +123,11 @@ class _Reading:
                 self._add_open(shape, curve, size, has_stroke=has_stroke)
 
     def _add_open(self, shape: Shape, curve: SvgCurve, size: str | None, *, has_stroke: bool) -> None:
-        if self._kept is None and self._is_on_fold(shape):
+        kind = kind_of(colour_of(shape.style.get("stroke", ""), shape.style)) if has_stroke else None
+        if self._kept is None and self._is_on_fold(shape, is_coloured=kind is not None):
             self._lines.append(DrawnLine("mirror", MirrorLine(curve, is_beside=True), size))
             return
-        kind = kind_of(colour_of(shape.style.get("stroke", ""), shape.style))
-        if has_stroke and kind is not None:
+        if kind is not None:
             fold = FoldLine(kind, curve, _name(shape.element), _grip_radius(shape.element))
             self._lines.append(DrawnLine("fold", fold, size))
             return
@@ -163,7 +165,7 @@ class _Reading:
             why,
             self._root.title,
             self._kept,
-            says_fold=self._kept is None and (bool(self._texts) or self._names_fold()),
+            says_fold=self._kept is None and self._says_fold(),
         )
         return sketch.with_lines([*self._closed(), *self._lines])
 
@@ -209,19 +211,26 @@ class _Reading:
         folds = [one.line.curve.extent[[0, -1]] for one in self._lines if isinstance(one.line, FoldLine)]
         return frame if is_frame_around(frame.box, areas, lines, folds) else None
 
-    def _names_fold(self) -> bool:
-        """Return whether a closed shape or a group is named as cut on the fold."""
-        return any(says_on_fold(label) for e in self._root.walk() if e.tag in _NAMED for label in labels_of(e))
+    def _says_fold(self) -> bool:
+        """Return whether a text says that a piece is cut on the fold, or a closed shape or a group is named so."""
+        named = (label for e in self._root.walk() if e.tag in _NAMED for label in labels_of(e))
+        has_folds = any(one.role == "fold" for one in self._lines)
+        return bool(self._texts or (self._fold_words and not has_folds)) or any(map(says_on_fold, named))
 
-    def _is_on_fold(self, shape: Shape) -> bool:
-        """Return whether an open line says that it is a fold line: by its names, its markers, or a text on it."""
+    def _is_on_fold(self, shape: Shape, *, is_coloured: bool) -> bool:
+        """Return whether an open line says that it is a fold line: by its names, its markers, or a text on it.
+
+        The word fold alone does not say so of a line in the colour of a fold.
+        """
         element = shape.element
-        if element not in self._says_on_fold:
+        if (element, is_coloured) not in self._says_on_fold:
             said = [element.attributes.get(name, "") for name in ("class", "marker-start", "marker-end")]
             said += [shape.style.get(name, "") for name in ("marker-start", "marker-end")]
-            is_named = any(map(says_on_fold, (*labels_of(element), *said)))
-            self._says_on_fold[element] = is_named or element.attributes.get("id") in self._on_fold
-        return self._says_on_fold[element]
+            names, own = labels_of(element), element.attributes.get("id")
+            is_named = any(map(says_on_fold, (*names, *said))) or own in self._on_fold
+            is_alone = not is_coloured and (any(map(names_fold, names)) or own in self._named_fold)
+            self._says_on_fold[element, is_coloured] = is_named or is_alone
+        return self._says_on_fold[element, is_coloured]
 
     def _size_of(self, element: Element) -> str | None:
         """Return the size that an element or a group around it is labelled with."""
@@ -268,6 +277,11 @@ class _Reading:
         box = self._sheet.view_box
         corners = np.array([[box.x, box.y, 1.0], [box.x + box.width, box.y + box.height, 1.0]])
         return np.sort((corners @ _upwards(self._sheet).T)[:, :2], axis=0)
+
+
+def _paths_of(texts: Iterable[Element]) -> set[str]:
+    """Return the ids of the lines that texts are written along."""
+    return {e.attributes.get("href", "")[1:] for text in texts for e in text.walk()} - {""}
 
 
 def labels_of(element: Element) -> list[str]:
