@@ -58,6 +58,12 @@ _LABS: Mapping[str, tuple[Callable[[float, float, float], Rgb], float, float, fl
 _NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d{1,3})?|none)(%|deg|grad|rad|turn)?")
 _Number: TypeAlias = tuple[str, str]
 
+_COMMA = re.compile(r",(?![^(]*\))")
+"""A comma that is not in the brackets of a colour."""
+
+_PERCENT = re.compile(r"(?:^|(?<=[\s)]))(\d{1,3}(?:\.\d{0,9})?)%(?=\s|$)(?![^(]*\))")
+"""A percentage that is not in the brackets of a colour."""
+
 _UNITS_DEG: Mapping[str, float] = {"deg": 1.0, "grad": 0.9, "rad": math.degrees(1.0), "turn": 360.0}
 """The units of hues (degrees)."""
 
@@ -86,7 +92,7 @@ def css_rgb(text: str) -> Rgb | None:
     if _HEX.fullmatch(wanted):
         return hex_rgb(wanted[1:])
     function = _FUNCTION.fullmatch(wanted)
-    return None if function is None else _called(function[1], function[2])
+    return _chosen(wanted) if function is None else _called(function[1], function[2])
 
 
 def alpha_of(text: str) -> float:
@@ -107,6 +113,36 @@ def hex_rgb(digits: str) -> Rgb:
     wide = digits if len(digits) >= 6 else "".join(2 * digit for digit in digits)
     red, green, blue = (int(wide[i : i + 2], 16) / 255.0 for i in (0, 2, 4))
     return (red, green, blue)
+
+
+def _chosen(text: str) -> Rgb | None:
+    """Return the colour of ``light-dark()``, on a light ground, or of ``color-mix()``."""
+    name, bracket, inner = text.partition("(")
+    parts = [part.strip() for part in _COMMA.split(inner[:-1])]
+    if not bracket or not inner.endswith(")"):
+        return None
+    if name == "light-dark" and len(parts) == 2:
+        return css_rgb(parts[0])
+    return _mixed(parts[1:]) if name == "color-mix" and len(parts) == 3 else None
+
+
+def _mixed(parts: list[str]) -> Rgb | None:
+    """Return the mixture of two colours, each with its percentage or without, in sRGB: hues differ by too little."""
+    shares = [None if (found := _PERCENT.search(part)) is None else float(found[1]) / 100.0 for part in parts]
+    one, other = shares
+    if one is None:
+        one = 0.5 if other is None else 1.0 - other
+    weights = [max(one, 0.0), max(1.0 - one if other is None else other, 0.0)]
+    colours = [_PERCENT.sub("", part).strip() for part in parts]
+    weights = [0.0 if text == "transparent" else by * alpha_of(text) for text, by in zip(colours, weights, strict=True)]
+    known = [(css_rgb(text), by) for text, by in zip(colours, weights, strict=True) if by > 0.0]
+    mixed = [0.0, 0.0, 0.0]
+    for rgb, by in known:
+        if rgb is None:
+            return None
+        mixed = [so_far + by / sum(weights) * value for so_far, value in zip(mixed, rgb, strict=True)]
+    red, green, blue = mixed
+    return (red, green, blue) if known else None
 
 
 def _called(name: str, text: str) -> Rgb | None:

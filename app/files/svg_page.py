@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from planner.geometry.arrangement import are_tangled, enclosing_rings, signed_area
 from planner.geometry.pose import FloatArray
 
 _SLACK = 0.005
@@ -15,6 +16,15 @@ _MARGIN_MAX = 0.1
 _GARMENT_SHARES = (0.05, 0.8)
 """The least and the largest share of a page that a garment on it covers: what is smaller is a detail of what fills the
 page, what is larger its seam line."""
+
+_LEGEND = 0.25
+"""Fold lines beside a garment that are no longer than this share of a frame's shorter side explain the drawing."""
+
+_OUTLINED = 0.9
+"""The least share of the box about open lines that the closed lines which they make cover, unless they are a grid."""
+
+_OPEN_MAX, _CROSSINGS_MAX = 500, 2_000
+"""Largest numbers of open lines, and of their crossings, that a garment in a frame is looked for in."""
 
 _SAMPLES = np.linspace(0.0, 1.0, 21)
 
@@ -62,26 +72,54 @@ def is_frame_around(
     areas: Sequence[tuple[FloatArray, float]],
     lines: Sequence[FloatArray],
     folds: Sequence[FloatArray],
+    gap: float,
 ) -> bool:
     """Return whether a rectangle is only the frame around a garment: that is in it, and no fold is the rectangle's own.
 
     Args:
         frame: the lowest and highest coordinates of the rectangle, shape (2, 2).
         areas: the boxes of the closed lines, and the areas in them.
-        lines: the boxes of the open lines.
+        lines: the open lines, each shape (n, 2).
         folds: the ends of each fold line, shape (2, 2).
+        gap: the largest gap between open lines that make a closed one.
     """
-    largest = max((area for _, area in areas), default=0.0)
-    if lines and not areas:
-        largest = _area_of(box_of(np.concatenate(lines)))
+    largest = max((area for _, area in (*areas, *_drawn_open(frame, areas, lines, gap))), default=0.0)
     if not may_be_garment(largest, frame):
         return False
-    boxes = [*(box for box, _ in areas), *lines]
+    boxes = [*(box for box, _ in areas), *map(box_of, lines)]
     slack = _SLACK * float(np.ptp(frame, axis=0).max())
     if not all(np.all(box[0] >= frame[0] - slack) and np.all(box[1] <= frame[1] + slack) for box in boxes):
         return False
     inner = box_of(np.concatenate(boxes))
-    return all(_is_within(ends, inner) and not _touches(ends, frame, slack) for ends in folds)
+    short = _LEGEND * float(np.ptp(frame, axis=0).min())
+    return all(
+        not _touches(ends, frame, slack) and (_is_within(ends, inner) or float(np.hypot(*(ends[1] - ends[0]))) <= short)
+        for ends in folds
+    )
+
+
+def _drawn_open(
+    frame: FloatArray, areas: Sequence[tuple[FloatArray, float]], lines: Sequence[FloatArray], gap: float
+) -> list[tuple[FloatArray, float]]:
+    """Return the boxes and areas of what open lines outside of closed ones make together; none for a grid of them."""
+    free = [line for line in lines if len(line) > 1 and not any(_holds(box, box_of(line)) for box, _ in areas)]
+    if not free or not all(_holds(frame, box_of(line)) for line in free):
+        return []
+    size = float(np.ptp(frame, axis=0).max())
+    free = [(line - frame[0]) / size for line in free]  # rings are found to a precision in metres: 1 is a usual size
+    if len(free) > _OPEN_MAX or are_tangled(free, _CROSSINGS_MAX):
+        return []
+    found = [(box_of(ring), abs(float(signed_area(ring)))) for ring in enclosing_rings(free, gap / size)]
+    if not found:
+        return []
+    around = box_of(np.concatenate([box for box, _ in found]))
+    if _area_of(around) < _OUTLINED * _area_of(box_of(np.concatenate(free))):
+        return []
+    return [(size * box + frame[0], size * size * area) for box, area in found]
+
+
+def _holds(box: FloatArray, other: FloatArray) -> bool:
+    return bool(np.all(other[0] >= box[0]) and np.all(other[1] <= box[1]))
 
 
 def _is_rectangle(box: FloatArray, area: float) -> bool:

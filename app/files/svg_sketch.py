@@ -207,9 +207,10 @@ class _Reading:
             (one.box, one.size) for one in self._areas if one is not frame and not (one.covers_sheet or one.is_white)
         ]
         curves = [one.line for one in self._lines if one.role == "outline"]
-        lines = [box_of(self._coarse(cast(Curve, curve))) for curve in curves]
+        lines = [self._coarse(cast(Curve, curve)) for curve in curves]
         folds = [one.line.curve.extent[[0, -1]] for one in self._lines if isinstance(one.line, FoldLine)]
-        return frame if is_frame_around(frame.box, areas, lines, folds) else None
+        gap = _COARSE * max(self.sides)
+        return frame if is_frame_around(frame.box, areas, lines, folds, gap) else None
 
     def _says_fold(self) -> bool:
         """Return whether a text says that a piece is cut on the fold, or a closed shape or a group is named so."""

@@ -68,7 +68,7 @@ FRAME = '<rect x="1" y="1" width="48" height="38" fill="none" stroke="black"/>'
         '<rect x="1" y="1" width="48" height="38" rx="1" fill="none" stroke="navy"/>',
         f'<rect width="100%" height="100%" fill="white"/>{FRAME}',
         f'<rect width="50" height="40" fill="none" stroke="black"/>{FRAME}',
-        f'{FRAME}<path d="M 42 36 H 48 V 38 H 42 Z" fill="none" stroke="black"/>',
+        f'{FRAME}<path d="M 42 36 H 48 V 38 H 42 Z M 42 37 H 48" fill="none" stroke="black"/>',
     ],
     ids=range(7),
 )
@@ -81,8 +81,15 @@ def test_a_frame_a_little_inside_of_the_page_is_no_outline(frame: str) -> None:
 def test_a_frame_is_no_outline_of_what_open_lines_draw() -> None:
     lines = '<g stroke="black" fill="none"><path d="M 5 5 H 45 V 35"/><path d="M 45 35 H 5 V 5"/></g>'
     assert sides(read(FRAME, lines, FOLD)) == (0.4, 0.3)
-    cross = '<g stroke="black" fill="none"><path d="M 25 5 V 35"/><path d="M 5 20 H 45"/></g>'
-    assert sides(read(FRAME, cross)) == (0.48, 0.38)
+    block = '<g stroke="black" fill="none"><path d="M 42 36 H 48 V 38 H 42 Z"/><path d="M 42 37 H 48"/></g>'
+    assert sides(read(FRAME, block, lines, FOLD)) == (0.4, 0.3)
+    for grid in ("M 25 5 V 35 M 5 20 H 45", "M 20 5 V 35 M 30 5 V 35 M 5 15 H 45 M 5 25 H 45"):
+        assert sides(read(FRAME, f'<path d="{grid}" stroke="black" fill="none"/>')) == (0.48, 0.38)
+
+
+def test_a_legend_beside_the_garment_does_not_make_its_frame_the_outline() -> None:
+    legend = '<path d="M 3 37 H 6 M 8 37 H 11" stroke="blue"/>'
+    assert sides(read(FRAME, PIECE, FOLD, legend)) == (0.4, 0.3)
 
 
 @pytest.mark.parametrize(
@@ -295,6 +302,14 @@ def test_a_selector_asks_for_all_of_its_steps() -> None:
         ("hsl(0 100 50)", "red"),
         ("hwb(266.7grad 0% 20%)", "blue"),
         ("var(--own, oklch(0.45 0.31 264))", "blue"),
+        ("light-dark(red, rgb(0, 0, 255))", "red"),
+        ("color-mix(in oklab, oklch(54.6% 0.245 262.9) 50%, transparent)", "blue"),
+        ("color-mix(in srgb, white, 80% rgb(255 0 0))", "red"),
+        ("color-mix(in srgb, rgb(100%, 0%, 0%), black 10%)", "red"),
+        ("color-mix(in srgb, red 5%, black)", None),
+        ("color-mix(in srgb, own, red)", None),
+        ("color-mix(in srgb, transparent, transparent)", None),
+        ("color-mix(in srgb, red", None),
         ("url(#gradient)", None),
     ],
 )
