@@ -29,7 +29,7 @@ _CROSSED_M = 0.05
 _NEAR_M = 0.1
 """A base that stands as near to the table's middle has no side on which the table is (m)."""
 
-_AWAY_RAD = 0.75 * math.pi
+_AWAY_RAD = 2.0 * math.pi / 3.0
 """Arms that reach further than this off the way to the table face away from it: ready arms reach 50 degrees aside."""
 
 _SMALL_M, _SMALL_LINK_M = 1e-3, 5e-3

@@ -79,10 +79,28 @@ def test_a_mount_that_is_turned_away_from_the_table_is_told(
     [doubt] = card_doubts(changed(tmp_path, change, name))
     assert isinstance(doubt, MountFacesAway)
     assert doubt.mount == mount
-    assert doubt.away_rad > 2.1
+    assert doubt.away_rad > 2.09
 
 
-@pytest.mark.parametrize("yaw_rad", [0.8, -0.8, 1.5])
+@pytest.mark.parametrize("name", ["panda-pair", "so101-pair", "ur5e-pair"])
+def test_each_mount_is_told_where_all_are_turned_away(tmp_path: Path, name: str) -> None:
+    def change(card: dict[str, Any]) -> None:
+        for mount in card["mounts"]:
+            mount["yaw_rad"] = math.pi
+
+    told = [doubt.mount for doubt in card_doubts(changed(tmp_path, change, name)) if isinstance(doubt, MountFacesAway)]
+    assert told == ["left", "right"]
+
+
+def test_arms_that_face_each_other_are_not(tmp_path: Path) -> None:
+    def change(card: dict[str, Any]) -> None:
+        for mount, yaw_rad in zip(card["mounts"], (-0.5 * math.pi, 0.5 * math.pi), strict=True):
+            mount["yaw_rad"] = yaw_rad
+
+    assert card_doubts(changed(tmp_path, change, "ur5e-pair")) == ()
+
+
+@pytest.mark.parametrize("yaw_rad", [0.8, -0.8, 1.3])
 def test_a_mount_that_is_turned_a_little_is_not(tmp_path: Path, yaw_rad: float) -> None:
     def change(card: dict[str, Any]) -> None:
         card["mounts"][0]["yaw_rad"] = yaw_rad
