@@ -8,6 +8,7 @@ from planner.robots.card_doubts import (
     ArmsCrossed,
     ArmsTogether,
     Doubt,
+    MountFacesAway,
     OddPart,
     StationFacesAway,
     StationInTable,
@@ -67,6 +68,11 @@ def _of_doubt(doubt: Doubt) -> dict[str, Any]:
             )
             said += " looks; turn its yaw_rad towards the table"
             return {"code": "station_faces_away", "station": station, "away_rad": away_rad, "message": said}
+        case MountFacesAway(mount, away_rad):
+            which = f"the arms of {mount!r}" if mount else "the arms"
+            said = f"mounts: at home {which} reach {math.degrees(away_rad):.0f} degrees off the way to the table"
+            said += "; turn the mount's yaw_rad towards the table, or change the home"
+            return {"code": "mount_faces_away", "mount": mount, "away_rad": away_rad, "message": said}
 
 
 def _of_tool(point: ToolPoint) -> dict[str, Any]:

@@ -102,7 +102,7 @@ async def read_robot_warnings(request: Request, name: AnyName) -> list[dict[str,
     """Return what of a robot's card is allowed but probably not meant, before its arms are mapped.
 
     Each has `code`, `message` and numbers: `part_too_large`, `part_too_small`, `arms_together`, `arms_crossed`,
-    `station_faces_away`, `station_in_table`, `tool_off_tips`.
+    `station_faces_away`, `mount_faces_away`, `station_in_table`, `tool_off_tips`.
     """
     await run_in_threadpool(card_of, name)
 

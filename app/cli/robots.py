@@ -34,8 +34,8 @@ def check(
     """Check that a card is complete, that what it names is there, and how much of its table it reaches.
 
     It first warns of what is allowed but probably not meant: a part in another unit, arms in one
-    place, a tool point off the fingertips, a station in the table or turned away from it. The first time it then looks
-    where the arms can go, which takes up to half a minute an arm.
+    place, a tool point off the fingertips, a station in the table, or a station or a mount turned away from it. The
+    first time it then looks where the arms can go, which takes up to half a minute an arm.
     """
     from app.robot_warnings import warnings_of
     from planner.robots.described_robot import read_robot

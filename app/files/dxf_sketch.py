@@ -13,11 +13,14 @@ from ezdxf.document import Drawing
 from ezdxf.entities.dxfentity import DXFEntity
 from ezdxf.entities.dxfgfx import DXFGraphic
 from ezdxf.entities.insert import Insert
+from ezdxf.entities.mtext import MText
 from ezdxf.entities.spline import Spline
+from ezdxf.entities.text import Text
 from ezdxf.lldxf.const import DXFError
 from ezdxf.math import Vec3
 from ezdxf.path import Path, make_path
 
+from app.files.colour_spaces import Rgb
 from app.files.curve import POINTS_MAX, DrawnCurve, finite
 from app.files.dxf_layers import (
     BOUNDARY,
@@ -30,9 +33,9 @@ from app.files.dxf_layers import (
     size_by_text,
     unit_by_text,
 )
-from app.files.fold_colour import Rgb, kind_of
+from app.files.fold_colour import kind_of
 from app.files.import_errors import broken
-from app.files.piece_labels import piece_in, says_on_fold, size_in
+from app.files.piece_labels import names_fold, piece_in, says_on_fold, size_in
 from app.files.sketch import DrawnLine, FoldLine, MirrorLine, Role, Sketch
 from planner.geometry.pose import FloatArray
 
@@ -46,7 +49,6 @@ _BLOCKS_DEEP = 8
 """Largest nesting depth of blocks."""
 
 _LINES = frozenset({"LINE", "LWPOLYLINE", "POLYLINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE"})
-_TEXTS = frozenset({"TEXT", "MTEXT", "ATTRIB"})
 _BAD = (DXFError, ArithmeticError, AssertionError, AttributeError, LookupError, RecursionError, TypeError, ValueError)
 """Exceptions that ezdxf raises on files that are not DXF or hold nonsensical numbers."""
 
@@ -87,6 +89,7 @@ def read_dxf(data: bytes) -> Sketch:
         drawing, _ = recover.read(io.BytesIO(data))
         entities = list(_all(drawing))
         lines = [line for entity, inherited in entities for line in _lines(drawing, entity, inherited)]
+        texts = _texts(entity for entity, _ in entities)
     except _BAD as error:
         raise broken(f"it is not DXF that can be read: {str(error)[:200]}") from None
     is_pattern = any(line.layer == BOUNDARY for line in lines)
@@ -97,14 +100,13 @@ def read_dxf(data: bytes) -> Sketch:
     notes = ["It is a sewing pattern: layer 1 is the boundary of its pieces."] if is_pattern else []
     if others:
         notes.append(f"{others} line{'s' if others > 1 else ''} on its other layers left out.")
-    texts = _texts(entity for entity, _ in entities)
     sketch = Sketch(
         (),
         (),
         _unit_m(drawing, texts),
         "it has no $INSUNITS",
         notes=tuple(notes),
-        says_fold=any(map(says_on_fold, texts)),
+        says_fold=any(map(says_on_fold, texts)) or ("fold" not in roles and any(map(names_fold, texts))),
         sample=sample_by_text(texts),
     )
     return sketch.with_lines(_drawn(line, role) for line, role in zip(lines, roles, strict=True) if role is not None)
@@ -112,7 +114,8 @@ def read_dxf(data: bytes) -> Sketch:
 
 def _role(line: _Line, *, is_pattern: bool) -> Role | None:
     """Return what a line may be; None for one on a layer that is for something else."""
-    if not line.is_closed and ((is_pattern and line.layer == MIRROR_LINE) or says_on_fold(line.layer)):
+    is_mirror = (is_pattern and line.layer == MIRROR_LINE) or says_on_fold(line.layer)
+    if not line.is_closed and (is_mirror or (line.kind is None and names_fold(line.layer))):
         return "mirror"
     may_be_fold = not line.is_closed and (may_carry_folds(line.layer) if is_pattern else True)
     if line.kind is not None and may_be_fold:
@@ -127,7 +130,8 @@ def _drawn(line: _Line, role: Role) -> DrawnLine:
 
 
 def _texts(entities: Iterable[DXFEntity]) -> list[str]:
-    return [str(entity.dxf.get("text", "")) for entity in entities if entity.dxftype() in _TEXTS]
+    """Return the texts among entities, without the codes that format them."""
+    return [str(entity.plain_text()) for entity in entities if isinstance(entity, Text | MText)]
 
 
 def _unit_m(drawing: Drawing, texts: list[str]) -> float | None:

@@ -4,6 +4,7 @@ Programs write them as texts, as names of layers, groups, blocks and lines, or a
 """
 
 import re
+import unicodedata
 from collections.abc import Iterable
 
 _ON_FOLD = (
@@ -17,12 +18,29 @@ _ON_FOLD = (
     "surlepli",
     "surlapliure",
     "alapliure",
+    "pliuredutissu",
     "enelpliegue",
     "enelpliegedelatela",
     "aldoblez",
     "endoblez",
+    "doblezdelatela",
+    "doblezdetela",
 )
 """Words for a fold line, small and without spaces: English, German, Dutch, French, Spanish."""
+
+_FOLD_ALONE = frozenset(
+    {
+        "bruch",
+        "bruchkante",
+        "bruchlinie",
+        "pliure",
+        "lignedepliure",
+        "doblez",
+        "lineadedoblez",
+        "líneadedoblez",
+    }
+)
+"""Labels that say so if they say nothing else, small and without spaces; a line in colour they call a fold."""
 
 _LETTERS = ("xxxxs", "xxxs", "xxs", "xs", "s", "m", "l", "xl", "xxl", "xxxl", "xxxxl")
 _LETTER = re.compile(r"x{0,4}[sl]|m|[2-6]x[sl]")
@@ -40,6 +58,11 @@ def says_on_fold(label: str) -> bool:
     """Return whether a label says that a piece is cut on the fold, as in ``Cut on fold`` or ``front.cutonfold``."""
     plain = re.sub(r"[\W_\d]+", "", label.lower())
     return any(word in plain for word in _ON_FOLD)
+
+
+def names_fold(label: str) -> bool:
+    """Return whether a label is nothing but a word for a fold, as in ``Pliure`` or ``Bruch``."""
+    return re.sub(r"[\W_\d]+", "", unicodedata.normalize("NFC", label).lower()) in _FOLD_ALONE
 
 
 def size_in(label: str) -> str | None:

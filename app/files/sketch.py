@@ -8,7 +8,8 @@ from app.files.curve import Curve
 from app.files.piece_labels import in_order
 
 Role: TypeAlias = Literal["outline", "white", "page", "fold", "mirror"]
-"""What a drawn line may be. White areas without an edge, and then the page, are an outline only if nothing else is."""
+"""What a drawn line may be. White areas without an edge and frames, and then the page, are an outline only if nothing
+else is."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,7 +3,8 @@
 import re
 from collections.abc import Mapping
 
-from app.files.fold_colour import Rgb, alpha_of, css_rgb
+from app.files.colour_spaces import Rgb
+from app.files.fold_colour import alpha_of, css_rgb
 
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)", re.IGNORECASE)
 

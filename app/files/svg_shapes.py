@@ -128,7 +128,7 @@ class _Drawn:
         """Return the shapes in a clip or a mask, moved by a matrix."""
         if around.deep >= _REFERENCES_DEEP:
             raise broken(f"line {element.line}: references go more than {_REFERENCES_DEEP} deep")
-        inner = _Around(around.matrix @ matrix, self._sheet.style(element, {}), around.sides, around.deep + 1)
+        inner = _Around(around.matrix @ matrix, self._sheet.style_in_place(element), around.sides, around.deep + 1)
         return tuple(shape for child in element.children for shape in self._within(child, inner))
 
     def _referred(self, use: Element, here: "_Around") -> Iterator[Shape]:

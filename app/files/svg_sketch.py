@@ -13,9 +13,10 @@ from app.files.curve import Curve, DrawnCurve, Segment, SvgCurve
 from app.files.fold_colour import kind_of
 from app.files.import_errors import broken
 from app.files.markup import Element, read_markup
-from app.files.piece_labels import piece_in, says_on_fold, size_in
+from app.files.piece_labels import names_fold, piece_in, says_on_fold, size_in
 from app.files.sketch import DrawnLine, FoldLine, MirrorLine, Role, Sketch
 from app.files.svg_lengths import Sheet, Sides, sheet_of
+from app.files.svg_page import box_of, is_frame, is_frame_around, is_page, may_be_garment
 from app.files.svg_paint import WHITE_MIN, colour_of, is_filled, is_stroked, is_white
 from app.files.svg_shapes import Shape, shapes_of
 from planner.errors import FieldError
@@ -38,12 +39,8 @@ _BAD = (ArithmeticError, AssertionError, AttributeError, LookupError, TypeError,
 _FARTHEST = 1e12
 """Largest coordinate of a curve, in units of the drawing."""
 
-_COARSE, _PAGE_SLACK = 1e-3, 0.005
-"""Precision with which areas are compared, and by how much the page may differ from the sheet, as shares of it."""
-
-_GARMENT_SHARES = (0.05, 0.8)
-"""The least and the largest share of a page with an edge that a garment on it covers: what is smaller is a detail of
-what fills the page, what is larger its seam line."""
+_COARSE = 1e-3
+"""Precision with which areas are compared, as a share of the sheet."""
 
 _NAMED = frozenset({"g", "path", "polygon", "polyline", "rect", "use", "svg"})
 
@@ -75,14 +72,18 @@ class _Area:
         has_edge: whether a line is drawn along its edge, in a colour that shows on paper.
         is_white: whether nothing of it shows on white paper.
         covers_sheet: whether it is a rectangle as large as the sheet, or larger.
-        share: its area as a share of the sheet's.
+        may_be_frame: whether it is a rectangle that nothing is painted in, as far from all edges of the sheet.
+        box: its lowest and highest coordinates, shape (2, 2), in units of the drawing.
+        size: the area in it.
     """
 
     line: DrawnLine
     has_edge: bool
     is_white: bool
     covers_sheet: bool
-    share: float
+    may_be_frame: bool
+    box: FloatArray
+    size: float
 
 
 class _Reading:
@@ -91,11 +92,13 @@ class _Reading:
     def __init__(self, root: Element, sheet: Sheet) -> None:
         self._root, self._sheet = root, sheet
         self._kept = _kept(root)
-        self._texts = [e for e in root.walk() if e.tag in ("text", "textPath") and says_on_fold(e.whole_text())]
-        self._on_fold = {e.attributes.get("href", "")[1:] for text in self._texts for e in text.walk()} - {""}
+        texts = [(e, e.whole_text()) for e in root.walk() if e.tag in ("text", "textPath")]
+        self._texts = [e for e, text in texts if says_on_fold(text)]
+        self._fold_words = [e for e, text in texts if names_fold(text)]
+        self._on_fold, self._named_fold = _paths_of(self._texts), _paths_of(self._fold_words)
         self._sizes: dict[Element, str | None] = {}
         self._pieces: dict[Element, str | None] = {}
-        self._says_on_fold: dict[Element, bool] = {}
+        self._says_on_fold: dict[tuple[Element, bool], bool] = {}
         self._areas: list[_Area] = []
         self._lines: list[DrawnLine] = []
         self._segments, self._has_open = 0, False
@@ -120,11 +123,11 @@ class _Reading:
                 self._add_open(shape, curve, size, has_stroke=has_stroke)
 
     def _add_open(self, shape: Shape, curve: SvgCurve, size: str | None, *, has_stroke: bool) -> None:
-        if self._kept is None and self._is_on_fold(shape):
+        kind = kind_of(colour_of(shape.style.get("stroke", ""), shape.style)) if has_stroke else None
+        if self._kept is None and self._is_on_fold(shape, is_coloured=kind is not None):
             self._lines.append(DrawnLine("mirror", MirrorLine(curve, is_beside=True), size))
             return
-        kind = kind_of(colour_of(shape.style.get("stroke", ""), shape.style))
-        if has_stroke and kind is not None:
+        if kind is not None:
             fold = FoldLine(kind, curve, _name(shape.element), _grip_radius(shape.element))
             self._lines.append(DrawnLine("fold", fold, size))
             return
@@ -138,11 +141,19 @@ class _Reading:
         edge = colour_of(shape.style.get("stroke", ""), shape.style) if has_stroke else None
         has_edge = has_stroke and (edge is None or min(edge) < WHITE_MIN)
         is_area_white = not has_area or is_white(shape.style)
-        line = DrawnLine("outline", curve, size)
+        points, sheet = self._coarse(curve), self._corners()
+        box = box_of(points)
         with np.errstate(all="ignore"):
-            area = abs(signed_area(self._coarse(curve)[:-1]))
-            share = float(area / np.prod(np.ptp(self._corners(), axis=0)))
-        return _Area(line, has_edge, not has_edge and is_area_white, self._is_page(curve, area), share)
+            area = abs(float(signed_area(points[:-1])))
+        return _Area(
+            DrawnLine("outline", curve, size),
+            has_edge,
+            not has_edge and is_area_white,
+            is_page(box, area, sheet),
+            has_edge and is_area_white and is_frame(box, area, sheet),
+            box,
+            area,
+        )
 
     def sketch(self) -> Sketch:
         """Return the drawing."""
@@ -154,7 +165,7 @@ class _Reading:
             why,
             self._root.title,
             self._kept,
-            says_fold=self._kept is None and (bool(self._texts) or self._names_fold()),
+            says_fold=self._kept is None and self._says_fold(),
         )
         return sketch.with_lines([*self._closed(), *self._lines])
 
@@ -163,33 +174,64 @@ class _Reading:
 
         A rectangle as large as the sheet is the page: with an edge where a garment may be drawn on it; without one
         unless it is dark and nothing else has an edge or is white upon it. On a dark page what is white can be seen.
+        A frame is an outline only if nothing else is.
         """
         is_page_dark = False
-        others = [one for one in self._areas if one.has_edge or not one.covers_sheet]
-        inner = (one.share for one in others if not (one.covers_sheet or one.is_white))
-        least, most = _GARMENT_SHARES
-        is_drawn_on = self._kept is None and (self._has_open or least <= max(inner, default=0.0) <= most)
-        for one in self._areas:
-            is_page = one.covers_sheet and (is_drawn_on or not one.has_edge)
-            if is_page and not (one.is_white or one.has_edge):
+        frame = self._frame()
+        drawn = [one for one in self._areas if one is not frame]
+        others = [one for one in drawn if one.has_edge or not one.covers_sheet]
+        inner = (one.size for one in others if not (one.covers_sheet or one.is_white))
+        is_drawn_on = self._kept is None and (
+            self._has_open or may_be_garment(max(inner, default=0.0), self._corners())
+        )
+        for one in drawn:
+            is_paper = one.covers_sheet and (is_drawn_on or not one.has_edge)
+            if is_paper and not (one.is_white or one.has_edge):
                 is_page_dark = True
-                is_page = any(other.has_edge or other.is_white for other in others)
-            role: Role = "page" if is_page else "white" if one.is_white and not is_page_dark else "outline"
+                is_paper = any(other.has_edge or other.is_white for other in others)
+            role: Role = "page" if is_paper else "white" if one.is_white and not is_page_dark else "outline"
             yield replace(one.line, role=role)
+        if frame is not None:
+            yield replace(frame.line, role="white")
 
-    def _names_fold(self) -> bool:
-        """Return whether a closed shape or a group is named as cut on the fold."""
-        return any(says_on_fold(label) for e in self._root.walk() if e.tag in _NAMED for label in labels_of(e))
+    def _frame(self) -> _Area | None:
+        """Return the rectangle a little inside of the sheet that is only a frame around a garment; None if none is."""
+        frame = max(
+            (one for one in self._areas if one.may_be_frame and not one.covers_sheet),
+            key=lambda one: one.size,
+            default=None,
+        )
+        if frame is None or self._kept is not None:
+            return None
+        areas = [
+            (one.box, one.size) for one in self._areas if one is not frame and not (one.covers_sheet or one.is_white)
+        ]
+        curves = [one.line for one in self._lines if one.role == "outline"]
+        lines = [self._coarse(cast(Curve, curve)) for curve in curves]
+        folds = [one.line.curve.extent[[0, -1]] for one in self._lines if isinstance(one.line, FoldLine)]
+        gap = _COARSE * max(self.sides)
+        return frame if is_frame_around(frame.box, areas, lines, folds, gap) else None
 
-    def _is_on_fold(self, shape: Shape) -> bool:
-        """Return whether an open line says that it is a fold line: by its names, its markers, or a text on it."""
+    def _says_fold(self) -> bool:
+        """Return whether a text says that a piece is cut on the fold, or a closed shape or a group is named so."""
+        named = (label for e in self._root.walk() if e.tag in _NAMED for label in labels_of(e))
+        has_folds = any(one.role == "fold" for one in self._lines)
+        return bool(self._texts or (self._fold_words and not has_folds)) or any(map(says_on_fold, named))
+
+    def _is_on_fold(self, shape: Shape, *, is_coloured: bool) -> bool:
+        """Return whether an open line says that it is a fold line: by its names, its markers, or a text on it.
+
+        The word fold alone does not say so of a line in the colour of a fold.
+        """
         element = shape.element
-        if element not in self._says_on_fold:
+        if (element, is_coloured) not in self._says_on_fold:
             said = [element.attributes.get(name, "") for name in ("class", "marker-start", "marker-end")]
             said += [shape.style.get(name, "") for name in ("marker-start", "marker-end")]
-            is_named = any(map(says_on_fold, (*labels_of(element), *said)))
-            self._says_on_fold[element] = is_named or element.attributes.get("id") in self._on_fold
-        return self._says_on_fold[element]
+            names, own = labels_of(element), element.attributes.get("id")
+            is_named = any(map(says_on_fold, (*names, *said))) or own in self._on_fold
+            is_alone = not is_coloured and (any(map(names_fold, names)) or own in self._named_fold)
+            self._says_on_fold[element, is_coloured] = is_named or is_alone
+        return self._says_on_fold[element, is_coloured]
 
     def _size_of(self, element: Element) -> str | None:
         """Return the size that an element or a group around it is labelled with."""
@@ -237,12 +279,10 @@ class _Reading:
         corners = np.array([[box.x, box.y, 1.0], [box.x + box.width, box.y + box.height, 1.0]])
         return np.sort((corners @ _upwards(self._sheet).T)[:, :2], axis=0)
 
-    def _is_page(self, curve: Curve, area: float) -> bool:
-        points, sheet = self._coarse(curve), self._corners()
-        low, high = points.min(axis=0), points.max(axis=0)
-        slack = _PAGE_SLACK * np.ptp(sheet, axis=0)
-        is_wide = bool(np.all(low <= sheet[0] + slack) and np.all(high >= sheet[1] - slack))
-        return is_wide and area >= (1.0 - _PAGE_SLACK) * float(np.prod(high - low))
+
+def _paths_of(texts: Iterable[Element]) -> set[str]:
+    """Return the ids of the lines that texts are written along."""
+    return {e.attributes.get("href", "")[1:] for text in texts for e in text.walk()} - {""}
 
 
 def labels_of(element: Element) -> list[str]:

@@ -6,8 +6,9 @@ that the rest may be matched at, so no selector takes exponentially long.
 """
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
+from itertools import chain
 from typing import Literal, TypeAlias
 
 from app.files.import_errors import broken
@@ -178,29 +179,62 @@ class Rule:
 class StyleSheet:
     """All rules of a document, in order of increasing specificity."""
 
-    def __init__(self, rules: Iterable[Rule]) -> None:
+    def __init__(self, rules: Iterable[Rule], variables: Collection[str] = ()) -> None:
         self._rules = sorted(rules, key=lambda rule: rule.selector.weight)
+        self._variables = variables
         self._matched: dict[Element, tuple[Rule, ...]] = {}
+        self._in_place: dict[Element, Properties] = {}
 
     @staticmethod
     def of(root: Element) -> "StyleSheet":
-        """Return the rules in all `style` elements of a document; raise `ImportedFileError` if there are too many."""
+        """Return the rules in all `style` elements of a document.
+
+        Raises:
+            ImportedFileError: there are too many, or too many variables in the document.
+        """
         sheets = [element.text for element in root.walk() if element.tag == "style"]
         rules = [rule for sheet in sheets for rule in _rules(_without_comments(sheet))]
         if len(rules) > RULES_MAX:
             raise broken(f"there are more than {RULES_MAX} rules in its style sheets")
-        return StyleSheet(rules)
+        values = (value for element in root.walk() for value in element.attributes.values())
+        variables = {name for text in chain(sheets, values) for name in variables_in(text)}
+        if len(variables) > VARIABLES_MAX:
+            raise broken(f"there are more than {VARIABLES_MAX} variables in its styles")
+        return StyleSheet(rules, variables)
 
     def style(self, element: Element, outer: Mapping[str, str]) -> Properties:
         """Return the style of an element within an outer style."""
-        found = {name: outer[name] for name in INHERITED if name in outer}
+        found = {name: outer[name] for name in (*INHERITED, *self._variables) if name in outer}
         found |= {name: element.attributes[name] for name in (*INHERITED, *_OWN) if name in element.attributes}
         rules, own = self._rules_for(element), declared(element.attributes.get("style", ""))
         for said in (*(rule.declared.plain for rule in rules), own.plain):
             found |= said
         for said in (*(rule.declared.important for rule in rules), own.important):
             found |= said
-        return {name: outer.get(name, "") if value == "inherit" else value for name, value in found.items()}
+        found = {name: outer.get(name, "") if value == "inherit" else value for name, value in found.items()}
+        if self._variables:
+            found = self._with_variables(found, outer)
+        return found
+
+    def style_in_place(self, element: Element) -> Properties:
+        """Return the style of an element within the elements around it in the document."""
+        found = self._in_place.get(element)
+        if found is None:
+            outer = {} if element.parent is None else self.style_in_place(element.parent)
+            found = self._in_place[element] = self.style(element, outer)
+        return found
+
+    def _with_variables(self, found: Properties, outer: Mapping[str, str]) -> Properties:
+        """Return properties with the values of variables put in; one whose variable has no value is as if not said."""
+        variables = _Variables({name: found[name] for name in self._variables if name in found})
+        known: Properties = {}
+        for name, value in found.items():
+            replaced = variables.value(name) if name.startswith("--") else variables.put_into(value)
+            if replaced is not None:
+                known[name] = _value(replaced)
+            elif name in INHERITED and name in outer:
+                known[name] = outer[name]
+        return known
 
     def _rules_for(self, element: Element) -> tuple[Rule, ...]:
         """Return the rules for an element; by where it stands, and not by where a reference draws it."""
@@ -218,13 +252,77 @@ def declared(text: str) -> Declared:
         name, colon, value = part.partition(":")
         if colon:
             bare, count = _IMPORTANT.subn("", value)
-            (important if count else plain)[name.strip().lower()] = _value(bare)
+            known = name.strip() if name.strip().startswith("--") else name.strip().lower()
+            (important if count else plain)[known] = _value(bare)
     return Declared(plain, important)
 
 
 def _value(text: str) -> str:
-    """Return a value in small letters, but as it is if it refers to an id."""
-    return text.strip() if "(#" in text or "('#" in text or '("#' in text else text.strip().lower()
+    """Return a value in small letters, but as it is if it refers to an id or a variable: their case matters."""
+    is_named = "(#" in text or "('#" in text or '("#' in text or "--" in text
+    return text.strip() if is_named else text.strip().lower()
+
+
+VARIABLES_MAX = 200
+"""Largest number of variables (custom properties) that a document uses: each is passed on to every element."""
+
+_VALUE_LONGEST, _VARIABLES_DEEP = 1_000, 30
+"""Longest value that variables are put into (characters), and how many of them may stand in one another."""
+
+_VARIABLE = re.compile(r"var\(\s*(--[^\s,()]+)\s*", re.IGNORECASE)
+
+
+def variables_in(text: str) -> list[str]:
+    """Return the names of the variables that a text uses, as in ``var(--name, blue)``."""
+    return _VARIABLE.findall(text) if "--" in text else []
+
+
+class _Variables:
+    """The variables of an element. Each is resolved once, so values that use many others take no longer.
+
+    Args:
+        values: the values by name; they may use variables in turn.
+    """
+
+    def __init__(self, values: Mapping[str, str]) -> None:
+        self._values = values
+        self._known: dict[str, str | None] = {}
+
+    def value(self, name: str, deep: int = 0) -> str | None:
+        """Return the value of a variable; None if it has none, or uses itself."""
+        if name not in self._known:
+            self._known[name] = None  # until it is resolved, for those that use themselves
+            text = self._values.get(name, "initial")
+            self._known[name] = None if text.lower() == "initial" else self.put_into(text, deep + 1)
+        return self._known[name]
+
+    def put_into(self, text: str, deep: int = 0) -> str | None:
+        """Return a value with variables replaced by their values, or else by what stands after the comma.
+
+        None if a variable has neither, or if the value gets too long.
+        """
+        whole, at = "", 0
+        while (found := _VARIABLE.search(text, at)) is not None:
+            end = _closing(text, found.end()) if len(text) <= _VALUE_LONGEST and deep <= _VARIABLES_DEEP else None
+            if end is None:
+                return None
+            value, rest = self.value(found[1], deep), text[found.end() : end]
+            if value is None and rest.startswith(","):
+                value = self.put_into(rest[1:].strip(), deep + 1)
+            if value is None or len(whole) > _VALUE_LONGEST:
+                return None
+            whole, at = f"{whole}{text[at : found.start()]}{value}", end + 1
+        return whole + text[at:]
+
+
+def _closing(text: str, start: int) -> int | None:
+    """Return where the bracket closes that is open at a place in a text."""
+    deep = 1
+    for at in range(start, len(text)):
+        deep += {"(": 1, ")": -1}.get(text[at], 0)
+        if deep == 0:
+            return at
+    return None
 
 
 def _rules(sheet: str) -> list[Rule]:

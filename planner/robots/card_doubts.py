@@ -15,7 +15,7 @@ import pinocchio as pin
 
 from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.table import Table
-from planner.robots.chain import length_of
+from planner.robots.chain import length_of, tool_poses
 from planner.robots.collision.link_shapes import LinkShape, link_shapes
 from planner.robots.collision.rigid_groups import BODY, Carrier, Skeleton
 from planner.robots.described_robot import DescribedArm, DescribedRobot
@@ -28,6 +28,9 @@ _CROSSED_M = 0.05
 
 _NEAR_M = 0.1
 """A base that stands as near to the table's middle has no side on which the table is (m)."""
+
+_AWAY_RAD = 2.0 * math.pi / 3.0
+"""Arms that reach further than this off the way to the table face away from it: ready arms reach 50 degrees aside."""
 
 _SMALL_M, _SMALL_LINK_M = 1e-3, 5e-3
 """A part of a robot whose every side is shorter is in the wrong unit; all parts of an arm's long link together (m)."""
@@ -79,6 +82,19 @@ class StationFacesAway:
 
 
 @dataclass(frozen=True, slots=True)
+class MountFacesAway:
+    """A mount whose arms at home reach away from the table, at every station at which the base looks towards it.
+
+    Attributes:
+        mount: its name; empty for a card's only one.
+        away_rad: the angle between where the arms reach and the table (rad).
+    """
+
+    mount: str
+    away_rad: float
+
+
+@dataclass(frozen=True, slots=True)
 class OddPart:
     """A link with a shape that is larger than the whole robot, or hardly there: most often its unit is another.
 
@@ -93,7 +109,7 @@ class OddPart:
     most_m: float
 
 
-Doubt: TypeAlias = ArmsTogether | ArmsCrossed | StationFacesAway | OddPart
+Doubt: TypeAlias = ArmsTogether | ArmsCrossed | StationFacesAway | MountFacesAway | OddPart
 
 
 def card_doubts(robot: DescribedRobot) -> tuple[Doubt, ...]:
@@ -105,7 +121,10 @@ def card_doubts(robot: DescribedRobot) -> tuple[Doubt, ...]:
     skeleton = Skeleton(robot)
     shapes = link_shapes(skeleton.model, robot.urdf)
     arms = _arms(robot, skeleton, shapes)
-    return (*_odd_parts(robot, skeleton, shapes), *arms, *_stations(robot.card.scene.stations, robot.card.scene.table))
+    scene = robot.card.scene
+    away = tuple(_stations(scene.stations, scene.table))
+    facing = [base for name, base in scene.stations if name not in {doubt.station for doubt in away}]
+    return (*_odd_parts(robot, skeleton, shapes), *arms, *away, *_mounts(robot, facing))
 
 
 def _odd_parts(robot: DescribedRobot, skeleton: Skeleton, shapes: Sequence[LinkShape]) -> Iterator[OddPart]:
@@ -185,15 +204,43 @@ def _are_inside(some: Sequence[_Placed], others: Sequence[_Placed], away: FloatA
 def _stations(stations: tuple[tuple[str, Pose2], ...], table: Table) -> Iterator[StationFacesAway]:
     """Yield the stations whose base has the nearest point of the table, or its middle from within, beside or behind."""
     for name, base in stations:
-        x = min(max(base.x_m, -0.5 * table.depth_m), 0.5 * table.depth_m)
-        y = min(max(base.y_m, -0.5 * table.width_m), 0.5 * table.width_m)
-        is_within = math.hypot(x - base.x_m, y - base.y_m) < _NEAR_M
-        to = (-base.x_m, -base.y_m) if is_within else (x - base.x_m, y - base.y_m)
-        if math.hypot(*to) < _NEAR_M:
-            continue
-        away_rad = abs(math.remainder(math.atan2(to[1], to[0]) - base.yaw_rad, math.tau))
-        if away_rad > 0.5 * math.pi - 1e-3:
+        away_rad = _away_rad(base, table)
+        if away_rad is not None and away_rad > 0.5 * math.pi - 1e-3:
             yield StationFacesAway(name, away_rad)
+
+
+def _away_rad(place: Pose2, table: Table) -> float | None:
+    """Return the angle between where something looks and the table (rad); None if it stands on the table's middle."""
+    x = min(max(place.x_m, -0.5 * table.depth_m), 0.5 * table.depth_m)
+    y = min(max(place.y_m, -0.5 * table.width_m), 0.5 * table.width_m)
+    is_within = math.hypot(x - place.x_m, y - place.y_m) < _NEAR_M
+    to = (-place.x_m, -place.y_m) if is_within else (x - place.x_m, y - place.y_m)
+    if math.hypot(*to) < _NEAR_M:
+        return None
+    return abs(math.remainder(math.atan2(to[1], to[0]) - place.yaw_rad, math.tau))
+
+
+def _mounts(robot: DescribedRobot, facing: Sequence[Pose2]) -> Iterator[MountFacesAway]:
+    """Yield the mounts whose arms together reach away from the table at home, from base poses that look towards it."""
+    for mount in robot.card.mounts:
+        prefix = f"{mount.name}_" if mount.name else ""
+        arms = [arm for arm in robot.arms if arm.card.joints[0].startswith(prefix)]
+        reach = [tool_poses(arm.chain, np.array([arm.card.home]))[0][0, :2] for arm in arms]
+        ahead_m = np.mean(reach, axis=0) if reach else np.zeros(2)
+        if float(np.hypot(*ahead_m)) < _NEAR_M:
+            continue
+        x_m, y_m = np.mean([arm.root[:2] for arm in arms], axis=0).tolist()
+        yaw_rad = math.atan2(ahead_m[1], ahead_m[0])
+        found = (_away_rad(_placed(base, x_m, y_m, yaw_rad), robot.card.scene.table) for base in facing)
+        angles = [away_rad for away_rad in found if away_rad is not None]
+        if angles and min(angles) > _AWAY_RAD:
+            yield MountFacesAway(mount.name, min(angles))
+
+
+def _placed(base: Pose2, x_m: float, y_m: float, yaw_rad: float) -> Pose2:
+    """Return a pose in the base frame as one in the table frame."""
+    x, y = base.to_outer(np.array([x_m, y_m])).tolist()
+    return Pose2(x, y, math.remainder(base.yaw_rad + yaw_rad, math.tau))
 
 
 _STEP_M, _FURTHEST_M = 0.01, 1.0

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 import trimesh
 
-from planner.robots.card_doubts import ArmsCrossed, ArmsTogether, OddPart, StationFacesAway, card_doubts
+from planner.robots.card_doubts import ArmsCrossed, ArmsTogether, MountFacesAway, OddPart, StationFacesAway, card_doubts
 from planner.robots.described_robot import DescribedRobot, read_described, read_robot
 from planner.robots.known_robots import shipped_path, shipped_robots
 
@@ -21,7 +21,7 @@ def changed(folder: Path, change: Callable[[dict[str, Any]], None], name: str = 
     return read_described(folder / "mine.json")
 
 
-@pytest.mark.parametrize("name", ["panda-pair", "tiago-pro", "ur5e-single"])
+@pytest.mark.parametrize("name", ["panda-pair", "so101-pair", "tiago-pro", "ur5e-pair", "ur5e-single"])
 def test_a_shipped_card_leaves_no_doubt(name: str) -> None:
     assert name in shipped_robots()
     assert card_doubts(read_robot(name)) == ()
@@ -65,6 +65,57 @@ def test_a_base_that_turns_its_back_or_its_side_to_the_table_is_told(tmp_path: P
     assert isinstance(doubt, StationFacesAway)
     assert doubt.station == "edge"
     assert doubt.away_rad == pytest.approx(abs(yaw_rad))
+
+
+@pytest.mark.parametrize(("name", "mount"), [("ur5e-single", ""), ("panda-pair", "left"), ("panda-pair", "right")])
+@pytest.mark.parametrize("yaw_rad", [math.pi, -math.pi, 3.0])
+def test_a_mount_that_is_turned_away_from_the_table_is_told(
+    tmp_path: Path, name: str, mount: str, yaw_rad: float
+) -> None:
+    def change(card: dict[str, Any]) -> None:
+        [turned] = [one for one in card["mounts"] if one["name"] == mount]
+        turned["yaw_rad"] = yaw_rad
+
+    [doubt] = card_doubts(changed(tmp_path, change, name))
+    assert isinstance(doubt, MountFacesAway)
+    assert doubt.mount == mount
+    assert doubt.away_rad > 2.09
+
+
+@pytest.mark.parametrize("name", ["panda-pair", "so101-pair", "ur5e-pair"])
+def test_each_mount_is_told_where_all_are_turned_away(tmp_path: Path, name: str) -> None:
+    def change(card: dict[str, Any]) -> None:
+        for mount in card["mounts"]:
+            mount["yaw_rad"] = math.pi
+
+    told = [doubt.mount for doubt in card_doubts(changed(tmp_path, change, name)) if isinstance(doubt, MountFacesAway)]
+    assert told == ["left", "right"]
+
+
+def test_arms_that_face_each_other_are_not(tmp_path: Path) -> None:
+    def change(card: dict[str, Any]) -> None:
+        for mount, yaw_rad in zip(card["mounts"], (-0.5 * math.pi, 0.5 * math.pi), strict=True):
+            mount["yaw_rad"] = yaw_rad
+
+    assert card_doubts(changed(tmp_path, change, "ur5e-pair")) == ()
+
+
+@pytest.mark.parametrize("yaw_rad", [0.8, -0.8, 1.3])
+def test_a_mount_that_is_turned_a_little_is_not(tmp_path: Path, yaw_rad: float) -> None:
+    def change(card: dict[str, Any]) -> None:
+        card["mounts"][0]["yaw_rad"] = yaw_rad
+
+    assert card_doubts(changed(tmp_path, change)) == ()
+
+
+def test_arms_that_stand_on_both_sides_of_the_table_face_it(tmp_path: Path) -> None:
+    def change(card: dict[str, Any]) -> None:
+        near, far = card["mounts"]
+        [base] = card["scene"]["stations"].values()
+        near["y_m"] = far["y_m"] = 0.0
+        far |= {"x_m": -2.0 * base["x_m"], "yaw_rad": math.pi}
+
+    assert card_doubts(changed(tmp_path, change)) == ()
 
 
 ARM = """<robot name="arm">

@@ -7,7 +7,7 @@ import { stand } from "./names.js";
 
 /**
  * @typedef {{code: string, link?: string, size_m?: number, most_m?: number, arm?: string, arms?: string[],
- *   apart_m?: number, left_m?: number, station?: string, beyond_m?: number, beside_m?: number | null}} Warning
+ *   apart_m?: number, left_m?: number, station?: string, mount?: string, beyond_m?: number, beside_m?: number | null}} Warning
  */
 
 /** Fingertips off the tool point by more than these are warned of (m). */
@@ -30,6 +30,9 @@ const WORDS = {
     say("robot_warning.arms_crossed", { one, other, length: length(left_m) }),
   ],
   station_faces_away: ({ station = "" }) => [say("robot_warning.station_faces_away", { station: stand(station) })],
+  mount_faces_away: ({ mount = "" }) => [
+    mount ? say("robot_warning.mount_faces_away", { mount }) : say("robot_warning.arms_face_away"),
+  ],
   station_in_table: ({ station = "" }) => [say("robot_warning.station_in_table", { station: stand(station) })],
   tool_off_tips: ({ arm = "", beyond_m = 0, beside_m = 0 }) => {
     const said = [];

@@ -58,8 +58,14 @@ def is_symmetric(imported: Imported) -> bool:
         '<path d="M 2 15 V 55"><title>Place on fold</title></path>',
         '<path d="M 0 10 V 60" data-name="Mirror Line"/>',
         '<path id="au_pli" stroke="blue" d="M 0.05 10 V 60"/>',
+        '<path id="p1" d="M 0 12 V 58"/><text><textPath href="#p1">Pliure</textPath></text>',
+        '<path id="p1" d="M 0 12 V 58"/><text><textPath href="#p1">BRUCH</textPath></text>',
+        '<path id="p1" d="M 0 12 V 58"/><text><textPath href="#p1"><tspan>1</tspan> Pliure du tissu</textPath></text>',
+        '<path id="pliure_1" d="M 0 12 V 58"/>',
+        '<path d="M 2 15 V 55"><title>Línea de doblez</title></path>',
+        '<line id="doblez" x1="0" y1="58" x2="0" y2="12" stroke="black"/>',
     ],
-    ids=range(10),
+    ids=range(16),
 )
 def test_a_piece_cut_on_the_fold_is_mirrored_over_the_edge_that_is_marked(mark: str) -> None:
     found = read(f'<path d="{HALF}"/>', mark)
@@ -132,12 +138,30 @@ def test_a_mirrored_fold_moves_the_mirrored_side() -> None:
         '<text x="3" y="30">Cut 1 on fold</text>',
         '<text x="3" y="30"><tspan>Vorderteil</tspan> <tspan>im Bruch</tspan></text>',
         '<path id="cutonfold" d="M 40 0 V 30"/>',
+        '<text x="0" y="30">pliure</text>',
+        '<text x="0" y="30">Bruch</text><path d="M 0 12 V 58"/>',
+        '<text x="0" y="30">- doblez -</text>',
     ],
 )
 def test_where_the_edge_is_not_marked_it_is_said_that_the_piece_is_a_half(mark: str) -> None:
     found = read(f'<path d="{HALF}"/>', mark)
     assert "fold_unknown" in codes(found)
     assert sides(found) == (0.24, 0.6)
+
+
+@pytest.mark.parametrize("word", ["pliure", "Bruch", "Doblez 1"])
+def test_a_line_in_the_colour_of_a_fold_that_is_called_a_fold_is_one(word: str) -> None:
+    line = f'<path id="p1" style="stroke: blue" d="M 12 60 V 0"><title>{word}</title></path>'
+    found = read(f'<path d="{HALF}"/>', line, f'<text x="12" y="30"><textPath href="#p1">{word}</textPath></text>')
+    assert [fold.name for fold in found.garment.folds] == [word]
+    assert not codes(found) & {"piece_unfolded", "fold_unknown"}
+
+
+@pytest.mark.parametrize(
+    "text", ["Umbruch", "Abbruchkante", "pliures 1 et 2", "dobladillo", "2 cm bis zum Bruch falten"]
+)
+def test_other_texts_say_nothing_of_a_fold(text: str) -> None:
+    assert "fold_unknown" not in codes(read(f'<path d="{HALF}"/>', f'<text x="0" y="30">{text}</text>'))
 
 
 def test_a_piece_that_is_drawn_whole_around_its_fold_line_stays_as_it_is() -> None:
@@ -227,19 +251,31 @@ def test_a_sewing_pattern_whose_mirror_line_is_its_middle_is_whole() -> None:
     assert not codes(found) & {"piece_unfolded", "fold_unknown"}
 
 
-def test_a_layer_named_for_the_fold_is_a_mirror_line_in_any_drawing() -> None:
+@pytest.mark.parametrize("layer", ["CUT ON FOLD", "Pliure", "BRUCH", "doblez"])
+def test_a_layer_named_for_the_fold_is_a_mirror_line_in_any_drawing(layer: str) -> None:
     made = filemanagement.new("R2004")
     made.header["$INSUNITS"] = 4
     made.modelspace().add_lwpolyline(HALF_MM, close=True)
-    made.modelspace().add_line((0, 0), (0, 620), dxfattribs={"layer": "CUT ON FOLD"})
+    made.modelspace().add_line((0, 0), (0, 620), dxfattribs={"layer": layer})
     assert dxf(made).garment.pattern.area == pytest.approx(2 * HALF_M2)
 
 
-def test_a_text_that_says_so_without_a_line_is_passed_on() -> None:
+def test_a_blue_line_on_a_layer_called_fold_is_a_fold() -> None:
     made = filemanagement.new("R2004")
     made.header["$INSUNITS"] = 4
     made.modelspace().add_lwpolyline(HALF_MM, close=True)
-    made.modelspace().add_text("FRONT - CUT 1 ON FOLD")
+    made.modelspace().add_line((130, 0), (130, 640), dxfattribs={"layer": "PLIURE", "color": 5})
+    made.modelspace().add_text("Pliure")
+    found = dxf(made)
+    assert len(found.garment.folds) == 1 and "fold_unknown" not in codes(found)
+
+
+@pytest.mark.parametrize("text", ["FRONT - CUT 1 ON FOLD", "pliure", "Im Bruch", "%%uBruch%%u", "{\\fArial|b0;Doblez}"])
+def test_a_text_that_says_so_without_a_line_is_passed_on(text: str) -> None:
+    made = filemanagement.new("R2004")
+    made.header["$INSUNITS"] = 4
+    made.modelspace().add_lwpolyline(HALF_MM, close=True)
+    (made.modelspace().add_mtext if "{" in text else made.modelspace().add_text)(text)
     assert "fold_unknown" in codes(dxf(made))
 
 

@@ -56,6 +56,77 @@ def test_a_page_with_an_edge_is_no_outline_of_what_open_lines_draw() -> None:
     assert sides(read(page, lines.format('<line x1="9" y1="9" x2="9" y2="30"/>'))) == (0.5, 0.4)
 
 
+FRAME = '<rect x="1" y="1" width="48" height="38" fill="none" stroke="black"/>'
+
+
+@pytest.mark.parametrize(
+    "frame",
+    [
+        FRAME,
+        '<path d="M 49 39 H 1 V 1 H 49 Z" fill="none" stroke="#888"/>',
+        '<rect x="2.1" y="2" width="45.9" height="36" fill="white" stroke="black"/>',
+        '<rect x="1" y="1" width="48" height="38" rx="1" fill="none" stroke="navy"/>',
+        f'<rect width="100%" height="100%" fill="white"/>{FRAME}',
+        f'<rect width="50" height="40" fill="none" stroke="black"/>{FRAME}',
+        f'{FRAME}<path d="M 42 36 H 48 V 38 H 42 Z M 42 37 H 48" fill="none" stroke="black"/>',
+    ],
+    ids=range(7),
+)
+def test_a_frame_a_little_inside_of_the_page_is_no_outline(frame: str) -> None:
+    found = read(frame, PIECE, FOLD)
+    assert sides(found) == (0.4, 0.3)
+    assert [fold.kind for fold in found.garment.folds] == ["blue"]
+
+
+def test_a_frame_is_no_outline_of_what_open_lines_draw() -> None:
+    lines = '<g stroke="black" fill="none"><path d="M 5 5 H 45 V 35"/><path d="M 45 35 H 5 V 5"/></g>'
+    assert sides(read(FRAME, lines, FOLD)) == (0.4, 0.3)
+    block = '<g stroke="black" fill="none"><path d="M 42 36 H 48 V 38 H 42 Z"/><path d="M 42 37 H 48"/></g>'
+    assert sides(read(FRAME, block, lines, FOLD)) == (0.4, 0.3)
+    for grid in ("M 25 5 V 35 M 5 20 H 45", "M 20 5 V 35 M 30 5 V 35 M 5 15 H 45 M 5 25 H 45"):
+        assert sides(read(FRAME, f'<path d="{grid}" stroke="black" fill="none"/>')) == (0.48, 0.38)
+
+
+def test_a_legend_beside_the_garment_does_not_make_its_frame_the_outline() -> None:
+    legend = '<path d="M 3 37 H 6 M 8 37 H 11" stroke="blue"/>'
+    assert sides(read(FRAME, PIECE, FOLD, legend)) == (0.4, 0.3)
+
+
+@pytest.mark.parametrize(
+    "inner",
+    [
+        "",
+        '<line x1="25" y1="1" x2="25" y2="39" stroke="blue"/>',
+        '<line x1="25" y1="3" x2="25" y2="37" stroke="blue"/><line x1="3" y1="20" x2="24" y2="20" stroke="red"/>',
+        '<line x1="25" y1="0" x2="25" y2="40" stroke="blue"/>',
+        '<line x1="25" y1="1" x2="25" y2="39" stroke="black"/>',
+        '<rect x="2" y="2" width="46" height="36" fill="none" stroke="black" stroke-dasharray="1"/>',
+        '<circle cx="9" cy="9" r="3" stroke="black"/>',
+        '<rect x="20" y="8" width="10" height="12" stroke="gray"/><path d="M 25 1 V 39" stroke="blue"/>',
+        '<rect x="4" y="4" width="12" height="12" stroke="gray"/><path d="M 25 3 V 37" stroke="blue"/>',
+    ],
+    ids=range(9),
+)
+def test_a_towel_that_its_page_fits_with_a_margin_stays_the_outline(inner: str) -> None:
+    assert max(sides(read(FRAME, inner))) >= 0.46
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        '<rect x="1" y="1" width="40" height="38" fill="none" stroke="black"/>',
+        '<rect x="5.5" y="5.5" width="39" height="29" fill="none" stroke="black"/>',
+        '<rect x="1" y="1" width="48" height="38" fill="#dca" stroke="black"/>',
+        '<path d="M 1 1 H 49 V 30 L 40 39 H 1 Z" fill="none" stroke="black"/>',
+        f'{FRAME}<circle cx="45" cy="38" r="1.9" stroke="black"/>',
+    ],
+    ids=range(5),
+)
+def test_what_is_unlike_a_frame_stays_the_outline(other: str) -> None:
+    found = read(other, '<rect x="8" y="8" width="20" height="20" fill="none" stroke="black"/>')
+    assert max(sides(found)) >= 0.39
+
+
 def test_what_an_all_black_mask_hides_is_not_seen() -> None:
     mask = '<mask id="m"><rect width="50" height="40" fill="{}"/></mask>'
     box = '<rect x="1" y="1" width="48" height="38" fill="#555" mask="url(#m)"/>'
@@ -207,7 +278,38 @@ def test_a_selector_asks_for_all_of_its_steps() -> None:
         ("#00f icc-color(cmyk, 1, 1, 0, 0)", "blue"),
         ("hwb(0 10% 10%)", "red"),
         ("forestgreen", None),
-        ("color(xyz 0.1 0.2 0.9)", None),
+        ("color(xyz 0.18 0.07 0.95)", "blue"),
+        ("color(xyz-d50 0.436 0.222 0.014)", "red"),
+        ("color(srgb-linear 0.02 0.02 0.8)", "blue"),
+        ("color(own 0.1 0.2 0.9)", None),
+        ("oklch(0.45 0.31 264)", "blue"),
+        ("oklch(45.2% 78% 264.05deg / 0.9)", "blue"),
+        ("OKLCH(62.8% 0.2577 29.23)", "red"),
+        ("oklch(0.6 0.4 0.08turn)", "red"),
+        ("oklch(0.6 0 264)", None),
+        ("oklch(60% 0.2 142)", None),
+        ("oklab(0.452 -0.032 -0.312)", "blue"),
+        ("oklab(62.8% 56.2% 31.5%)", "red"),
+        ("lab(29.57 68.3 -112.03)", "blue"),
+        ("lab(54.29% 64.6% 55.9%)", "red"),
+        ("lch(29.57 131.2 301.4)", "blue"),
+        ("lch(54.3% 71% 40.85deg / 80%)", "red"),
+        ("lch(50 none none)", None),
+        ("hsl(240 100% 50%)", "blue"),
+        ("hsl(240deg, 80%, 40%)", "blue"),
+        ("hsla(0.6667turn 100% 40% / 1)", "blue"),
+        ("hsl(4.19rad 90% 50%)", "blue"),
+        ("hsl(0 100 50)", "red"),
+        ("hwb(266.7grad 0% 20%)", "blue"),
+        ("var(--own, oklch(0.45 0.31 264))", "blue"),
+        ("light-dark(red, rgb(0, 0, 255))", "red"),
+        ("color-mix(in oklab, oklch(54.6% 0.245 262.9) 50%, transparent)", "blue"),
+        ("color-mix(in srgb, white, 80% rgb(255 0 0))", "red"),
+        ("color-mix(in srgb, rgb(100%, 0%, 0%), black 10%)", "red"),
+        ("color-mix(in srgb, red 5%, black)", None),
+        ("color-mix(in srgb, own, red)", None),
+        ("color-mix(in srgb, transparent, transparent)", None),
+        ("color-mix(in srgb, red", None),
         ("url(#gradient)", None),
     ],
 )
@@ -215,3 +317,52 @@ def test_a_line_is_a_fold_by_its_colour_however_that_is_written(paint: str, kind
     drawn = f'<path d="M 15 5 V 35" style="stroke: {paint}" fill="none"/>'
     kinds = [fold.kind for fold in read(PIECE, FOLD, drawn).garment.folds]
     assert kinds == (["blue"] if kind is None else ["blue", kind])
+
+
+@pytest.mark.parametrize(
+    ("sheet", "more", "paint", "kind"),
+    [
+        (":root { --fold: #f00 }", "", "var(--fold)", "red"),
+        ("svg { --fold: oklch(0.63 0.26 29) }", "", "var( --fold , blue)", "red"),
+        ("", 'style="--fold: red"', "var(--fold)", "red"),
+        (":root { --ink: Red; --fold: var(--ink) }", "", "var(--fold)", "red"),
+        (":root { --Fold: blue; --fold: red }", "", "var(--fold)", "red"),
+        (":root { --Fold: red; --fold: blue }", "", "VAR(--Fold)", "red"),
+        (":root { --parts: 255, 0, 0 }", "", "rgb(var(--parts))", "red"),
+        (":root { --fold: blue } g { --fold: red !important }", "", "var(--fold)", "red"),
+        (":root { --ink: red; --fold: blue } g { --fold: initial }", "", "var(--fold, var(--ink))", "red"),
+        (":root { --fold: red; } g { --fold: inherit }", "", "var(--fold)", "red"),
+        (":root { --one: var(--two); --two: var(--one) }", "", "var(--one, red)", "red"),
+        (":root { --one: var(--one) }", "", "var(--one)", None),
+        ("", "", "var(--none)", None),
+        ("", "", "var(--none,)", None),
+        ("", "", "var(--none", None),
+        ("g { stroke: red }", "", "var(--none)", "red"),
+    ],
+    ids=range(16),
+)
+def test_a_colour_may_be_a_variable(sheet: str, more: str, paint: str, kind: str | None) -> None:
+    for drawn in (f'stroke="{paint}"', f'style="stroke: {paint}"'):
+        line = f'<g><path d="M 15 5 V 35" {drawn} fill="none"/></g>'
+        kinds = [fold.kind for fold in read(f"<style>{sheet}</style>", PIECE, FOLD, line, more=more).garment.folds]
+        assert kinds == (["blue"] if kind is None else ["blue", kind])
+
+
+def test_a_variable_counts_in_a_mask_as_where_the_mask_stands() -> None:
+    mask = '<g style="--paper: white"><mask id="m"><rect width="50" height="40" fill="var(--paper)"/></mask></g>'
+    assert sides(read(mask, '<rect x="1" y="1" width="48" height="38" fill="#555" mask="url(#m)"/>')) == (0.48, 0.38)
+
+
+@pytest.mark.parametrize("value", ["var(--n{0}) var(--n{0})", "var(--n{0}, var(--n{0}))", "var(--n{0})"])
+def test_variables_that_multiply_each_other_take_no_time(value: str) -> None:
+    declared = "; ".join(f"--n{n}: {value.format(n - 1)}" for n in range(1, 100))
+    for first in ("--n0:;", "--n0: red;", ""):
+        line = '<path d="M 15 5 V 35" stroke="var(--n99, red)" fill="none"/>' * 100
+        found = read(f"<style>* {{ {first} {declared} }}</style>", PIECE, FOLD, line)
+        assert found.garment.folds[0].kind == "blue"
+
+
+def test_a_drawing_with_too_many_variables_is_refused() -> None:
+    paints = "".join(f'<path stroke="var(--n{n})"/>' for n in range(201))
+    with pytest.raises(ImportedFileError, match="more than 200 variables"):
+        read(paints, PIECE)
