@@ -6,7 +6,7 @@ import numpy as np
 
 from docs.figures.drawing import BACK, BLUE, EDGE, FAINT, FRONT, INK, NONE, RED, TABLE, Drawing, Style, View
 from planner.cloth.cloth_state import ClothState
-from planner.cloth.g_state import TableInGarment, unrest
+from planner.cloth.g_state import TableInGarment, stability_violation
 from planner.geometry.pose import Point2, Pose2
 from planner.geometry.region import Region
 from planner.geometry.table import Table
@@ -24,7 +24,7 @@ def most_hanging(friction: float) -> float:
     low, high = 0.0, 1.0
     for _ in range(18):
         share = (low + high) / 2
-        is_at_rest = unrest(_strip(share), _TOP, friction, 0.0) is None
+        is_at_rest = stability_violation(_strip(share), _TOP, friction, 0.0) is None
         low, high = (share, high) if is_at_rest else (low, share)
     return low
 
@@ -86,7 +86,7 @@ def _least_friction(cloth: ClothState) -> float:
     low, high = 0.0, 10.0
     for _ in range(24):
         friction = (low + high) / 2
-        is_at_rest = unrest(cloth, _TOP, friction, 0.0) is None
+        is_at_rest = stability_violation(cloth, _TOP, friction, 0.0) is None
         low, high = (low, friction) if is_at_rest else (friction, high)
     return high
 

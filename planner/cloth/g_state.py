@@ -25,7 +25,7 @@ _UNRESTS_KEPT = 2048
 
 
 @dataclass(frozen=True, slots=True)
-class Unrest:
+class StabilityViolation:
     """The reason why cloth would not stay as it is.
 
     Attributes:
@@ -98,7 +98,9 @@ EDGE_NAMES = ("right", "far", "left", "near")
 """The table's edges, in the order of `TableInGarment.edges`, as seen from the station `front`."""
 
 
-def unrest(cloth: ClothState, top: TableInGarment, friction: float, support_angle_rad: float) -> Unrest | None:
+def stability_violation(
+    cloth: ClothState, top: TableInGarment, friction: float, support_angle_rad: float
+) -> StabilityViolation | None:
     """Return why the cloth, left alone, would move; None if it is in a g-state.
 
     Args:
@@ -112,7 +114,7 @@ def unrest(cloth: ClothState, top: TableInGarment, friction: float, support_angl
     beyond = cloth.silhouette.difference(top.region)
     if cloth.silhouette.area - beyond.area < AREA_M2:
         off = min(cloth.silhouette.distance_to(edge) for edge in top.edges)
-        return Unrest("not_a_g_state", worded("beside_table", {"off_m": float(off)}), off)
+        return StabilityViolation("not_a_g_state", worded("beside_table", {"off_m": float(off)}), off)
     covered = _covered_corner(cloth, beyond, top)
     if covered is not None:
         return covered
@@ -121,11 +123,11 @@ def unrest(cloth: ClothState, top: TableInGarment, friction: float, support_angl
 
 
 @lru_cache(_UNRESTS_KEPT)
-def unrest_at(
+def stability_violation_at(
     cloth: ClothState, placement: Pose2, table: Table, friction: float, support_angle_rad: float
-) -> Unrest | None:
-    """Return the `unrest` of a stack with a placement; cached, because garments that begin alike share stacks."""
-    return unrest(cloth, TableInGarment.seen_from(placement, table), friction, support_angle_rad)
+) -> StabilityViolation | None:
+    """Return `stability_violation` of a stack with a placement; cached, as garments that begin alike share stacks."""
+    return stability_violation(cloth, TableInGarment.seen_from(placement, table), friction, support_angle_rad)
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,18 +148,19 @@ def _hanging_parts(cloth: ClothState, beyond: Region, top: TableInGarment) -> It
                 yield _Hanging(number, part, int(top.inside(part.coordinates).max(axis=0).argmin()))
 
 
-def _covered_corner(cloth: ClothState, beyond: Region, top: TableInGarment) -> Unrest | None:
+def _covered_corner(cloth: ClothState, beyond: Region, top: TableInGarment) -> StabilityViolation | None:
     for edge, (x, y) in zip(top.edges, top.table.corners, strict=True):
         if cloth.silhouette.contains(edge.start, margin_m=LENGTH_M):
             depth = cloth.silhouette.boundary_distance(edge.start)
             says = worded("corner_covered", {"corner": [x, y], "depth_m": float(depth)})
-            return Unrest("not_a_g_state", says, depth, edge.start)
+            return StabilityViolation("not_a_g_state", says, depth, edge.start)
     for part in beyond.pieces:
         near = np.count_nonzero(np.abs(top.inside(part.coordinates)) <= LENGTH_M, axis=0)
         edges = zip(EDGE_NAMES, top.edges, near, strict=True)
         hung = [name for name, edge, points in edges if points >= 2 and _touches(part, edge)]
         if len(hung) != 1:
-            return Unrest("not_a_g_state", worded("hangs_from_several", {"area_m2": part.area, "edges": hung}))
+            says = worded("hangs_from_several", {"area_m2": part.area, "edges": hung})
+            return StabilityViolation("not_a_g_state", says)
     return None
 
 
@@ -179,7 +182,7 @@ def _contact(part: Region, edge: Segment) -> tuple[Segment, ...]:
     )
 
 
-def _loose_part(hanging: list[_Hanging], top: TableInGarment, support_angle_rad: float) -> Unrest | None:
+def _loose_part(hanging: list[_Hanging], top: TableInGarment, support_angle_rad: float) -> StabilityViolation | None:
     """Return the first hanging part of a layer that nothing immobilises (Theorem 1; Figure 4, right)."""
     for hung in hanging:
         edge = top.edges[hung.edge]
@@ -189,7 +192,7 @@ def _loose_part(hanging: list[_Hanging], top: TableInGarment, support_angle_rad:
             lowest, (x, y) = float(depths.max()), loose[int(depths.argmax())]
             name, at = EDGE_NAMES[hung.edge], (float(x), float(y))
             values = {"layer": hung.layer, "edge": name, "at": list(at), "beyond_m": lowest}
-            return Unrest("not_a_g_state", worded("hangs_loose", values), lowest, at)
+            return StabilityViolation("not_a_g_state", worded("hangs_loose", values), lowest, at)
     return None
 
 
@@ -211,7 +214,7 @@ def is_held(pull_m2: float, lying_m2: float, friction: float) -> bool:
     return pull_m2 <= max(friction * lying_m2 * (1.0 + LENGTH_M), AREA_M2)
 
 
-def _slip(cloth: ClothState, parts: list[_Hanging], top: TableInGarment, friction: float) -> Unrest | None:
+def _slip(cloth: ClothState, parts: list[_Hanging], top: TableInGarment, friction: float) -> StabilityViolation | None:
     """Return why the cloth slips: its net pull over the edges exceeds the friction of the cloth that lies."""
     hanging = _hanging_areas(parts, top)
     pull, lying = _pull(hanging, top), _lying(cloth, hanging)
@@ -220,7 +223,7 @@ def _slip(cloth: ClothState, parts: list[_Hanging], top: TableInGarment, frictio
     needed = pull / max(lying, AREA_M2)
     over = {name: area for area, name in zip(hanging, EDGE_NAMES, strict=True) if area > 0.0}
     values = {"hanging_m2": over, "lying_m2": lying, "friction": friction, "needed_friction": needed}
-    return Unrest("slips", worded("slips", values), needed - friction, needed_friction=needed)
+    return StabilityViolation("slips", worded("slips", values), needed - friction, needed_friction=needed)
 
 
 def _hanging_areas(parts: list[_Hanging], top: TableInGarment) -> list[float]:

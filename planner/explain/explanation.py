@@ -243,7 +243,7 @@ class _RelaxationSets:
         for relaxations in own if self._fold is None else ():
             for relaxation in relaxations:
                 tried = ((by, changed_or_none(self._base, relaxation.change, by)) for by in relaxation.amounts)
-                stays = ((by, at) for by, at in tried if at is not None and at.problem.unrest is None)
+                stays = ((by, at) for by, at in tried if at is not None and at.problem.stability_violation is None)
                 enough = next(stays, None)
                 if enough is not None:
                     amount, changed = enough

@@ -20,7 +20,7 @@ from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from itertools import islice
 
-from planner.cloth.g_state import Unrest
+from planner.cloth.g_state import StabilityViolation
 from planner.explain.reason_attempt import Miss
 from planner.explain.reason_grips import GRIP_CODES
 from planner.explain.reason_obstacle import collisions, lacking, of_obstacle
@@ -48,9 +48,9 @@ that pass are examined."""
 def reasons_met(obstacles: Obstacles) -> tuple[Reason, ...]:
     """Return the reasons that a search met, not tried yet."""
     context = obstacles.problem.context
-    unrest = obstacles.problem.unrest
-    if unrest is not None:
-        return (reason_at_start(context, unrest),)
+    violation = obstacles.problem.stability_violation
+    if violation is not None:
+        return (reason_at_start(context, violation),)
     for step, contact in obstacles.contacts():
         note_collision(context, step, contact)
     return reasons(context, obstacles.reached, obstacles.impossible)
@@ -68,13 +68,13 @@ def reasons(context: Context, reached: Collection[Situation], impossible: Collec
     return _Reasons(context, reached, impossible).all()
 
 
-def reason_at_start(context: Context, unrest: Unrest) -> Reason:
+def reason_at_start(context: Context, violation: StabilityViolation) -> Reason:
     """Return why there is no plan for cloth that does not stay as it lies at the start."""
     state = context.start
     spread, top = context.sequence.cloth(state.done).silhouette, context.table_in_garment(state.offset)
     is_too_large = all(spread.contains(edge.start) for edge in top.edges)
-    says = worded("at_start", {"what": unrest.says.to_dict(), "is_too_large": is_too_large})
-    return of_obstacle(context, Obstacle(None, Code(unrest.code), says, unrest.severity, state, unrest.point))
+    says = worded("at_start", {"what": violation.says.to_dict(), "is_too_large": is_too_large})
+    return of_obstacle(context, Obstacle(None, Code(violation.code), says, violation.severity, state, violation.point))
 
 
 def note_collision(context: Context, step: Step, contact: BlockingContact | None) -> None:

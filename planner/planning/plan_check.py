@@ -43,8 +43,8 @@ def require_replay(plan: Plan) -> None:
         RequestError: names the step, as ``steps[2].grips``, and says what is wrong with which number.
     """
     problem = Problem.of(plan.task)
-    if problem.unrest is not None:
-        raise RequestError("task.start", problem.unrest.message)
+    if problem.stability_violation is not None:
+        raise RequestError("task.start", problem.stability_violation.message)
     if plan.trajectory is None:
         return
     if not problem.is_goal(problem.state_of(plan.end)):
@@ -136,9 +136,9 @@ def _require_cloth(problem: Problem, step: PlanStep, before: State, after: State
         obstacle = geometric_obstacle(context, before, fold)
         if obstacle is not None and obstacle.says is not None:
             raise RequestError("details.fold", obstacle.says.text)
-    unrest = context.unrest(after.done, after.offset)
-    if unrest is not None:
-        raise RequestError("after", unrest.message)
+    violation = context.stability_violation(after.done, after.offset)
+    if violation is not None:
+        raise RequestError("after", violation.message)
     start, end = step.before.placement, step.after.placement
     moved_m = math.dist((start.x_m, start.y_m), (end.x_m, end.y_m))
     dragged_m = float(step.details.get("distance_m", 0.0))

@@ -108,7 +108,7 @@ class _PlanSearch:
         exact = self.exact
         status: _Status = "budget_exceeded" if self._is_bounded else "infeasible"
         is_cut_short = False
-        if self.problem.unrest is None:
+        if self.problem.stability_violation is None:
             yield from self.run(exact.run())
             if exact.result.outcome is Outcome.BUDGET_EXCEEDED and not exact.blocking:
                 status, is_cut_short = "budget_exceeded", True

@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from planner.cloth.cloth_state import spread_out
-from planner.cloth.g_state import Unrest
+from planner.cloth.g_state import StabilityViolation
 from planner.cloth.garment import Garment
 from planner.deadline import ENDLESS, Deadline
 from planner.errors import RequestError
@@ -49,10 +49,10 @@ class Problem:
         return self.context.start
 
     @property
-    def unrest(self) -> Unrest | None:
+    def stability_violation(self) -> StabilityViolation | None:
         """The reason why the cloth would not stay where it lies at the start; None if it stays."""
-        found = self.context.unrest(self.start.done, self.start.offset)
-        self.context.obstacles.note_unrest(found)
+        found = self.context.stability_violation(self.start.done, self.start.offset)
+        self.context.obstacles.note_violation(found)
         return found
 
     def state_of(self, world: WorldState) -> State:

@@ -45,7 +45,8 @@ def quickly_planned(
         is_patient: whether the greedy search gives up later.
     """
     context, effort = problem.context, Effort()
-    found = _plan_segments(problem, like, effort, budget, is_patient=is_patient) if problem.unrest is None else ()
+    stays = problem.stability_violation is None
+    found = _plan_segments(problem, like, effort, budget, is_patient=is_patient) if stays else ()
     plan_segments = linked(found, problem.maker)
     statistics = effort.statistics(context.reach.memory, arm_time(context)(problem.start))
     context.forget()

@@ -69,7 +69,7 @@ def try_folds(problem: Problem, budget: Budget, folds: int, *, may_collide: bool
     search = PathSearch(problem, part, _EXPANDED_MAX, wanted=folds)
     begun_s = part.spent_s
     part.work_limit_s = begun_s + (_GLANCE_WORK_S if may_collide else _TRIAL_WORK_S)
-    path = None if problem.unrest is not None else _path(search, folds, may_collide=may_collide)
+    path = None if problem.stability_violation is not None else _path(search, folds, may_collide=may_collide)
     budget.beside_s += part.spent_s - begun_s
     if path is None:
         return Trial(problem.context, None, search.has_rejected, search.obstacles)

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple, TypeVar, cast
 
 import numpy as np
 
-from planner.cloth.g_state import TableInGarment, Unrest, unrest_at
+from planner.cloth.g_state import StabilityViolation, TableInGarment, stability_violation_at
 from planner.cloth.garment import Garment
 from planner.cloth.grips import Cover, GripCovers
 from planner.deadline import ENDLESS, Deadline
@@ -65,7 +65,7 @@ class ClothMemory:
     contexts, between threads, too.
 
     Attributes:
-        unrest: by folds done and place on the grid, why the cloth would not stay; None if it stays.
+        stability_violation: by folds done and place on the grid, why the cloth would not stay; None if it stays.
         tables: by place on the grid, the table seen from the garment.
         extents: by folds done, the smallest and largest coordinates of the cloth before any drag.
         placed: by offset, the garment's placement.
@@ -73,7 +73,7 @@ class ClothMemory:
         hands: by all that they depend on, the hands that may perform a fold; see `fold_trials`.
     """
 
-    unrest: dict[tuple[int, int, int], Unrest | None] = field(default_factory=dict)
+    stability_violation: dict[tuple[int, int, int], StabilityViolation | None] = field(default_factory=dict)
     tables: dict[tuple[int, int], TableInGarment] = field(default_factory=dict)
     extents: dict[int, tuple[FloatArray, FloatArray]] = field(default_factory=dict)
     placed: dict[Point2, Pose2] = field(default_factory=dict)
@@ -290,17 +290,18 @@ class Context:
         table = self.scene.table
         return abs(x) <= table.depth_m / 2 + LENGTH_M and abs(y) <= table.width_m / 2 + LENGTH_M
 
-    def unrest(self, done: int, offset: Point2) -> Unrest | None:
+    def stability_violation(self, done: int, offset: Point2) -> StabilityViolation | None:
         """Return why the cloth would not stay at a placement after some folds; None if it is in a g-state."""
-        key, known = (done, grid_key(offset[0]), grid_key(offset[1])), self.cloth.unrest
+        key, known = (done, grid_key(offset[0]), grid_key(offset[1])), self.cloth.stability_violation
         if key not in known:
             scene = self.scene
             at = (self.placed(offset), scene.table, scene.friction, scene.support_angle_rad)
-            known[key] = None if self.is_all_on_table(done, offset) else unrest_at(self.sequence.cloth(done), *at)
+            hangs = not self.is_all_on_table(done, offset)
+            known[key] = stability_violation_at(self.sequence.cloth(done), *at) if hangs else None
         return known[key]
 
     def stays(self, done: int, offset: Point2) -> bool:
         """Return whether the cloth stays at a placement after some folds; why it would not is noted as an obstacle."""
-        found = self.unrest(done, offset)
-        self.obstacles.note_unrest(found)
+        found = self.stability_violation(done, offset)
+        self.obstacles.note_violation(found)
         return found is None

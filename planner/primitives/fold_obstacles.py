@@ -43,11 +43,11 @@ def geometric_obstacles(context: Context, state: State, fold: int) -> Iterator[O
     out_m = edge_off_table(context, fold, state.offset)
     if out_m > LENGTH_M:
         yield Obstacle(fold, Code.LINE_OFF_TABLE, worded("turn_off_table", {"off_m": out_m}, folds, fold), out_m, state)
-    unrest = context.unrest(state.done | 1 << fold, state.offset)
-    context.obstacles.note_unrest(unrest)
-    if unrest is not None:
-        says = worded("afterwards", {"what": unrest.says.to_dict()}, folds, fold)
-        yield Obstacle(fold, Code(unrest.code), says, unrest.severity, state, unrest.point)
+    violation = context.stability_violation(state.done | 1 << fold, state.offset)
+    context.obstacles.note_violation(violation)
+    if violation is not None:
+        says = worded("afterwards", {"what": violation.says.to_dict()}, folds, fold)
+        yield Obstacle(fold, Code(violation.code), says, violation.severity, state, violation.point)
 
 
 def edge_off_table(context: Context, fold: int, offset: Point2) -> float:

@@ -12,7 +12,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from planner.cloth.g_state import Unrest
+from planner.cloth.g_state import StabilityViolation
 from planner.cloth.grips import Cover
 from planner.folds.fold_path import FoldPath
 from planner.geometry.pose import FloatArray, Point2, Point3
@@ -140,9 +140,9 @@ class Obstacles:
     _tried: dict[tuple[object, ...], list[Attempt]] = field(default_factory=dict)
     has_slipped: bool = False
 
-    def note_unrest(self, unrest: Unrest | None) -> None:
+    def note_violation(self, violation: StabilityViolation | None) -> None:
         """Note why the cloth would not stay at some placement; None where it would."""
-        self.has_slipped = self.has_slipped or (unrest is not None and unrest.code == "slips")
+        self.has_slipped = self.has_slipped or (violation is not None and violation.code == "slips")
 
     def note(self, obstacle: Obstacle) -> None:
         """Keep an obstacle if it is the mildest of its fold, code and situation so far."""

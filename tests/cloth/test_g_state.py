@@ -9,7 +9,7 @@ import random
 import pytest
 
 from planner.cloth.cloth_state import ClothState
-from planner.cloth.g_state import TableInGarment, Unrest, unrest
+from planner.cloth.g_state import StabilityViolation, TableInGarment, stability_violation
 from planner.folds.fold_cloth import fold_cloth
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import Point2, Pose2
@@ -23,8 +23,8 @@ TABLE = Table(1.6, 0.98, 0.79)
 HERE = Pose2(0.0, 0.0, 0.0)
 
 
-def why(cloth: ClothState, friction: float = 1.0, support_deg: float = 0.0) -> Unrest | None:
-    return unrest(cloth, TableInGarment.seen_from(HERE, TABLE), friction, math.radians(support_deg))
+def why(cloth: ClothState, friction: float = 1.0, support_deg: float = 0.0) -> StabilityViolation | None:
+    return stability_violation(cloth, TableInGarment.seen_from(HERE, TABLE), friction, math.radians(support_deg))
 
 
 def over_near_edge(hanging_m: float, lying_m: float, width_m: float = 0.4) -> ClothState:
@@ -60,7 +60,9 @@ def test_what_balances_holds_without_friction_however_the_drawing_is_turned(leng
     # Drawn from a corner and put over the table's middle: the areas on both sides differ in their last digits.
     there = Isometry.rotation(turn, 0.037, 0.0)
     points = [there.inverse.apply_point(p) for p in rectangle_points(0.2, length_m, -0.1, -length_m / 2)]
-    assert unrest(spread(points), TableInGarment.seen_from(Pose2(0.037, 0.0, turn), TABLE), 0.0, 0.0) is None
+    assert (
+        stability_violation(spread(points), TableInGarment.seen_from(Pose2(0.037, 0.0, turn), TABLE), 0.0, 0.0) is None
+    )
 
 
 def test_of_two_opposite_edges_only_the_difference_pulls() -> None:
@@ -142,7 +144,7 @@ def test_where_the_garment_frame_lies_makes_no_difference() -> None:
         there = Isometry.rotation(turn, dx, dy)
         moved = spread([there.inverse.apply_point(p) for p in points])
         here = why(spread(points), support_deg=5.0)
-        seen = unrest(moved, TableInGarment.seen_from(Pose2(dx, dy, turn), TABLE), 1.0, math.radians(5.0))
+        seen = stability_violation(moved, TableInGarment.seen_from(Pose2(dx, dy, turn), TABLE), 1.0, math.radians(5.0))
         assert (here and here.code) == (seen and seen.code)
 
 

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 import pytest
 
 from planner.cloth.cloth_state import ClothState
-from planner.cloth.g_state import TableInGarment, Unrest, unrest
+from planner.cloth.g_state import StabilityViolation, TableInGarment, stability_violation
 from planner.geometry.pose import Point2, Pose2
 from planner.geometry.region import Region
 from planner.geometry.table import Table
@@ -34,15 +34,19 @@ def block(low: float, high: float, lying_m: float, hanging_m: float) -> list[Poi
     return [(low, -lying_m), (high, -lying_m), (high, hanging_m), (low, hanging_m)]
 
 
-def why(cloth: ClothState, friction: float = 1.0, support_deg: float = 0.0, table: Table = TABLE) -> Unrest | None:
-    return unrest(cloth, TableInGarment.seen_from(Pose2(0.0, 0.0, 0.0), table), friction, math.radians(support_deg))
+def why(
+    cloth: ClothState, friction: float = 1.0, support_deg: float = 0.0, table: Table = TABLE
+) -> StabilityViolation | None:
+    return stability_violation(
+        cloth, TableInGarment.seen_from(Pose2(0.0, 0.0, 0.0), table), friction, math.radians(support_deg)
+    )
 
 
 def union(*parts: Sequence[Point2]) -> ClothState:
     return ClothState.spread_out(Region.union(Region.polygon(part) for part in parts))
 
 
-def code(found: Unrest | None) -> str | None:
+def code(found: StabilityViolation | None) -> str | None:
     return None if found is None else found.code
 
 

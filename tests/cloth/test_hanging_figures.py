@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from planner.cloth.cloth_state import ClothState
-from planner.cloth.g_state import TableInGarment, Unrest, unrest
+from planner.cloth.g_state import StabilityViolation, TableInGarment, stability_violation
 from planner.cloth.must_hold import must_hold
 from planner.folds.fold_cloth import fold_cloth
 from planner.geometry.isometry import Isometry
@@ -44,8 +44,10 @@ def on_table(hanging: Sequence[Point2]) -> ClothState:
     return ClothState.spread_out(Region.union([below, rectangle(0.5, max(top) - min(top), -0.8, -max(top))]))
 
 
-def why(cloth: ClothState, support_deg: float = 0.0) -> Unrest | None:
-    return unrest(cloth, TableInGarment.seen_from(Pose2(0.0, 0.0, 0.0), TABLE), 1.0, math.radians(support_deg))
+def why(cloth: ClothState, support_deg: float = 0.0) -> StabilityViolation | None:
+    return stability_violation(
+        cloth, TableInGarment.seen_from(Pose2(0.0, 0.0, 0.0), TABLE), 1.0, math.radians(support_deg)
+    )
 
 
 # Each shape hangs from y = 0, is named by what it looks like, and has its loose vertices with it.

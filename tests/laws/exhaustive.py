@@ -41,7 +41,7 @@ class Exhaustive:
     def cost_s(self, start: State) -> float:
         """Return the least time until every fold is done (s), by Dijkstra's algorithm; infinite if impossible."""
         everything = (1 << len(self._context.sequence.folds)) - 1
-        if self._context.unrest(start.done, start.offset) is not None:
+        if self._context.stability_violation(start.done, start.offset) is not None:
             return math.inf
         numbers, left = count(), set()
         queue = [(0.0, next(numbers), start)]
@@ -142,7 +142,7 @@ class Exhaustive:
         context = self._context
         for tenths in range(1, longest_drag(context) + 1):
             end, offset = stand + 2 * tenths, dragged(context, state.offset, state.station, tenths)
-            if end < context.standoffs and context.unrest(state.done, offset) is None:
+            if end < context.standoffs and context.stability_violation(state.done, offset) is None:
                 driven_s = context.drive_s(abs(stand - state.standoff)) + context.drag_s(end - stand)
                 seconds = context.scene.arm_motion_s + driven_s
                 yield seconds, State(state.done, offset, state.station, end)

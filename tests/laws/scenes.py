@@ -85,7 +85,7 @@ class Problem:
     def lean_cost_s(self) -> float:
         """Return the cost by the planner's own edges, which leave out those that are redundant or no cheaper."""
         context, state = self.context, self.first_state
-        if context.unrest(state.done, state.offset) is not None:
+        if context.stability_violation(state.done, state.offset) is not None:
             return math.inf
         edges = Edges(context, Unjudged())
         everything = (1 << len(self.garment.folds)) - 1
@@ -97,7 +97,7 @@ class Problem:
     def cost_s(self, heuristic: str = "arm_time", kinds: Kinds = PRIMITIVES) -> float:
         """Return the cost of the cheapest sequence of primitives (s); infinite if there is none."""
         context, state = self.context, self.first_state
-        if context.unrest(state.done, state.offset) is not None:
+        if context.stability_violation(state.done, state.offset) is not None:
             return math.inf
         primitives = [kind(context) for kind in kinds]
 

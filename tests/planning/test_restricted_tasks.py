@@ -52,7 +52,7 @@ def test_a_tighter_task_knows_already_where_the_cloth_stays(monkeypatch: pytest.
     # Far enough towards the robot the vest hangs over the near edge, and with little friction it slips.
     problem = problem_of(0.0, 1.3)
     places = [(-0.1 * number, 0.0) for number in range(12)]
-    known = [problem.context.unrest(0, place) for place in places]
+    known = [problem.context.stability_violation(0, place) for place in places]
     assert {found.code for found in known if found is not None} >= {"slips"}
     tighter = [*with_more_comfort(problem), *with_narrower_cones(problem)]
     other = problem.varied(scene=replace(problem.context.scene, friction=1.0))
@@ -60,16 +60,16 @@ def test_a_tighter_task_knows_already_where_the_cloth_stays(monkeypatch: pytest.
     def fail(*_: object) -> None:
         raise AssertionError("what is known is asked again")
 
-    monkeypatch.setattr("planner.primitives.context.unrest_at", fail)
+    monkeypatch.setattr("planner.primitives.context.stability_violation_at", fail)
     for one in tighter:
-        assert [one.context.unrest(0, place) for place in places] == known
+        assert [one.context.stability_violation(0, place) for place in places] == known
     with pytest.raises(AssertionError, match="asked again"):
-        _ = [other.context.unrest(0, place) for place in places]
+        _ = [other.context.stability_violation(0, place) for place in places]
 
 
 def test_that_cloth_would_slip_is_noted_where_a_step_is_ruled_out_and_not_where_it_is_asked() -> None:
     context = problem_of(0.0, 1.3).context
-    asked = {place: context.unrest(0, place) for place in ((-0.1 * number, 0.0) for number in range(12))}
+    asked = {place: context.stability_violation(0, place) for place in ((-0.1 * number, 0.0) for number in range(12))}
     slips = next(place for place, found in asked.items() if found is not None and found.code == "slips")
     assert not context.obstacles.has_slipped
     assert not context.stays(0, slips)

@@ -46,11 +46,11 @@ def test_a_context_that_differs_in_what_counts_knows_nothing_of_others(other: Co
 
 def test_a_context_that_forgets_leaves_what_it_found_to_the_next() -> None:
     first = towel()
-    found = first.unrest(0, (0.1, 0.0)), fold_trials(first, State(0, (0.1, 0.0), 0, 0), 0)
+    found = first.stability_violation(0, (0.1, 0.0)), fold_trials(first, State(0, (0.1, 0.0), 0, 0), 0)
     first.forget()
     next_one = towel()
-    assert (0, grid_key(0.1), 0) in next_one.cloth.unrest
-    assert next_one.unrest(0, (0.1, 0.0)) == found[0]
+    assert (0, grid_key(0.1), 0) in next_one.cloth.stability_violation
+    assert next_one.stability_violation(0, (0.1, 0.0)) == found[0]
     assert fold_trials(next_one, State(0, (0.1, 0.0), 0, 0), 0)[0].tools is found[1][0].tools
 
 

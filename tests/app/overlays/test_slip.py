@@ -4,7 +4,7 @@ import pytest
 from app.overlays.moment import Moment
 from app.overlays.slip import CutCloth, limit_m, slip_overlay
 from planner.cloth.cloth_state import ClothState
-from planner.cloth.g_state import TableInGarment, unrest
+from planner.cloth.g_state import TableInGarment, stability_violation
 from planner.folds.fold_cloth import fold_cloth
 from planner.geometry.pose import Point2, Pose2
 from planner.geometry.segment import Segment
@@ -61,7 +61,7 @@ def test_the_lines_are_where_the_planner_says_that_the_cloth_slips() -> None:
         for further, is_at_rest in ((-0.004, True), (0.004, False)):
             placement = laid(limit.edge, list(limit.line), further, scene)
             top = TableInGarment.seen_from(placement, scene.table)
-            found = unrest(cloth, top, scene.friction, scene.support_angle_rad)
+            found = stability_violation(cloth, top, scene.friction, scene.support_angle_rad)
             assert (found is None) == is_at_rest, limit.edge
             assert found is None or found.code == "slips"
 
