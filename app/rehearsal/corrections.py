@@ -13,6 +13,7 @@ import numpy as np
 from app.rehearsal.grasp_points import inwards_at
 from app.rehearsal.judge import carry
 from app.rehearsal.step_seen import StepSeen
+from app.rehearsal.trailing_flaps import trailing
 from app.rehearsal.vision.look_at_stack import Sight
 from app.rehearsal.world import GripMotion, StepMotion, way_done
 from planner.folds.fold_path import REST_HEIGHT_M
@@ -192,7 +193,7 @@ def laid_over(place: FloatArray, top: TableTop, clear_m: float) -> FloatArray:
 
 
 WITHOUT_LOOKING: tuple[Correction, ...] = (over_edge,)
-BY_WHAT_IS_SEEN: tuple[Correction, ...] = (carried_along, kept_taut, laid_short, beside_grips, over_edge)
+BY_WHAT_IS_SEEN: tuple[Correction, ...] = (carried_along, kept_taut, laid_short, beside_grips, trailing, over_edge)
 """The corrections without and with feedback, in their order."""
 
 
