@@ -63,8 +63,8 @@ def is_frame(box: FloatArray, area: float, sheet: FloatArray) -> bool:
     """
     sides = np.ptp(sheet, axis=0)
     margins = np.concatenate([box[0] - sheet[0], sheet[1] - box[1]])
-    is_even = bool(np.ptp(margins) <= _SLACK * sides.max() and margins.min() >= 0.0)
-    return is_even and bool(margins.max() <= _MARGIN_MAX * sides.min()) and _is_rectangle(box, area)
+    is_near = bool(margins.min() >= 0.0 and margins.max() <= _MARGIN_MAX * sides.min())
+    return is_near and bool(np.ptp(margins) <= _SLACK * sides.max()) and _is_rectangle(box, area)
 
 
 def is_frame_around(

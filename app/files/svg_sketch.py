@@ -143,17 +143,12 @@ class _Reading:
         is_area_white = not has_area or is_white(shape.style)
         points, sheet = self._coarse(curve), self._corners()
         box = box_of(points)
-        with np.errstate(all="ignore"):
+        with np.errstate(all="ignore"):  # coordinates may be as large as numbers get
             area = abs(float(signed_area(points[:-1])))
-        return _Area(
-            DrawnLine("outline", curve, size),
-            has_edge,
-            not has_edge and is_area_white,
-            is_page(box, area, sheet),
-            has_edge and is_area_white and is_frame(box, area, sheet),
-            box,
-            area,
-        )
+            covers = is_page(box, area, sheet)
+            surrounds = has_edge and is_area_white and is_frame(box, area, sheet)
+        line = DrawnLine("outline", curve, size)
+        return _Area(line, has_edge, not has_edge and is_area_white, covers, surrounds, box, area)
 
     def sketch(self) -> Sketch:
         """Return the drawing."""
