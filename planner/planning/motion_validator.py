@@ -65,7 +65,7 @@ class _Rejection:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Slow:
-    """A step that takes longer than it seemed to, after which the search knows no way that would be quicker.
+    """A step that takes longer than it seemed to, and may hide ways that are quicker than it is.
 
     Attributes:
         step: the step.

@@ -1,6 +1,6 @@
 """Bound from below the driving that folds still need, in a relaxed problem; see `planner.planning.driving_bound`.
 
-A *site* is a place of the article and a station. Drags and moves lead from site to site, ruled out only by the table's
+A *site* is a place of the garment and a station. Drags and moves lead from site to site, ruled out only by the table's
 size and the grid; at a site the base drives along its standoffs. Sites further from the start than a horizon are
 outside: there the bound assumes that nothing is left to do. The functions are compiled.
 """
