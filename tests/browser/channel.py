@@ -1,6 +1,7 @@
 """A window with a hand on what goes over its websocket."""
 
 import json
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -8,6 +9,9 @@ from typing import Any
 from playwright.sync_api import Page, WebSocketRoute
 
 Message = dict[str, Any]
+
+_PATIENCE_S = 30
+_BREATH_MS = 20
 
 
 class Channel:
@@ -24,6 +28,7 @@ class Channel:
         self.sent: list[Message] = []
         self.take: Callable[[Message, Callable[[Message], None]], bool] = lambda _sent, _answer: True
         self.hear: Callable[[Message], bool] = lambda _heard: True
+        self._page = page
         self._page_end: WebSocketRoute | None = None
         self._server_end: WebSocketRoute | None = None
         page.route_web_socket("**/live", self._connect)
@@ -31,6 +36,14 @@ class Channel:
     def asked(self, do: str) -> list[Message]:
         """Return what the page has sent of one kind."""
         return [sent for sent in self.sent if sent["do"] == do]
+
+    def first_asked(self, do: str) -> Message:
+        """Return the first that the page has sent of one kind; wait for it, as what the page shows is there before."""
+        deadline = time.monotonic() + _PATIENCE_S
+        while not (asked := self.asked(do)):
+            assert time.monotonic() < deadline, f"the page has not asked for {do!r}"
+            self._page.wait_for_timeout(_BREATH_MS)
+        return asked[0]
 
     def pass_on(self, sent: Message) -> None:
         """Send to the server what was held back."""

@@ -41,7 +41,7 @@ def test_there_is_no_legend_before_anything_is_switched_on_and_drawn(page: Page,
         chip(window, "Overhang").click()
         expect(chip(window, "Overhang")).to_have_attribute("aria-busy", "true")
         expect(legend).to_have_count(0)
-        channel.pass_on(channel.asked("overlays")[0])
+        channel.pass_on(channel.first_asked("overlays"))
         expect(legend.get_by_role("listitem")).to_have_text(["Slip limit: maximum overhang over that edge"])
         chip(window, "Overhang").click()
         expect(legend).to_have_count(0)

@@ -41,7 +41,7 @@ def test_what_the_robot_can_reach_is_shown_when_asked_for(page: Page, towel: Des
         reach.click()
         expect(wait).to_be_visible()
         expect(reach).to_have_attribute("aria-busy", "true")
-        channel.pass_on(channel.asked("overlays")[0])
+        channel.pass_on(channel.first_asked("overlays"))
         expect(window.locator(".layer-under .reach")).to_have_count(2)
         expect(wait).to_have_count(0)
         expect(reach).to_have_attribute("aria-busy", "false")
