@@ -8,6 +8,7 @@ from playwright.sync_api import Browser, BrowserContext, Locator, Page, expect
 
 from tests.browser.conftest import REST, Garment, Sheet, windows
 from tests.browser.napkin import napkin
+from tests.browser.status_pill import expect_planned
 
 NAPKIN = ["left", "right", "half"]
 OPENED = "Open afresh"
@@ -165,6 +166,7 @@ def test_a_fold_names_those_that_it_waits_for(page: Page, sheet: Sheet) -> None:
 def test_folds_are_done_available_or_waiting_as_the_time_goes(page: Page, sheet: Sheet) -> None:
     expect(page.locator(".fold-row[data-state=available]")).to_have_count(2)
     expect(page.locator(".fold-row[data-state=waiting]")).to_have_count(1)
+    expect_planned(page, sheet.state["version"])  # before, time has no end
     page.get_by_role("slider", name="Time").press("End")
     expect(page.locator(".fold-row[data-state=done]")).to_have_count(3)
 
