@@ -145,8 +145,8 @@ class FreePostures:
         return len(able) > 0 and bool(is_clear)
 
 
-_TRANSFERS_KEPT = 64
-"""Size of the cache of transfers, some 45 kB each. While three garments are drawn, more save nothing (measured)."""
+TRANSFERS_KEPT = 256
+"""Size of the cache of transfers, some 45 kB each: one search may ask for 140 (measured), and the next for the same."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -182,7 +182,7 @@ class TransferPathFinder:
         self._height_m = height_m
         self._layout = JointLayout.of(machine.card)
         self._rolling = np.array([-1.0 if arm.is_mirrored else 1.0 for arm in machine.card.arms])
-        self._searched = RecentAnswers[tuple[_TransferKey, Holds], TransferPath | NoPath](_TRANSFERS_KEPT)
+        self._searched = RecentAnswers[tuple[_TransferKey, Holds], TransferPath | NoPath](TRANSFERS_KEPT)
         self.postures = FreePostures(machine, collisions, torso_m)
 
     def transfer_path(self, waypoints: Waypoints, cloths: Cloths, ways: Sequence[Holds] = ()) -> TransferPath | NoPath:

@@ -3,7 +3,8 @@
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
-from functools import lru_cache
+from functools import lru_cache, partial
+from typing import TypeAlias
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from planner.geometry.keyframes import values_at
 from planner.geometry.pose import FloatArray, Pose2
 from planner.geometry.table import Table
 from planner.geometry.tolerance import TIME_S
+from planner.motion.answer_memory import RecentAnswers
 from planner.motion.blocking_contacts import BlockingContacts
 from planner.motion.hand_holds import edge_holds, opening_of, settling_s
 from planner.motion.joint_trajectory import Line, finger_run_s
@@ -28,12 +30,13 @@ from planner.motion.transfer_candidate import (
     ways_of,
 )
 from planner.motion.transfer_path import TransferPath
-from planner.motion.transfer_path_finder import TransferPathFinder
-from planner.motion.transfer_timing import TransferLimits, TransferTiming
+from planner.motion.transfer_path_finder import TRANSFERS_KEPT, TransferPathFinder
+from planner.motion.transfer_timing import Carrying, TransferLimits, TransferTiming
 from planner.motion.transit_paths import Spared, TransitPaths
 from planner.motion.transit_planner import TransitPlanner
 from planner.motion.waypoints import Waypoints, forget_waypoints, waypoints_of
 from planner.primitives.context import Context
+from planner.primitives.drive_time import DriveTime
 from planner.primitives.obstacle import BlockingContact
 from planner.primitives.primitive import Step
 from planner.robots.armed_robot import ArmedRobot
@@ -43,6 +46,11 @@ from planner.task.trajectory import Phase
 
 MARGIN_M = 0.001
 """The distance kept between bodies that must not touch, at the waypoints tested (m)."""
+
+_TimedKey: TypeAlias = tuple[TransferPath, Carrying, tuple[DriveTime, float]]
+"""What the timing of a path depends on: the path, the phases that it serves, how the base drives, and the rests (s)."""
+
+_TimedPath: TypeAlias = tuple[TransferPath, TransferTiming]
 
 
 class TransferPlanner:
@@ -66,7 +74,7 @@ class TransferPlanner:
                 ways to do the steps; None: nothing is known.
         """
         scene = context.scene
-        paths, self.transits, collisions = _transfer_path_finder(machine, scene.table, scene.torso_m)
+        paths, self.transits, collisions, self._timed = _transfer_path_finder(machine, scene.table, scene.torso_m)
         self._context, self._machine = context, machine
         self._paths = paths
         self._collisions = collisions
@@ -79,7 +87,8 @@ class TransferPlanner:
         self.dwell_s = max(scene.grip_dwell_s, *(finger_run_s(arm.gripper) for arm in machine.card.arms))
         self._cloths = LyingCloths(context, collisions)
         self._hands = TransitPlanner(self.transits, self.dwell_s)
-        self._limits = TransferLimits.of(self.transits.layout, context.drive_time, self.dwell_s)
+        self._pace = (context.drive_time, self.dwell_s)
+        self._limits = TransferLimits.of(self.transits.layout, *self._pace)
 
     def validated(self, steps: Sequence[Step], search_limits: SearchLimits = QUICK) -> Transfer | None:
         """Return the transfer of a few primitives, none but the last of which lets go; None if none was found."""
@@ -201,14 +210,10 @@ class TransferPlanner:
     ) -> Transfer | None:
         if isinstance(transfer_path, NoPath):
             return None
-        # Where the smoothed path touches something, the path itself may not.
-        timed = (
-            (path, self._timing(candidate, path)) for path in dict.fromkeys((transfer_path.smoothed(), transfer_path))
-        )
-        clear = (one for one in timed if is_clear_between(*one, self._collisions))
-        transfer_path, timing = next(clear, (transfer_path, None))
-        if timing is None:
+        timed = self._timed.answer((transfer_path, candidate.carrying, self._pace), partial(self._clear, candidate))
+        if timed is None:
             return None
+        transfer_path, timing = timed
         joints, first, last = transfer_path.joints, transfer_path.first, transfer_path.last
         coming, leaving = transfer_path.approach, transfer_path.retreat
         if transfer_path.settles:
@@ -221,9 +226,15 @@ class TransferPlanner:
         ways = self._ways_home(candidate.steps, transfer_path, approach, retreat, like)
         return None if ways is None else Transfer(candidate.steps, transfer_path, timing, approach, retreat, *ways)
 
-    def _timing(self, candidate: "Candidate", path: TransferPath) -> TransferTiming:
-        joints = path.joints[path.first : path.last + 1]
-        return TransferTiming.of(candidate.carrying, candidate.waypoints, joints, self._limits)
+    def _clear(self, candidate: "Candidate", key: _TimedKey) -> _TimedPath | None:
+        """Return a candidate's path with its timing, smoothed if nothing touches then; None if something does."""
+        path, carrying, _ = key
+        for one in dict.fromkeys((path.smoothed(), path)):
+            joints = one.joints[one.first : one.last + 1]
+            timing = TransferTiming.of(carrying, candidate.waypoints, joints, self._limits)
+            if is_clear_between(one, timing, self._collisions):
+                return one, timing
+        return None
 
     def _waypoints(self, phases: Sequence[Phase]) -> Waypoints:
         return waypoints_of(phases, self._context.scene.table.height_m)
@@ -319,11 +330,12 @@ class TransferPlanner:
 @lru_cache(maxsize=4)
 def _transfer_path_finder(
     machine: ArmedRobot, table: Table, torso_m: float
-) -> tuple[TransferPathFinder, TransitPaths, OpenedCollisions]:
-    """Return the searches for joint paths at a table and the collisions there; all are kept from plan to plan."""
+) -> tuple[TransferPathFinder, TransitPaths, OpenedCollisions, RecentAnswers[_TimedKey, _TimedPath | None]]:
+    """Return what is kept from plan to plan at a table: the searches for joint paths, collisions, and timed paths."""
     collisions = OpenedCollisions(machine, table, torso_m, MARGIN_M)
     transits = TransitPaths(machine, collisions, torso_m)
-    return TransferPathFinder(machine, collisions, torso_m, table.height_m), transits, collisions
+    paths = TransferPathFinder(machine, collisions, torso_m, table.height_m)
+    return paths, transits, collisions, RecentAnswers(TRANSFERS_KEPT)
 
 
 def forget_paths() -> None:

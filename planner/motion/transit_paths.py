@@ -37,8 +37,8 @@ Spared = tuple[FloatArray, FloatArray]
 """Length of path on which each arm may be low over cloth: at the beginning, and at the end (m), shape (arms,) each."""
 
 
-_WAYS_KEPT = 128
-"""Size of the cache of paths, some 7 kB each. While three garments are drawn, more save nothing (measured)."""
+_WAYS_KEPT = 512
+"""Size of the cache of paths, some 7 kB each: two for each transfer that is kept."""
 
 _DIGITS = 9
 """Decimal places to which ends of paths are told apart (rad): whole turns are not exact."""

@@ -76,8 +76,8 @@ class Waypoints:
         return len(self.phases)
 
 
-_MOMENTS_KEPT = 128
-"""Waypoints kept, by phases, some 35 kB each. While three garments are drawn, more save nothing (measured)."""
+_MOMENTS_KEPT = 512
+"""Waypoints kept, by phases, some 35 kB each: two for each transfer that is kept, at its ends and all."""
 
 _NOWHERE: Point3 = (math.nan, math.nan, math.nan)
 """Where an empty hand counts as being."""
