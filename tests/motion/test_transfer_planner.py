@@ -6,16 +6,19 @@ from typing import Any
 
 import pytest
 
-from planner import Scene, Task
+from planner import Scene, Task, load_garment
 from planner.geometry.pose import FloatArray, Pose2
 from planner.motion.transfer import Transfer
 from planner.motion.transfer_candidate import QUICK, Candidate, ways_of
+from planner.motion.transfer_path_finder import TransferPathFinder
 from planner.motion.transfer_planner import TransferPlanner
+from planner.motion.transfer_timing import TransferTiming
 from planner.motion.transit_paths import TransitPaths
 from planner.planning.problem import Problem
 from planner.primitives.primitive import Step
 from planner.primitives.primitive_set import PRIMITIVES
 from tests.builders import fold, garment, rectangle_points
+from tests.planning.found import found_plan
 
 
 def some_fold(arm_motion_s: float = 3.0) -> tuple[TransferPlanner, tuple[Step, ...], tuple[Step, ...]]:
@@ -43,6 +46,17 @@ def test_what_was_made_real_once_is_not_made_again_but_counted() -> None:
     path_requests, glances = maker.path_requests, maker.glances
     assert maker.validated(again) is transfer
     assert (maker.path_requests, maker.glances) == (2 * path_requests, 2 * glances)
+
+
+def test_all_that_a_long_search_asked_for_is_kept_for_the_next(monkeypatch: pytest.MonkeyPatch) -> None:
+    first = found_plan(load_garment("tie")).plan
+
+    def unwanted(*_: object) -> None:
+        raise AssertionError("a transfer was searched or timed again")
+
+    monkeypatch.setattr(TransferPathFinder, "_search", unwanted)
+    monkeypatch.setattr(TransferTiming, "of", unwanted)
+    assert found_plan(load_garment("tie")).plan.cost_s == first.cost_s
 
 
 def test_what_needs_a_sampled_path_is_tried_again_once_more_may_be_sampled(monkeypatch: pytest.MonkeyPatch) -> None:
