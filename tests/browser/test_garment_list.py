@@ -56,6 +56,7 @@ def test_each_garment_and_robot_has_its_picture_in_the_list(page: Page, new_shee
     own, same = (
         bar(page).locator(f"option[value='{value}'] svg") for value in (bar(page).input_value(), "garment:vest")
     )
+    expect(own.locator(".picture-cloth")).to_have_count(1)
     assert own.inner_html() == same.inner_html()
     page.keyboard.press("Escape")
 
