@@ -69,7 +69,9 @@ class EdgeHands:
             return tuple(plan_segments)
         limit_s = duration_s(plan_segments) + TIME_S
         best = linked(
-            [first or plan_segment for first, plan_segment in zip(firsts, plan_segments, strict=True)], self._maker
+            [first or plan_segment for first, plan_segment in zip(firsts, plan_segments, strict=True)],
+            self._maker,
+            hastens=True,
         )
         if duration_s(best) <= limit_s:
             return best
@@ -81,12 +83,12 @@ class EdgeHands:
             plan_segment if is_late else one
             for plan_segment, one, is_late in zip(plan_segments, best, are_late, strict=True)
         )
-        best = linked(tuple(mixed), self._maker)
+        best = linked(tuple(mixed), self._maker, hastens=True)
         if duration_s(best) > limit_s:
             best, are_late = tuple(plan_segments), [True] * len(plan_segments)
         for number, (first, others, is_late) in enumerate(zip(firsts, ways, are_late, strict=True)):
             for other in chain([first], others) if is_late and first is not None and not deadline.is_over else ():
-                tried = linked((*best[:number], other, *best[number + 1 :]), self._maker)
+                tried = linked((*best[:number], other, *best[number + 1 :]), self._maker, hastens=True)
                 if duration_s(tried) <= limit_s:
                     best = tried
                     break

@@ -36,7 +36,7 @@ from planner.primitives.primitive import Step
 from planner.primitives.state import State
 
 _EDGES_TRIED = 2
-"""Transfers in which hands hold edges that are tried for each part of a path; more are once a plan is found."""
+"""Transfers in which hands hold edges that are tried where hands that open widely have no path."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -144,7 +144,7 @@ class MotionValidator:
             budget: ends validation once it is over.
             search_limits: how much is tried.
             transfers_max: the most transfers that the arms are led through.
-            hands: finds transfers in which hands hold edges; None where it does not matter how they hold.
+            hands: finds transfers in which hands hold edges, where others have no path; None: those are not looked for.
         """
         self.maker = maker
         self._budget = budget
@@ -153,7 +153,6 @@ class MotionValidator:
         self._made: dict[tuple[object, ...], Transfer | None] = {}
         self._ways: dict[tuple[object, ...], tuple[Transfer, ...]] = {}
         self._hands = hands
-        self._at_edges: dict[tuple[object, ...], Transfer | None] = {}
         self._least_s: dict[object, float] = {}
         self._others: dict[object, tuple[Step, ...]] = {}
         self._real_steps: set[object] = set()
@@ -194,28 +193,19 @@ class MotionValidator:
         """Return whether ways to or from a grasp have failed or turned out to take longer than assumed."""
         return held.grasp in self._doubted or self._given_up.is_given_up_from(held.station)
 
-    def plan_segments(
-        self, steps: Sequence[Step], at_edges: tuple[PlanSegment, ...] = ()
-    ) -> tuple[PlanSegment, ...] | None:
+    def plan_segments(self, steps: Sequence[Step]) -> tuple[PlanSegment, ...] | None:
         """Validate a plan's steps; return None if a step was rejected, or if some take longer than assumed.
 
         In the second case the segments can still be performed: they are in `slower`.
 
-        Args:
-            steps: the steps.
-            at_edges: segments that do the same with hands at edges, if there are any.
-
-        Raises:
-            OutOfTimeError: there was no time to find out; what is known by then stays.
+        Raises `OutOfTimeError` where there is no time to find out; what is known by then stays.
         """
         self.slower = ()
         seemed_s = sum(self.known_s(step) for step in steps) + self.sequence_costs.of(steps)
-        if at_edges and duration_s(at_edges) <= seemed_s + TIME_S:
-            return at_edges
         found: list[PlanSegment] = []
         transfers: list[tuple[tuple[Step, ...], Transfer]] = []
         for first, part in transfers_of(steps):
-            made = self.real(part) if is_transfer(part) else None
+            made = self._real(part) if is_transfer(part) else None
             found.append(PlanSegment(first, part if made is None else made.steps, made))
             if made is not None:
                 transfers.append((part, made))
@@ -232,7 +222,7 @@ class MotionValidator:
             self._doubt(late)
         if is_known:
             return plan_segments
-        self.slower = min(plan_segments, at_edges, key=duration_s) if at_edges else plan_segments
+        self.slower = plan_segments
         return None
 
     def _sooner(self, plan_segments: tuple[PlanSegment, ...]) -> tuple[PlanSegment, ...]:
@@ -277,7 +267,7 @@ class MotionValidator:
             self._ways[key] = tuple(found)
         return self._ways[key]
 
-    def real(self, steps: tuple[Step, ...]) -> Transfer | None:
+    def _real(self, steps: tuple[Step, ...]) -> Transfer | None:
         """Return a transfer that does as some steps do, whose hands hold in any way; None if none is found.
 
         Raises `OutOfTimeError` where there is no time to find out.
@@ -286,32 +276,22 @@ class MotionValidator:
         if key not in self._made:
             ways = self._in_time(ways_of(steps, self._search_limits))
             made = self.maker.first_valid(ways, self._search_limits)
-            self._made[key] = self.at_edges(steps) if made is None else made
+            self._made[key] = self._at_edges(steps) if made is None else made
         return self._made[key]
 
-    def at_edges(self, steps: tuple[Step, ...]) -> Transfer | None:
-        """Return a transfer that does as some steps do and in which hands hold edges; None if none is soon found.
-
-        Raises `OutOfTimeError` where there is no time to find out.
-        """
+    def _at_edges(self, steps: tuple[Step, ...]) -> Transfer | None:
+        """Return a transfer that does as some steps do and in which hands hold edges; None if none is soon found."""
         if self._hands is None:
             return None
-        key = tuple(step_key(step) for step in steps)
-        if key not in self._at_edges:
-            self.require_time()
-            self._at_edges[key] = next(self.ways_at_edges(steps), None)
-        return self._at_edges[key]
-
-    def ways_at_edges(self, steps: tuple[Step, ...]) -> Iterator[Transfer]:
-        """Yield a few transfers that do as some steps do and in which hands hold edges."""
-        return iter(()) if self._hands is None else self._hands.ways(steps, _EDGES_TRIED)
+        self._require_time()
+        return next(self._hands.ways(steps, _EDGES_TRIED), None)
 
     def _reject(self, steps: tuple[Step, ...], path_s: float) -> None:
         """Reject the first step at which a transfer fails, and find other ways to do the same.
 
         Where one of them is as good as the step itself, the others are left for later; see `catch_up`.
         """
-        number = next((n for n in range(len(steps) - 1) if self.real(steps[: n + 1]) is None), len(steps) - 1)
+        number = next((n for n in range(len(steps) - 1) if self._real(steps[: n + 1]) is None), len(steps) - 1)
         culprit, before = steps[number], steps[:number]
         self.rejected.append(steps[: number + 1])
         self._least_s[step_key(culprit)] = math.inf
@@ -390,10 +370,10 @@ class MotionValidator:
 
     def _in_time(self, choices: Iterable[tuple[Step, ...]]) -> Iterator[tuple[Step, ...]]:
         for steps in choices:
-            self.require_time()
+            self._require_time()
             yield steps
 
-    def require_time(self) -> None:
+    def _require_time(self) -> None:
         """Raise `OutOfTimeError` where the budget is over, or no more transfers are to be tried."""
         if self._budget.is_over or self.maker.path_requests >= self._last_try:
             raise OutOfTimeError

@@ -19,7 +19,6 @@ from planner.motion.plan_segment import PlanSegment, duration_s
 from planner.motion.transfer_candidate import QUICK, SearchLimits
 from planner.planning.budget import Budget, OutOfTimeError
 from planner.planning.driving_bound import DrivingBound
-from planner.planning.edge_path import EdgePath
 from planner.planning.edges import Edges
 from planner.planning.effort import Effort
 from planner.planning.events import Obstacles
@@ -48,7 +47,6 @@ class Pause(Enum):
     """Where a search pauses."""
 
     LOOK = "before a look at a state, or at what may leave it"
-    LATE = "hands at edges come late on a path: hands that hold in any way are looked for"
     ROUND = "a path was rejected, or takes longer than it seemed"
     END = "the search has ended, and may have missed something quicker"
 
@@ -80,7 +78,6 @@ class PathSearch:
         problem: the problem to plan.
         budget: the work and the time for the search.
         found: the segments of the quickest path found; None without any. Where no fold is left, there are none.
-        at_edges: segments in which hands hold edges, of the path proposed last; empty without any.
         known_s: the cost of a known plan, which a path has to beat (s); infinite without one.
         bound_s: a lower bound on the cost of any plan, as long as no step was rejected or made more expensive: after
             that, a raised cost only says that the tries found nothing better, which is no proof.
@@ -116,7 +113,6 @@ class PathSearch:
         self._looks = 0
         self._is_looked_at_alone = False
         self.found: tuple[PlanSegment, ...] | None = None
-        self.at_edges: tuple[PlanSegment, ...] = ()
         self.known_s = math.inf
         self.bound_s: float | None = None
         self.blocking: list[int] = []
@@ -128,7 +124,7 @@ class PathSearch:
         """Propose, validate and charge, until a path takes no longer than it seemed, or there is none.
 
         Yields:
-            A pause before each look at a state, where hands at edges come late, and after each round in vain.
+            A pause before each look at a state, and after each round in vain.
         """
         bound = self._bound()
         while True:
@@ -145,8 +141,7 @@ class PathSearch:
                     if self.result.cost >= self.limit_s:
                         self.result = self.result._replace(outcome=Outcome.INFEASIBLE)
                         return
-                    yield from self._hold_edges(validator)
-                    found = validator.plan_segments(self.path, self.at_edges)
+                    found = validator.plan_segments(self.path)
             except OutOfTimeError:
                 self.result = self.result._replace(outcome=Outcome.BUDGET_EXCEEDED)
                 return
@@ -155,14 +150,6 @@ class PathSearch:
                 return
             self._seen.states.clear()
             yield Pause.ROUND
-
-    def _hold_edges(self, validator: MotionValidator) -> Iterator[Pause]:
-        """Look for hands that hold edges on the path proposed."""
-        held = EdgePath.of(self.path, validator) if self._hands else None
-        self.at_edges = held.plan_segments if held else ()
-        if held and held.is_late(validator):
-            yield Pause.LATE
-            self.at_edges = held.quicker(validator).plan_segments
 
     def propose(self, bound: Heuristic, *, is_consistent: bool = True) -> Iterator[Pause]:
         """Search the path that seems to be the quickest by what is known; it is in `result` then."""

@@ -131,8 +131,6 @@ class _PlanSearch:
 
     def _tried(self, pause: Pause) -> Iterator[Event]:
         """Try each strategy that is due and was not tried before, and show what is found."""
-        if pause is Pause.LATE:
-            yield from self.shown(self.exact.at_edges)
         for strategy in tuple(self._waiting):
             events = strategy(self, pause)
             if events is not None:

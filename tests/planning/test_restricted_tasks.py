@@ -1,12 +1,14 @@
-"""Tightened tasks, which bring to the front ways that are among many others where there is more room."""
+"""Restricted tasks, which bring to the front ways that are among many others where there is more room."""
 
 import math
 from collections.abc import Iterator
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 
 from planner import Scene, Task, load_garment
+from planner.motion.plan_segment import PlanSegment, duration_s
 from planner.motion.transfer_candidate import THOROUGH, SearchLimits
 from planner.planning.budget import Budget
 from planner.planning.path_search import PathSearch, Pause
@@ -115,3 +117,15 @@ def test_where_it_is_worth_it_more_tries_are_made_in_restricted_tasks_too(monkey
         search.restrict(one, 1.0)
     assert not list(search.thorough())
     assert again == [problem, *tighter]
+
+
+def test_of_what_is_validated_only_what_beats_the_known_plan_is_kept() -> None:
+    search = PathSearch(Problem.of(Task.of(load_garment("vest"))), Budget.endless(), 1000)
+    search.known_s = 5.0
+
+    def lasting(lasts_s: float) -> tuple[PlanSegment, ...]:
+        return (PlanSegment(0, (SimpleNamespace(duration_s=lasts_s),), None),)
+
+    for lasts_s, kept_s in ((6.0, None), (5.0, None), (4.0, 4.0), (4.5, 4.0), (3.0, 3.0)):
+        search.keep(lasting(lasts_s))
+        assert (None if search.found is None else duration_s(search.found)) == kept_s
