@@ -247,16 +247,14 @@ def _lacks_plan(search: _PlanSearch, pause: Pause, after_s: float) -> bool:
 
 
 def _keep_arms_apart(search: _PlanSearch, pause: Pause) -> Iterator[Event] | None:
-    """Allow hands only where the other arm at home leaves room, with limited work.
+    """Allow hands only where the other arm at home leaves room, with limited work, if that is worth it.
 
-    Where a way was rejected, mostly the arms were in each other's way. Such a plan is found soon and limits what else
-    is worth a try.
+    Where a way was rejected, mostly the arms were in each other's way.
     """
-    if pause is not Pause.ROUND or not search.exact.has_rejected:
+    if pause is not Pause.END or not search.exact.has_rejected or not search.is_worth_thorough:
         return None
     for problem in with_arms_apart(search.problem):
-        work_s = max(APART_LEAST_S, APART_SHARE * search.budget.spent_s)
-        search.budget.beside_s += search.restrict(problem, work_s)
+        search.restrict(problem, max(APART_LEAST_S, APART_SHARE * search.budget.spent_s))
     return iter(())
 
 
