@@ -19,8 +19,7 @@ from planner.proposals.proposals import (
     Proposal,
     Proposals,
     _Aside,
-    _better,
-    _planned,
+    _Proposer,
     _turns,
     all_proposals,
 )
@@ -69,7 +68,7 @@ def test_what_the_robot_does_sooner_mirrored_or_from_another_side_stands_in_for_
     slow, quick = (Packet.of(replace(bare, folds=folds)) for folds in (from_the_other_end, scarf.folds))
     plan = make_plan(replace(task, garment=replace(bare, folds=slow.folds)))
     first = Proposal(plan.garment, slow.size_m, slow.layers, slow.face, plan, number=2)
-    (found,) = _better(task, slow, first, () if is_image else (quick,), lambda: False)
+    (found,) = _Proposer(task, 1, lambda: False).better(slow, first, () if is_image else (quick,))
     assert required(found.cost_s) < required(first.cost_s) - 1.0
     assert found.cost_s == pytest.approx(required(make_plan(scarf).cost_s), abs=1e-5)
     assert (found.number, found.garment.folds) == (2, required(found.plan).garment.folds)
@@ -153,8 +152,8 @@ def test_a_loose_proposal_comes_again_with_a_firm_plan_though_that_takes_longer(
     packet = Packet.of(plan.garment)
     loose = Proposal(plan.garment, packet.size_m, packet.layers, packet.face, plan, is_loose=True)
     longer = SimpleNamespace(plan=slowed(plan, 0.5), context=SimpleNamespace(is_firm=is_firm))
-    monkeypatch.setattr(proposals, "_plan", lambda *_: longer)
-    again = [*_better(plan.task, packet, loose, (), lambda: False)]
+    monkeypatch.setattr(_Proposer, "plan", lambda *_: longer)
+    again = [*_Proposer(plan.task, 1, lambda: False).better(packet, loose, ())]
     assert [(one.is_loose, one.plan) for one in again] == ([(False, longer.plan)] if is_firm else [])
 
 
@@ -208,12 +207,12 @@ def test_a_variant_of_a_sketched_way_is_proposed_only_if_it_spares_an_arm_motion
         quick = slowed(plan, whole_s / cost_s)
         return Proposal(replace(TOWEL, folds=packet.folds), (cost_s, 0.3), 1, "front", quick)
 
-    monkeypatch.setattr(proposals, "_plan", lambda *_: None)
+    monkeypatch.setattr(_Proposer, "plan", lambda *_: None)
     monkeypatch.setattr(proposals, "_proposal", proposal)
-    monkeypatch.setattr(proposals, "_better", lambda *_: ())
+    monkeypatch.setattr(_Proposer, "better", lambda *_: ())
     way = replace(Packet.of(TOWEL), moves=(("half", 0),))
     search = Given(*(replace(way, folds=folds[name], is_sketch=name == "sketch") for name in costs))
-    found = [*_planned(task, search, 3, lambda: False)]  # type: ignore[arg-type]
+    found = [*_Proposer(task, 3, lambda: False).planned(search)]  # type: ignore[arg-type]
     names = [one.garment.folds[0].name for one in found]
     assert names == (["sketch", "variant"] if spared_s > task.scene.arm_motion_s else ["sketch"])
 
