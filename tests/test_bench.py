@@ -33,9 +33,8 @@ from bench.paper_tables import table_1, table_2
 from bench.pin_arm import TORSO_M, pin_arm
 from bench.re_plan import moved, re_plan, replanned
 from bench.reach import Effort, reach_of
-from bench.reach_boundary import distance_m
 from bench.reach_queries import FURTHEST_M, any_poses, pinches
-from bench.reach_truth import DenseReach
+from bench.reach_truth import DenseReach, distance_m
 from bench.rehearsal import ARTICLES as REHEARSED
 from bench.rehearsal import HELD_OUT, HELD_OUT_IN, Rehearsed, held_out, row_of
 from bench.report import Report, Row
