@@ -25,6 +25,7 @@ from planner.proposals.proposals import (
 )
 from planner.proposals.target import is_fitting
 from planner.task.reason import Code
+from tests.replay.planned import shipped_plan
 from tests.required import required
 from tests.small_plan import small_plan
 
@@ -70,7 +71,7 @@ def test_what_the_robot_does_sooner_mirrored_or_from_another_side_stands_in_for_
     first = Proposal(plan.garment, slow.size_m, slow.layers, slow.face, plan, number=2)
     (found,) = _Proposer(task, 1, lambda: False).better(slow, first, () if is_image else (quick,))
     assert required(found.cost_s) < required(first.cost_s) - 1.0
-    assert found.cost_s == pytest.approx(required(make_plan(scarf).cost_s), abs=1e-5)
+    assert found.cost_s == pytest.approx(required(shipped_plan("scarf").cost_s), abs=1e-5)
     assert (found.number, found.garment.folds) == (2, required(found.plan).garment.folds)
     assert found.size_m == pytest.approx(first.size_m, abs=0.005)
 
@@ -78,7 +79,7 @@ def test_what_the_robot_does_sooner_mirrored_or_from_another_side_stands_in_for_
 def test_a_tie_is_proposed_as_quick_as_its_own_folds_are_whatever_end_is_folded_first() -> None:
     tie = load_garment("tie")
     (found,) = all_proposals(propose_folds(replace(tie, folds=()), (0.102, 0.3745), count=1)).proposals
-    assert required(found.cost_s) <= required(make_plan(tie).cost_s) + 1e-6
+    assert required(found.cost_s) <= required(shipped_plan("tie").cost_s) + 1e-6
 
 
 def test_its_json_has_the_folds_as_a_garment_file_has_them(found: Proposals) -> None:
