@@ -23,7 +23,7 @@ from contextlib import closing
 from dataclasses import dataclass, replace
 from heapq import heapify, heappop, heappush
 from itertools import chain, islice
-from typing import Any, NamedTuple, TypedDict, Unpack
+from typing import Any, Literal, NamedTuple, TypeAlias, TypedDict, Unpack, get_args
 
 from planner.cloth.garment import FOLDS_MAX, DrawnFold, Garment
 from planner.deadline import ShouldStop
@@ -49,7 +49,7 @@ from planner.task.plan import Plan
 from planner.task.scene import Scene
 from planner.task.task import DEFAULT_ROBOT, Task
 
-FACES = ("any", "front", "back")
+Face: TypeAlias = Literal["any", "front", "back"]
 """The faces of the cloth that may be asked to look up."""
 
 COUNT_MAX = 32
@@ -254,8 +254,8 @@ def propose_folds(
     target = to if isinstance(to, Garment) else Target.of(to)
     _require("count", count, COUNT_MAX)
     _require("max_folds", max_folds, FOLDS_MAX)
-    if face not in FACES:
-        raise RequestError("face", f"expected one of {', '.join(FACES)}; got {face!r:.80}")
+    if face not in get_args(Face):
+        raise RequestError("face", f"expected one of {', '.join(get_args(Face))}; got {face!r:.80}")
     task = task_for(garment, scene, robot=robot, work_limit_s=work_limit_s, **options)
     proposer = _Proposer(task, count, should_stop or (lambda: False))
     if isinstance(target, Garment):
