@@ -17,6 +17,7 @@ from app.store.storage_error import storing
 from app.worker.bounded import bounded, one_at_a_time
 from app.worker.process import Caller
 from planner import make_plan
+from planner.deadline import ShouldStop
 from planner.errors import RobotError
 from planner.explain.suggestion_map import PlacementMap, placement_map
 from planner.explain.suggestions import suggestions
@@ -73,7 +74,7 @@ def _suggest(
     task: Task,
     known: Plan | None,
     tell: Callable[[Suggested | Tried | None], None],
-    should_stop: Callable[[], bool] | None = None,
+    should_stop: ShouldStop | None = None,
 ) -> bool:
     found = suggestions(
         task,

@@ -84,7 +84,7 @@ APART: Final = frozenset(
 ASKED: Final = frozenset({"rehearsal", "held-out"})
 """Tables made only where they are named: they take hours."""
 
-ARTICLES: Final = (*TABLE_1, *(half for _, half in PAIRS), LETTER)
+GARMENTS: Final = (*TABLE_1, *(half for _, half in PAIRS), LETTER)
 OUT: Final = Path(__file__).parent / "out"
 DOCS: Final = Path(__file__).parent.parent / "docs"
 REPETITIONS: Final = 5
@@ -100,8 +100,8 @@ def main(arguments: Sequence[str] | None = None, out: Path = OUT, docs: Path = D
         docs: the folder for figures; results of a single repetition are not drawn.
     """
     asked = _parser().parse_args(arguments)
-    named = [name for name in ARTICLES if name in asked.only]
-    articles = named or list(ARTICLES)
+    named = [name for name in GARMENTS if name in asked.only]
+    garments = named or list(GARMENTS)
     usual = [name for name in BENCHMARKS if not (named and name in APART) and name not in ASKED]
     chosen = [name for name in BENCHMARKS if name in asked.only] or usual
     console = Console(highlight=False)
@@ -109,7 +109,7 @@ def main(arguments: Sequence[str] | None = None, out: Path = OUT, docs: Path = D
     warm_up()
     for name in chosen:
         benchmark = partial(load, minutes=asked.minutes) if name == "load" else BENCHMARKS[name]
-        report = benchmark(articles, 1 if asked.quick else REPETITIONS)
+        report = benchmark(garments, 1 if asked.quick else REPETITIONS)
         if report.rows:
             report.write(out)
             if report.figure and not asked.quick:
@@ -130,8 +130,8 @@ def _parser() -> argparse.ArgumentParser:
         nargs="+",
         default=[],
         metavar="NAME",
-        choices=[*BENCHMARKS, *ARTICLES],
-        help=f"only these tables ({', '.join(BENCHMARKS)}) and only these garments ({', '.join(ARTICLES)})",
+        choices=[*BENCHMARKS, *GARMENTS],
+        help=f"only these tables ({', '.join(BENCHMARKS)}) and only these garments ({', '.join(GARMENTS)})",
     )
     return parser
 

@@ -59,8 +59,8 @@ class Measured:
     random_recall: float
 
 
-def any_robot(articles: Sequence[str], repetitions: int) -> Report:
-    """Measure the first arm of each shipped robot; the articles do not matter."""
+def any_robot(garments: Sequence[str], repetitions: int) -> Report:
+    """Measure the first arm of each shipped robot; the garments do not matter."""
     rows = tuple(_row(_measured(name, repetitions)) for name in shipped_robots())
     title = (
         f"Reach of any robot: {POSES} poses over the table, {len(ALL_ROUND)} approaches, truth by {RESTARTS} restarts"

@@ -43,9 +43,9 @@ _FIRST_PLANS_S = 5.0
 """Time for the first plans of the documents (s)."""
 
 
-def crowd(articles: Sequence[str], repetitions: int) -> Report:
-    """Measure documents of the articles, with plans and without."""
-    asked = [article for article in TABLE_2 if article in articles]
+def crowd(garments: Sequence[str], repetitions: int) -> Report:
+    """Measure documents of the garments, with plans and without."""
+    asked = [garment for garment in TABLE_2 if garment in garments]
     title = f"Edits in {DRAGGED} of {OPEN} open documents, {EDITS_PER_S:g} a second each"
     duration_s = DURATION_S if repetitions > 1 else QUICK_S
     rates = (0.0, PLANS_PER_S) if asked else ()
@@ -53,9 +53,9 @@ def crowd(articles: Sequence[str], repetitions: int) -> Report:
     return Report("crowd", title, COLUMNS, rows, 1)
 
 
-async def crowded(articles: Sequence[str], duration_s: float, plans_per_s: float) -> Heard:
+async def crowded(garments: Sequence[str], duration_s: float, plans_per_s: float) -> Heard:
     """Run a crowd on a server of its own for a duration (s), and return its measurements."""
-    heard, kinds = Heard(), itertools.cycle(articles)
+    heard, kinds = Heard(), itertools.cycle(garments)
     with served() as (url, _):
         async with client(url) as server:
             documents = [
@@ -68,7 +68,7 @@ async def crowded(articles: Sequence[str], duration_s: float, plans_per_s: float
                 for document in documents[:DRAGGED]:
                     work.create_task(drag(server, document, until_s, heard))
                 if plans_per_s:
-                    work.create_task(ask_for_plans(server, articles, plans_per_s, until_s, heard))
+                    work.create_task(ask_for_plans(server, garments, plans_per_s, until_s, heard))
             for page in pages:
                 page.cancel()
             await asyncio.gather(*pages, return_exceptions=True)

@@ -178,9 +178,9 @@ class Measured:
     quickest_s: float | None = None
 
 
-def fold_to_size(articles: Sequence[str], _repetitions: int) -> Report:
-    """Measure proposals for the nine articles and, if all are asked for, for other outlines."""
-    nine = [name for name in TABLE_2 if name in articles]
+def fold_to_size(garments: Sequence[str], _repetitions: int) -> Report:
+    """Measure proposals for the nine garments and, if all are asked for, for other outlines."""
+    nine = [name for name in TABLE_2 if name in garments]
     others = OUTLINES if len(nine) == len(TABLE_2) else {}
     for robot in ROBOTS:
         compile_kernels(robot)

@@ -26,7 +26,7 @@ from planner.motion.timeline import Timeline
 from planner.robots.load_robot import load_robot
 
 COLUMNS = (
-    "article",
+    "garment",
     "viewers",
     "frames",
     "make [ms]",
@@ -64,22 +64,22 @@ class Times:
     wall_ms: float
 
 
-def frames(articles: Sequence[str], repetitions: int) -> Report:
+def frames(garments: Sequence[str], repetitions: int) -> Report:
     """Measure the T-shirt: every frame, or every twentieth in a quick run."""
-    return frames_of([article for article in SAMPLE if article in articles], 1 if repetitions > 1 else QUICK_EVERY)
+    return frames_of([garment for garment in SAMPLE if garment in garments], 1 if repetitions > 1 else QUICK_EVERY)
 
 
-def frames_of(articles: Sequence[str], every: int, viewers: Sequence[int] = VIEWERS) -> Report:
-    """Measure every `every`-th frame of articles for each number of viewers; the first number is the baseline."""
+def frames_of(garments: Sequence[str], every: int, viewers: Sequence[int] = VIEWERS) -> Report:
+    """Measure every `every`-th frame of garments for each number of viewers; the first number is the baseline."""
     rows = []
-    for article in articles:
-        plan = make_plan(load_garment(article))
+    for garment in garments:
+        plan = make_plan(load_garment(garment))
         if not plan.is_solved:
-            raise BenchmarkError(f"{article} has no plan to be shown")
+            raise BenchmarkError(f"{garment} has no plan to be shown")
         view = View3D(load_robot(plan.task.robot).card, plan.scene)
         try:
             view.show_plan(plan)
-            rows.append(_row(article, {count: _run(view, plan, count, every) for count in viewers}))
+            rows.append(_row(garment, {count: _run(view, plan, count, every) for count in viewers}))
         finally:
             view.close()
     title = f"One animation frame, {FRAMES_PER_S:g} a second: CPU time of the server"
@@ -130,7 +130,7 @@ def _watched(view: View3D, viewers: int, read: list[dict[str, int]]) -> Iterator
             process.kill()
 
 
-def _row(article: str, runs: dict[int, tuple[list[Times], list[dict[str, int]]]]) -> Row:
+def _row(garment: str, runs: dict[int, tuple[list[Times], list[dict[str, int]]]]) -> Row:
     (_, (unwatched, _)), *_ = runs.items()
     none_ms = [times.server_ms for times in unwatched]
     lines: list[tuple[str, ...]] = []
@@ -141,7 +141,7 @@ def _row(article: str, runs: dict[int, tuple[list[Times], list[dict[str, int]]]]
         data.append(_as_json(viewers, figures, longer, len(times), read))
         lines.append(
             (
-                "" if lines else article,
+                "" if lines else garment,
                 str(viewers),
                 str(len(times)),
                 f"{figures['make_ms']['median']:.2f}",
@@ -151,7 +151,7 @@ def _row(article: str, runs: dict[int, tuple[list[Times], list[dict[str, int]]]]
                 f"{longer.median:.2f}",
             )
         )
-    return Row(tuple(lines), {"article": article, "runs": data})
+    return Row(tuple(lines), {"garment": garment, "runs": data})
 
 
 def _as_json(

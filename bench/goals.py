@@ -36,7 +36,7 @@ COMMANDS = (
 
 NINE_COLD_MS, NINE_KNOWN_MS = 1_000.0, 450.0
 EDITS_MS = {"t-shirt": 60.0, "shirt": 90.0, "tie": 60.0}
-REST_ARTICLE, REST_AGAIN_MS, REST_NEW_MS, REST_NINE_MS = "vest", 40.0, 130.0, 1_400.0
+REST_GARMENT, REST_AGAIN_MS, REST_NEW_MS, REST_NINE_MS = "vest", 40.0, 130.0, 1_400.0
 """A garment asked for over REST, and the goals for it, for others like it, and for the nine garments in turn."""
 
 _REST_TIMES, _REST_STEP_M = 8, 0.002
@@ -62,8 +62,8 @@ print(json.dumps(times))
 """A fresh process that plans some garments twice, with compiled kernels loaded."""
 
 
-def goals(articles: Sequence[str], repetitions: int) -> Report:
-    """Measure each goal; `articles` picks the garments whose edits are measured."""
+def goals(garments: Sequence[str], repetitions: int) -> Report:
+    """Measure each goal; `garments` names those whose edits are measured."""
     rows = [_row(f"pleat {' '.join(command)}", goal, _command_ms(command, repetitions)) for command, goal in COMMANDS]
     cold_ms, known_ms = _nine_ms()
     rows += [
@@ -72,10 +72,10 @@ def goals(articles: Sequence[str], repetitions: int) -> Report:
         _row(f"reading {CORNERS} corners", CORNERS_MS, _least_ms(_read_many_corners, repetitions)),
     ]
     rows += _rest_rows()
-    for article, goal in EDITS_MS.items():
-        if article in articles:
-            first = [1e3 * one.first_cpu_s for one in replanned(article, 8) if one.status != ILLEGAL]
-            rows.append(_row(f"first plan after an edit: {article}", goal, median(first)))
+    for garment, goal in EDITS_MS.items():
+        if garment in garments:
+            first = [1e3 * one.first_cpu_s for one in replanned(garment, 8) if one.status != ILLEGAL]
+            rows.append(_row(f"first plan after an edit: {garment}", goal, median(first)))
     return Report("goals", "CPU time beside its goal", COLUMNS, tuple(rows), repetitions)
 
 
@@ -109,7 +109,7 @@ def _nine_ms() -> tuple[float, float]:
 
 def _rest_rows() -> list[Row]:
     """Measure plans over REST, on a server that has planned once: server and workers together."""
-    garment = load_garment(REST_ARTICLE)
+    garment = load_garment(REST_GARMENT)
     new = [
         replace(garment, placement=garment.placement.moved(-_REST_STEP_M * number, 0.0)).to_dict()
         for number in range(1, _REST_TIMES + 1)
@@ -122,12 +122,12 @@ def _rest_rows() -> list[Row]:
                 ask("POST", f"{url}/api/plans", {"garment": one})
             return 1e3 * (family_cpu_s(family(process.pid)) - before_s)
 
-        took_ms([REST_ARTICLE])
-        again_ms, new_ms = (took_ms(some) / _REST_TIMES for some in ([REST_ARTICLE] * _REST_TIMES, new))
+        took_ms([REST_GARMENT])
+        again_ms, new_ms = (took_ms(some) / _REST_TIMES for some in ([REST_GARMENT] * _REST_TIMES, new))
         nine_ms = took_ms(list(TABLE_2))
     return [
-        _row(f"{REST_ARTICLE} by REST, planned before", REST_AGAIN_MS, again_ms),
-        _row(f"{REST_ARTICLE} by REST, new", REST_NEW_MS, new_ms),
+        _row(f"{REST_GARMENT} by REST, planned before", REST_AGAIN_MS, again_ms),
+        _row(f"{REST_GARMENT} by REST, new", REST_NEW_MS, new_ms),
         _row("the nine by REST, in turn", REST_NINE_MS, nine_ms),
     ]
 

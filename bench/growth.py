@@ -40,7 +40,7 @@ class Case:
         panel: the quantity that grows.
         series: the name of the problem.
         size: the value of the quantity.
-        articles: the garments planned, whose results are added up.
+        garments: the garments planned, whose results are added up.
         scene: the scene.
         comfort_radius_m: the comfort radius (m).
     """
@@ -48,14 +48,14 @@ class Case:
     panel: str
     series: str
     size: int
-    articles: tuple[Garment, ...]
+    garments: tuple[Garment, ...]
     scene: Scene
     comfort_radius_m: float = COMFORT_M
 
 
 @dataclass(frozen=True, slots=True)
 class Grown:
-    """A case and its results: median times (s), costs (s) and counts, summed over the articles."""
+    """A case and its results: median times (s), costs (s) and counts, summed over the garments."""
 
     case: Case
     status: str
@@ -86,16 +86,16 @@ def cases(*, is_quick: bool) -> Iterator[Case]:
         for size in some(STATIONS):
             yield Case(STATIONS_PANEL, name, size, (load_garment(name),), crowded(size))
     alone: dict[str, tuple[str, ...]] = {name: (name,) for name in WITH_COMFORT}
-    for name, articles in (alone if is_quick else alone | {NINE: tuple(TABLE_2)}).items():
+    for name, names in (alone if is_quick else alone | {NINE: tuple(TABLE_2)}).items():
         for size in some(COMFORTS_CM):
-            garments = tuple(load_garment(article) for article in articles)
+            garments = tuple(load_garment(one) for one in names)
             yield Case(COMFORT_PANEL, name, size, garments, scene, size / 100)
 
 
 def _grown(case: Case, repetitions: int) -> Grown:
     runs: list[list[Plan]] = []
     while len(runs) < repetitions and (not runs or _search_s(runs[0]) <= SLOW_S):
-        runs.append([_planned(case, garment) for garment in case.articles])
+        runs.append([_planned(case, garment) for garment in case.garments])
     plans = runs[0]
     statuses = {OUT_OF_TIME if plan.statistics.is_cut_short else plan.status for plan in plans}
     is_solved = statuses == {"solved"}

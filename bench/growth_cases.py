@@ -1,6 +1,6 @@
 """Problems of any size that a PR2 can solve: many folds, many stations, a larger comfort radius.
 
-All cloth lies lengthwise before the robot, the article's x to the robot's right. A ribbon that is rolled up is a chain:
+All cloth lies lengthwise before the robot, the garment's x to the robot's right. A ribbon that is rolled up is a chain:
 each fold waits for the one before. Tabs are independent, so every set of them may be done first; tabs along two sides
 are out of reach from a single station, so that the order in which they are folded matters.
 """

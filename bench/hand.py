@@ -18,7 +18,7 @@ from bench.report import ABSENT, Report, Row
 from bench.served import ask, cpu_s, served
 
 COLUMNS = (
-    "article",
+    "garment",
     "view3d",
     "drags",
     "ghost [ms]",
@@ -54,41 +54,41 @@ class Dragged:
     status: str
 
 
-def hand(articles: Sequence[str], repetitions: int) -> Report:
-    """Measure the nine articles and, in the last row, all drags together; one row says so without a browser."""
+def hand(garments: Sequence[str], repetitions: int) -> Report:
+    """Measure the nine garments and, in the last row, all drags together; one row says so without a browser."""
     drags = MOVES if repetitions > 1 else QUICK_MOVES
-    asked = [article for article in TABLE_2 if article in articles]
+    asked = [garment for garment in TABLE_2 if garment in garments]
     title = f"In the page: a corner dragged by {100 * STEP_M:g} cm, from the hand to what is seen"
     rows = tuple(_rows(asked, drags)) if asked else ()
     return Report("hand", title, COLUMNS, rows, 1)
 
 
-def _rows(articles: Sequence[str], drags: int) -> Iterator[Row]:
+def _rows(garments: Sequence[str], drags: int) -> Iterator[Row]:
     try:
         from playwright.sync_api import Error
 
-        found = {article: [drags_of(article, drags, has_view=is_there) for is_there in VIEWS] for article in articles}
+        found = {garment: [drags_of(garment, drags, has_view=is_there) for is_there in VIEWS] for garment in garments}
     except ImportError:
         yield _absent("Playwright is not installed")
         return
     except Error as error:
         yield _absent(str(error).splitlines()[0])
         return
-    for article, runs in found.items():
-        yield _row(article, runs)
+    for garment, runs in found.items():
+        yield _row(garment, runs)
     if len(found) > 1:
         yield _row("all", [[one for dragged in runs for one in dragged] for runs in zip(*found.values(), strict=True)])
 
 
-def drags_of(article: str, drags: int, *, has_view: bool) -> list[Dragged]:
-    """Return the measurements of drags of an article's corners, in a server and a browser of their own."""
+def drags_of(garment: str, drags: int, *, has_view: bool) -> list[Dragged]:
+    """Return the measurements of drags of a garment's corners, in a server and a browser of their own."""
     from bench.hand_page import window
 
     with served() as (url, process):
-        document = ask("POST", f"{url}/api/documents", {"garment": article})
+        document = ask("POST", f"{url}/api/documents", {"garment": garment})
         path, corners = f"{url}/api/documents/{document['id']}", document["drawing"]["outline"]
         with window(f"{url}/d/{document['id']}", has_view=has_view) as page:
-            moves = chosen(article, len(corners), drags)
+            moves = chosen(garment, len(corners), drags)
             return [_dragged(page, path, process.pid, *move) for move in moves]
 
 
@@ -109,7 +109,7 @@ def _dragged(page: Any, path: str, pid: int, corner: int, towards_rad: float) ->
     return Dragged(kept.to_ghost_ms, kept.same_frame, kept.to_plan_ms, cpu_ms, kept.status)
 
 
-def _row(article: str, runs: Sequence[Sequence[Dragged]]) -> Row:
+def _row(garment: str, runs: Sequence[Sequence[Dragged]]) -> Row:
     summaries = [_summary(dragged) for dragged in runs]
     lines: list[tuple[str, ...]] = []
     for view, found in zip(VIEWS.values(), summaries, strict=True):
@@ -123,8 +123,8 @@ def _row(article: str, runs: Sequence[Sequence[Dragged]]) -> Row:
             str(found["solved"]),
             str(found["drags"] - found["solved"]),
         )
-        lines.append(("" if lines else article, view, str(found["drags"]), *cells))
-    return Row(tuple(lines), {"article": article, **dict(zip(VIEWS.values(), summaries, strict=True))})
+        lines.append(("" if lines else garment, view, str(found["drags"]), *cells))
+    return Row(tuple(lines), {"garment": garment, **dict(zip(VIEWS.values(), summaries, strict=True))})
 
 
 def _summary(dragged: Sequence[Dragged]) -> dict[str, Any]:
@@ -143,7 +143,7 @@ def _summary(dragged: Sequence[Dragged]) -> dict[str, Any]:
 
 def _absent(why: str) -> Row:
     line = (NO_BROWSER, *(ABSENT for _ in COLUMNS[1:]))
-    return Row((line,), {"article": None, "missing": why})
+    return Row((line,), {"garment": None, "missing": why})
 
 
 def _spread(values: Sequence[float]) -> dict[str, float]:

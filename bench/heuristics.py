@@ -9,19 +9,19 @@ from bench.paper import TABLE_2
 from bench.report import Report, Row, count, seconds
 from planner.geometry.tolerance import TIME_S
 
-COLUMNS = ("article", "C [s]", "expanded", "by h = 0", "times as many", "search [s]", "by h = 0", "times as long")
+COLUMNS = ("garment", "C [s]", "expanded", "by h = 0", "times as many", "search [s]", "by h = 0", "times as long")
 COMFORT_M = 0.03
 
 
-def heuristics(articles: Sequence[str], repetitions: int) -> Report:
-    """Measure the nine articles with both heuristics, in turns.
+def heuristics(garments: Sequence[str], repetitions: int) -> Report:
+    """Measure the nine garments with both heuristics, in turns.
 
     Raises:
         BenchmarkError: the two do not find plans of the same cost.
     """
     rows = []
-    for article in (article for article in TABLE_2 if article in articles):
-        cases = [Case(article, COMFORT_M, heuristic) for heuristic in ("arm_time", "zero")]
+    for garment in (garment for garment in TABLE_2 if garment in garments):
+        cases = [Case(garment, COMFORT_M, heuristic) for heuristic in ("arm_time", "zero")]
         informed, blind = measure(*cases, repetitions=repetitions)
         _require_same_cost(informed, blind)
         rows.append(_row(informed, blind))
@@ -43,7 +43,7 @@ def _row(informed: Measurement, blind: Measurement) -> Row:
     more = theirs.expanded / ours.expanded
     longer = Ratio.of(blind.search_times_s, informed.search_times_s)
     data = {
-        "article": informed.case.garment,
+        "garment": informed.case.garment,
         "arm_time": informed.to_dict(),
         "zero": blind.to_dict(),
         "expanded_ratio": more,

@@ -74,15 +74,15 @@ class Loaded:
     load: float = 0.0
 
 
-def load(articles: Sequence[str], repetitions: int, minutes: float | None = None) -> Report:
-    """Load a server with documents and plans of the articles.
+def load(garments: Sequence[str], repetitions: int, minutes: float | None = None) -> Report:
+    """Load a server with documents and plans of the garments.
 
     Args:
-        articles: the garments' names; those that are not the paper's are left out.
+        garments: the garments' names; those that are not the paper's are left out.
         repetitions: 1 for a short load.
         minutes: how long the load lasts.
     """
-    asked = [article for article in TABLE_2 if article in articles]
+    asked = [garment for garment in TABLE_2 if garment in garments]
     lasts = minutes or (MINUTES if repetitions > 1 else MINUTES_QUICK)
     title = f"{OPEN} open documents, {VIEWERS} viewers, {PLANS_PER_S:g} plans a second, edits in {DRAGGED} documents"
     rows: tuple[Row, ...] = ()
@@ -92,13 +92,13 @@ def load(articles: Sequence[str], repetitions: int, minutes: float | None = None
     return Report("load", title, COLUMNS, rows, 1)
 
 
-async def loaded(url: str, pid: int, articles: Sequence[str], duration_s: float) -> Loaded:
+async def loaded(url: str, pid: int, garments: Sequence[str], duration_s: float) -> Loaded:
     """Load the server of a process for a duration (s), and wait until all is closed again."""
     found = Loaded()
     async with client(url) as server:
-        (await server.post("/api/plans", json={"garment": articles[0]})).raise_for_status()  # all is loaded then
+        (await server.post("/api/plans", json={"garment": garments[0]})).raise_for_status()  # all is loaded then
         before = await _open(server, pid)
-        kinds = itertools.cycle(articles)
+        kinds = itertools.cycle(garments)
         documents = [(await server.post("/api/documents", json={"garment": next(kinds)})).json() for _ in range(OPEN)]
         viewers = await _viewers(url, [document["id"] for document in documents], found.heard)
         until_s, began_s = time.monotonic() + duration_s, cpu_s(pid)
@@ -106,7 +106,7 @@ async def loaded(url: str, pid: int, articles: Sequence[str], duration_s: float)
         async with asyncio.TaskGroup() as work:
             for document in documents[:DRAGGED]:
                 work.create_task(drag(server, document, until_s, found.heard))
-            work.create_task(ask_for_plans(server, articles, PLANS_PER_S, until_s, found.heard))
+            work.create_task(ask_for_plans(server, garments, PLANS_PER_S, until_s, found.heard))
         found.cpu_share = (cpu_s(pid) - began_s) / duration_s
         found.load = os.getloadavg()[0]
         for task in (watching, *viewers):

@@ -115,10 +115,10 @@ def circled(drawing: dict[str, Any], stroke: int, turned: float) -> dict[str, An
 
 
 async def ask_for_plans(
-    server: httpx.AsyncClient, articles: Sequence[str], plans_per_s: float, until_s: float, heard: Heard
+    server: httpx.AsyncClient, garments: Sequence[str], plans_per_s: float, until_s: float, heard: Heard
 ) -> None:
     """Request plans at a steady rate, without waiting for answers; return when all are answered."""
-    kinds, next_s = itertools.cycle(articles), time.monotonic()
+    kinds, next_s = itertools.cycle(garments), time.monotonic()
     async with asyncio.TaskGroup() as asking:
         while next_s < until_s:
             asking.create_task(_plan(server, next(kinds), heard))
@@ -126,8 +126,8 @@ async def ask_for_plans(
             await asyncio.sleep(max(0.0, next_s - time.monotonic()))
 
 
-async def _plan(server: httpx.AsyncClient, article: str, heard: Heard) -> None:
+async def _plan(server: httpx.AsyncClient, garment: str, heard: Heard) -> None:
     began_s = time.monotonic()
-    answer = await server.post("/api/plans", json={"garment": article, "time_limit_s": PLAN_LIMIT_S})
+    answer = await server.post("/api/plans", json={"garment": garment, "time_limit_s": PLAN_LIMIT_S})
     heard.plans_s.append(time.monotonic() - began_s)
     heard.plans[answer.status_code] += 1

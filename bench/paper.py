@@ -1,6 +1,6 @@
 """The paper's simulation results, typed from its Tables 1 and 2 (section 8).
 
-These are another planner's results, on another machine, for articles, placements and a reach that the paper does not
+These are another planner's results, on another machine, for garments, placements and a reach that the paper does not
 fully state. They stand beside ours for comparison; ours are not meant to be equal.
 """
 

@@ -1,4 +1,4 @@
-"""The paper's Tables 1 and 2 reproduced: the nine articles, our results above the paper's."""
+"""The paper's Tables 1 and 2 reproduced: the nine garments, our results above the paper's."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
@@ -9,26 +9,26 @@ from bench.measurement import Case, Measurement, measure
 from bench.paper import SOURCE, TABLE_1, TABLE_2, PaperRow
 from bench.report import Report, Row, count, seconds
 
-COLUMNS = ("article", "by", "folds", "L", "C [s]", "expanded", "explored", "IK queries", "IK time [s]", "search [s]")
+COLUMNS = ("garment", "by", "folds", "L", "C [s]", "expanded", "explored", "IK queries", "IK time [s]", "search [s]")
 
 
-def table_1(articles: Sequence[str], repetitions: int) -> Report:
+def table_1(garments: Sequence[str], repetitions: int) -> Report:
     """Measure Table 1: a point counts as reachable without a comfort radius."""
-    return _report("table-1", 0.0, TABLE_1, articles, repetitions)
+    return _report("table-1", 0.0, TABLE_1, garments, repetitions)
 
 
-def table_2(articles: Sequence[str], repetitions: int) -> Report:
+def table_2(garments: Sequence[str], repetitions: int) -> Report:
     """Measure Table 2: a comfort radius of 3 cm."""
-    return _report("table-2", 0.03, TABLE_2, articles, repetitions)
+    return _report("table-2", 0.03, TABLE_2, garments, repetitions)
 
 
 def _report(
-    name: str, comfort_m: float, paper: Mapping[str, PaperRow], articles: Sequence[str], repetitions: int
+    name: str, comfort_m: float, paper: Mapping[str, PaperRow], garments: Sequence[str], repetitions: int
 ) -> Report:
     rows = []
-    for article in (article for article in paper if article in articles):
-        (measured,) = measure(Case(article, comfort_m), repetitions=repetitions)
-        rows.append(_row(measured, paper[article]))
+    for garment in (garment for garment in paper if garment in garments):
+        (measured,) = measure(Case(garment, comfort_m), repetitions=repetitions)
+        rows.append(_row(measured, paper[garment]))
     title = f"{name.replace('-', ' ').capitalize()}: plans with a comfort radius of {comfort_m:g} m"
     return Report(name, title, COLUMNS, tuple(rows), repetitions, SOURCE)
 
@@ -60,4 +60,4 @@ def _row(measured: Measurement, paper: PaperRow) -> Row:
         seconds(paper.search_time_s),
     )
     data: dict[str, Any] = {"pleat": measured.to_dict(), "paper": asdict(paper)}
-    return Row((ours, theirs), {"article": measured.case.garment, **data})
+    return Row((ours, theirs), {"garment": measured.case.garment, **data})

@@ -1,6 +1,6 @@
 """The wait for the new plan after a corner of the outline has moved by a centimetre.
 
-Each article is opened as a document and planned as it is shipped; then corners are moved, one at a time and each from
+Each garment is opened as a document and planned as it is shipped; then corners are moved, one at a time and each from
 the shipped drawing: the folds follow their ties, and the new drawing is planned. Two moments are timed: when the first
 plan for the new drawing is published, and when the search for a quicker one ends. State that a document keeps from plan
 to plan (known plans, joint paths of what has not changed) is kept here too, so no move is made twice.
@@ -35,7 +35,7 @@ from bench.report import Report, Row
 from planner import load_garment
 
 COLUMNS = (
-    "article",
+    "garment",
     "moves",
     "first, CPU [ms]",
     "p95",
@@ -47,7 +47,7 @@ COLUMNS = (
     "solved",
 )
 MOVES = 8
-"""Number of corners of an article that are moved; all of them where it has fewer."""
+"""Number of corners of a garment that are moved; all of them where it has fewer."""
 
 QUICK_MOVES = 1
 STEP_M = 0.01
@@ -81,20 +81,20 @@ class Replanned:
     is_soon: bool
 
 
-def re_plan(articles: Sequence[str], repetitions: int) -> Report:
-    """Measure the nine articles and, in the last row, all moves together."""
+def re_plan(garments: Sequence[str], repetitions: int) -> Report:
+    """Measure the nine garments and, in the last row, all moves together."""
     moves = MOVES if repetitions > 1 else QUICK_MOVES
-    found = {article: replanned(article, moves) for article in TABLE_2 if article in articles}
-    rows = [_row(article, runs) for article, runs in found.items()]
+    found = {garment: replanned(garment, moves) for garment in TABLE_2 if garment in garments}
+    rows = [_row(garment, runs) for garment, runs in found.items()]
     if len(found) > 1:
         rows.append(_row("all", [run for runs in found.values() for run in runs]))
     title = f"Re-plan after a corner has been moved by {100 * STEP_M:g} cm"
     return Report("re-plan", title, COLUMNS, tuple(rows), 1)
 
 
-def replanned(article: str, moves: int) -> list[Replanned]:
-    """Move corners of an article and return the measurements; corners and directions are the same in every run."""
-    return redrawn(drawing_of(load_garment(article)), moves)
+def replanned(garment: str, moves: int) -> list[Replanned]:
+    """Move corners of a garment and return the measurements; corners and directions are the same in every run."""
+    return redrawn(drawing_of(load_garment(garment)), moves)
 
 
 def redrawn(drawing: Drawing, moves: int) -> list[Replanned]:
@@ -106,9 +106,9 @@ def redrawn(drawing: Drawing, moves: int) -> list[Replanned]:
         ]
 
 
-def chosen(article: str, corners: int, moves: int) -> list[tuple[int, float]]:
+def chosen(garment: str, corners: int, moves: int) -> list[tuple[int, float]]:
     """Return the corners to move and their directions (rad), the same in every run."""
-    choice = random.Random(f"{SEED} {article}")
+    choice = random.Random(f"{SEED} {garment}")
     return [(corner, choice.uniform(0.0, tau)) for corner in choice.sample(range(corners), min(moves, corners))]
 
 
@@ -191,7 +191,7 @@ def _row(name: str, runs: Sequence[Replanned]) -> Row:
     times_ms = [spread[part] for spread in (first, wall, final) for part in ("median", "p95")]
     line = (name, str(len(runs)), *(f"{time_ms:.0f}" for time_ms in times_ms), str(soon), str(solved))
     data = {
-        "article": name,
+        "garment": name,
         "moves": len(runs),
         "first_cpu_ms": first,
         "first_wall_ms": wall,

@@ -15,12 +15,11 @@ import numpy as np
 
 from bench.measurement import BenchmarkError, Ratio
 from bench.pin_arm import pin_arm
-from bench.reach_boundary import distance_m
 from bench.reach_method import Joints, Method
 from bench.reach_ours import in_batches, our_methods
 from bench.reach_peers import peer_methods
 from bench.reach_queries import Queries, any_poses, pinches
-from bench.reach_truth import DenseReach, is_proved
+from bench.reach_truth import DenseReach, distance_m, is_proved
 from bench.report import ABSENT, Report, Row
 from planner.geometry.pose import BoolArray
 

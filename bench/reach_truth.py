@@ -3,9 +3,13 @@
 With the shoulder's pan locked the other six joints follow in closed form, for each branch of the elbow. So the pan is
 sampled finely, and refined round the best samples five times over. A "yes" comes with joints, which pinocchio checks; a
 "no" means that none of the sampled pans serves.
+
+How far a pose is from the boundary of the reach is found by moving the tool, its rotation kept, in the directions of
+the faces and the corners of a cube, further and further until the answer is no.
 """
 
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 
@@ -26,6 +30,12 @@ AT_ONCE = 256
 
 OUTSIDE = -10.0
 """Slack (rad) where the closed form has no solution at all; it decreases further away from a solution."""
+
+NEAREST_M, FURTHEST_M, FINER = 5e-4, 1.1, 8
+"""Range of the moves that may take a pose out of reach, and number of steps in which the last stretch is searched."""
+
+_CORNERS = np.array(list(product((-1.0, 1.0), repeat=3))) / np.sqrt(3.0)
+DIRECTIONS = np.vstack((np.eye(3), -np.eye(3), _CORNERS))
 
 
 @dataclass(frozen=True, slots=True)
@@ -186,3 +196,22 @@ def _about(axis: int, angles: FloatArray) -> FloatArray:
     turned[:, i, i] = turned[:, j, j] = cos
     turned[:, i, j], turned[:, j, i] = -sin, sin
     return turned
+
+
+def distance_m(dense: DenseReach, point: FloatArray, rotation: FloatArray) -> float:
+    """Return the shortest of the moves tried that takes a pose out of reach (m); inf if none does."""
+    doubling = NEAREST_M * 2.0 ** np.arange(np.ceil(np.log2(FURTHEST_M / NEAREST_M)) + 1)
+    coarse = _first_out(dense, point, rotation, doubling)
+    if coarse == len(doubling):
+        return np.inf
+    last = doubling[coarse - 1] if coarse else 0.0
+    fine = np.linspace(last, doubling[coarse], FINER + 1)[1:]
+    return float(fine[_first_out(dense, point, rotation, fine)])
+
+
+def _first_out(dense: DenseReach, point: FloatArray, rotation: FloatArray, lengths: FloatArray) -> int:
+    """Return the index of the first length at which some direction leads out of reach; their number if none does."""
+    points = (point + lengths[:, None, None] * DIRECTIONS).reshape(-1, 3)
+    rotations = np.broadcast_to(rotation, (len(points), 3, 3))
+    is_out = ~dense.can_reach(points, rotations).reshape(len(lengths), -1).all(axis=1)
+    return int(np.argmax(is_out)) if is_out.any() else len(lengths)

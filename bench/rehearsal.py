@@ -1,7 +1,7 @@
-"""Every article's plan performed in simulated physics: which steps hold, as it is and corrected by what is seen.
+"""Every garment's plan performed in simulated physics: which steps hold, as it is and corrected by what is seen.
 
-One row for each article, noise and feedback: steps and runs that held, the first step lost, overlap and mean error
-after the last step, bounds of the rate of success, how fast it was. Several articles are rehearsed side by side in
+One row for each garment, noise and feedback: steps and runs that held, the first step lost, overlap and mean error
+after the last step, bounds of the rate of success, how fast it was. Several garments are rehearsed side by side in
 processes; CPU time is that of the rehearsal alone. `HELD_OUT` are garments that no setting of simulation, planner or
 feedback was chosen by: `python -m bench --only held-out` rehearses each twice with noise and feedback.
 """
@@ -23,7 +23,7 @@ from planner import Plan, Task, load_garment, make_plan
 LETTER = "letter-towel"
 """A towel of two folds, blue and red, which no other benchmark plans."""
 
-ARTICLES = (*TABLE_1, LETTER)
+GARMENTS = (*TABLE_1, LETTER)
 HELD_OUT_IN = Path(__file__).with_name("held_out")
 HELD_OUT = ("apron", "bib", "pennant", "pillowcase", "shorts", "tabard")
 """Garments that no setting was chosen by."""
@@ -53,24 +53,24 @@ class Rehearsed:
     """The rehearsals of a plan under one noise, with or without feedback.
 
     Attributes:
-        article: the garment's name.
+        garment: the garment's name.
         noise: the noise's name.
         feedback: whether the robot looked before each step.
         result: what came out; no runs where there is no plan.
     """
 
-    article: str
+    garment: str
     noise: str
     feedback: bool
     result: RehearsalResult
 
 
 def rehearsal(asked: Sequence[str], repetitions: int) -> Report:
-    """Rehearse the articles asked for; measured once, without noise and without feedback alone."""
-    named = [name for name in ARTICLES if name in asked] or ARTICLES
+    """Rehearse the garments asked for; measured once, without noise and without feedback alone."""
+    named = [name for name in GARMENTS if name in asked] or GARMENTS
     with ProcessPoolExecutor(PROCESSES, get_context("spawn"), max_tasks_per_child=1) as pool:
         found = list(pool.map(rehearsed, named, [repetitions > 1] * len(named)))
-    rows = [row_of(one) for article in found for one in article if one.result.runs]
+    rows = [row_of(one) for garment in found for one in garment if one.result.runs]
     return Report("rehearsal", "Plans performed in simulated physics", COLUMNS, tuple(rows), 1)
 
 
@@ -84,24 +84,24 @@ def held_out(_: Sequence[str], __: int) -> Report:
     return Report("held-out", "Garments that no setting was chosen by, in simulated physics", COLUMNS, tuple(rows), 1)
 
 
-def rehearsed_held_out(article: str) -> Rehearsed:
+def rehearsed_held_out(garment: str) -> Rehearsed:
     """Plan and rehearse one garment of `HELD_OUT`."""
-    plan = make_plan(Task.of(load_garment(HELD_OUT_IN / f"{article}.json")))
-    return _rehearsed(article, plan, "real", True, HELD_OUT_RUNS)
+    plan = make_plan(Task.of(load_garment(HELD_OUT_IN / f"{garment}.json")))
+    return _rehearsed(garment, plan, "real", True, HELD_OUT_RUNS)
 
 
-def rehearsed(article: str, is_whole: bool) -> list[Rehearsed]:
-    """Plan an article, and rehearse it without noise and, if all is asked for, with feedback and with noise."""
-    plan = make_plan(Task.of(load_garment(article)))
+def rehearsed(garment: str, is_whole: bool) -> list[Rehearsed]:
+    """Plan a garment, and rehearse it without noise and, if all is asked for, with feedback and with noise."""
+    plan = make_plan(Task.of(load_garment(garment)))
     kinds = [("none", False), ("none", True), ("real", False), ("real", True)][: 4 if is_whole else 1]
     return [
-        _rehearsed(article, plan, noise, feedback, 1 if noise == "none" else REAL_RUNS) for noise, feedback in kinds
+        _rehearsed(garment, plan, noise, feedback, 1 if noise == "none" else REAL_RUNS) for noise, feedback in kinds
     ]
 
 
-def _rehearsed(article: str, plan: Plan, noise: str, feedback: bool, runs: int) -> Rehearsed:
+def _rehearsed(garment: str, plan: Plan, noise: str, feedback: bool, runs: int) -> Rehearsed:
     options = RehearsalOptions(runs, noise=noise, feedback=feedback, workers=1)
-    return Rehearsed(article, noise, feedback, rehearse(plan, options) if plan.is_solved else RehearsalResult(()))
+    return Rehearsed(garment, noise, feedback, rehearse(plan, options) if plan.is_solved else RehearsalResult(()))
 
 
 def row_of(one: Rehearsed) -> Row:
@@ -111,7 +111,7 @@ def row_of(one: Rehearsed) -> Row:
     last = [run.steps[-1] for run in runs if run.steps]
     lost = next((str(step.step) for step in runs[0].steps if not step.held), runs[0].reason and "stopped")
     told: dict[str, Any] = {
-        "article": one.article,
+        "garment": one.garment,
         "noise": one.noise,
         "feedback": one.feedback,
         "steps_held": sum(step.held for step in steps),
@@ -123,7 +123,7 @@ def row_of(one: Rehearsed) -> Row:
         **one.result.to_dict(),
     }
     line = (
-        one.article,
+        one.garment,
         one.noise,
         "on" if one.feedback else "off",
         f"{told['steps_held']} of {told['steps']}",

@@ -1,6 +1,6 @@
-"""Plans of the nine articles for every other shipped robot: what comes of them, their costs, and the CPU time.
+"""Plans of the nine garments for every other shipped robot: what comes of them, their costs, and the CPU time.
 
-Tables are smaller than the PR2's, so each article is shrunk until its longest side fits the robot's. Where there is no
+Tables are smaller than the PR2's, so each garment is shrunk until its longest side fits the robot's. Where there is no
 plan at the place that the robot's card suggests, another is looked for as a suggestion would. Each plan is made once:
 the joint paths that it finds stay in memory. Then corners are moved, as `bench.re_plan` does.
 """
@@ -27,7 +27,7 @@ from planner.robots.load_robot import load_robot
 from planner.task.task import DEFAULT_ROBOT
 
 COLUMNS = (
-    "robot, article",
+    "robot, garment",
     "status",
     "why not",
     "cost [s]",
@@ -39,13 +39,13 @@ COLUMNS = (
 )
 
 LONGEST_M = 0.95
-"""Longest side of an article (m)."""
+"""Longest side of a garment (m)."""
 
 LONGEST_OF_M = {"so101-pair": 0.35}
 """The same for robots whose arms are short."""
 
 EDITS = 3
-"""Corners of an article that are moved."""
+"""Corners of a garment that are moved."""
 
 PLACES_WORK_S, PLACES_TIME_S, PLACE_WORK_S = 120.0, 900.0, 4.0
 """The work and the time for looking for another place, and the most work of the plan at one (s)."""
@@ -53,12 +53,12 @@ PLACES_WORK_S, PLACES_TIME_S, PLACE_WORK_S = 120.0, 900.0, 4.0
 
 @dataclass(frozen=True, slots=True)
 class Measured:
-    """A robot's plan of an article.
+    """A robot's plan of a garment.
 
     Attributes:
         robot: the robot.
-        article: the article.
-        status: the plan's status where the card has the article lie.
+        garment: the garment.
+        status: the plan's status where the card has the garment lie.
         why_not: the code of the first reason why there is no plan; None if it is solved.
         cost_s: the plan's duration (s); None unless solved.
         cpu_s: the CPU time of the plan (s).
@@ -69,7 +69,7 @@ class Measured:
     """
 
     robot: str
-    article: str
+    garment: str
     status: str
     why_not: str | None
     cost_s: float | None
@@ -80,12 +80,12 @@ class Measured:
     edits_ms: tuple[float, ...]
 
 
-def robot_plans(articles: Sequence[str], _repetitions: int) -> Report:
-    """Measure a plan of each article for each shipped robot but the default one, its map and its kernels loaded."""
-    chosen = [article for article in TABLE_2 if article in articles]
+def robot_plans(garments: Sequence[str], _repetitions: int) -> Report:
+    """Measure a plan of each garment for each shipped robot but the default one, its map and its kernels loaded."""
+    chosen = [garment for garment in TABLE_2 if garment in garments]
     robots = [name for name in shipped_robots() if name != DEFAULT_ROBOT] if chosen else []
     rows = tuple(_row(one) for robot in robots for one in _measured(robot, chosen))
-    title = f"Plans of any robot: articles of {LONGEST_M} m at most, for the SO-101 {LONGEST_OF_M['so101-pair']} m"
+    title = f"Plans of any robot: garments of {LONGEST_M} m at most, for the SO-101 {LONGEST_OF_M['so101-pair']} m"
     return Report("robot-plans", title, COLUMNS, rows, 1)
 
 
@@ -100,15 +100,15 @@ def shrunk(garment: Garment, longest_m: float) -> Garment:
     return Garment.from_dict(data)
 
 
-def _measured(robot: str, articles: Sequence[str]) -> Iterator[Measured]:
-    """Yield the measurements of each article, after an edit that loads what edits need."""
+def _measured(robot: str, garments: Sequence[str]) -> Iterator[Measured]:
+    """Yield the measurements of each garment, after an edit that loads what edits need."""
     compile_kernels(robot)
-    for article in articles:
-        yield _planned(robot, article)
+    for garment in garments:
+        yield _planned(robot, garment)
 
 
-def _planned(robot: str, article: str) -> Measured:
-    garment = shrunk(load_garment(article), LONGEST_OF_M.get(robot, LONGEST_M))
+def _planned(robot: str, name: str) -> Measured:
+    garment = shrunk(load_garment(name), LONGEST_OF_M.get(robot, LONGEST_M))
     task = task_for(garment, robot=robot, time_limit_s=TIME_LIMIT_S)
     forget_garments()
     load_robot(robot).forget_reach()
@@ -122,7 +122,7 @@ def _planned(robot: str, article: str) -> Measured:
     edits_ms = tuple(_edits_ms(garment, lies)) if is_folded else ()
     place = None if found is None else found.plan.task.start.placement.to_dict()
     there_s = None if found is None else found.cost_s
-    return Measured(robot, article, plan.status, why_not, plan.cost_s, cpu_s, place, there_s, place_cpu_s, edits_ms)
+    return Measured(robot, name, plan.status, why_not, plan.cost_s, cpu_s, place, there_s, place_cpu_s, edits_ms)
 
 
 def _elsewhere(task: Task) -> tuple[Suggestion | None, float]:
@@ -148,5 +148,5 @@ def _row(one: Measured) -> Row:
     times = (one.cost_s, one.place_cost_s, one.place_cpu_s)
     cost, there, looked = (ABSENT if time_s is None else seconds(time_s, 1) for time_s in times)
     edits = [f"{pick(one.edits_ms):.0f}" if one.edits_ms else ABSENT for pick in (median, max)]
-    name, why_not = f"{one.robot} {one.article}", one.why_not or ABSENT
+    name, why_not = f"{one.robot} {one.garment}", one.why_not or ABSENT
     return Row(((name, one.status, why_not, cost, seconds(one.cpu_s, 2), there, looked, *edits),), asdict(one))

@@ -100,8 +100,8 @@ Planner = Callable[[FloatArray, FloatArray], FloatArray | None]
 """A planner: from all arms' joints at the start and at the goal to configurations, shape (n, joints), or None."""
 
 
-def round_a_box(_articles: Sequence[str], repetitions: int) -> Report:
-    """Measure the motions of a Panda and a UR5e; the articles do not matter."""
+def round_a_box(_garments: Sequence[str], repetitions: int) -> Report:
+    """Measure the motions of a Panda and a UR5e; the garments do not matter."""
     count = MOTIONS if repetitions > 1 else FEW_MOTIONS
     rows = tuple(_row(name, _measured(name, count)) for name in ROBOTS)
     title = f"An arm from the left to the right of a box {BOX_M[2]:.2f} m high, {count} motions in turns"

@@ -1,6 +1,6 @@
 """The error of landmarks of folded stacks in rendered pictures, as a robot looks at them between two steps.
 
-Articles and garments of random measures, folded as planned but for a last crease beside its line, lie near to where
+Shipped and random garments, folded as planned but for a last crease beside its line, lie near to where
 they ought to be; light, noise and wrinkles are by chance, tables and cloths too if wanted. Landmarks are the points of
 the stack that the next folds would have to hold, or the corners of its hull where it has no more folds.
 """
@@ -35,7 +35,7 @@ MEASURES = (0.8, 1.2)
 SHIFT_M, TURN_RAD, CREASE_M = 0.02, 0.06, 0.006
 """Standard deviations of where a stack lies and of its last crease beside its line."""
 
-ARTICLES = ("t-shirt", "jeans", "shirt", "tie", "scarf", "vest", "skirt", "hand-towel", "letter-towel")
+GARMENTS = ("t-shirt", "jeans", "shirt", "tie", "scarf", "vest", "skirt", "hand-towel", "letter-towel")
 MESH_M = 0.02
 _TRIES = 50
 _SUPPORT_RAD = Scene().support_angle_rad
@@ -74,7 +74,7 @@ class Bench:
     def sight(self, number: int, *, is_plain: bool, has_arm: bool) -> Sighted:
         """Return what is seen of the stack of a number."""
         rng = np.random.default_rng([number, is_plain, has_arm])
-        sequence, near = _garment(rng, self.table)
+        sequence, near = _laid_garment(rng, self.table)
         done = (1 << int(rng.integers(0, len(sequence.folds) + 1))) - 1
         dx, dy = rng.normal(0.0, SHIFT_M, 2).tolist()
         lies = Pose2(near.x_m + dx, near.y_m + dy, near.yaw_rad + rng.normal(0.0, TURN_RAD))
@@ -133,11 +133,11 @@ def on_pattern(sequence: FoldSequence, done: int, points: FloatArray) -> FloatAr
     return found
 
 
-def _garment(rng: np.random.Generator, table: Table) -> tuple[FoldSequence, Pose2]:
-    """Return an article, or a garment of random measures, and where it ought to lie: on the table, anyhow turned."""
+def _laid_garment(rng: np.random.Generator, table: Table) -> tuple[FoldSequence, Pose2]:
+    """Return a shipped garment, or one of random measures, and where it ought to lie: on the table, anyhow turned."""
     for _ in range(_TRIES):
         try:
-            sequence = replayed(_article(rng))
+            sequence = replayed(_any_garment(rng))
         except FieldError:
             continue
         outline = np.array(sequence.garment.outline)
@@ -150,9 +150,9 @@ def _garment(rng: np.random.Generator, table: Table) -> tuple[FoldSequence, Pose
     raise LookupError("no garment has room on the table")
 
 
-def _article(rng: np.random.Generator) -> Garment:
+def _any_garment(rng: np.random.Generator) -> Garment:
     if rng.random() < 0.5:
-        return load_garment(str(rng.choice(ARTICLES)))
+        return load_garment(str(rng.choice(GARMENTS)))
     template = TEMPLATES[int(rng.integers(len(TEMPLATES)))]
     whole = float(rng.uniform(*MEASURES))
     given = {one.name: one.default_m * whole * float(rng.uniform(0.9, 1.1)) for one in template.measures}

@@ -71,7 +71,7 @@ class Watched:
             yield answer
 
 
-def studies(_articles: Sequence[str], repetitions: int) -> Report:
+def studies(_garments: Sequence[str], repetitions: int) -> Report:
     """Measure plain loops and studies, with one worker and with two, in turns."""
     asked = small_study(CELLS if repetitions > 1 else CELLS_QUICK)
     ways: dict[str, Callable[[], Run]] = {

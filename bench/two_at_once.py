@@ -18,9 +18,9 @@ COLUMNS = ("plans", "in turn, CPU [ms]", "at once, CPU [ms]", "times the work")
 PAIR = 2
 
 
-def two_at_once(articles: Sequence[str], repetitions: int) -> Report:
-    """Measure each two articles that follow each other, in turn and at once."""
-    asked = [article for article in TABLE_2 if article in articles]
+def two_at_once(garments: Sequence[str], repetitions: int) -> Report:
+    """Measure each two garments that follow each other, in turn and at once."""
+    asked = [garment for garment in TABLE_2 if garment in garments]
     pairs = [asked[start : start + PAIR] for start in range(0, len(asked) - 1, PAIR)]
     rows: list[Row] = []
     if pairs:
@@ -43,12 +43,12 @@ def _measured(url: str, pid: int, pair: Sequence[str], repetitions: int) -> tupl
 
 
 def _in_turn(url: str, pair: Sequence[str]) -> None:
-    for article in pair:
-        ask("POST", f"{url}/api/plans", {"garment": article})
+    for garment in pair:
+        ask("POST", f"{url}/api/plans", {"garment": garment})
 
 
 def _at_once(url: str, pair: Sequence[str]) -> None:
-    threads = [threading.Thread(target=partial(_in_turn, url, [article])) for article in pair]
+    threads = [threading.Thread(target=partial(_in_turn, url, [garment])) for garment in pair]
     for thread in threads:
         thread.start()
     for thread in threads:

@@ -63,7 +63,7 @@ class Scene:
     Attributes:
         garment: the name of the garment.
         photo: the picture.
-        placement: the garment's article frame on the table.
+        placement: the garment's frame on the table.
         sheet: the sheet's frame on the table.
     """
 

@@ -27,11 +27,11 @@ PAIRS = (("scarf", "scarf-halved"), ("tie", "tie-halved"))
 COMFORTS_M = (0.0, 0.03)
 
 
-def yes_and_no(articles: Sequence[str], repetitions: int) -> Report:
+def yes_and_no(garments: Sequence[str], repetitions: int) -> Report:
     """Measure both orders of the folds of scarf and tie, in turns."""
     rows = []
     for pair in PAIRS:
-        for comfort_m in COMFORTS_M if set(pair) & set(articles) else ():
+        for comfort_m in COMFORTS_M if set(pair) & set(garments) else ():
             quarter, half = measure(*(Case(name, comfort_m) for name in pair), repetitions=repetitions)
             rows.append(_row(quarter, half))
     title = "A yes and a no: begun with the quarter, begun with the half"

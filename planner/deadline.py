@@ -10,6 +10,9 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
+ShouldStop = Callable[[], bool]
+"""Is called repeatedly by a piece of work that takes long: whether nobody wants its answer any more."""
+
 clock_s = time.process_time
 """The clock of every time limit: the processor time of this process (s)."""
 
@@ -41,7 +44,7 @@ def left_out() -> Iterator[None]:
 class Deadline:
     """When the time of a search is up, or nobody wants its answer any more. Once it is over it stays so."""
 
-    def __init__(self, time_limit_s: float = math.inf, should_stop: Callable[[], bool] | None = None) -> None:
+    def __init__(self, time_limit_s: float = math.inf, should_stop: ShouldStop | None = None) -> None:
         """Begin now.
 
         Args:

@@ -15,11 +15,12 @@ The algorithm of the paper (section 5), from top to bottom:
 """
 
 import math
-from collections.abc import Callable, Generator, Iterator, Sequence
+from collections.abc import Generator, Iterator, Sequence
 from dataclasses import replace
 from typing import Unpack
 
 from planner.cloth.garment import Garment
+from planner.deadline import ShouldStop
 from planner.errors import RequestError
 from planner.explain.explanation import explained
 from planner.planning.budget import Budget
@@ -43,7 +44,7 @@ def make_plan(
     what: Task | Garment,
     scene: Scene | None = None,
     *,
-    should_stop: Callable[[], bool] | None = None,
+    should_stop: ShouldStop | None = None,
     **options: Unpack[TaskOptions],
 ) -> Plan:
     """Plan how a robot folds a garment in the least time.
@@ -75,7 +76,7 @@ def plan(
     task: Task,
     hints: Hints | None = None,
     *,
-    should_stop: Callable[[], bool] | None = None,
+    should_stop: ShouldStop | None = None,
     with_reasons: bool = True,
     improving_s: float = math.inf,
 ) -> Generator[Event, None, None]:
@@ -181,7 +182,7 @@ def _explained(events: Iterator[Event]) -> Iterator[Event]:
 def find_plan(
     task: Task,
     *,
-    should_stop: Callable[[], bool] | None = None,
+    should_stop: ShouldStop | None = None,
     known: FoundPlan | None = None,
     like: Sequence[FoundPlan] = (),
     with_reasons: bool = True,
@@ -195,9 +196,7 @@ def find_plan(
     return end.found
 
 
-def quick_plan(
-    task: Task, *, like: Sequence[FoundPlan], should_stop: Callable[[], bool] | None = None
-) -> FoundPlan | None:
+def quick_plan(task: Task, *, like: Sequence[FoundPlan], should_stop: ShouldStop | None = None) -> FoundPlan | None:
     """Find some plan soon, for a garment that differs a little from garments that have plans.
 
     Args:

@@ -4,11 +4,11 @@ from collections.abc import Collection, Iterable
 
 import pytest
 
-QUICK_ARTICLES = ("skirt", "letter-towel")
+QUICK_GARMENTS = ("skirt", "letter-towel")
 """Shipped garments that between them are dragged, folded by one hand and by two, and folded back while held."""
 
 
-def sweep(name: str, cases: Iterable[str], quick: Collection[str] = QUICK_ARTICLES) -> pytest.MarkDecorator:
+def sweep(name: str, cases: Iterable[str], quick: Collection[str] = QUICK_GARMENTS) -> pytest.MarkDecorator:
     """Give a test each of some cases; those that are not quick are marked long."""
     given = list(cases)
     if missing := set(quick) - set(given):

@@ -33,10 +33,9 @@ from bench.paper_tables import table_1, table_2
 from bench.pin_arm import TORSO_M, pin_arm
 from bench.re_plan import moved, re_plan, replanned
 from bench.reach import Effort, reach_of
-from bench.reach_boundary import distance_m
 from bench.reach_queries import FURTHEST_M, any_poses, pinches
-from bench.reach_truth import DenseReach
-from bench.rehearsal import ARTICLES as REHEARSED
+from bench.reach_truth import DenseReach, distance_m
+from bench.rehearsal import GARMENTS as REHEARSED
 from bench.rehearsal import HELD_OUT, HELD_OUT_IN, Rehearsed, held_out, row_of
 from bench.report import Report, Row
 from bench.robot_plans import LONGEST_M, robot_plans, shrunk
@@ -99,7 +98,7 @@ def test_the_papers_figures_are_those_of_its_tables() -> None:
     assert (TABLE_2["hand-towel"].expanded, TABLE_2["hand-towel"].overhead_s) == (17, 0.004)
 
 
-def test_both_tables_of_the_paper_have_the_same_plans_of_the_nine_articles() -> None:
+def test_both_tables_of_the_paper_have_the_same_plans_of_the_nine_garments() -> None:
     # In the paper the comfort radius changes the search only, not one plan.
     plans_1, plans_2 = (
         {name: (row.folds, row.primitives, row.cost_s) for name, row in table.items()} for table in (TABLE_1, TABLE_2)
@@ -119,7 +118,7 @@ def test_a_table_has_our_row_above_the_papers(
     assert "search [s]" in printed(report)
 
     (row,) = written(report, tmp_path)["rows"]
-    assert row["article"] == "hand-towel"
+    assert row["garment"] == "hand-towel"
     assert set(row["pleat"]) == MEASURED
     assert row["pleat"]["comfort_radius_m"] == comfort_m
     assert row["pleat"]["status"] == "solved"
@@ -165,13 +164,13 @@ def test_only_what_is_asked_for_is_run(tmp_path: Path, capsys: pytest.CaptureFix
     assert {path.name for path in tmp_path.iterdir()} == {"table-1.json", "first-plan.json"}
     (row,) = json.loads((tmp_path / "first-plan.json").read_text(encoding="utf-8"))["rows"]
     times = {"import_s", "first_plan_s", "first_plan_cpu_s", "second_plan_s"}
-    assert set(row) == {"article", "plan_time_ratio", *times}
+    assert set(row) == {"garment", "plan_time_ratio", *times}
     assert "hand-towel" in capsys.readouterr().out
 
 
 def test_whole_plans_cost_the_same_whatever_is_known_and_are_added_up() -> None:
     *rows, total = (row.data for row in whole_plans(["hand-towel", "vest"], 1).rows)
-    assert [(row["article"], round(row["cost_s"], 3)) for row in rows] == [("vest", 18.8), ("hand-towel", 27.0)]
+    assert [(row["garment"], round(row["cost_s"], 3)) for row in rows] == [("vest", 18.8), ("hand-towel", 27.0)]
     for name in ("anew_cpu_ms", "paths_known_cpu_ms", "all_known_cpu_ms"):
         assert total[name] == sum(row[name] for row in rows) > 0.0
     assert total["anew_cpu_ms"] > total["all_known_cpu_ms"], "what is known saves work"
@@ -332,33 +331,33 @@ def test_frames_are_shown_to_viewers_who_read_them(tmp_path: Path) -> None:
 def test_naming_a_garment_leaves_out_what_is_of_no_garment(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     asked: dict[str, Sequence[str]] = {}
 
-    def noted(name: str, articles: Sequence[str], repetitions: int) -> Report:
-        asked[name] = articles
-        return Report(name, name, ("article",), (Row((("vest",),), {}),), repetitions)
+    def noted(name: str, garments: Sequence[str], repetitions: int) -> Report:
+        asked[name] = garments
+        return Report(name, name, ("garment",), (Row((("vest",),), {}),), repetitions)
 
     monkeypatch.setattr("bench.__main__.BENCHMARKS", {name: partial(noted, name) for name in BENCHMARKS})
     main(["--quick", "--only", "vest"], tmp_path, tmp_path)
     assert {path.stem for path in tmp_path.iterdir()} == set(asked)
     assert {"table-1", "re-plan", "first-plan"} <= set(asked)
     assert not set(asked) & {"reach", "any-robot", "round-a-box", "growth", "rehearsal"}
-    assert all(articles == ["vest"] for articles in asked.values())
+    assert all(garments == ["vest"] for garments in asked.values())
 
 
 @pytest.mark.long
-def test_every_article_that_is_rehearsed_can_be_named(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_every_garment_that_is_rehearsed_can_be_named(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     asked: list[Sequence[str]] = []
 
-    def noted(articles: Sequence[str], repetitions: int) -> Report:
-        asked.append(articles)
+    def noted(garments: Sequence[str], repetitions: int) -> Report:
+        asked.append(garments)
         return Report("rehearsal", "rehearsal", (), (), repetitions)
 
     monkeypatch.setattr("bench.__main__.BENCHMARKS", {"rehearsal": noted})
     main(["--quick", "--only", "rehearsal"], tmp_path, tmp_path)
-    for article in REHEARSED:
-        main(["--quick", "--only", "rehearsal", article], tmp_path, tmp_path)
+    for garment in REHEARSED:
+        main(["--quick", "--only", "rehearsal", garment], tmp_path, tmp_path)
     everything, *each = asked
     assert set(REHEARSED) <= set(everything)
-    assert each == [[article] for article in REHEARSED]
+    assert each == [[garment] for garment in REHEARSED]
 
 
 def test_garments_that_no_setting_was_chosen_by_are_not_shipped_and_can_be_folded() -> None:
@@ -373,13 +372,13 @@ def test_garments_that_no_setting_was_chosen_by_are_not_shipped_and_can_be_folde
 def test_runs_of_the_garments_that_no_setting_was_chosen_by_are_counted_together(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    def made(article: str) -> Rehearsed:
-        return Rehearsed(article, "real", True, RehearsalResult((Run(0, ()), Run(1, (), reason="stopped"))))
+    def made(garment: str) -> Rehearsed:
+        return Rehearsed(garment, "real", True, RehearsalResult((Run(0, ()), Run(1, (), reason="stopped"))))
 
     monkeypatch.setattr("bench.rehearsal.rehearsed_held_out", made)
     monkeypatch.setattr("bench.rehearsal.ProcessPoolExecutor", lambda *_, **__: nullcontext(SimpleNamespace(map=map)))
     rows = held_out([], 1).rows
-    assert [row.data["article"] for row in rows] == [*HELD_OUT, "all"]
+    assert [row.data["garment"] for row in rows] == [*HELD_OUT, "all"]
     assert (rows[-1].data["held"], rows[-1].data["of"]) == (6, 12)
 
 
@@ -431,12 +430,12 @@ def test_every_shipped_robot_has_a_row_of_reach(monkeypatch: pytest.MonkeyPatch,
 
 
 @pytest.mark.long
-def test_every_other_robot_has_a_row_for_each_article(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_every_other_robot_has_a_row_for_each_garment(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setattr("bench.robot_plans.shipped_robots", lambda: ("pr2", "so101-pair"))
     monkeypatch.setattr("bench.robot_plans.EDITS", 1)
     report = robot_plans(["scarf", "scarf-halved"], 1)
     (row,) = written(report, tmp_path)["rows"]
-    assert (row["robot"], row["article"], row["status"]) == ("so101-pair", "scarf", "solved")
+    assert (row["robot"], row["garment"], row["status"]) == ("so101-pair", "scarf", "solved")
     assert row["cost_s"] > 0.0
     assert row["cpu_s"] > 0.0
     assert len(row["edits_ms"]) == 1 and row["edits_ms"][0] > 0.0
@@ -444,7 +443,7 @@ def test_every_other_robot_has_a_row_for_each_article(monkeypatch: pytest.Monkey
 
 
 @pytest.mark.long
-def test_an_article_that_a_robot_cannot_fold_where_it_lies_is_laid_elsewhere(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_garment_that_a_robot_cannot_fold_where_it_lies_is_laid_elsewhere(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("bench.robot_plans.shipped_robots", lambda: ("so101-pair",))
     monkeypatch.setattr("bench.robot_plans.EDITS", 0)
     (row,) = (row.data for row in robot_plans(["jeans"], 1).rows)
@@ -455,7 +454,7 @@ def test_an_article_that_a_robot_cannot_fold_where_it_lies_is_laid_elsewhere(mon
     assert make_plan(garment, robot="so101-pair", placement=there).cost_s == pytest.approx(row["place_cost_s"])
 
 
-def test_articles_for_small_tables_are_shrunk_with_their_folds_and_small_ones_are_not() -> None:
+def test_garments_for_small_tables_are_shrunk_with_their_folds_and_small_ones_are_not() -> None:
     jeans, towel = load_garment("jeans"), load_garment("hand-towel")
     small = shrunk(jeans, 0.5)
     share = np.ptp(small.outline, axis=0).max() / np.ptp(jeans.outline, axis=0).max()

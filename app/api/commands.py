@@ -12,8 +12,7 @@ from app.drawing.arcs import with_arcs
 from app.drawing.drawing import Drawing
 from app.drawing.drawing_json import drawing_from_dict
 from app.drawing.edit import Edit, Phase
-from app.drawing.garment_drawing import drawing_of
-from app.drawing.robot_drawing import with_robot
+from app.drawing.garment_drawing import drawing_of, with_robot
 from app.rehearsal.trace import RunTrace
 from app.visitors_view import VisitorsView
 from app.workspace import Workspace

@@ -8,7 +8,7 @@ from typing import Any
 from app.document import Document
 from app.document_state import DocumentState, VersionPlan, shown_robot
 from app.drawing.drawing_json import drawing_to_dict
-from app.drawing.garment_json import garment_to_dict
+from app.drawing.garment_drawing import garment_to_dict
 from app.held_folds import FoldChecks
 from app.open_document import OpenDocument
 from app.visitors_view import VisitorsView

@@ -1,7 +1,6 @@
 """``pleat plan``, ``pleat show`` and ``pleat timeline``."""
 
 from dataclasses import replace
-from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
 
@@ -17,20 +16,13 @@ from planner.errors import SceneError
 from planner.planning.robot_task import default_scene, scene_filled_up, task_for
 from planner.robots.known_robots import robot_names
 from planner.task.plan_files import read_plan, write_plan
-from planner.task.task import DEFAULT_ROBOT, TIME_LIMIT_S, TaskOptions
+from planner.task.task import DEFAULT_ROBOT, TIME_LIMIT_S, HeuristicName, TaskOptions
 from planner.words.catalogue import sentence
 
 _SLOWDOWN_MAX = 6.0
 """The time that a search for suggestions may take, as a multiple of its counted work, on a slow or busy machine."""
 
 PlanFileArgument = Annotated[Path, typer.Argument(metavar="FILE", help="A plan file, as `pleat plan --out` writes it.")]
-
-
-class HeuristicName(StrEnum):
-    """The lower bound on the remaining cost that the search uses."""
-
-    ARM_TIME = "arm_time"
-    ZERO = "zero"
 
 
 @program.cli.command()
@@ -71,7 +63,7 @@ def plan(
     if comfort_radius_m is not None:
         options["comfort_radius_m"] = comfort_radius_m
     if heuristic is not None:
-        options["heuristic"] = heuristic.value
+        options["heuristic"] = heuristic
     if time_limit_s is not None:
         options["time_limit_s"] = time_limit_s
     if robot is not None:

@@ -1,7 +1,6 @@
 """``pleat propose``: ways to fold a garment to a size, each planned for a robot."""
 
 from dataclasses import replace
-from enum import StrEnum
 from typing import Annotated
 
 import typer
@@ -9,16 +8,8 @@ import typer
 from app.cli import program
 from app.tables import proposals_table
 from planner import propose_folds
-from planner.proposals.proposals import all_proposals
+from planner.proposals.proposals import Face, all_proposals
 from planner.task.task import DEFAULT_ROBOT
-
-
-class FaceName(StrEnum):
-    """The face of the cloth that looks up at the end."""
-
-    ANY = "any"
-    FRONT = "front"
-    BACK = "back"
 
 
 @program.cli.command("propose")
@@ -37,7 +28,7 @@ def propose(
     robot: Annotated[str, typer.Option(help="The robot: its name, or the file of its card.")] = DEFAULT_ROBOT,
     count: Annotated[int, typer.Option(help="The most proposals.")] = 6,
     max_folds: Annotated[int, typer.Option(help="The most folds of a proposal.")] = 8,
-    face: Annotated[FaceName, typer.Option(help="The face of the cloth that looks up at the end.")] = FaceName.ANY,
+    face: Annotated[Face, typer.Option(help="The face of the cloth that looks up at the end.")] = "any",
     anew: Annotated[bool, typer.Option("--anew", help="Leave out the folds that the garment has.")] = False,
     json_to: program.JsonOption = None,
     data: program.DataOption = None,
@@ -52,7 +43,7 @@ def propose(
         raise program.failure("Expected either --to SIZE or --like GARMENT.")
     target = to or program.garment_of(like or "")
     with program.blaming(garment):
-        found = propose_folds(chosen, target, robot=robot, count=count, max_folds=max_folds, face=face.value)
+        found = propose_folds(chosen, target, robot=robot, count=count, max_folds=max_folds, face=face)
         program.tell_of_compiling(robot)
         answer = all_proposals(found)
     program.print_answer(answer.to_dict(), json_to, proposals_table(chosen, answer))

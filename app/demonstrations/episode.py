@@ -19,6 +19,7 @@ from app.rehearsal.physics.physics_world import PhysicsWorld
 from app.rehearsal.step_motions import posture_at
 from app.rehearsal.trace import RunTrace, traced
 from app.worker.stop import StoppedError
+from planner.deadline import ShouldStop
 from planner.geometry.pose import FloatArray
 from planner.plans import make_plan
 from planner.robots.card_parts import CameraFile
@@ -104,7 +105,7 @@ def _moved(given: CameraFile, rng: np.random.Generator, most_m: float, most_rad:
 def demonstration(
     task: Task,
     seed: int,
-    should_stop: Callable[[], bool],
+    should_stop: ShouldStop,
     resolution: Resolution | None = None,
     *,
     has_wrists: bool = True,
@@ -127,7 +128,7 @@ def demonstration(
 
 
 def _performed(
-    plan: Plan, varied: Variation, seed: int, should_stop: Callable[[], bool], resolution: Resolution | None
+    plan: Plan, varied: Variation, seed: int, should_stop: ShouldStop, resolution: Resolution | None
 ) -> tuple[RunTrace | None, np.ndarray]:
     """Return the cloth along the plan, None where a step does not hold, and its points in the pattern."""
 

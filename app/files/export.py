@@ -13,8 +13,8 @@ from planner.message import Message
 
 if TYPE_CHECKING:
     from app.document_state import DocumentState
-    from app.jobs.job_pool import ShouldStop
     from planner.cloth.garment import Garment
+    from planner.deadline import ShouldStop
     from planner.task.plan import Plan
 
 RATES_HZ = (1.0, 30.0)

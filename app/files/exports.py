@@ -14,7 +14,7 @@ from app.files.export import Export, Make, as_drawn, garment_in, no_answer, no_o
 
 if TYPE_CHECKING:
     from app.document_state import DocumentState
-    from app.jobs.job_pool import ShouldStop
+    from planner.deadline import ShouldStop
 
 
 def find_export(what: str) -> Export | None:

@@ -13,7 +13,6 @@ from PIL import Image, ImageDraw, ImageFont
 
 from app.files.export import RATES_HZ
 from app.files.video import mp4_video
-from app.jobs.job_pool import ShouldStop
 from app.language import Language, numeral, translated
 from app.step_kinds import step_caption
 from app.ui.colours import DARK, LIGHT
@@ -21,6 +20,7 @@ from app.ui.scene_picture import ScenePainter
 from app.ui.viewpoints.following import Following, work_of
 from app.ui.viewpoints.presets import Lens
 from app.ui.withdrawal import withdrawn
+from planner.deadline import ShouldStop
 from planner.errors import UnsolvedPlanError
 from planner.motion.timeline import Timeline
 from planner.robots.load_robot import load_robot

@@ -16,10 +16,10 @@ from typing import Any
 
 import numpy as np
 
-from app.jobs.job_pool import ShouldStop
 from planner.cloth.cloth_state import ClothState
 from planner.cloth.garment import Garment
 from planner.cloth.layer import Layer
+from planner.deadline import ShouldStop
 from planner.geometry.pose import FloatArray
 from planner.geometry.region import Region
 from planner.geometry.tolerance import DECIMALS, EDGE_RAD, LENGTH_M

@@ -10,10 +10,10 @@ import numpy as np
 
 from app.files.gltf_writer import GltfWriter
 from app.files.scene_animation import add_table_and_robot
-from app.jobs.job_pool import ShouldStop
 from app.ui.colours import LIGHT
 from app.ui.robot_model import Pose3
 from app.ui.thick_cloth import ThickCloth
+from planner.deadline import ShouldStop
 from planner.motion.cloth_surface import ClothSurface
 from planner.motion.timeline import Timeline
 from planner.task.plan import Plan

@@ -4,12 +4,12 @@ The recording uses a 3D view of its own, so that those on show are not disturbed
 would have sent to a browser, with their times, and embeds them in its client.
 """
 
-from app.jobs.job_pool import ShouldStop
 from app.language import Language, translated
 from app.step_kinds import step_caption
 from app.ui.view_3d import View3D
 from app.ui.viser_patches import recording_page
 from app.ui.withdrawal import withdrawn
+from planner.deadline import ShouldStop
 from planner.motion.timeline import Timeline
 from planner.robots.load_robot import load_robot
 from planner.task.plan import Plan

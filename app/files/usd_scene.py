@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 from pxr import Gf, Sdf, Tf, Usd, UsdGeom, UsdShade, Vt
 
 from app.files.scene_animation import AT_PARENT, FULL_SIZE, Moved, add_table_and_robot
-from app.jobs.job_pool import ShouldStop
 from app.rehearsal.physics.fabric import Resolution
 from app.ui.colours import LIGHT, Rgb, linear
 from app.ui.robot_model import Pose3
+from planner.deadline import ShouldStop
 from planner.geometry.pose import FloatArray, Point3
 from planner.geometry.woven_mesh import woven_mesh
 from planner.motion.cloth_surface import ClothPoints

@@ -4,7 +4,7 @@ import uuid
 from collections.abc import Callable, Generator
 from dataclasses import dataclass
 from functools import partial
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any, NamedTuple, get_args
 
 from pydantic import Field, PlainValidator
 from pydantic_core import PydanticCustomError
@@ -19,8 +19,8 @@ from planner.json_form import JsonForm
 from planner.planning.robot_task import with_robots_scene
 from planner.proposals.proposals import (
     COUNT_MAX,
-    FACES,
     WORK_LIMIT_S,
+    Face,
     Proposal,
     ProposalOptions,
     Tried,
@@ -74,7 +74,7 @@ class ProposalsRequest(StrictModel):
     count: Annotated[int, Field(ge=1, le=COUNT_MAX)] = 6
     untried: Annotated[int, Field(ge=0, le=COUNT_MAX)] = 0
     max_folds: Annotated[int, Field(ge=1, le=FOLDS_MAX)] = 8
-    face: Annotated[str, Field(json_schema_extra={"enum": list(FACES)})] = "any"
+    face: Annotated[str, Field(json_schema_extra={"enum": list(get_args(Face))})] = "any"
     scene: Scene | None = None
     placement: GivenPose | None = None
     start_station: str | None = None

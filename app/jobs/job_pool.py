@@ -17,7 +17,6 @@ from app.worker.stop import Stop
 from planner.errors import FoldingError
 
 Answer = TypeVar("Answer")
-ShouldStop = Callable[[], bool]
 
 PATIENCE_S = 1.5
 """Time to wait for stopped jobs when the server ends (s)."""

@@ -17,6 +17,7 @@ from app.rehearsal.result import RehearsalResult, Run
 from app.worker.process import Caller
 from app.worker.stop import StoppedError
 from app.worker.workers import Team
+from planner.deadline import ShouldStop
 from planner.errors import RequestError, UnsolvedPlanError
 from planner.geometry.pose import Pose2
 from planner.task.plan import Plan
@@ -100,7 +101,7 @@ def one_run(
     options: RehearsalOptions,
     seed: int,
     progress: Callable[[float], None],
-    should_stop: Callable[[], bool] = lambda: False,
+    should_stop: ShouldStop = lambda: False,
 ) -> Run:
     """Perform a plan once; raise `StoppedError` once it should stop."""
     # Here: they need MuJoCo and the whole planner, which a server that only passes rehearsals on does not load.

@@ -14,6 +14,7 @@ from app.studies.results import Results
 from app.studies.study import Study
 from app.studies.table import write_tables
 from app.studies.workers import InProcess, Workers
+from planner.deadline import ShouldStop
 
 OnProgress = Callable[["Progress"], None]
 
@@ -50,7 +51,7 @@ def run_study(
     on_progress: OnProgress,
     *,
     keep_plans: bool = False,
-    should_stop: Callable[[], bool] = lambda: False,
+    should_stop: ShouldStop = lambda: False,
 ) -> Progress:
     """Plan a study's cells as far as they have no answers, and write its table and report.
 

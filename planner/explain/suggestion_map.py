@@ -5,6 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from planner.deadline import ShouldStop
 from planner.errors import RequestError
 from planner.explain.room import Room
 from planner.explain.suggestion import TrialBudget
@@ -72,7 +73,7 @@ def placement_map(
     task: Task,
     *,
     step_m: float = 0.1,
-    should_stop: Callable[[], bool] | None = None,
+    should_stop: ShouldStop | None = None,
     on_place: Callable[[int, int], None] | None = None,
 ) -> PlacementMap:
     """Plan a garment at every place of a grid; work left over is given to places that need more.

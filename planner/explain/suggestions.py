@@ -10,6 +10,7 @@ from collections.abc import Callable, Generator, Iterator, Sequence
 from functools import partial
 from typing import TypeAlias
 
+from planner.deadline import ShouldStop
 from planner.explain.change import SpentError
 from planner.explain.suggestion import Search, Suggestion, SuggestionTrial, TrialBudget
 from planner.explain.suggestion_assumption import comforts, frictions, grip_radii, together
@@ -57,7 +58,7 @@ _FOLDS_MAX = 3
 def suggestions(
     task: Task,
     *,
-    should_stop: Callable[[], bool] | None = None,
+    should_stop: ShouldStop | None = None,
     plan: Plan | None = None,
     on_trial: Callable[[SuggestionTrial], None] | None = None,
     other_robots: Sequence[str] = (),

@@ -5,12 +5,13 @@ lands, and yields the Fold-DAG. Every order that the DAG allows leaves the same 
 is found by doing that set in the user's order, except that an unfinished chain comes last. Results are cached.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Any
 
+import networkx as nx
 import numpy as np
-from networkx import has_path
 
 from planner.cloth.cloth_state import ClothState
 from planner.cloth.fold_kinds import FOLD_KINDS
@@ -23,11 +24,11 @@ from planner.folds.fold_cloth import Folded, fold_cloth
 from planner.folds.fold_dag import FoldDag, overlap_graph, reduced
 from planner.folds.fold_path import RestHeights
 from planner.folds.missed_flap import flap_missed, is_flap_missed
-from planner.folds.touching import is_order_free, is_touching
 from planner.geometry.isometry import Isometry
 from planner.geometry.pose import FloatArray
 from planner.geometry.region import Region
 from planner.geometry.segment import Segment
+from planner.geometry.tolerance import AREA_M2, SNAP_M
 
 _REMEMBERED = 12
 """The number of garments whose replays are cached."""
@@ -161,7 +162,13 @@ replayed = lru_cache(_REMEMBERED)(FoldSequence.of)
 
 
 def _dag(pattern: Region, folds: list[Fold], moving: list[Region]) -> FoldDag:
-    """Return the order of folds: by overlap, and by trial where parts merely touch."""
+    """Return the order of folds: by overlap, and by trial where parts merely touch.
+
+    Folds whose parts overlap must keep their order, and mostly that is all. But a line may end on the crease of an
+    earlier fold, or run along cloth that it laid down, with next to no overlap. Before the earlier fold is done, such a
+    line is not legal, or moves something else. So where the parts of two independent folds touch, the two are tried in
+    reverse order, and if that makes a difference they depend on each other after all.
+    """
     red = [fold.is_red for fold in folds]
     parts = [
         Region.union([part, part.moved(Isometry.reflection(fold.line))])
@@ -170,8 +177,8 @@ def _dag(pattern: Region, folds: list[Fold], moving: list[Region]) -> FoldDag:
     graph = overlap_graph(parts, red)
     for b, later in enumerate(folds):
         for a, earlier in enumerate(folds[:b]):
-            is_near = is_touching(later, parts[a]) or is_touching(earlier, parts[b])
-            if is_near and not has_path(graph, a, b) and not is_order_free(pattern, folds, moving, graph, a, b):
+            is_near = _is_touching(later, parts[a]) or _is_touching(earlier, parts[b])
+            if is_near and not nx.has_path(graph, a, b) and not _is_order_free(pattern, folds, moving, graph, a, b):
                 graph.add_edge(a, b)
     return reduced(graph, red)
 
@@ -184,3 +191,55 @@ def _replay(garment: Garment, index: int, cloth: ClothState, before: list[Fold])
     fold = Fold(index, drawn.name, drawn.kind, line, drawn.grip_radius_m)
     crease = before[-1].line if drawn.is_red else None
     return fold, fold_cloth(cloth, line, drawn.kind, crease)
+
+
+def _is_order_free(
+    pattern: Region, folds: Sequence[Fold], moving: Sequence[Region], dag: "nx.DiGraph[int]", a: int, b: int
+) -> bool:
+    """Return whether fold b, and then fold a with all that waits for it, moves the same as in the user's order.
+
+    Args:
+        pattern: the cloth spread out.
+        folds: the folds in the user's order, at least up to b.
+        moving: for each the part that it moves in that order, before it moves, garment frame.
+        dag: the dependencies found so far.
+        a: the earlier fold.
+        b: the later fold, to which no path leads from a.
+    """
+    chain = _chain(folds, a)
+    later = {f for c in chain for f in (c, *nx.descendants(dag, c)) if f < b}
+    order = [i for i in range(b) if i not in later] + [b] + [i for i in range(b) if i in later]
+    cloth = ClothState.spread_out(pattern)
+    for index in order:
+        fold = folds[index]
+        kind, crease = FOLD_KINDS[fold.kind], folds[index - 1].line if fold.is_red else None
+        if not kind.is_snapped(fold.line, kind.silhouette(cloth)):
+            return False
+        try:
+            folded = fold_cloth(cloth, fold.line, fold.kind, crease)
+        except FoldError:
+            return False
+        if not _is_same(folded.moving, moving[index]):
+            return False
+        cloth = folded.cloth
+    return True
+
+
+def _is_touching(line_of: Fold, part: Region) -> bool:
+    """Return whether a fold's line comes near another fold's part."""
+    return part.distance_to(line_of.line) <= SNAP_M
+
+
+def _chain(folds: Sequence[Fold], index: int) -> list[int]:
+    """Return the chain that contains a fold: a blue fold and the red ones after it."""
+    first = index
+    while folds[first].is_red:
+        first -= 1
+    last = first + 1
+    while last < len(folds) and folds[last].is_red:
+        last += 1
+    return list(range(first, last))
+
+
+def _is_same(one: Region, other: Region) -> bool:
+    return one.difference(other).area + other.difference(one).area <= AREA_M2

@@ -8,10 +8,9 @@ A budget is handed down to all that takes long, and polled there: `is_over` is t
 """
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from planner.deadline import Deadline
+from planner.deadline import Deadline, ShouldStop
 from planner.planning.problem import Problem
 
 # Fitted to the CPU time of 25 requests on two busy cores of 2026: the garments here and there on the table, and cloth
@@ -49,13 +48,13 @@ class Budget:
     _folds: int = 0
 
     @staticmethod
-    def of(work_limit_s: float | None, time_limit_s: float, should_stop: Callable[[], bool] | None = None) -> "Budget":
+    def of(work_limit_s: float | None, time_limit_s: float, should_stop: ShouldStop | None = None) -> "Budget":
         """Return a budget whose time starts now; without a work limit it allows as much work as time."""
         work_s = time_limit_s if work_limit_s is None else work_limit_s
         return Budget(work_s, Deadline(time_limit_s, should_stop))
 
     @staticmethod
-    def endless(should_stop: Callable[[], bool] | None = None) -> "Budget":
+    def endless(should_stop: ShouldStop | None = None) -> "Budget":
         """Return a budget that is over only when the search is stopped."""
         return Budget.of(math.inf, math.inf, should_stop)
 

@@ -5,6 +5,7 @@ from functools import cache
 
 from planner.primitives.context import Context
 from planner.primitives.state import State
+from planner.task.task import HeuristicName
 
 Heuristic = Callable[[State], float]
 """A lower bound on the time from a state to the goal (s)."""
@@ -35,5 +36,5 @@ def zero(_: Context) -> Heuristic:
     return lambda _state: 0.0
 
 
-HEURISTICS: dict[str, Callable[[Context], Heuristic]] = {"arm_time": arm_time, "zero": zero}
+HEURISTICS: dict[HeuristicName, Callable[[Context], Heuristic]] = {"arm_time": arm_time, "zero": zero}
 """The heuristics by the names that requests use."""

@@ -23,9 +23,10 @@ from contextlib import closing
 from dataclasses import dataclass, replace
 from heapq import heapify, heappop, heappush
 from itertools import chain, islice
-from typing import Any, NamedTuple, TypedDict, Unpack
+from typing import Any, Literal, NamedTuple, TypeAlias, TypedDict, Unpack, get_args
 
 from planner.cloth.garment import FOLDS_MAX, DrawnFold, Garment
+from planner.deadline import ShouldStop
 from planner.errors import RequestError
 from planner.geometry.pose import Pose2
 from planner.geometry.region import Region
@@ -48,7 +49,7 @@ from planner.task.plan import Plan
 from planner.task.scene import Scene
 from planner.task.task import DEFAULT_ROBOT, Task
 
-FACES = ("any", "front", "back")
+Face: TypeAlias = Literal["any", "front", "back"]
 """The faces of the cloth that may be asked to look up."""
 
 COUNT_MAX = 32
@@ -217,7 +218,7 @@ def propose_folds(
     face: str = "any",
     scene: Scene | None = None,
     work_limit_s: float = WORK_LIMIT_S,
-    should_stop: Callable[[], bool] | None = None,
+    should_stop: ShouldStop | None = None,
     **options: Unpack[ProposalOptions],
 ) -> Generator[Proposal, None, Tried]:
     """Propose ways to fold a garment to a size, or like another one, each with its plan.
@@ -253,82 +254,221 @@ def propose_folds(
     target = to if isinstance(to, Garment) else Target.of(to)
     _require("count", count, COUNT_MAX)
     _require("max_folds", max_folds, FOLDS_MAX)
-    if face not in FACES:
-        raise RequestError("face", f"expected one of {', '.join(FACES)}; got {face!r:.80}")
+    if face not in get_args(Face):
+        raise RequestError("face", f"expected one of {', '.join(get_args(Face))}; got {face!r:.80}")
     task = task_for(garment, scene, robot=robot, work_limit_s=work_limit_s, **options)
-    stops = should_stop or _never
+    proposer = _Proposer(task, count, should_stop or (lambda: False))
     if isinstance(target, Garment):
-        return _planned(task, LikenessSearch(garment, target), count, stops)
+        return proposer.planned(LikenessSearch(garment, target))
     if target.is_roll:
-        return _planned(task, RollSearch(garment, max_folds), count, stops)
+        return proposer.planned(RollSearch(garment, max_folds))
     robot_check = RobotCheck(task)
     if target.is_smallest:
-        return _smallest(task, PacketSearch(garment, target, max_folds, face), count, untried, stops)
+        return proposer.smallest(PacketSearch(garment, target, max_folds, face), untried)
     sketches = PacketSearch(garment, target, max_folds, face)
     search = PacketSearch(garment, target, max_folds, face, robot_check)
-    return _sketched_and_planned(task, sketches, search, robot_check, count, untried, stops)
+    return proposer.sketched_and_planned(sketches, search, robot_check, untried)
 
 
-def _sketched_and_planned(
-    task: Task,
-    sketches: PacketSearch,
-    search: PacketSearch,
-    robot: RobotCheck,
-    count: int,
-    untried: int,
-    should_stop: Callable[[], bool],
-) -> Generator[Proposal, None, Tried]:
-    """Propose what a search without a robot finds first, without plans; then what the robot can do."""
-    packets = sketches.packets()
-    if untried:
-        first = next(packets, None)
-        if first is None:
-            yield from (_untried(task, packet) for packet in sketches.nearest[:untried])
-            if not (yield from _nearest(task, sketches, untried, should_stop)):
-                for _ in search.packets():
-                    if should_stop():
-                        break
-                yield from _nearest(task, search, untried, should_stop)
-            return Tried(sketches.enumerated, sketches.nearest_m)
-        packets = chain((first,), packets)
-    doubted, shown = list[Packet](), list[Packet]()
-    sketched = _sketched(packets, robot, max(untried, _FIRST), doubted)
-    for packet in islice(chain(sketched, doubted), untried):
-        yield _untried(task, packet)
-        shown += [packet] if packet.is_sketch else []
-    search.sketched = islice(chain(shown, sketched), _FIRST)
-    return (yield from _planned(task, search, count, should_stop, untried))
+@dataclass(frozen=True, slots=True)
+class _Proposer:
+    """Plans what searches find until nobody wants proposals any more.
 
+    Attributes:
+        task: the garment, whose folds are the beginning, the robot, and the work for each plan.
+        count: the most proposals.
+        should_stop: polled during planning.
+    """
 
-def _smallest(
-    task: Task, search: PacketSearch, count: int, untried: int, should_stop: Callable[[], bool]
-) -> Generator[Proposal, None, Tried]:
-    """Propose ever smaller packets, without plans, while the smallest are sought; then those that the robot can do."""
-    for number, packet in enumerate(search.shrinking()):
-        if should_stop():
-            break
-        if number < untried:
-            yield _untried(task, packet)
-    return (yield from _planned(task, search, count, should_stop))
+    task: Task
+    count: int
+    should_stop: ShouldStop
 
+    def sketched_and_planned(
+        self, sketches: PacketSearch, search: PacketSearch, robot: RobotCheck, untried: int
+    ) -> Generator[Proposal, None, Tried]:
+        """Propose what a search without a robot finds first, without plans; then what the robot can do."""
+        packets = sketches.packets()
+        if untried:
+            first = next(packets, None)
+            if first is None:
+                yield from (self._untried(packet) for packet in sketches.nearest[:untried])
+                if not (yield from self._nearest(sketches, untried)):
+                    for _ in search.packets():
+                        if self.should_stop():
+                            break
+                    yield from self._nearest(search, untried)
+                return Tried(sketches.enumerated, sketches.nearest_m)
+            packets = chain((first,), packets)
+        doubted, shown = list[Packet](), list[Packet]()
+        sketched = _sketched(packets, robot, max(untried, _FIRST), doubted)
+        for packet in islice(chain(sketched, doubted), untried):
+            yield self._untried(packet)
+            shown += [packet] if packet.is_sketch else []
+        search.sketched = islice(chain(shown, sketched), _FIRST)
+        return (yield from self.planned(search, untried))
 
-def _untried(task: Task, packet: Packet) -> Proposal:
-    return Proposal(replace(task.garment, folds=packet.folds), packet.size_m, packet.layers, packet.face, None)
+    def smallest(self, search: PacketSearch, untried: int) -> Generator[Proposal, None, Tried]:
+        """Propose ever smaller packets without plans, while they are sought; then those that the robot can do."""
+        for number, packet in enumerate(search.shrinking()):
+            if self.should_stop():
+                break
+            if number < untried:
+                yield self._untried(packet)
+        return (yield from self.planned(search))
 
+    def planned(
+        self, search: PacketSearch | LikenessSearch | RollSearch, nearest: int = 0
+    ) -> Generator[Proposal, None, Tried]:
+        """Propose what a search finds that the robot can do.
 
-def _nearest(
-    task: Task, search: PacketSearch, most: int, should_stop: Callable[[], bool]
-) -> Generator[Proposal, None, bool]:
-    """Propose those that come nearest to the size, without numbers, if they can be done; return whether any can."""
-    is_any = False
-    for packet in islice(search.nearest, most):
-        proposal = _proposal(packet, _plan(task, packet.folds, should_stop))
-        if should_stop():
-            break
-        if proposal.status == "solved":
-            is_any = True
-            yield proposal
-    return is_any
+        Variants of sketched ways are proposed only if they spare an arm motion. Where the robot can do nothing, so many
+        are proposed at the end that come nearest.
+        """
+        solved: set[Way] = set()
+        failed: dict[Way, Proposal] = {}
+        shown, fine = set[object](), set[tuple[DrawnFold, ...]]()
+        sketched_s, found = dict[Way, float](), list[tuple[Packet, Proposal]]()
+        aside, variants = list[_Aside](), list[Packet]()
+        failures = 0
+        packets = search.paced() if isinstance(search, PacketSearch) else search.packets()
+        for packet, is_brief in _turns(packets, solved, shown, aside, variants):
+            is_enough = failures >= _FAILURES * self.count or (packet.doubts and len(failed) >= self.count)
+            if len(shown) == self.count or is_enough:
+                break
+            share = _BRIEF_SHARE if is_brief else 1.0
+            improving_share = math.inf if shown else _BRIEF_SHARE  # the first one is not waited for
+            proposal = _proposal(packet, self.plan(packet.folds, share, improving_share))
+            if self.should_stop():
+                break
+            if is_brief and proposal.status == "budget_exceeded":
+                bound_s = None if proposal.plan is None else proposal.plan.bound_s
+                heappush(aside, _Aside((bound_s or 0.0) / len(packet.folds), packet.taste, packet))
+                continue
+            if proposal.status != "solved":
+                failures += 1
+                failed.setdefault(packet.way, proposal)
+                if isinstance(search, PacketSearch) and (blamed := self._blamed(packet, fine)):
+                    search.blame(blamed)
+                    aside[:] = (one for one in aside if not search.is_blamed(one.packet))
+                    heapify(aside)
+                continue
+            cost_s = proposal.cost_s or 0.0
+            if packet.is_sketch:
+                sketched_s[packet.way] = cost_s
+            else:
+                solved.add(packet.way)
+                if cost_s > sketched_s.get(packet.way, math.inf) - self.task.scene.arm_motion_s:
+                    continue
+            if (looks := (packet.shape, proposal.cost_s)) not in shown:
+                shown.add(looks)
+                found.append((packet, replace(proposal, number=len(shown))))
+                yield found[-1][1]
+        if not self.should_stop():
+            left = islice((one for way, one in failed.items() if way not in solved), self.count - len(shown))
+            numbered = (replace(one, number=number) for number, one in enumerate(left, start=len(shown) + 1))
+            is_any = bool(shown)
+            for one in numbered if shown else self._tried_longer(numbered):
+                is_any |= one.status == "solved"
+                yield one
+            if not is_any and isinstance(search, PacketSearch):
+                yield from self._nearest(search, nearest)
+        if not self.should_stop() and any(_may_spare(self.task, one.garment.folds, one) for _, one in found):
+            known = {one.garment.folds for _, one in found}
+            variants += (packet for packet in islice(filter(None, packets), _MORE) if packet.folds not in known)
+        for packet, proposal in found:
+            yield from self.better(packet, proposal, variants)
+        return Tried(search.enumerated, search.nearest_m)
+
+    def _untried(self, packet: Packet) -> Proposal:
+        garment = replace(self.task.garment, folds=packet.folds)
+        return Proposal(garment, packet.size_m, packet.layers, packet.face, None)
+
+    def _nearest(self, search: PacketSearch, most: int) -> Generator[Proposal, None, bool]:
+        """Propose those that come nearest to the size, without numbers, if they can be done; return whether any can."""
+        is_any = False
+        for packet in islice(search.nearest, most):
+            proposal = _proposal(packet, self.plan(packet.folds))
+            if self.should_stop():
+                break
+            if proposal.status == "solved":
+                is_any = True
+                yield proposal
+        return is_any
+
+    def _tried_longer(self, found: Iterable[Proposal]) -> Iterator[Proposal]:
+        """Yield proposals of which none has a plan: first those that get one from more work, then the others."""
+        others = list[Proposal]()
+        for one in found:
+            if one.status == "budget_exceeded" and not self.should_stop():
+                one = one.planned(self.plan(one.garment.folds, _PATIENT_SHARE))
+            if one.status == "solved":
+                yield one
+            else:
+                others.append(one)
+        if not self.should_stop():
+            yield from others
+
+    def _blamed(self, packet: Packet, fine: set[tuple[DrawnFold, ...]]) -> tuple[DrawnFold, ...]:
+        """Return the first folds of a packet that have no plan by themselves; none if it takes all of them.
+
+        Others that begin so have no plan either. First folds that have one are added to `fine`.
+        """
+        for done in range(len(self.task.garment.folds) + 1, len(packet.folds)):
+            folds = packet.folds[:done]
+            if folds not in fine and not self.plan(folds, _BRIEF_SHARE, 0.0).plan.is_solved:
+                return folds
+            fine.add(folds)
+        return ()
+
+    def better(self, packet: Packet, one: Proposal, variants: Iterable[Packet]) -> Iterator[Proposal]:
+        """Yield a proposal again: if a variant or mirror image takes less time, or more work gives a better plan.
+
+        More work is done for the first one, and for one with loose grips.
+        """
+        firm_share = 1.0 / FIRM_SHARE  # with a cost to beat, hands that hold in any way are not looked for
+        for other in islice(_likely_quicker(self.task, packet, one, variants), _VARIANTS):
+            if self.should_stop():
+                return
+            found = self.plan(other.folds, firm_share, below_s=one.cost_s or 0.0)
+            if found.plan.is_solved:
+                one = _proposal(other, found, one.number)
+                yield one
+                break
+        is_fine = one.plan is None or one.plan.is_proven or one.number > 1
+        if self.should_stop() or (is_fine and not one.is_loose):
+            return
+        again = one.planned(self.plan(one.garment.folds, _PATIENT_SHARE))
+        is_quicker = (again.cost_s or math.inf) < (one.cost_s or 0.0) - TIME_S
+        if is_quicker or (one.is_loose and again.status == "solved" and not again.is_loose):
+            yield again
+
+    def plan(
+        self,
+        folds: tuple[DrawnFold, ...],
+        share: float = 1.0,
+        improving_share: float = math.inf,
+        below_s: float = math.inf,
+    ) -> FoundPlan:
+        """Return the plan for some folds; where there is none, with the reasons that were met and not tried.
+
+        Args:
+            folds: the folds.
+            share: the share of the task's work to do.
+            improving_share: the share of that work for which a plan is improved once there is one.
+            below_s: the cost that it has to beat (s).
+        """
+        work_s = share * (self.task.limits.work_limit_s or 0.0)
+        limits = replace(self.task.limits, work_limit_s=work_s)
+        folded = replace(self.task, garment=replace(self.task.garment, folds=folds), limits=limits)
+        events = plan_events(
+            folded, Hints(below_s=below_s), should_stop=self.should_stop, improving_s=improving_share * work_s
+        )
+        with closing(events):
+            for event in events:
+                if isinstance(event, Blocked):
+                    break
+        return event.found
 
 
 def _sketched(packets: Iterator[Packet], robot: RobotCheck, most: int, doubted: list[Packet]) -> Iterator[Packet]:
@@ -345,101 +485,6 @@ def _sketched(packets: Iterator[Packet], robot: RobotCheck, most: int, doubted: 
         ways.add(packet.way)
         if len(ways) == _SKETCHES * most:
             return
-
-
-def _planned(
-    task: Task,
-    search: PacketSearch | LikenessSearch | RollSearch,
-    count: int,
-    should_stop: Callable[[], bool],
-    nearest: int = 0,
-) -> Generator[Proposal, None, Tried]:
-    """Propose what a search finds that the robot can do; variants of sketched ways only if they spare an arm motion.
-
-    Where it can do none, so many are proposed at the end that come nearest.
-    """
-    solved: set[Way] = set()
-    failed: dict[Way, Proposal] = {}
-    shown, fine = set[object](), set[tuple[DrawnFold, ...]]()
-    sketched_s, found = dict[Way, float](), list[tuple[Packet, Proposal]]()
-    aside, variants = list[_Aside](), list[Packet]()
-    failures = 0
-    packets = search.paced() if isinstance(search, PacketSearch) else search.packets()
-    for packet, is_brief in _turns(packets, solved, shown, aside, variants):
-        if len(shown) == count or failures >= _FAILURES * count or (packet.doubts and len(failed) >= count):
-            break
-        briefly = _with_work(task, _BRIEF_SHARE) if is_brief else task
-        improving_share = math.inf if shown else _BRIEF_SHARE  # the first one is not waited for
-        proposal = _proposal(packet, _plan(briefly, packet.folds, should_stop, improving_share))
-        if should_stop():
-            break
-        if is_brief and proposal.status == "budget_exceeded":
-            bound_s = None if proposal.plan is None else proposal.plan.bound_s
-            heappush(aside, _Aside((bound_s or 0.0) / len(packet.folds), packet.taste, packet))
-            continue
-        if proposal.status != "solved":
-            failures += 1
-            failed.setdefault(packet.way, proposal)
-            if isinstance(search, PacketSearch) and (blamed := _blamed(task, packet, fine, should_stop)):
-                search.blame(blamed)
-                aside[:] = (one for one in aside if not search.is_blamed(one.packet))
-                heapify(aside)
-            continue
-        cost_s = proposal.cost_s or 0.0
-        if packet.is_sketch:
-            sketched_s[packet.way] = cost_s
-        else:
-            solved.add(packet.way)
-            if cost_s > sketched_s.get(packet.way, math.inf) - task.scene.arm_motion_s:
-                continue
-        if (looks := (packet.shape, proposal.cost_s)) not in shown:
-            shown.add(looks)
-            found.append((packet, replace(proposal, number=len(shown))))
-            yield found[-1][1]
-    if not should_stop():
-        left = islice((one for way, one in failed.items() if way not in solved), count - len(shown))
-        numbered = (replace(one, number=number) for number, one in enumerate(left, start=len(shown) + 1))
-        is_any = bool(shown)
-        for one in numbered if shown else _tried_longer(task, numbered, should_stop):
-            is_any |= one.status == "solved"
-            yield one
-        if not is_any and isinstance(search, PacketSearch):
-            yield from _nearest(task, search, nearest, should_stop)
-    if not should_stop() and any(_may_spare(task, one.garment.folds, one) for _, one in found):
-        known = {one.garment.folds for _, one in found}
-        variants += (packet for packet in islice(filter(None, packets), _MORE) if packet.folds not in known)
-    for packet, proposal in found:
-        yield from _better(task, packet, proposal, variants, should_stop)
-    return Tried(search.enumerated, search.nearest_m)
-
-
-def _better(
-    task: Task,
-    packet: Packet,
-    one: Proposal,
-    variants: Iterable[Packet],
-    should_stop: Callable[[], bool],
-) -> Iterator[Proposal]:
-    """Yield a proposal again: if a variant or mirror image takes less time, or more work gives a better plan.
-
-    More work is done for the first one, and for one with loose grips.
-    """
-    firmly = _with_work(task, 1.0 / FIRM_SHARE)  # with a cost to beat, hands that hold in any way are not looked for
-    for other in islice(_likely_quicker(task, packet, one, variants), _VARIANTS):
-        if should_stop():
-            return
-        found = _plan(firmly, other.folds, should_stop, below_s=one.cost_s or 0.0)
-        if found.plan.is_solved:
-            one = _proposal(other, found, one.number)
-            yield one
-            break
-    is_fine = one.plan is None or one.plan.is_proven or one.number > 1
-    if should_stop() or (is_fine and not one.is_loose):
-        return
-    again = one.planned(_plan(_with_work(task, _PATIENT_SHARE), one.garment.folds, should_stop))
-    is_quicker = (again.cost_s or math.inf) < (one.cost_s or 0.0) - TIME_S
-    if is_quicker or (one.is_loose and again.status == "solved" and not again.is_loose):
-        yield again
 
 
 def _likely_quicker(task: Task, packet: Packet, found: Proposal, variants: Iterable[Packet]) -> Iterator[Packet]:
@@ -502,72 +547,6 @@ def _proposal(packet: Packet, found: FoundPlan, number: int = 0) -> Proposal:
     return one.planned(found)
 
 
-def _tried_longer(task: Task, found: Iterable[Proposal], should_stop: Callable[[], bool]) -> Iterator[Proposal]:
-    """Yield proposals of which none has a plan: first those that get one from more work, then the others."""
-    patient = _with_work(task, _PATIENT_SHARE)
-    others = list[Proposal]()
-    for one in found:
-        if one.status == "budget_exceeded" and not should_stop():
-            one = one.planned(_plan(patient, one.garment.folds, should_stop))
-        if one.status == "solved":
-            yield one
-        else:
-            others.append(one)
-    if not should_stop():
-        yield from others
-
-
-def _blamed(
-    task: Task, packet: Packet, fine: set[tuple[DrawnFold, ...]], should_stop: Callable[[], bool]
-) -> tuple[DrawnFold, ...]:
-    """Return the first folds of a packet that have no plan by themselves; none if it takes all of them.
-
-    Others that begin so have no plan either. First folds that have one are added to `fine`.
-    """
-    brief = _with_work(task, _BRIEF_SHARE)
-    for done in range(len(task.garment.folds) + 1, len(packet.folds)):
-        folds = packet.folds[:done]
-        if folds not in fine and not _plan(brief, folds, should_stop, 0.0).plan.is_solved:
-            return folds
-        fine.add(folds)
-    return ()
-
-
-def _with_work(task: Task, share: float) -> Task:
-    """Return a task with that share of its work."""
-    return replace(task, limits=replace(task.limits, work_limit_s=share * (task.limits.work_limit_s or 0.0)))
-
-
-def _plan(
-    task: Task,
-    folds: tuple[DrawnFold, ...],
-    should_stop: Callable[[], bool],
-    improving_share: float = math.inf,
-    below_s: float = math.inf,
-) -> FoundPlan:
-    """Return the plan for some folds; where there is none, with the reasons that were met and not tried.
-
-    Args:
-        task: the task.
-        folds: the folds.
-        should_stop: whether to stop.
-        improving_share: the share of the task's work for which a plan is improved once there is one.
-        below_s: the cost that it has to beat (s).
-    """
-    improving_s = improving_share * (task.limits.work_limit_s or 0.0)
-    folded = replace(task, garment=replace(task.garment, folds=folds))
-    events = plan_events(folded, Hints(below_s=below_s), should_stop=should_stop, improving_s=improving_s)
-    with closing(events):
-        for event in events:
-            if isinstance(event, Blocked):
-                break
-    return event.found
-
-
 def _require(name: str, value: int, most: int) -> None:
     if not 1 <= value <= most:
         raise RequestError(name, f"{value} is not within 1 to {most}")
-
-
-def _never() -> bool:
-    return False

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Set
 from dataclasses import dataclass, field, replace
-from typing import Annotated, Any, Literal, TypedDict, Unpack
+from typing import Annotated, Any, Literal, TypeAlias, TypedDict, Unpack, get_args
 
 from annotated_types import Interval
 
@@ -43,6 +43,9 @@ VERSION = 1
 DEFAULT_ROBOT = "pr2"
 """The robot of a task that names none."""
 
+HeuristicName: TypeAlias = Literal["arm_time", "zero"]
+"""The lower bounds on the remaining time, by name."""
+
 TIME_LIMIT_S = (0.01, 60.0)
 COMFORT_MAX_M = 0.1
 
@@ -53,7 +56,7 @@ class Limits:
 
     Attributes:
         comfort_radius_m: a point counts as reachable only if a circle of this radius round it is (m).
-        heuristic: the lower bound on the remaining time: "arm_time" or "zero".
+        heuristic: the lower bound on the remaining time.
         time_limit_s: the processor time for the search (s); by the clock on the wall it ends after ten times that and
             5 s more.
         work_limit_s: the work for the search, in seconds of a present-day machine; None for as much as the time limit.
@@ -64,7 +67,7 @@ class Limits:
     __pydantic_config__ = STRICT
 
     comfort_radius_m: Annotated[float, Interval(ge=0.0, le=COMFORT_MAX_M)] = 0.03
-    heuristic: Literal["arm_time", "zero"] = "arm_time"
+    heuristic: HeuristicName = "arm_time"
     time_limit_s: Annotated[float, Interval(ge=TIME_LIMIT_S[0], le=TIME_LIMIT_S[1])] = 10.0
     work_limit_s: float | None = None
     max_expanded: Annotated[int, Interval(ge=1, le=1_000_000)] = 100_000
@@ -72,8 +75,8 @@ class Limits:
     def __post_init__(self) -> None:
         """Check the fields; raises `RequestError` for a number out of range."""
         require_intervals(self, RequestError)
-        if self.heuristic not in ("arm_time", "zero"):
-            raise RequestError("heuristic", f"expected arm_time or zero, got {self.heuristic!r}")
+        if self.heuristic not in get_args(HeuristicName):
+            raise RequestError("heuristic", f"expected {' or '.join(get_args(HeuristicName))}, got {self.heuristic!r}")
 
 
 class TaskOptions(TypedDict, total=False):

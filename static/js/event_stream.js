@@ -10,7 +10,7 @@ import { say } from "./language/say.js";
  * @param {AbortSignal} signal
  * @returns {Promise<void>}
  */
-function rest(delay_ms, signal) {
+export function rest(delay_ms, signal) {
   return new Promise((resolve, reject) => {
     const timer = setTimeout(resolve, delay_ms);
     signal.addEventListener("abort", () => {

@@ -35,8 +35,8 @@ def plan() -> Plan:
 
 
 @pytest.fixture(scope="module")
-def no_plan() -> Plan:
-    return replace(make_plan(Garment.from_dict(towel())), status="infeasible", steps=(), trajectory=None)
+def no_plan(plan: Plan) -> Plan:
+    return replace(plan, status="infeasible", steps=(), trajectory=None)
 
 
 def document(clock: HandClock | None = None) -> Document:

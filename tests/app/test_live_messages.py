@@ -26,12 +26,16 @@ def answered(plan: Plan, *, is_final: bool = True) -> DocumentState:
     return document.state
 
 
-def test_when_a_search_is_cut_short_it_is_said_how_far_the_search_came_and_what_would_help() -> None:
-    plan = make_plan(T_SHIRT, max_expanded=1)
-    state = answered(plan)
+@pytest.fixture(scope="module")
+def cut_short() -> Plan:
+    return make_plan(T_SHIRT, max_expanded=1)
+
+
+def test_when_a_search_is_cut_short_it_is_said_how_far_the_search_came_and_what_would_help(cut_short: Plan) -> None:
+    state = answered(cut_short)
     # Each of five blue folds takes three arm motions of 3 s.
     assert status_text(state) == (
-        f"No plan: searched {plan.statistics.ways} ways and found none; any plan takes at least 45.0 s. "
+        f"No plan: searched {cut_short.statistics.ways} ways and found none; any plan takes at least 45.0 s. "
         "To look longer may help, or fewer folds that may be done in any order"
     )
     message = plan_message(state)
@@ -39,9 +43,8 @@ def test_when_a_search_is_cut_short_it_is_said_how_far_the_search_came_and_what_
     assert message["may_look_longer"] and not plan_message(answered(shipped_plan("t-shirt")))["may_look_longer"]
 
 
-def test_many_ways_are_told_with_a_comma_and_a_bound_only_where_there_is_one() -> None:
-    plan = make_plan(T_SHIRT, max_expanded=1)
-    later = replace(plan, statistics=replace(plan.statistics, ways=12345, bound_s=None))
+def test_many_ways_are_told_with_a_comma_and_a_bound_only_where_there_is_one(cut_short: Plan) -> None:
+    later = replace(cut_short, statistics=replace(cut_short.statistics, ways=12345, bound_s=None))
     assert "searched 12,345 ways and found none. To look longer" in status_text(answered(later))
 
 

@@ -17,7 +17,7 @@ from app.live_search import LiveSearch
 from app.store.database import Database
 from app.store.document_repository import DocumentRepository
 from app.store.schema import DocumentRow
-from planner import Plan, Task, load_garment, make_plan
+from planner import Plan, load_garment, make_plan
 from planner.errors import RequestError
 from tests.app.document_requests import moved, put
 from tests.app.test_live import listening
@@ -44,8 +44,7 @@ async def replanned(page: Listener, **wanted: object) -> dict[str, Any]:
 async def test_what_is_left_after_a_step_is_planned_and_the_message_says_from_where(client: httpx.AsyncClient) -> None:
     state, page, whole = await planned(client)
     assert whole["start"] is None
-    task = Task.of(load_garment("t-shirt"))
-    after = make_plan(task).state_after(2).to_dict()
+    after = shipped_plan("t-shirt").state_after(2).to_dict()
     page.say({"do": "plan_from", "step": 2})
     rest = await replanned(page, start=after)
     folds = [step["fold"] for step in rest["plan"]["primitives"] if step["kind"] == "fold"]
@@ -180,7 +179,7 @@ async def test_without_a_plan_of_the_drawing_and_beyond_its_steps_it_is_refused(
 @pytest.mark.anyio
 async def test_what_is_left_is_planned_from_where_the_cloth_is_seen(client: httpx.AsyncClient) -> None:
     state, page, _ = await planned(client)
-    after = make_plan(Task.of(T_SHIRT)).state_after(2).to_dict()
+    after = shipped_plan("t-shirt").state_after(2).to_dict()
     seen = {**after, "placement": {**after["placement"], "x_m": after["placement"]["x_m"] + 0.02}}
     page.say({"do": "plan_from_state", "start": seen})
     rest = await replanned(page, start=seen)

@@ -8,8 +8,7 @@ from app.api.commands import put_garment, put_robot
 from app.document import Document
 from app.drawing.draft import draft_of
 from app.drawing.drawing_json import drawing_from_dict, drawing_to_dict
-from app.drawing.garment_drawing import drawing_of
-from app.drawing.robot_drawing import with_robot
+from app.drawing.garment_drawing import drawing_of, with_robot
 from app.drawing.solve import solve
 from planner import Scene, load_garment
 from planner.errors import RequestError

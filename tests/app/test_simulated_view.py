@@ -1,6 +1,7 @@
 """The cloth of a rehearsed run in the 3D view: beside the plan, shaded where it is off it."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,7 @@ from app.rehearsal.planned_cloth import planned_positions
 from app.rehearsal.trace import ClothAfter, RunTrace, rounded, traced
 from app.rehearsal.world import Truth
 from app.ui.view_3d import View3D
-from planner import Plan, Scene, load_garment, make_plan
+from planner import Plan, Scene, load_garment
 from planner.geometry.woven_mesh import woven_mesh
 from planner.motion.timeline import Timeline
 from planner.robots.load_robot import load_robot
@@ -95,8 +96,7 @@ def test_a_run_is_shown_along_with_its_plan_alone(plan: Plan, trace: RunTrace) -
     document.plan_from(lambda state: state.start_after(0))
     assert shown_run(document) is None
     document.plan_from(lambda _: None)
-    again = make_plan(load_garment("t-shirt"))
-    document.settle(1, task, again, "again")
+    document.settle(1, task, replace(plan), "again")
     assert shown_run(document) is None
     document.show_trace(trace)
     document.show_trace(None)

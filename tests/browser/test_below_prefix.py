@@ -1,12 +1,82 @@
-from collections.abc import Callable
+import socket
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 
 import pytest
 from playwright.sync_api import Browser, expect
 
 from tests.app.conftest import Served
 from tests.browser.conftest import IS_THERE, REST, Garment, Sheet, new_view_page
-from tests.browser.prefix_proxy import PREFIX, below_prefix
 from tests.browser.status_pill import expect_planned
+
+PREFIX = "/tools/pleat"
+
+
+@contextmanager
+def below_prefix(server_port: int) -> Iterator[str]:
+    """Return the address of the server below the prefix."""
+    listener = socket.create_server(("127.0.0.1", 0))
+    port = listener.getsockname()[1]
+    threading.Thread(target=_accept, args=(listener, server_port), daemon=True).start()
+    try:
+        yield f"http://127.0.0.1:{port}{PREFIX}"
+    finally:
+        listener.close()
+
+
+def _accept(listener: socket.socket, server_port: int) -> None:
+    with suppress(OSError):
+        while True:
+            browser, _ = listener.accept()
+            threading.Thread(target=_serve, args=(browser, server_port), daemon=True).start()
+
+
+def _serve(browser: socket.socket, server_port: int) -> None:
+    """Serve one request for each connection; everything after its head is passed through, websockets too."""
+    with browser, suppress(OSError), socket.create_connection(("127.0.0.1", server_port)) as server:
+        head, rest = _head(browser)
+        if head:
+            server.sendall(_rewritten(head, server_port) + rest)
+            back = threading.Thread(target=_pump, args=(server, browser), daemon=True)
+            back.start()
+            _pump(browser, server)
+            back.join()
+
+
+def _head(browser: socket.socket) -> tuple[bytes, bytes]:
+    data = b""
+    while b"\r\n\r\n" not in data:
+        part = browser.recv(65536)
+        if not part:
+            return b"", b""
+        data += part
+    head, _, rest = data.partition(b"\r\n\r\n")
+    return head, rest
+
+
+def _rewritten(head: bytes, server_port: int) -> bytes:
+    first, *lines = head.decode("latin-1").split("\r\n")
+    method, path, version = first.split(" ")
+    if not path.startswith(f"{PREFIX}/"):
+        path = "/outside-the-prefix"
+    headers = dict(line.split(": ", 1) for line in lines)
+    named = {name.lower(): name for name in headers}
+    host = headers.pop(named["host"])
+    if "upgrade" not in named:
+        headers.pop(named.get("connection", ""), None)
+        headers["Connection"] = "close"
+    forwarded = {"Host": f"127.0.0.1:{server_port}", "X-Forwarded-Host": host, "X-Forwarded-Prefix": PREFIX}
+    lines = [f"{name}: {value}" for name, value in {**headers, **forwarded}.items()]
+    return "\r\n".join([f"{method} {path.removeprefix(PREFIX)} {version}", *lines, "", ""]).encode("latin-1")
+
+
+def _pump(source: socket.socket, sink: socket.socket) -> None:
+    with suppress(OSError):
+        while part := source.recv(65536):
+            sink.sendall(part)
+    with suppress(OSError):
+        sink.shutdown(socket.SHUT_WR)
 
 
 @pytest.mark.long

@@ -1,6 +1,7 @@
 """A rehearsal in the page: begun, cancelled, each step's fate, its pictures, many runs, and a plan from there."""
 
 import base64
+import json
 import re
 from collections.abc import Callable, Iterator
 from datetime import UTC, datetime
@@ -74,6 +75,7 @@ class Rehearsals:
         page.route("**/api/rehearsals", self._begin)
         page.route("**/api/rehearsals/traces/*", lambda route: route.fulfill(json=self.trace))
         page.route("**/api/jobs/7", lambda route: route.fulfill(json=self.job))
+        page.route("**/api/jobs/7/events", self.tell)
         page.route("**/api/jobs/7/cancel", self._cancel)
 
     def begun_by(self, button: Locator) -> None:
@@ -83,6 +85,11 @@ class Rehearsals:
 
     def end(self, *runs: dict[str, Any]) -> None:
         self.job = JOB | {"status": "done", "result": summary(*runs)}
+
+    def tell(self, route: Route) -> None:
+        """Answer with one event: a page whose stream ends before the rehearsal does asks again."""
+        event = "end" if self.job["status"] == "done" else "progress"
+        route.fulfill(content_type="text/event-stream", body=f"event: {event}\ndata: {json.dumps(self.job)}\n\n")
 
     def _begin(self, route: Route) -> None:
         self.asked.append(required(route.request.post_data_json))
@@ -274,13 +281,13 @@ def test_a_rehearsal_is_found_again_though_the_page_went_while_it_asked_how_far_
     server = Rehearsals(page)
     server.begun_by(opened(desk))
     expect(page.locator(".rehearsing").get_by_role("progressbar")).to_have_js_property("value", 0.4)
-    page.unroute("**/api/jobs/7")
-    with page.expect_request("**/api/jobs/7"):
-        page.route("**/api/jobs/7", lambda _: None)  # no answer any more
+    page.unroute("**/api/jobs/7/events")
+    with page.expect_request("**/api/jobs/7/events"):
+        page.route("**/api/jobs/7/events", lambda _: None)  # no answer any more
     page.reload()
-    page.unroute("**/api/jobs/7")
+    page.unroute("**/api/jobs/7/events")
     server.end(run())
-    page.route("**/api/jobs/7", lambda route: route.fulfill(json=server.job))
+    page.route("**/api/jobs/7/events", server.tell)
     page.reload()
     expect(page.locator(".mark")).to_have_text("held")
 

@@ -4,6 +4,7 @@ import math
 import time
 from contextlib import suppress
 from dataclasses import replace
+from functools import cache
 from typing import Any
 
 import pytest
@@ -26,6 +27,13 @@ from tests.clocks import slow_machine
 from tests.explain.proven_search import FAR, FRONT_ONLY, asked, towel
 from tests.planning.provoked import planned_with
 from tests.replay.planned import shipped_plan
+from tests.small_plan import small_plan
+
+
+@cache
+def unreachable() -> Plan:
+    """Return what comes of planning a towel that lies out of reach."""
+    return make_plan(towel(FAR), FRONT_ONLY)
 
 
 @pytest.mark.long
@@ -43,7 +51,7 @@ def test_a_garment_that_cannot_be_halved_is_told_to_be_folded_nearer_its_end(nam
 
 def test_a_garment_out_of_reach_is_told_to_be_moved_where_it_can_be_folded() -> None:
     cloth = towel(FAR)
-    assert not make_plan(cloth, FRONT_ONLY).is_solved
+    assert not unreachable().is_solved
     found = next(
         s for s in suggestions(Task.of(cloth, FRONT_ONLY, work_limit_s=5.0, time_limit_s=60.0)) if s.kind == "placement"
     )
@@ -75,7 +83,7 @@ def test_a_garment_that_slips_off_the_edge_is_told_to_be_moved_no_further_than_i
 def test_the_smallest_change_with_a_plan_is_suggested_and_the_smallest_with_one_as_quick() -> None:
     task = asked(towel())
     trial = SuggestionTrial("size", Message.plain("by"), 0.0, task, task)
-    solved = make_plan(towel())
+    solved = small_plan()
     costs = {4: 20.0, 3: 20.0, 2: 30.0}
 
     def at(amount: float) -> SuggestionTrial:
@@ -99,7 +107,7 @@ def test_the_smallest_change_with_a_plan_is_suggested_and_the_smallest_with_one_
 def test_a_search_out_of_time_suggests_what_it_has_seen_to_work_and_nothing_else() -> None:
     task = asked(towel())
     trial = SuggestionTrial("size", Message.plain("by"), 4.0, task, task)
-    proof = Suggestion(trial, make_plan(towel()), 20.0)
+    proof = Suggestion(trial, small_plan(), 20.0)
     search = narrowed(lambda amount: replace(trial, size=amount), 0.0, 4.0, proof, 1.0)
     assert next(search) == replace(trial, size=2.0)
     assert search.throw(SpentError()) is proof
@@ -123,8 +131,7 @@ def test_a_garment_that_can_be_folded_is_told_of_nothing_but_a_better_place() ->
 
 def test_what_is_planned_already_is_not_planned_again() -> None:
     cloth = towel(FAR)
-    known = make_plan(cloth, FRONT_ONLY)
-    assert list(suggestions(Task.of(cloth, FRONT_ONLY), plan=known, should_stop=lambda: True)) == []
+    assert list(suggestions(Task.of(cloth, FRONT_ONLY), plan=unreachable(), should_stop=lambda: True)) == []
 
 
 def test_a_search_that_is_told_to_stop_does_so_within_a_second() -> None:

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import Literal, TypeAlias
 
 from hypothesis import assume
 from hypothesis import strategies as st
@@ -23,6 +24,7 @@ from planner.primitives.state import State
 from planner.robots.load_robot import load_robot
 from planner.search.a_star import Edge, Outcome, a_star
 from planner.task.scene import DEFAULT_STATIONS, Scene
+from planner.task.task import HeuristicName
 from tests.builders import rectangle_points
 from tests.laws.drawings import folded
 from tests.laws.outlines import Outline, outlines
@@ -38,6 +40,9 @@ FOLDABLE = tuple(name for name in shipped_garment_names() if not name.endswith("
 """The shipped garments that can be folded."""
 
 Kinds = Sequence[Callable[[Context], Primitive]]
+Bound: TypeAlias = HeuristicName | Literal["driving"]
+BOUNDS: tuple[Bound, ...] = (*HEURISTICS, "driving")
+"""The heuristics that requests name, and the one that replaces the arms' time if many folds are loose."""
 
 
 @dataclass(frozen=True)
@@ -94,7 +99,7 @@ class Problem:
         assert found.outcome is not Outcome.BUDGET_EXCEEDED, "this is no small scene"
         return found.cost
 
-    def cost_s(self, heuristic: str = "arm_time", kinds: Kinds = PRIMITIVES) -> float:
+    def cost_s(self, heuristic: Bound = "arm_time", kinds: Kinds = PRIMITIVES) -> float:
         """Return the cost of the cheapest sequence of primitives (s); infinite if there is none."""
         context, state = self.context, self.first_state
         if context.stability_violation(state.done, state.offset) is not None:
@@ -113,11 +118,7 @@ class Problem:
         return found.cost
 
 
-BOUNDS = (*HEURISTICS, "driving")
-"""The heuristics that requests name, and the one that replaces the arms' time if many folds are loose."""
-
-
-def bound_of(name: str, context: Context, start: State) -> Heuristic:
+def bound_of(name: Bound, context: Context, start: State) -> Heuristic:
     return DrivingBound(context, start) if name == "driving" else HEURISTICS[name](context)
 
 

@@ -1,17 +1,19 @@
-"""Transits: planned once, part of the segments' durations, and joined to the transfers on both sides."""
+"""Transits: planned once, part of the segments' durations, joined to the transfers on both sides; where the base is."""
 
 from itertools import pairwise
 
 import numpy as np
 import pytest
 
-from planner.geometry.pose import FloatArray
+from planner.geometry.pose import FloatArray, Pose2
+from planner.geometry.table import Table, TableTop
 from planner.motion.lying_cloth import LyingCloth
 from planner.motion.plan_segment import PlanSegment, duration_s, linked
 from planner.motion.timed_phase import TimedPhase, TransitTime
 from planner.motion.transit_planner import TransitPlanner
 from planner.planning.found_plan import FoundPlan
 from planner.planning.problem import Problem
+from planner.task.trajectory import ClothMotion, Phase
 from tests.replay.planned import planned
 
 
@@ -156,3 +158,25 @@ def test_an_arm_in_nobodys_way_does_not_share_the_detour_of_the_other(monkeypatc
     assert free.end_s < soon[0].end_s < late[0].end_s - 0.1
     assert is_home(free.cloth, np.empty(0), soon[1].joints, np.empty(0))
     np.testing.assert_allclose(soon[1].joints[-1], late[1].joints[-1], atol=1e-9)
+
+
+STATION, BACK, TURNED = Pose2(-0.95, 0.0, 3.0), Pose2(-1.15, 0.1, 3.0), Pose2(-1.15, 0.1, -3.0)
+STILL = ClothMotion(0, Pose2(0.0, 0.0, 0.0), Pose2(0.0, 0.0, 0.0), TableTop.of(Table()))
+
+
+def test_the_base_goes_evenly_through_one_phase_after_the_other_and_turns_the_short_way() -> None:
+    legs = [
+        Phase(seconds, ends, (None, None), STILL) for seconds, ends in ((2.0, (STATION, BACK)), (4.0, (BACK, TURNED)))
+    ]
+    free = TransitTime([TimedPhase.even(0, leg, leg.duration_s) for leg in legs], None)  # type: ignore[arg-type]
+    assert (free.last, free.end_s) == (TURNED, 6.0)
+    short = 2.0 * np.pi - 6.0
+    expected = [
+        (-0.95, 0.0, 3.0),
+        (-1.05, 0.05, 3.0),
+        (-1.15, 0.1, 3.0),
+        (-1.15, 0.1, 3.0 + 0.25 * short),
+        (-1.15, 0.1, 3.0 + short),
+    ]
+    np.testing.assert_allclose(free.bases_at(np.array([0.0, 1.0, 2.0, 3.0, 6.0])), expected, atol=1e-12)
+    assert free.bases_at(np.array([2.0]))[0] == pytest.approx([-1.15, 0.1, 3.0])

@@ -16,6 +16,7 @@ from planner.task.reason import Code
 from planner.task.scene import DEFAULT_STATIONS
 from planner.task.task import Task
 from tests.builders import fold, garment
+from tests.replay.planned import shipped_plan
 from tests.required import required
 from tests.robots.remade import RemadeRobot
 
@@ -98,7 +99,7 @@ def test_the_rest_of_a_plan_after_a_drag_that_holds_costs_what_is_left() -> None
 
 def test_where_the_rest_of_a_plan_cannot_be_done_with_what_is_held_nor_without_it_there_are_reasons() -> None:
     task = Task.of(load_garment("big-towel"))
-    held = make_plan(task).state_after(0)
+    held = shipped_plan("big-towel").state_after(0)
     assert held.held
     plan = make_plan(replace(task, start=held).in_scene(Scene(table=Table(height_m=1.15))))
     assert plan.status == "infeasible" and plan.reasons[0].code is Code.OUT_OF_REACH

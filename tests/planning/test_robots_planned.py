@@ -11,16 +11,15 @@ from planner.motion.timeline import Timeline
 from planner.planning.plan_check import require_replay
 from planner.robots.described_robot import read_robot
 from planner.robots.load_robot import load_robot
-from tests.builders import fold, garment
 from tests.required import required
+from tests.small_plan import napkin_plan
 
 NAME = "so101-pair"
 
 
 @pytest.fixture(scope="module")
 def plan() -> Plan:
-    napkin = garment([(0.0, 0.0), (0.2, 0.0), (0.2, 0.16), (0.0, 0.16)], fold((0.1, 0.16), (0.1, 0.0)))
-    return make_plan(napkin, robot=NAME, time_limit_s=60.0)
+    return napkin_plan()
 
 
 def test_two_small_arms_fold_a_napkin_where_they_stand(plan: Plan) -> None:

@@ -25,8 +25,12 @@ def towel(x_m: float = -0.5, y_m: float = 0.2) -> Garment:
     return garment(rectangle_points(0.4, 0.3), turn, placement=Pose2(x_m, y_m, -math.pi / 2))
 
 
-def test_a_towel_is_turned_by_its_far_corners_over_the_edge_that_stays() -> None:
-    plan = make_plan(towel(), time_limit_s=60.0)
+@pytest.fixture(scope="module")
+def plan() -> Plan:
+    return make_plan(towel(), time_limit_s=60.0)
+
+
+def test_a_towel_is_turned_by_its_far_corners_over_the_edge_that_stays(plan: Plan) -> None:
     (step,) = (step for step in plan.steps if step.kind == "fold")
     # Reached, lifted and laid down: three arm motions, .3 m up at the apex, .3 m beyond the edge at the end.
     assert step.duration_s >= 9.0
@@ -37,8 +41,7 @@ def test_a_towel_is_turned_by_its_far_corners_over_the_edge_that_stays() -> None
     require_replay(plan)
 
 
-def test_what_is_drawn_stands_on_the_edge_and_keeps_its_area() -> None:
-    plan = make_plan(towel(), time_limit_s=60.0)
+def test_what_is_drawn_stands_on_the_edge_and_keeps_its_area(plan: Plan) -> None:
     (step,) = (step for step in plan.steps if step.kind == "fold")
     for t_s in np.linspace(step.start_s, step.end_s, 25):
         cloth = Timeline.of(plan).at(float(t_s)).cloth

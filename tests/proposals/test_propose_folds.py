@@ -19,13 +19,13 @@ from planner.proposals.proposals import (
     Proposal,
     Proposals,
     _Aside,
-    _better,
-    _planned,
+    _Proposer,
     _turns,
     all_proposals,
 )
 from planner.proposals.target import is_fitting
 from planner.task.reason import Code
+from tests.replay.planned import shipped_plan
 from tests.required import required
 from tests.small_plan import small_plan
 
@@ -69,9 +69,9 @@ def test_what_the_robot_does_sooner_mirrored_or_from_another_side_stands_in_for_
     slow, quick = (Packet.of(replace(bare, folds=folds)) for folds in (from_the_other_end, scarf.folds))
     plan = make_plan(replace(task, garment=replace(bare, folds=slow.folds)))
     first = Proposal(plan.garment, slow.size_m, slow.layers, slow.face, plan, number=2)
-    (found,) = _better(task, slow, first, () if is_image else (quick,), lambda: False)
+    (found,) = _Proposer(task, 1, lambda: False).better(slow, first, () if is_image else (quick,))
     assert required(found.cost_s) < required(first.cost_s) - 1.0
-    assert found.cost_s == pytest.approx(required(make_plan(scarf).cost_s), abs=1e-5)
+    assert found.cost_s == pytest.approx(required(shipped_plan("scarf").cost_s), abs=1e-5)
     assert (found.number, found.garment.folds) == (2, required(found.plan).garment.folds)
     assert found.size_m == pytest.approx(first.size_m, abs=0.005)
 
@@ -79,7 +79,7 @@ def test_what_the_robot_does_sooner_mirrored_or_from_another_side_stands_in_for_
 def test_a_tie_is_proposed_as_quick_as_its_own_folds_are_whatever_end_is_folded_first() -> None:
     tie = load_garment("tie")
     (found,) = all_proposals(propose_folds(replace(tie, folds=()), (0.102, 0.3745), count=1)).proposals
-    assert required(found.cost_s) <= required(make_plan(tie).cost_s) + 1e-6
+    assert required(found.cost_s) <= required(shipped_plan("tie").cost_s) + 1e-6
 
 
 def test_its_json_has_the_folds_as_a_garment_file_has_them(found: Proposals) -> None:
@@ -153,8 +153,8 @@ def test_a_loose_proposal_comes_again_with_a_firm_plan_though_that_takes_longer(
     packet = Packet.of(plan.garment)
     loose = Proposal(plan.garment, packet.size_m, packet.layers, packet.face, plan, is_loose=True)
     longer = SimpleNamespace(plan=slowed(plan, 0.5), context=SimpleNamespace(is_firm=is_firm))
-    monkeypatch.setattr(proposals, "_plan", lambda *_: longer)
-    again = [*_better(plan.task, packet, loose, (), lambda: False)]
+    monkeypatch.setattr(_Proposer, "plan", lambda *_: longer)
+    again = [*_Proposer(plan.task, 1, lambda: False).better(packet, loose, ())]
     assert [(one.is_loose, one.plan) for one in again] == ([(False, longer.plan)] if is_firm else [])
 
 
@@ -208,12 +208,12 @@ def test_a_variant_of_a_sketched_way_is_proposed_only_if_it_spares_an_arm_motion
         quick = slowed(plan, whole_s / cost_s)
         return Proposal(replace(TOWEL, folds=packet.folds), (cost_s, 0.3), 1, "front", quick)
 
-    monkeypatch.setattr(proposals, "_plan", lambda *_: None)
+    monkeypatch.setattr(_Proposer, "plan", lambda *_: None)
     monkeypatch.setattr(proposals, "_proposal", proposal)
-    monkeypatch.setattr(proposals, "_better", lambda *_: ())
+    monkeypatch.setattr(_Proposer, "better", lambda *_: ())
     way = replace(Packet.of(TOWEL), moves=(("half", 0),))
     search = Given(*(replace(way, folds=folds[name], is_sketch=name == "sketch") for name in costs))
-    found = [*_planned(task, search, 3, lambda: False)]  # type: ignore[arg-type]
+    found = [*_Proposer(task, 3, lambda: False).planned(search)]  # type: ignore[arg-type]
     names = [one.garment.folds[0].name for one in found]
     assert names == (["sketch", "variant"] if spared_s > task.scene.arm_motion_s else ["sketch"])
 

@@ -15,7 +15,7 @@ const EMPTY = {
   title: "",
   outline: [],
   areal_density_kg_m2: 0,
-  thickness_m: 0.001,
+  thickness_m: 0,
   grip_radius_m: 0,
   folds: [],
   placement: { x_m: 0, y_m: 0, yaw_rad: 0 },

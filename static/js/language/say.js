@@ -86,3 +86,16 @@ const mapped = (values) => Object.fromEntries(Object.entries(values).map(([name,
 
 /** The English text, for what is stored and read by others. @param {Key} key @param {Record<string, string>} [values] */
 export const inEnglish = (key, values = {}) => filled(english[key], values);
+
+/**
+ * Fill in the words of the page's own elements, which name them in `data-say`, `data-say-label` and `data-say-title`.
+ * @param {ParentNode} root
+ */
+export function fillIn(root) {
+  for (const found of root.querySelectorAll("[data-say], [data-say-label], [data-say-title]")) {
+    const { say: text, sayLabel: label, sayTitle: title } = /** @type {HTMLElement} */ (found).dataset;
+    if (text) found.textContent = say(/** @type {Key} */ (text));
+    if (label) found.setAttribute("aria-label", say(/** @type {Key} */ (label)));
+    if (title) found.setAttribute("title", say(/** @type {Key} */ (title)));
+  }
+}

@@ -6,6 +6,7 @@
 import { fetched, goTo, OfflineError } from "../dialogs/documents.js";
 import { capital } from "../dock/words.js";
 import { sayable } from "../dom.js";
+import { eventStream, rest } from "../event_stream.js";
 import { say } from "../language/say.js";
 import { isViewOnly } from "../view_only.js";
 
@@ -47,6 +48,8 @@ export class Rehearsal extends EventTarget {
     this.isRunning = false;
     /** @type {string|null} the path of the job that runs */
     this.job = null;
+    /** @type {AbortController|null} of what follows it */
+    this.abort = null;
     /** The share that is done; null before it is known. @type {number|null} */
     this.progress = null;
     /** @type {Result|null} */
@@ -153,11 +156,11 @@ export class Rehearsal extends EventTarget {
     remember(this.store.id, kept);
     this.isRunning = true;
     this.tell();
-    const own = (this.own = {});
+    const { signal } = (this.abort = new AbortController());
     try {
       const id = await begun();
       const path = `../api/jobs/${id}`;
-      if (this.own !== own) {
+      if (signal.aborted) {
         if (id) stop(path);
         return;
       }
@@ -168,10 +171,9 @@ export class Rehearsal extends EventTarget {
       this.job = path;
       remember(this.store.id, { ...kept, job: id });
       rememberBegun({ job: id, plan, document: this.store.id });
-      const result = await this.end(path, own);
-      if (result) this.take(result);
+      this.take(await this.end(path, signal));
     } catch (error) {
-      if (this.own !== own) return;
+      if (signal.aborted) return;
       this.fault = sayable(error);
       this.isRunning = false;
       this.job = null;
@@ -180,19 +182,25 @@ export class Rehearsal extends EventTarget {
     }
   }
 
-  /** @param {string} path @param {object} own @returns {Promise<Result|null>} nothing if it was cancelled */
-  async end(path, own) {
+  /**
+   * Follow a job to its result. Without a server it goes on, as it does while the page is loaded anew.
+   * @param {string} path
+   * @param {AbortSignal} signal
+   * @returns {Promise<Result>}
+   */
+  async end(path, signal) {
     for (;;) {
-      const job = await fetched(path).catch(ifOffline);
-      if (this.own !== own) return null;
-      this.progress = job ? job.progress : this.progress;
-      if (!job || job.status === "queued" || job.status === "running") {
-        this.tell();
-        await new Promise((resolve) => setTimeout(resolve, LOOK_EVERY_MS));
-        continue;
+      try {
+        for await (const { event, data: job } of eventStream(`${path}/events`, null, signal)) {
+          if (event === "end" && job.status === "done") return job.result;
+          if (event === "end") throw new Error(`${capital(job.message || say("rehearsal.ended"))}.`);
+          this.progress = job.progress;
+          this.tell();
+        }
+      } catch (error) {
+        if (!(error instanceof TypeError)) throw error; // else the server cannot be reached
       }
-      if (job.status !== "done") throw new Error(`${capital(job.message || say("rehearsal.ended"))}.`);
-      return job.result;
+      await rest(LOOK_EVERY_MS, signal);
     }
   }
 
@@ -210,9 +218,9 @@ export class Rehearsal extends EventTarget {
     this.trace = null;
     this.tell();
     const id = this.run?.trace;
-    const own = this.own;
+    const { abort } = this;
     const trace = id ? await fetched(`../api/rehearsals/traces/${id}`).catch(() => null) : null;
-    if (this.own !== own || this.chosen !== index) return;
+    if (this.abort !== abort || this.chosen !== index) return;
     this.trace = trace;
     this.showTrace(trace !== null);
     this.tell();
@@ -228,7 +236,8 @@ export class Rehearsal extends EventTarget {
     if (this.job) stop(this.job);
     if (this.trace) this.showTrace(false);
     if (this.plan !== null) remember(this.store.id, null);
-    this.own = null;
+    this.abort?.abort();
+    this.abort = null;
     this.plan = this.job = this.progress = this.result = this.trace = null;
     this.isRunning = false;
     this.fault = "";
@@ -239,12 +248,6 @@ export class Rehearsal extends EventTarget {
   tell() {
     this.dispatchEvent(new Event("change"));
   }
-}
-
-/** Without a server a job goes on, as it does while the page is loaded anew. @param {unknown} error */
-function ifOffline(error) {
-  if (error instanceof OfflineError) return null;
-  throw error;
 }
 
 /** @param {string} job its path */

@@ -13,7 +13,7 @@ from app.drawing.curve import CURVE_TOLERANCE_M, Curve, Ellipse
 from app.drawing.draft import draft_of
 from app.drawing.drawing import Corner, Crease, Drawing, EdgeTie, End
 from app.drawing.drawing_json import drawing_from_dict, drawing_to_dict
-from app.drawing.garment_json import garment_to_dict
+from app.drawing.garment_drawing import garment_to_dict
 from app.drawing.quick_fixes import quick_fixes
 from app.drawing.ring import reordered, ring_of
 from app.drawing.solve import garment_of, solve

@@ -9,8 +9,7 @@ from app.drawing.draft import Draft, draft_of
 from app.drawing.drawing import Corner, CornerTie, Crease, Drawing
 from app.drawing.edit import Edit
 from app.drawing.garment_drawing import drawing_of
-from app.drawing.quick_fix import QuickFix
-from app.drawing.quick_fixes import QUICK_FIXES_MAX, quick_fixes
+from app.drawing.quick_fixes import QUICK_FIXES_MAX, QuickFix, quick_fixes
 from app.drawing.solve import solve
 from planner import load_garment
 from tests.app.drawing.drawings import crease, outlined, tied, towel_drawing, with_corner

@@ -11,8 +11,7 @@ from hypothesis import strategies as st
 from app.drawing.draft import draft_of
 from app.drawing.drawing import ChordTie, CornerTie, CreaseTie, EdgeTie, End
 from app.drawing.drawing_json import drawing_from_dict, drawing_to_dict
-from app.drawing.garment_drawing import drawing_of
-from app.drawing.garment_json import garment_to_dict
+from app.drawing.garment_drawing import drawing_of, garment_to_dict
 from app.drawing.place_crease import along_line
 from app.drawing.solve import garment_of, solve
 from planner import load_garment, shipped_garment_names

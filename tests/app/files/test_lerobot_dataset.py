@@ -15,9 +15,9 @@ from app.files.lerobot_dataset import FPS, lerobot_folder
 from planner import Plan, make_plan
 from planner.motion.motion_values import MotionLimits, positions_at
 from planner.robots.load_robot import load_robot
-from tests.builders import fold, garment
+from tests.builders import garment
 from tests.required import required
-from tests.small_plan import CARD, small_plan
+from tests.small_plan import CARD, napkin_plan, small_plan
 
 
 @pytest.fixture(scope="module")
@@ -100,22 +100,14 @@ def written(plan: Plan, folder: Path) -> tuple[dict[str, Any], np.ndarray]:
     return json.loads((folder / "meta/info.json").read_text()), np.array(table["action"].to_pylist())
 
 
-@pytest.fixture(scope="module")
-def napkin_plan() -> Plan:
-    napkin = garment([(0.0, 0.0), (0.2, 0.0), (0.2, 0.16), (0.0, 0.16)], fold((0.1, 0.16), (0.1, 0.0)))
-    plan = make_plan(napkin, robot="so101-pair", time_limit_s=60.0)
-    assert plan.is_solved
-    return plan
-
-
-def test_so_101_arms_have_the_names_and_units_of_lerobots_own_driver(napkin_plan: Plan, tmp_path: Path) -> None:
-    info, actions = written(napkin_plan, tmp_path / "dataset")
+def test_so_101_arms_have_the_names_and_units_of_lerobots_own_driver(tmp_path: Path) -> None:
+    info, actions = written(napkin_plan(), tmp_path / "dataset")
     joints = ("shoulder_pan", "shoulder_lift", "elbow_flex", "wrist_flex", "wrist_roll", "gripper")
     feature = info["features"]["action"]
     assert feature["names"] == [f"{arm}_{joint}.pos" for arm in ("left", "right") for joint in joints]
     assert feature["units"] == [*["deg"] * 5, "0..100"] * 2
     assert info["robot_type"] == "so101-pair"
-    path = napkin_plan.trajectory
+    path = napkin_plan().trajectory
     assert path is not None
     count = len(actions)
     for column, joint in enumerate(path.arms.names):

@@ -16,7 +16,7 @@ from app.files.import_errors import UnitsNeededError
 from app.worker.process import Caller, ignore
 from app.worker.stop import Stop, StoppedError
 from app.worker.template import LostProcessError
-from app.worker.workers import Workers
+from app.worker.workers import Team, Workers
 from planner.errors import FoldError, FoldingError, GarmentError, UnknownGarmentError
 from planner.message import Message
 from planner.robots.own_robots import robots_folder, use_robots_folder
@@ -312,3 +312,14 @@ def test_a_template_that_was_ended_from_outside_is_replaced(workers: Workers) ->
 
             wait_until(is_gone)
     assert done(workers, count, 1)
+
+
+def test_a_team_that_is_left_stops_what_it_has_begun_and_begins_nothing_more() -> None:
+    begun = threading.Event()
+    with Team(1) as team:
+        running = team.start(team.run, run_for_ever, team.stop, lambda _: begun.set())
+        waiting = team.start(team.run, count, team.stop, ignore, 1)
+        assert begun.wait(PATIENCE_S)
+    with pytest.raises(StoppedError):
+        running.result()
+    assert waiting.cancelled()
