@@ -46,6 +46,8 @@ export function mountDialogs(store, rehearsal) {
   put("share", "share", "", () => showShare(store));
   put("rename", "rename", "", () => showRename(store));
   byId("compare").addEventListener("click", () => showWhoFolds(store));
+  const able = () => ["rename", "compare"].forEach((id) => byId(id).toggleAttribute("disabled", false));
+  store.addEventListener("document", able, { once: true });
   acceptDrops(store);
   return verbs;
 }
