@@ -63,14 +63,14 @@ def blocked(page: Page, url: str) -> None:
     _open(page, url, towel("long-towel", 1.5, _across(0.75)))
     expect(page.get_by_role("status")).to_contain_text("No plan: ")
     expect(page.get_by_role("status")).to_have_attribute("data-is-final", "true")
-    expect(page.locator(".repair .cards button").first).to_be_visible()
+    expect(page.locator(".suggestion-strip .cards button").first).to_be_visible()
     page.get_by_role("button", name="Fit", exact=True).click()
 
 
 def repaired(page: Page, url: str) -> None:
     """Show what became of it by the first suggestion."""
     blocked(page, url)
-    page.locator(".repair .cards button").first.click()
+    page.locator(".suggestion-strip .cards button").first.click()
     _expect_planned(page)
 
 

@@ -14,9 +14,9 @@ from planner.motion.transfer import Transfer
 from planner.motion.transfer_candidate import QUICK
 from planner.planning.budget import Budget
 from planner.planning.edges import Edges
-from planner.planning.effort import Effort
 from planner.planning.heuristic import arm_time
 from planner.planning.problem import Problem
+from planner.planning.search_counters import SearchCounters
 from planner.primitives.primitive import Step
 from planner.primitives.state import State, StateKey
 from planner.search.a_star import Outcome, a_star
@@ -40,7 +40,7 @@ _ALONE, _TOGETHER = replace(QUICK, ways=4, late=1), replace(QUICK, ways=1, late=
 def greedy(
     problem: Problem,
     start: State,
-    effort: Effort,
+    counters: SearchCounters,
     budget: Budget,
     wanted: int | None = None,
     *,
@@ -51,7 +51,7 @@ def greedy(
     Args:
         problem: the problem to plan.
         start: the state to start from.
-        effort: counters that the work is added to.
+        counters: counters that the work is added to.
         budget: ends the search once it is over.
         wanted: the folds to be done, as a bit mask that includes the folds they depend on; None for all.
         is_patient: whether to give up later.
@@ -60,17 +60,17 @@ def greedy(
         The segments, the first beginning with primitive 0; None where the search soon found no way that the arms can
             follow.
     """
-    return _Greedy(problem, effort, budget, wanted, is_patient=is_patient).plan_segments(start)
+    return _Greedy(problem, counters, budget, wanted, is_patient=is_patient).plan_segments(start)
 
 
 class _Greedy:
     """A greedy search in one planning problem, and the `Judge` of its edges, which it does not keep."""
 
     def __init__(
-        self, problem: Problem, effort: Effort, budget: Budget, wanted: int | None, *, is_patient: bool
+        self, problem: Problem, counters: SearchCounters, budget: Budget, wanted: int | None, *, is_patient: bool
     ) -> None:
         self._problem = problem
-        self._effort = effort
+        self._counters = counters
         self._budget = budget
         self._failures_max = _PATIENT_FAILURES_MAX if is_patient else _FAILURES_MAX
         expanded_max = _PATIENT_EXPANDED_MAX if is_patient else _EXPANDED_MAX
@@ -88,7 +88,7 @@ class _Greedy:
             path = self._path(start, edges)
             if not path:
                 return None
-            with self._effort.on_joints():
+            with self._counters.on_joints():
                 found = self._validated(path)
             if found is not None:
                 return found
@@ -115,8 +115,8 @@ class _Greedy:
                 self._looks_left -= 1
                 if self._looks_left < 0 or self._budget.is_over:
                     break
-        self._effort.expanded += result.expanded
-        self._effort.explored += result.explored
+        self._counters.expanded += result.expanded
+        self._counters.explored += result.explored
         return [edge.action for edge in result.path]
 
     def _validated(self, steps: Sequence[Step]) -> tuple[PlanSegment, ...] | None:

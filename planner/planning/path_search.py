@@ -20,11 +20,11 @@ from planner.motion.transfer_candidate import QUICK, SearchLimits
 from planner.planning.budget import Budget, OutOfTimeError
 from planner.planning.driving_bound import DrivingBound
 from planner.planning.edges import Edges
-from planner.planning.effort import Effort
 from planner.planning.events import Obstacles
 from planner.planning.heuristic import HEURISTICS, Heuristic, arm_time
 from planner.planning.motion_validator import MotionValidator
 from planner.planning.problem import Problem
+from planner.planning.search_counters import SearchCounters
 from planner.planning.sequence_costs import ChargedEdges, Reached
 from planner.planning.single_fold import SingleFold
 from planner.primitives.obstacle import situation
@@ -82,7 +82,7 @@ class PathSearch:
         bound_s: a lower bound on the cost of any plan, as long as no step was rejected or made more expensive: after
             that, a raised cost only says that the tries found nothing better, which is no proof.
         blocking: folds that cannot be done even alone.
-        effort: what the search has done.
+        counters: what the search has done.
         result: the path proposed last, or how the search ended.
     """
 
@@ -116,7 +116,7 @@ class PathSearch:
         self.known_s = math.inf
         self.bound_s: float | None = None
         self.blocking: list[int] = []
-        self.effort = Effort()
+        self.counters = SearchCounters()
         self.result: SearchResult[Any, Step] = SearchResult(Outcome.UNFINISHED, (), math.inf, 0.0, 0, 0)
         budget.watch(problem)
 
@@ -135,7 +135,7 @@ class PathSearch:
                 return
             validator = self._seen.validator
             try:
-                with self.effort.on_joints():
+                with self.counters.on_joints():
                     if validator.catch_up(self.result.cost):
                         continue
                     if self.result.cost >= self.limit_s:
@@ -162,8 +162,8 @@ class PathSearch:
                 if self.blocking or self.budget.is_over:
                     self.result = result._replace(outcome=Outcome.BUDGET_EXCEEDED)
                     break
-        self.effort.explored += self.result.explored
-        self.effort.expanded = self._edges.expanded
+        self.counters.explored += self.result.explored
+        self.counters.expanded = self._edges.expanded
 
     def _paths(self, bound: Heuristic, *, is_consistent: bool) -> Iterator[SearchResult[Any, Step]]:
         start, costs = self.problem.start, self._seen.validator.sequence_costs

@@ -152,7 +152,7 @@ class _PlanSearch:
         if known is not None:
             self._known, took = known, known.plan.statistics
             self._shown_s = self.exact.known_s = known.plan.cost_s or 0.0
-            self.exact.effort.leave_out(took.search_time_s + took.joint_time_s)
+            self.exact.counters.leave_out(took.search_time_s + took.joint_time_s)
             yield Improved(known)
 
     def restrict(self, problem: Problem, work_s: float) -> float:
@@ -214,7 +214,7 @@ class _PlanSearch:
         """Return an answer; only the last one takes the work to have hands hold edges, which is not counted."""
         exact, known = self.exact, self._known
         bound_s = None if status == "infeasible" else exact.bound_s
-        statistics = exact.effort.statistics(self.problem.context.reach.memory, bound_s)
+        statistics = exact.counters.statistics(self.problem.context.reach.memory, bound_s)
         statistics = replace(statistics, ways=self.budget.ways, is_cut_short=is_cut_short)
         if known is not None:
             statistics = statistics.after(known.plan.statistics)

@@ -4,12 +4,12 @@ from dataclasses import dataclass
 
 from planner.cloth.g_state import needed_friction
 from planner.planning.budget import Budget
-from planner.planning.effort import Effort
 from planner.planning.events import Obstacles
 from planner.planning.greedy import WEIGHT, greedy
 from planner.planning.heuristic import arm_time
 from planner.planning.path_search import PathSearch
 from planner.planning.problem import Problem
+from planner.planning.search_counters import SearchCounters
 from planner.primitives.context import Context
 from planner.primitives.primitive import Step
 from planner.primitives.state import State
@@ -85,7 +85,7 @@ def _path(search: PathSearch, folds: int, *, may_collide: bool) -> tuple[Step, .
         for _ in search.propose(lambda state: WEIGHT * remaining(state), is_consistent=False):
             pass
     else:
-        plan_segments = greedy(problem, problem.start, Effort(), search.budget, folds)
+        plan_segments = greedy(problem, problem.start, SearchCounters(), search.budget, folds)
         if plan_segments is not None:
             return tuple(step for plan_segment in plan_segments for step in plan_segment.steps)
         for _ in search.run():

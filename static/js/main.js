@@ -21,7 +21,7 @@ import { mountSplitter } from "./splitter.js";
 import { mountView3D, mountView3DEnd, mountView3DPlay } from "./view3d.js";
 import { Rehearsal } from "./rehearsal/rehearsal.js";
 import { Proposing } from "./proposals/proposing.js";
-import { Repair } from "./repair/repair.js";
+import { Suggestions } from "./suggestions/suggestions.js";
 import { tellEffort } from "./settings/effort.js";
 import { StepPictures } from "./step_pictures.js";
 import { Store } from "./store.js";
@@ -45,8 +45,8 @@ mountSplitter();
 mountPhone(store);
 const dialogs = mountDialogs(store, rehearsal);
 const board = mountBoard(store, { togglePlay, startNew: dialogs.startNew, startImport: dialogs.startImport });
-const repair = new Repair(store, byId("board"));
-board.cover(repair);
+const suggestions = new Suggestions(store, byId("board"));
+board.cover(suggestions);
 board.play(pictures);
 if (!isViewOnly) board.proposing = new Proposing(store, board);
 mountCoach(board);
@@ -66,7 +66,7 @@ mountView3DEnd(store);
 const looking = { play: togglePlay, help: dialogs.help };
 mountView3D(store, keyHandler(isViewOnly ? looking : verbs), board); // letters move the camera there
 
-const keys = isViewOnly ? looking : { ...verbs, ...boardKeys(board), h: () => repair.takeFocus() };
+const keys = isViewOnly ? looking : { ...verbs, ...boardKeys(board), h: () => suggestions.takeFocus() };
 document.addEventListener("keydown", keyHandler(keys));
 theme.addEventListener("change", () => isViewOnly || tellTheme());
 store.addEventListener("connection", () => {

@@ -198,4 +198,4 @@ def test_a_blank_board_says_what_to_do(context: BrowserContext, new_sheet: Calla
     page.goto(new_sheet(None).page_url)
     expect(page.get_by_role("status")).to_contain_text("No plan: Nothing is drawn yet")
     expect(page.get_by_text("No folds yet")).to_be_visible()
-    expect(page.locator(".repair")).to_be_hidden()
+    expect(page.locator(".suggestion-strip")).to_be_hidden()

@@ -50,7 +50,7 @@ def named(modules: Page, cloth: Cloth, *reasons: dict[str, Any]) -> list[dict[st
     drawing = {"placement": PLACE, "scene": SCENE, "comfort_radius_m": 0.03}
     found: list[dict[str, Any]] = modules.evaluate(
         """async ([reasons, state]) => {
-          const { namedChanges } = await import("/static/js/repair/named_changes.js");
+          const { namedChanges } = await import("/static/js/suggestions/named_changes.js");
           return namedChanges({ version: 3, plan: { reasons, is_stale: false } }, { ...state, version: 3 });
         }""",
         [list(reasons), {"drawing": drawing, "garment": garment}],

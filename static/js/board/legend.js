@@ -46,7 +46,7 @@ export class Legend {
 
   /** What may lie over it: the fields of what is selected, and why there is no plan. */
   get over() {
-    const why = /** @type {HTMLElement|null} */ (document.querySelector(".repair"));
+    const why = /** @type {HTMLElement|null} */ (document.querySelector(".suggestion-strip"));
     return present([this.board.numbers.root, why ?? false]).filter(({ hidden }) => !hidden);
   }
 

@@ -201,7 +201,7 @@ function several(values) {
     .map((fields) => element("tr", "", ...names.map((name) => element("td", "", inShort(fields[name])))));
   const table = element("table", "result-table", element("thead", "", head), element("tbody", "", ...rows));
   const left = values.length - rows.length;
-  const more = element("p", "hint", left ? say("repair.more", { count: left }) : "");
+  const more = element("p", "hint", left ? say("suggestions.more", { count: left }) : "");
   return element("div", "result-scroll", table, more);
 }
 

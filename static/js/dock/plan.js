@@ -6,7 +6,7 @@ import { drawnIcon } from "../icons.js";
 import { say } from "../language/say.js";
 import { present } from "../present.js";
 import { primitiveAt } from "./lane_blocks.js";
-import { layersPicture } from "../repair/folded_picture.js";
+import { layersPicture } from "../suggestions/folded_picture.js";
 import { inAWord } from "../rehearsal/words.js";
 import { markStep } from "./step_menu.js";
 import { place } from "../messages/names.js";

@@ -79,10 +79,10 @@ export const hundredths = (number) => numeral(number, 2);
 
 /** Kinds of help, in front of what would help. */
 export const HELP = {
-  place: say("repair_kind.place"),
-  fold: say("repair_kind.fold"),
-  assume: say("repair_kind.assume"),
-  robot: say("repair_kind.robot"),
+  place: say("suggestion_kind.place"),
+  fold: say("suggestion_kind.fold"),
+  assume: say("suggestion_kind.assume"),
+  robot: say("suggestion_kind.robot"),
 };
 
 /** The fold that a suggestion adds, and before which; null for none. @param {Says} says @param {Named[]} folds */

@@ -6,7 +6,7 @@ import { seconds } from "../dock/words.js";
 import { arrowsLead, button, element, group } from "../dom.js";
 import { say } from "../language/say.js";
 import { PointedPlan } from "../pointed_plan.js";
-import { layersPicture } from "../repair/folded_picture.js";
+import { layersPicture } from "../suggestions/folded_picture.js";
 
 /** @import { Layer } from "pleat" */
 /** @import { Store } from "../store.js" */

@@ -152,10 +152,12 @@ def test_the_legend_keeps_clear_of_the_placements_numbers(page: Page, legend: Lo
 
 
 def test_the_legend_keeps_clear_of_why_there_is_no_plan(page: Page, legend: Locator) -> None:
-    page.evaluate("Object.assign(document.querySelector('.repair'), { hidden: false }).style.minHeight = '60px'")
+    page.evaluate(
+        "Object.assign(document.querySelector('.suggestion-strip'), { hidden: false }).style.minHeight = '60px'"
+    )
     chip(page, "Reach").click()
     expect(legend).to_have_class(re.compile("is-bottom|unseen"))
-    page.evaluate("document.querySelector('.repair').hidden = true")
+    page.evaluate("document.querySelector('.suggestion-strip').hidden = true")
 
 
 def test_the_bases_way_comes_into_view_and_the_view_goes_back_with_it(page: Page, legend: Locator) -> None:

@@ -117,8 +117,8 @@ def test_on_a_phone_the_numbers_cover_neither_what_would_help_nor_the_inset(page
         pull((0.457, 0.0), 300, 570)
         expect_clear("#swap")
         Hand(page).drag((0.457, 0.61), (0.2, -0.2))  # the outline crosses itself
-        expect(page.locator(".repair .card").first).to_be_visible()
+        expect(page.locator(".suggestion-strip .card").first).to_be_visible()
         pull((0.0, 0.61), 60, 200)
-        expect_clear(".repair")
+        expect_clear(".suggestion-strip")
     finally:
         page.set_viewport_size({"width": 1280, "height": 800})

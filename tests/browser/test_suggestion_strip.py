@@ -34,7 +34,8 @@ APRON = {
 IS_CLEAR = """(high_m) => {
   const board = document.getElementById("drafting-board");
   const top = board.getBoundingClientRect().top + Number(board.dataset.originPx.split(",")[1]);
-  return document.querySelector(".repair").getBoundingClientRect().bottom <= top - high_m * board.dataset.pxPerM;
+  const strip = document.querySelector(".suggestion-strip");
+  return strip.getBoundingClientRect().bottom <= top - high_m * board.dataset.pxPerM;
 }"""
 """Whether cloth that is so high (m) begins below the strip."""
 
@@ -44,7 +45,7 @@ def top_of_cloth_px(page: Page, high_m: float) -> float:
 
 
 def foot_of_strip_px(page: Page) -> float:
-    box = page.locator(".repair").bounding_box()
+    box = page.locator(".suggestion-strip").bounding_box()
     assert box is not None
     return box["y"] + box["height"]
 
@@ -83,7 +84,7 @@ def test_an_apron_halved_lengthwise_is_split_by_the_keyboard_and_put_back_by_one
 ) -> None:
     sheet = new_sheet(APRON)
     page.goto(sheet.page_url)
-    expect(page.locator(".repair .reason")).to_contain_text("Half: needs more hands than there are")
+    expect(page.locator(".suggestion-strip .reason")).to_contain_text("Half: needs more hands than there are")
     expect(page.locator(".search-words")).to_contain_text(re.compile("Trying: |Looking for"))
     expect(page.locator(".grip-span")).to_have_count(2)
     expect(page.get_by_text("no hand left")).to_be_visible()
@@ -97,9 +98,9 @@ def test_an_apron_halved_lengthwise_is_split_by_the_keyboard_and_put_back_by_one
     page.keyboard.press("Enter")
     expect_planned(page)
     assert sheet.fold_names == ["half, outer part", "half"]
-    expect(page.locator(".repair")).to_be_hidden()
+    expect(page.locator(".suggestion-strip")).to_be_hidden()
     page.keyboard.press("Control+z")
-    expect(page.locator(".repair")).to_be_visible()
+    expect(page.locator(".suggestion-strip")).to_be_visible()
     assert sheet.fold_names == ["half"]
 
 
@@ -114,7 +115,7 @@ def test_a_cloth_just_drawn_is_not_hidden_below_the_strip_and_a_view_that_was_mo
     hand.tool("Draw fold")
     hand.tool("Flip")
     hand.drag((0.2, 0.8), (0.2, 0.0))  # the larger part's three corners are too far from each other for two hands
-    strip = page.locator(".repair")
+    strip = page.locator(".suggestion-strip")
     expect(strip).to_be_visible()
     board = hand.board.bounding_box()
     assert board is not None
@@ -154,7 +155,7 @@ def test_on_a_low_board_the_cards_stand_beside_the_cloth_and_the_view_comes_back
     show.click()
     expect(page.get_by_role("group", name="Suggestions").get_by_role("button")).to_have_count(3)
     page.wait_for_function("new Promise(requestAnimationFrame)")
-    strip = page.locator(".repair").bounding_box()
+    strip = page.locator(".suggestion-strip").bounding_box()
     assert strip is not None
     assert Hand(page).px((0.7, 0.0))[0] <= strip["x"]
     assert float(str(board.get_attribute("data-px-per-m"))) > 100
@@ -187,6 +188,6 @@ def test_another_robot_that_can_is_a_card_one_click_and_one_undo(
     assert sheet.drawing["robot"] != "so101-pair"
     assert sheet.drawing["outline"] == before["outline"]
     page.keyboard.press("Control+z")
-    expect(page.locator(".repair")).to_be_visible()
+    expect(page.locator(".suggestion-strip")).to_be_visible()
     after = sheet.at_rest()["drawing"]
     assert {**after, "folds": []} == {**before, "folds": []}

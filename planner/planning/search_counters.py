@@ -8,7 +8,7 @@ from planner.primitives.reach import ReachMemory
 from planner.task.plan import Statistics
 
 
-class Effort:
+class SearchCounters:
     """Counters of one attempt at a plan.
 
     Attributes:

@@ -1,4 +1,4 @@
-/** The cards of the repair strip: one place for each kind of help, and all others on demand. */
+/** The cards of the strip of suggestions: one place for each kind of help, and all others on demand. */
 
 import { ringOf } from "../board/curves.js";
 import { picture } from "../dialogs/picture.js";
@@ -23,7 +23,7 @@ export class Cards {
   constructor(store) {
     this.store = store;
     this.root = element("div", "cards");
-    group(this.root, say("repair.suggestions"));
+    group(this.root, say("suggestions.suggestions"));
     this.root.addEventListener("keydown", (event) => arrowsLead(this.root, event));
     this.more = button("chip more-cards", () => this.showAll(!this.isAll));
     this.more.hidden = true;
@@ -80,7 +80,7 @@ export class Cards {
     this.root.hidden = !all.length;
     const others = this.order.length - this.chosen().length;
     this.more.hidden = others <= 0;
-    this.more.textContent = this.isAll ? say("repair.fewer") : say("repair.more", { count: others });
+    this.more.textContent = this.isAll ? say("suggestions.fewer") : say("suggestions.more", { count: others });
   }
 
   /** The best of each kind of help; where a kind has none, more of the others. */

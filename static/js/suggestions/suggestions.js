@@ -1,5 +1,5 @@
 /**
- * The repair strip over the board: why there is no plan, what would help as up to three cards that come while it is
+ * The strip of suggestions over the board: why there is no plan, what would help as up to three cards that come while it is
  * looked for, and what is being tried until then. Each place of a card is for one kind of help, so that no card moves
  * while others come.
  */
@@ -28,7 +28,7 @@ const OPEN_FROM_PX = 320;
 const LONG_S = 60;
 const SEARCHABLE = new Set(["infeasible", "budget_exceeded"]);
 
-export class Repair extends EventTarget {
+export class Suggestions extends EventTarget {
   /** @param {import("../store.js").Store} store @param {HTMLElement} pane */
   constructor(store, pane) {
     super();
@@ -52,18 +52,18 @@ export class Repair extends EventTarget {
     this.sentence = element("p", "reason");
     this.note = new SearchNote(store, this.search);
     this.cards = new Cards(store);
-    this.again = button("chip", () => store.command({ do: "plan" }), say("repair.plan_again"));
-    this.onward = button("chip", () => store.command({ do: "look_longer" }), say("repair.look_longer_for_plan"));
-    this.onward.title = say("repair.look_longer_hint");
+    this.again = button("chip", () => store.command({ do: "plan" }), say("suggestions.plan_again"));
+    this.onward = button("chip", () => store.command({ do: "look_longer" }), say("suggestions.look_longer_for_plan"));
+    this.onward.title = say("suggestions.look_longer_hint");
     this.longer = button("chip look-longer", () => this.lookLonger());
     this.others = button("chip", () => showWhoFolds(store), say("robots.others"));
     this.others.title = say("robots.who_hint");
-    this.fold = button("icon-button is-small repair-fold", () => this.choose(!this.isOpen), icon("back"));
+    this.fold = button("icon-button is-small suggestion-strip-fold", () => this.choose(!this.isOpen), icon("back"));
     const asked = [this.again, this.onward, this.longer, this.others, this.cards.more, this.fold];
     for (const made of asked) made.classList.add("for-editors");
-    const head = element("div", "repair-head", this.sentence, ...asked);
-    this.body = element("div", "repair-body for-editors", this.cards.root, this.note.root);
-    this.root = element("section", "repair", head, this.body);
+    const head = element("div", "suggestion-strip-head", this.sentence, ...asked);
+    this.body = element("div", "suggestion-strip-body for-editors", this.cards.root, this.note.root);
+    this.root = element("section", "suggestion-strip", head, this.body);
     this.root.setAttribute("aria-label", say("plan.none"));
     this.root.hidden = true;
     pane.append(this.root);
@@ -139,7 +139,7 @@ export class Repair extends EventTarget {
     const isBlank = !state.drawing.outline.length;
     const wasHidden = this.root.hidden;
     this.root.hidden = isBlank || !NO_PLAN.has(message.status);
-    document.body.classList.toggle("has-repair", !this.root.hidden);
+    document.body.classList.toggle("has-suggestions", !this.root.hidden);
     if (!this.root.hidden) this.sentence.textContent = explanation(message, state);
     this.again.hidden = message.status !== "failed";
     this.onward.hidden = !message.may_look_longer;
@@ -162,7 +162,7 @@ export class Repair extends EventTarget {
     const isNothing = !isRunning && !this.cards.count && typeof this.searched === "number";
     this.longer.hidden = !isNothing || (this.isLong && !fault);
     this.others.hidden = !isNothing;
-    this.longer.textContent = fault ? say("repair.look_again") : say("plan.look_longer");
+    this.longer.textContent = fault ? say("suggestions.look_again") : say("plan.look_longer");
     this.tell();
   }
 
@@ -184,7 +184,7 @@ export class Repair extends EventTarget {
     this.root.classList.toggle("is-line", this.isLow && !isOpen);
     this.root.classList.toggle("is-beside", this.isBeside);
     this.fold.setAttribute("aria-expanded", String(isOpen));
-    this.fold.setAttribute("aria-label", isOpen ? say("repair.hide") : say("repair.show"));
+    this.fold.setAttribute("aria-label", isOpen ? say("suggestions.hide") : say("suggestions.show"));
     this.fold.title = this.fold.getAttribute("aria-label") ?? "";
     this.tell();
   }
@@ -221,8 +221,8 @@ class SearchNote {
     this.root.hidden = !isRunning && (count > 0 || !isAbout);
     if (!isRunning) this.say(this.nothing());
     else if (!this.timer) this.say(this.trying());
-    const found = count ? say("repair.found", { count }) : "";
-    const told = found || (isRunning ? say("repair.looking_said") : this.root.hidden ? "" : this.nothing());
+    const found = count ? say("suggestions.found", { count }) : "";
+    const told = found || (isRunning ? say("suggestions.looking_said") : this.root.hidden ? "" : this.nothing());
     if (this.told.textContent !== told) this.told.textContent = told;
   }
 
@@ -238,8 +238,8 @@ class SearchNote {
 
   trying() {
     const { trying } = this.search;
-    if (!trying) return say("repair.looking");
-    return say("repair.trying", {
+    if (!trying) return say("suggestions.looking");
+    return say("suggestions.trying", {
       what: capital(inWords({ ...trying, message: "" }, this.store.state?.drawing.folds ?? [])),
     });
   }
@@ -247,7 +247,7 @@ class SearchNote {
   nothing() {
     const { fault, isComplete } = this.search;
     if (fault) return say("search.fault", { fault });
-    if (!isComplete) return say("repair.not_all");
-    return say("repair.nothing");
+    if (!isComplete) return say("suggestions.not_all");
+    return say("suggestions.nothing");
   }
 }
