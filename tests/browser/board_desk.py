@@ -38,14 +38,17 @@ class Desk(Sheet):
         for _ in range(3):
             page.keyboard.press("Escape")
         page.evaluate(SPREAD_OUT)
-        for garment_or_nothing in ({"name": "nothing", "outline": [[0, 0], [1, 0], [0, 1]]}, garment):
-            body = {"garment": garment_or_nothing, "label": "Begin"}
-            REST.put(f"{self.path}/garment", json=body).raise_for_status()
+        self._put({"name": "nothing", "outline": [[0, 0], [0.3, 0], [0, 0.3]]})
+        expect(page.locator(".suggestion-strip")).to_be_hidden()  # else the board moves when it goes
+        self._put(garment)
         expect_step(page, "Begin")
         expect(page.locator(".corner")).to_have_count(len(garment["outline"]))
         expect(page.locator(".fold-focus")).to_have_count(len(garment["folds"]))
         page.mouse.move(0, 0)
         page.evaluate(READY)
+
+    def _put(self, garment: dict[str, Any]) -> None:
+        REST.put(f"{self.path}/garment", json={"garment": garment, "label": "Begin"}).raise_for_status()
 
 
 def expect_step(page: Page, name: str) -> None:
