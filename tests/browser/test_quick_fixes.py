@@ -74,6 +74,9 @@ def test_what_is_wrong_is_fixed_by_the_first_button(page: Page, desk: Desk, spoi
     page.get_by_role("button", name="Undo").click()
     expect(quick_fixes(page).first).to_have_text(label)
     assert desk.state["problems"] == wrong
+    page.get_by_role("button", name="Redo").click()
+    expect_planned(page)
+    assert desk.state["problems"] == []
 
 
 def test_a_quick_fix_under_the_pointer_is_shown_on_the_board(page: Page, desk: Desk) -> None:
