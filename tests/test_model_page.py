@@ -1,6 +1,7 @@
 """The numbers in docs/model.md's table and text are those of the program."""
 
 import importlib
+import math
 import re
 from pathlib import Path
 from typing import Any
@@ -42,13 +43,13 @@ def test_a_number_on_the_page_is_that_of_the_program(value: str, path: str) -> N
 
 
 def test_the_approaches_are_those_named() -> None:
-    # 15, 30, 45 and 60 degrees below the horizontal in 13 headings, and straight down.
-    assert "15, 30, 45 or 60 degrees" in TEXT and "13 headings within 90 degrees" in TEXT
+    # 15, 30, 45 and 60 degrees below the horizontal in 15 headings, and straight down.
+    assert "15, 30, 45 or 60 degrees" in TEXT and "15 headings, 15 degrees apart within 90 degrees" in TEXT
     scene = Scene()
     approaches = load_robot("pr2").reach(scene.torso_m, 0.0).approaches
-    assert len(approaches) == 4 * 13 + 1
+    assert len(approaches) == 4 * 15 + 1
     assert {round(a.pitch_rad, 3) for a in approaches} == {0.262, 0.524, 0.785, 1.047, 1.571}
-    assert max(abs(a.heading_rad) for a in approaches) == pytest.approx(1.5708, abs=1e-4)
+    assert max(abs(a.heading_rad) for a in approaches) == pytest.approx(math.radians(120))
 
 
 def test_the_strip_on_the_page_has_folds_that_depend_without_overlapping() -> None:

@@ -79,6 +79,7 @@ def test_a_grip_that_lacks_only_comfort_says_how_much_it_has() -> None:
 
 
 def test_a_path_rises_as_high_as_the_part_that_moves_is_deep() -> None:
+    # Only straight ahead or down: to its sides a hand reaches higher, and then the table is in its way.
     # Straight down, a hand hangs from a forearm that the wrist's limit of 1.994 rad lets rise by 1.994 - pi / 2 at
     # most, from an elbow that the shoulder's lift lets rise by 0.3536 rad. The apex is D + 0.02 over the table, and the
     # wrist 0.18 m over that.
@@ -86,7 +87,7 @@ def test_a_path_rises_as_high_as_the_part_that_moves_is_deep() -> None:
     rise = UPPER_M * math.sin(0.3536) + FORE_M * math.sin(1.994 - math.pi / 2)
     over = height + depth + 0.02 + 0.18 - (0.051 + 0.739675 + 0.29) - rise
     assert 0.01 < over < 0.03
-    scene = Scene(stations=FRONT, table=Table(height_m=height))
+    scene = Scene(stations=FRONT, table=Table(height_m=height), approach_cone_rad=0.0)
     reason = but_for_collisions(refused(strip(-0.24, 0.54, depth), scene))
     assert (reason.code, reason.cause, reason.joint) == (Code.OUT_OF_REACH, "too_far", "wrist")
     assert reason.short_by_m == pytest.approx(over, abs=0.0015)

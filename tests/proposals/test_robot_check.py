@@ -61,7 +61,7 @@ def test_one_hand_does_not_hold_both_corners_of_a_towel() -> None:
 def test_what_the_robot_can_do_is_proposed_first(is_asked: bool) -> None:
     skirt = replace(load_garment("skirt"), folds=())
     robot = RobotCheck(task_for(skirt)) if is_asked else None
-    first = next(PacketSearch(skirt, Target.of("shelf"), 8, robot=robot).packets())
+    first = next(PacketSearch(skirt, Target.of("thirds"), 8, robot=robot).packets())
     assert (checked(skirt, *first.folds).doubts == 0) == is_asked
 
 

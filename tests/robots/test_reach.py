@@ -30,7 +30,7 @@ def bodiless(comfort_m: float, memories: Memories | None = None) -> Pr2Reach:
 
 
 def test_there_is_a_fan_of_approaches_at_four_pitches_and_one_straight_down() -> None:
-    assert len(APPROACHES) == 4 * 13 + 1
+    assert len(APPROACHES) == 4 * 15 + 1
     assert [approach for approach in APPROACHES if approach.is_vertical] == [Approach(0.0, np.pi / 2)]
 
 

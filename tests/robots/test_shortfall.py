@@ -1,5 +1,6 @@
 """The cause and size of a shortfall, against the definition: displace the point, and query again."""
 
+import math
 from dataclasses import replace
 from typing import Any
 
@@ -8,6 +9,7 @@ import pytest
 from numpy.typing import NDArray
 
 from planner.deadline import ENDLESS, Deadline
+from planner.geometry.pose import Approach
 from planner.geometry.reach_query import ReachQuery, Shortfall
 from planner.robots.comfort_reach import ComfortReach
 from planner.robots.displacements import DIRECTIONS, FURTHEST_M
@@ -27,16 +29,13 @@ TORSO_M = 0.29
 COMFORT_M = 0.03
 TABLE_M = 0.79
 EVERY_APPROACH = np.arange(len(APPROACHES))
-FORWARD = np.array([19])
+FORWARD = np.array([APPROACHES.index(Approach(0.0, math.radians(30)))])
 """Fingers ahead, 30 degrees down."""
+
+TO_THE_RIGHT = np.array([APPROACHES.index(Approach(-math.pi / 2, math.radians(30)))])
 
 STANDS = np.arange(5)[:, None] * np.array([0.05, 0.0, 0.0])
 """The displacements of points, as the base sees them, when it backs off in steps of 5 cm."""
-
-
-def test_the_approach_called_forward_is_that() -> None:
-    approach = APPROACHES[FORWARD[0]]
-    assert (approach.heading_rad, approach.pitch_rad) == (0.0, pytest.approx(np.pi / 6))
 
 
 @pytest.mark.parametrize("approaches", [EVERY_APPROACH, FORWARD])
@@ -264,7 +263,7 @@ def test_a_place_high_above_is_too_far_and_must_come_down() -> None:
 
 def test_far_to_the_other_side_the_shoulders_pan_limits() -> None:
     """A left arm cannot turn far to the right: its pan ends at -41 degrees."""
-    found = shortfall_of(ROBOT.reach(TORSO_M, COMFORT_M), 0, np.array([0.1, -0.75, 1.0]), np.array([13]))
+    found = shortfall_of(ROBOT.reach(TORSO_M, COMFORT_M), 0, np.array([0.1, -0.75, 1.0]), TO_THE_RIGHT)
     assert found is not None
     assert found.joint == "shoulder pan"
 

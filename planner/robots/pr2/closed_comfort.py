@@ -30,7 +30,7 @@ class ClosedArm(NamedTuple):
         numbers: its lengths and limits, see `numbers_of`, shape (37,).
         shoulder: its shoulder, base frame (m), shape (3,).
         axes: all approach axes, shape (m, 3).
-        hints: for each approach the pan that served last (rad) and its branch, shape (64, 2); no answer depends on it.
+        hints: for each label the pan that served last (rad) and its branch, shape (1 + m, 2); no answer depends on it.
         room: the obstacles to its postures.
     """
 
@@ -41,9 +41,9 @@ class ClosedArm(NamedTuple):
     room: Room
 
 
-def no_hints() -> FloatArray:
-    """Return the hints of a plan that has not asked anything yet."""
-    return np.tile((0.5, 1.0), (64, 1))
+def no_hints(approaches: int) -> FloatArray:
+    """Return the hints of a plan that has not queried any of so many approaches yet."""
+    return np.tile((0.5, 1.0), (1 + approaches, 1))
 
 
 class ClosedQuery(NamedTuple):
@@ -53,7 +53,7 @@ class ClosedQuery(NamedTuple):
         shape: the arm.
         rest: the shoulder's offset from the grid of `LENGTH_M` (m).
         axis: the approach axis.
-        label: the approach's label in the memory, 1..63.
+        label: the approach's label in the memory, from 1 on.
         comfort: the comfort radius (m).
     """
 

@@ -100,9 +100,9 @@ def test_a_run_of_a_towel_is_traced_from_where_it_lies_to_where_the_plan_has_it(
     assert step.of_plan == 0
     apart = np.linalg.norm(UNIT_M * (step.found.astype(float) - step.planned), axis=1)
     assert 1000.0 * apart.mean() < run.steps[0].mean_mm + run.steps[0].slid_mm + 1.0
-    for name, area in (("planned", 0.06), ("found", 0.06)):
+    for name, within in (("planned", 0.01), ("found", 0.2)):  # rows of the coarse mesh are 35 mm apart
         xs, ys = np.array(step.outlines[name][0]).T
-        assert abs(np.dot(xs, np.roll(ys, 1)) - np.dot(ys, np.roll(xs, 1))) / 2 == pytest.approx(area, rel=0.15)
+        assert abs(np.dot(xs, np.roll(ys, 1)) - np.dot(ys, np.roll(xs, 1))) / 2 == pytest.approx(0.06, rel=within)
     cost_s = required(plan.cost_s)
     middle = trace.at(0.5 * cost_s)
     assert middle[:, 2].max() > 0.05 > trace.at(0.0)[:, 2].max()
