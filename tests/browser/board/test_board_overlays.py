@@ -89,7 +89,8 @@ def test_where_a_hand_falls_short_is_marked_with_how_much(page: Page, moved_desk
     moved_desk.lay({**strip, "folds": [far_end], "placement": before_left_arm})
     # At a table 1 m high an end that must be lifted by 0.26 m is lifted too high.
     front = {"stations": {"front": {"x_m": -0.95, "y_m": 0.0, "yaw_rad": 0.0}}, "table": {"height_m": 1.0}}
-    moved_desk.edit(lambda drawing: drawing["scene"].update(front))
+    straight = {"approach_cone_rad": 0.0}  # hands that reach back would be stopped by the table
+    moved_desk.edit(lambda drawing: drawing["scene"].update(front | straight))
     status = page.get_by_role("status")
     expect(status).to_contain_text("No plan: ")
     expect(page.locator(".reason-text")).to_contain_text("too high")
