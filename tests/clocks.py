@@ -22,6 +22,7 @@ class FastClock:
         """Take the place of `deadline.clock_s` or `deadline.wall_clock_s`, by name."""
         self.ahead_s = 0.0
         monkeypatch.setattr(deadline, name, lambda: _CLOCKS[name]() + self.ahead_s)
+        monkeypatch.setattr(deadline, "LOOK_S", 0.0)  # it may run on by hours between two looks
 
 
 def slow_machine(monkeypatch: pytest.MonkeyPatch) -> Callable[[], bool]:
