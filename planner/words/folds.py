@@ -77,7 +77,7 @@ FOLDS: Mapping[str, Callable[[Values, Folds], str]] = {
     "stand_also_at": _stand_also_at,
     "other_robot": lambda values, _folds: f"Let {values['title']} fold it, at its own table",
     "assume_comfort": lambda values, _folds: (
-        f"Assume that a comfort radius of {in_cm(values['comfort_m'])} is enough, not {in_cm(values['now_m'])}"
+        f"Assume that a reach margin of {in_cm(values['comfort_m'])} is enough, not {in_cm(values['now_m'])}"
     ),
     "assume_friction": lambda values, _folds: (
         f"Assume a friction coefficient of {values['friction']:g}, not {values['now']:g}"
