@@ -131,7 +131,7 @@ def _firmly_or_not(task: Task, part: Budget, budget: Budget, hints: Hints, *, wi
         yield event
         return
     budget.beside_s += part.spent_s
-    # This problem knows where the arms reach as far as has been asked.
+    # This problem knows where the arms reach as far as has been queried.
     events = _planned(Problem.of(task, budget.deadline), budget, hints)
     yield from _explained(events) if with_reasons else events
 

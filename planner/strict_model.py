@@ -42,10 +42,10 @@ def first_error(error: ValidationError, kind: type[FieldError], data: object = N
         data: what was read; without it the field's path has the names of variants of unions in it.
     """
     details = [one for one in error.errors(include_url=False) if one["type"] != "default_factory_not_called"]
-    detail = next((one for one in details if _told(one) is None), details[0])
+    detail = next((one for one in details if _raised(one) is None), details[0])
     place = detail["loc"] if data is None else _in_data(detail["loc"], data, is_missing=detail["type"] == "missing")
-    path, told = field_path((*place, *_tag(detail))), _told(detail)
-    return kind(path, plain_message(dict(detail))) if told is None else told.within(path)
+    path, raised = field_path((*place, *_tag(detail))), _raised(detail)
+    return kind(path, plain_message(dict(detail))) if raised is None else raised.within(path)
 
 
 def _in_data(location: tuple[int | str, ...], data: object, *, is_missing: bool) -> tuple[int | str, ...]:
@@ -64,7 +64,7 @@ def _tag(detail: Mapping[str, Any]) -> tuple[str, ...]:
     return (detail["ctx"]["discriminator"].strip("'"),) if detail["type"].startswith("union_tag_") else ()
 
 
-def _told(detail: Mapping[str, Any]) -> FieldError | None:
+def _raised(detail: Mapping[str, Any]) -> FieldError | None:
     """Return the error that a value's own validation raised, if any."""
     found = detail.get("ctx", {}).get("error")
     return found if isinstance(found, FieldError) else None

@@ -129,8 +129,8 @@ class Garment:
         garment = _GARMENTS.read(data)
         radius_m, given = garment.grip_radius_m, data.get("folds", ())
         folds = (
-            replace(fold, grip_radius_m=radius_m) if told.get("grip_radius_m") is None else fold
-            for fold, told in zip(garment.folds, given, strict=True)
+            replace(fold, grip_radius_m=radius_m) if fields.get("grip_radius_m") is None else fold
+            for fold, fields in zip(garment.folds, given, strict=True)
         )
         return replace(garment, folds=tuple(folds))
 

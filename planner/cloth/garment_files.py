@@ -27,7 +27,7 @@ _DRAWN = {
 }
 _OPENED = "open it on the page or with POST /api/imports"
 _HEAD = 2000
-"""The number of bytes at the beginning of a file by which its kind is told."""
+"""The number of bytes at the beginning of a file by which its kind is recognised."""
 
 
 def shipped_folder() -> Path:

@@ -158,7 +158,7 @@ class _RelaxationSets:
         except SpentError:
             self.is_cut_short = True
         found.sort(key=self._repair)
-        return [self._told(members) for members in found] or [(told,) for told in self._at_rest(own)]
+        return [self._reported(members) for members in found] or [(reason,) for reason in self._at_rest(own)]
 
     def _repair(self, members: _Members) -> tuple[int, float]:
         """Return the number of changes, in which one that no robot allows counts as three, and the total shortfall."""
@@ -251,20 +251,20 @@ class _RelaxationSets:
                     yield replace(relaxation.reason_with(amount), change=change, gives="start")
                     break
 
-    def _told(self, members: _Members) -> tuple[Reason, ...]:
+    def _reported(self, members: _Members) -> tuple[Reason, ...]:
         """Return the reasons of a set, with the advice that proved true when tried."""
         change, context = self._joint.applied_to_base(members).change_from(self._base), self._base.context
-        told = [self._advised(member) for member in members]
-        if len(told) > 1:
-            told = [enough_with_others(one, context) if one.code is Code.OUT_OF_REACH else one for one in told]
-        return tuple(replace(one, change=change, gives=self._gives) for one in told)
+        reasons = [self._advised(member) for member in members]
+        if len(reasons) > 1:
+            reasons = [enough_with_others(one, context) if one.code is Code.OUT_OF_REACH else one for one in reasons]
+        return tuple(replace(one, change=change, gives=self._gives) for one in reasons)
 
     def _advised(self, member: _Member) -> Reason:
-        told = member.reason
+        reason = member.reason
         shifts = tuple(k for pair in _SHIFTS for k in pair if k in (member.relaxation.kind, *member.also))
-        if told.code is not Code.OUT_OF_REACH or not (shifts or member.is_hypothetical):
-            return told
-        return removed_by(told, self._base.context, shifts)
+        if reason.code is not Code.OUT_OF_REACH or not (shifts or member.is_hypothetical):
+            return reason
+        return removed_by(reason, self._base.context, shifts)
 
 
 class _JointSets:

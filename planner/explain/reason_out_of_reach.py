@@ -124,8 +124,8 @@ def enough_with_others(reason: Reason, context: Context) -> Reason:
 
 def _advised(reason: Reason, context: Context, values: Mapping[str, Any], **same: float | None) -> Reason:
     """Return a reason that also says what would help; `same` are numbers that the reason and its message both have."""
-    told = {**reason.says.values, **values, **same}
-    says = worded(reason.says.code, told, context.sequence.folds, reason.fold)
+    said = {**reason.says.values, **values, **same}
+    says = worded(reason.says.code, said, context.sequence.folds, reason.fold)
     changed = replace(reason, says=says, **same)  # type: ignore[arg-type]
     return replace(changed, shift_towards=None) if changed.shift_m is None else changed
 

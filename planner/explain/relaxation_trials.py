@@ -86,14 +86,14 @@ class Relaxation:
         reason: the cause.
         change: the change.
         amounts: by how much, tried in turn, the last the most permissive; empty where the change has no degree.
-        told: makes the reason to report from the cause, once an amount was tried.
-        needed: the amount that the path found really needs, where that can be told.
+        reported: makes the reason to report from the cause, once an amount was tried.
+        needed: the amount that the path found really needs, where that is known.
     """
 
     reason: Reason
     change: Change
     amounts: tuple[float, ...] = ()
-    told: Callable[[Reason, float], Reason] = lambda reason, _: reason
+    reported: Callable[[Reason, float], Reason] = lambda reason, _: reason
     needed: Callable[[Trial], float] | None = None
 
     @property
@@ -108,7 +108,7 @@ class Relaxation:
 
     def reason_with(self, amount: float) -> Reason:
         """Return the reason to report once an amount was tried."""
-        return self.told(self.reason, amount)
+        return self.reported(self.reason, amount)
 
 
 class Trials:

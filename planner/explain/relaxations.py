@@ -67,12 +67,12 @@ def candidates(context: Context, measured: tuple[Reason, ...], fold: int | None)
     if context.obstacles.has_slipped and context.scene.friction < FRICTION_MAX:
         slip = next((reason for reason in mine if reason.code is Code.SLIPS), _slips_on_the_way(context, fold))
         yield (_more_friction(context, slip),)
-    told: set[Point3 | None] = set()
+    directions: set[Point3 | None] = set()
     for reason in sorted(mine, key=lambda reason: reason.short_by_m or 0.0):
         found = tuple(_relaxations(context, reason))
         is_of_reach = reason.code is Code.OUT_OF_REACH
-        if found and (is_of_reach or found[0].kind != "cloth" or reason.towards not in told):
-            told.add(reason.towards)
+        if found and (is_of_reach or found[0].kind != "cloth" or reason.towards not in directions):
+            directions.add(reason.towards)
             yield found
 
 
@@ -90,7 +90,7 @@ def _relaxations(context: Context, reason: Reason) -> Iterator[Relaxation]:
 def _more_friction(context: Context, slip: Reason) -> Relaxation:
     now = context.scene.friction
 
-    def told(reason: Reason, amount: float) -> Reason:
+    def reported(reason: Reason, amount: float) -> Reason:
         needed = now + amount
         if reason.needed_friction is not None and abs(reason.needed_friction - needed) <= LENGTH_M:
             return reason
@@ -98,7 +98,7 @@ def _more_friction(context: Context, slip: Reason) -> Relaxation:
 
     measured = () if slip.needed_friction is None else (slip.needed_friction - now,)
     amounts = (*(by for by in measured if now + by < FRICTION_MAX), FRICTION_MAX - now)
-    return Relaxation(slip, FRICTION, amounts, told, lambda trial: trial.needed_friction - now)
+    return Relaxation(slip, FRICTION, amounts, reported, lambda trial: trial.needed_friction - now)
 
 
 def _slips_on_the_way(context: Context, fold: int | None, needed: float | None = None) -> Reason:
@@ -143,10 +143,10 @@ def _of_reach(context: Context, reason: Reason) -> Iterator[Relaxation]:
     now_rad = context.scene.approach_cone_rad
     if now_rad < math.pi - ANGLE_RAD:
 
-        def told(reason: Reason, amount: float) -> Reason:
+        def reported(reason: Reason, amount: float) -> Reason:
             return reached_with_cone(reason, context, now_rad + amount)
 
-        yield Relaxation(reason, CONE, (math.pi - now_rad,), told)
+        yield Relaxation(reason, CONE, (math.pi - now_rad,), reported)
     yield Relaxation(reason, LONG_ARMS)
 
 
@@ -156,10 +156,10 @@ def _less_comfort(context: Context, reason: Reason) -> Iterator[Relaxation]:
     if now_m > 0.0:
         amounts = (now_m,) if reason.comfort_m is None else (now_m - reason.comfort_m, now_m)
 
-        def told(reason: Reason, amount: float) -> Reason:
+        def reported(reason: Reason, amount: float) -> Reason:
             return reached_with_comfort(reason, context, max(now_m - amount, 0.0))
 
-        yield Relaxation(reason, COMFORT, amounts, told)
+        yield Relaxation(reason, COMFORT, amounts, reported)
 
 
 def _path_shifted(reason: Reason, station: str | None, by_m: float, towards: Point3) -> Iterator[Relaxation]:
@@ -181,7 +181,7 @@ def _moved(reason: Reason, towards: Point3, by_m: float, further_m: tuple[float,
 
 
 def _shift(reason: Reason, change: Change, amounts: tuple[float, ...], towards: Point3) -> Relaxation:
-    return Relaxation(reason, change, amounts, lambda told, by: replace(told, shift_m=by, shift_towards=towards))
+    return Relaxation(reason, change, amounts, lambda cause, by: replace(cause, shift_m=by, shift_towards=towards))
 
 
 def _of_hands(context: Context, reason: Reason, fold: int) -> Iterator[Relaxation]:
@@ -200,8 +200,8 @@ def _of_hands(context: Context, reason: Reason, fold: int) -> Iterator[Relaxatio
         yield _stiffer(context, reason)
         if len(context.sequence.garment.outline) <= _THIRD_HAND_CORNERS_MAX:
             says = worded("one_more_hand", {"hands": len(context.reach.arm_names)}, context.sequence.folds, fold)
-            told = replace(reason, says=says, needed_grip_radius_m=None)
-            yield Relaxation(reason, ONE_MORE_HAND, (), lambda _, __: told)
+            reported = replace(reason, says=says, needed_grip_radius_m=None)
+            yield Relaxation(reason, ONE_MORE_HAND, (), lambda _, __: reported)
 
 
 def _wider_grip(
@@ -209,7 +209,7 @@ def _wider_grip(
 ) -> Relaxation:
     now_m = context.sequence.folds[fold].grip_radius_m
 
-    def told(reason: Reason, amount: float) -> Reason:
+    def reported(reason: Reason, amount: float) -> Reason:
         enough_m = now_m + amount
         if abs(enough_m - (reason.needed_grip_radius_m or 0.0)) <= LENGTH_M and not in_drags:
             return reason
@@ -217,15 +217,15 @@ def _wider_grip(
         says = worded("wider_grip", values, context.sequence.folds, fold)
         return replace(reason, says=says, short_by_m=amount, needed_grip_radius_m=enough_m)
 
-    return Relaxation(reason, grip_radius((fold,), in_drags=in_drags), amounts, told)
+    return Relaxation(reason, grip_radius((fold,), in_drags=in_drags), amounts, reported)
 
 
 def _stiffer(context: Context, reason: Reason) -> Relaxation:
     now_rad = context.scene.support_angle_rad
 
-    def told(reason: Reason, amount: float) -> Reason:
+    def reported(reason: Reason, amount: float) -> Reason:
         values = {"support_angle_rad": now_rad, "needed_support_angle_rad": now_rad + amount}
         says = worded("stiffer_cloth", values, context.sequence.folds, reason.fold)
         return replace(reason, says=says, short_by_m=None, needed_grip_radius_m=None)
 
-    return Relaxation(reason, STIFFNESS, (SUPPORT_ANGLE_MAX_RAD - now_rad,), told)
+    return Relaxation(reason, STIFFNESS, (SUPPORT_ANGLE_MAX_RAD - now_rad,), reported)

@@ -258,7 +258,7 @@ class TrialBudget:
     def require_time(self, _share: float = 0.0) -> None:
         """Raise `SpentError` once the time is up; what was begun then counts as unknown.
 
-        Progress can be told to it (see `planner.robots.reach_maps`): so the building of maps ends in between.
+        Progress can be reported to it (see `planner.robots.reach_maps`): so the building of maps ends in between.
         """
         if self.is_late:
             self.has_unknown = True
@@ -275,7 +275,7 @@ class TrialBudget:
 
         Only where reasons are wanted are more ways tried before the answer is that there is no plan. By folds alone,
         drags by the arms are not looked for. A plan holds firmly if there is such a plan, as that of `make_plan` does:
-        this is asked second, since most trials have no plan at all.
+        this is searched second, since most trials have no plan at all.
         """
         self.spent_s += _SETTING_UP_S
         problem = Problem.of(task, self._whole.deadline)

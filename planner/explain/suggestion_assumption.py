@@ -1,6 +1,6 @@
 """Suggest what would have to be true of the world for a plan to exist: friction, grip radius, comfort radius.
 
-Each is suggested in sensible steps: the least step that gives a plan, tried as it is told. The values that the reasons
+Each is suggested in sensible steps: the least step that gives a plan, tried as worded. The values that the reasons
 found are tried first, otherwise the furthest value. Friction and comfort radius only ever allow more the further they
 go. So if the furthest gives no plan, nothing less does; if it does, the least is found by bisection.
 

@@ -87,7 +87,7 @@ def robots(task: Task, names: Iterable[str], on_map: Callable[[float], None]) ->
         task: the task; nothing is tried once a fold is done, since cloth is not carried to another table.
         names: the robots to try, each taken only when it is its turn. The task's own is left out, and so is one that
             cannot be loaded.
-        on_map: is told how far the maps of a robot's arms are where they must be built, which may take up to a minute;
+        on_map: called with how far the maps of a robot's arms are where they must be built, up to a minute;
             may raise `SpentError`, with which the search ends.
     """
     own = split_changes(task.robot)[0]

@@ -24,7 +24,7 @@ from planner.task.plan import Plan
 from planner.task.reason import Code
 from planner.task.task import Task
 
-TOLD_MAX = 3
+MADE_MAX = 3
 """Suggestions of one kind at most."""
 
 ENOUGH_KINDS = 3
@@ -77,7 +77,7 @@ def suggestions(
             those that need no maps come first.
 
     Returns:
-        The suggestions as they are found, at most `TOLD_MAX` of a kind; the generator's return value says whether every
+        The suggestions as they are found, at most `MADE_MAX` of a kind; the generator's return value says whether every
         possible change was tried before the budget was spent, and no trial was cut off before its answer was known.
 
     Raises:
@@ -169,12 +169,12 @@ class _Lane:
         self.is_done = False
         self._search = search
         self._trial: SuggestionTrial | None = None
-        self._told = 0
+        self._made = 0
 
     @property
     def has_found(self) -> bool:
         """Whether it has made a suggestion."""
-        return self._told > 0
+        return self._made > 0
 
     def go_on(self, budget: TrialBudget, on_trial: Callable[[SuggestionTrial], None]) -> Iterator[Suggestion]:
         """Plan the next trial, and yield each suggestion that results as soon as it is there.
@@ -208,5 +208,5 @@ class _Lane:
                 return
             yield wish
             resume = partial(next, self._search)
-            self._told += 1
-            self.is_done = self._told >= TOLD_MAX
+            self._made += 1
+            self.is_done = self._made >= MADE_MAX

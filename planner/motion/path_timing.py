@@ -8,7 +8,7 @@ path's own parameter goes by in a second.
   from the one before, and to the one after (time-optimal path parametrization).
 - *The planned time.* If the quickest run takes less than planned, its pace is cut at one height for a whole group of
   stretches: it goes evenly where it can, and is slower only where it must.
-- *What is kept.* A motion is told by keyframes with velocities, a cubic between two of them in time. Its accelerations
+- *What is kept.* A motion is given by keyframes with velocities, a cubic between two of them in time. Its accelerations
   are greatest at keyframes, so they are known exactly; where they are too great, the pace there is lowered, and all is
   done again.
 - *What is late.* Between two keyframes nothing need keep to the pace, so where a group takes longer than planned, its

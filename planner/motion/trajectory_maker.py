@@ -30,7 +30,7 @@ _FINGER_KNOTS = 8
 """Keyframes while fingers close or open: they swing on links, so their joint does not move as the opening does."""
 
 _NEAR_M = 1e-6
-"""The distance between openings by which the joint's change with the opening is told (m)."""
+"""The distance between openings by which the joint's change with the opening is measured (m)."""
 
 
 def trajectory(

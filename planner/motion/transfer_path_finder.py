@@ -161,8 +161,8 @@ class _TransferKey:
     def of(waypoints: Waypoints, cloths: Cloths) -> "_TransferKey":
         parts = (waypoints.positions, waypoints.rotations, waypoints.bases, waypoints.nominal_s, waypoints.is_driving)
         # The arrays are there once already, in the waypoints.
-        told = (text for part in parts for text in (f"{part.dtype}{part.shape}".encode(), part.tobytes()))
-        return _TransferKey(digest(*told), cloths, waypoints)
+        texts = (text for part in parts for text in (f"{part.dtype}{part.shape}".encode(), part.tobytes()))
+        return _TransferKey(digest(*texts), cloths, waypoints)
 
 
 class TransferPathFinder:
@@ -193,20 +193,20 @@ class TransferPathFinder:
             cloths: the cloth on the table before and after.
             ways: the ways in which hands may hold, the best first; none given: those in which they open widely.
         """
-        asked = _TransferKey.of(waypoints, cloths)
+        key = _TransferKey.of(waypoints, cloths)
         *others, last = ways or wide_holds(waypoints)
-        found = (self._searched.answer((asked, holds), self._search) for holds in others)
+        found = (self._searched.answer((key, holds), self._search) for holds in others)
         best = next((one for one in found if isinstance(one, TransferPath)), None)
-        return self._searched.answer((asked, last), self._search) if best is None else best
+        return self._searched.answer((key, last), self._search) if best is None else best
 
     def _search(self, wanted: tuple[_TransferKey, Holds]) -> TransferPath | NoPath:
         """Return the joint paths of a transfer whose hands hold in given ways."""
-        asked, holds = wanted
-        found = self._with_lines(asked, ApproachLines(holds, FAR))
+        key, holds = wanted
+        found = self._with_lines(key, ApproachLines(holds, FAR))
         for shares in (UP, NEAR):
             if isinstance(found, TransferPath) or found.is_hopeless:
                 break
-            found = self._with_lines(asked, ApproachLines(holds, shares))
+            found = self._with_lines(key, ApproachLines(holds, shares))
         return found
 
     def adapted(self, waypoints: Waypoints, cloths: Cloths, like: TransferPath) -> TransferPath | NoPath:
@@ -239,12 +239,12 @@ class TransferPathFinder:
             return None
         return self._half_turned(tool_paths, waypoints, cloths, joints, like.lines)
 
-    def _with_lines(self, asked: _TransferKey, lines: ApproachLines) -> TransferPath | NoPath:
+    def _with_lines(self, key: _TransferKey, lines: ApproachLines) -> TransferPath | NoPath:
         """Return the joint paths of a transfer, each hand on the first of its lines for which there is room.
 
         Without a path, return the waypoints at which an arm collides in every posture, or cannot pass the other.
         """
-        waypoints, cloths = asked.waypoints, asked.cloths
+        waypoints, cloths = key.waypoints, key.cloths
         tool_paths = self._tool_paths(waypoints, lines, cloths)
         found = self._machine.arm_paths(
             {approach.arm: approach.path for approach in tool_paths.each},
@@ -335,11 +335,11 @@ class TransferPathFinder:
             arm = approach.arm
             answers = arm_free(approach, steps, joints)
             for cloth, must_clear in zip(cloths, approach.must_clear(steps), strict=True):
-                asked = np.flatnonzero(answers & must_clear)
-                if cloth is not None and len(asked):
-                    bases = tool_paths.bases[steps[asked]]
+                rows = np.flatnonzero(answers & must_clear)
+                if cloth is not None and len(rows):
+                    bases = tool_paths.bases[steps[rows]]
                     opening_m = opening_of(holds[arm])
-                    answers[asked] = cloth.arm_clear(arm, bases, joints[asked], opening_m=opening_m)
+                    answers[rows] = cloth.arm_clear(arm, bases, joints[rows], opening_m=opening_m)
             if idle:
                 every, near = layout.at_home(len(joints)), tuple(sorted({arm, *idle}))
                 every[:, layout.spans[arm]] = joints

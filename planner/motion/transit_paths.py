@@ -41,7 +41,7 @@ _WAYS_KEPT = 512
 """Size of the cache of paths, some 7 kB each: two for each transfer that is kept."""
 
 _DIGITS = 9
-"""Decimal places to which ends of paths are told apart (rad): whole turns are not exact."""
+"""Decimal places to which ends of paths are distinguished (rad): whole turns are not exact."""
 
 _SAMPLED_MAX = 4
 """Paths sampled for the same arms, until one is free."""
@@ -148,7 +148,7 @@ class TransitPaths:
         """
         whole = np.floor(
             (start + np.pi + EDGE_RAD) / (2.0 * np.pi)
-        )  # a joint half a turn away is not told from the other
+        )  # a joint half a turn away is not distinguished from the other
         turns = np.where(self.layout.is_continuous, 2.0 * np.pi * whole, 0.0)
         unturned = start - turns
         first, last = (joints.round(_DIGITS) + 0.0 for joints in (unturned, self.unwound(goal - turns, unturned)))
@@ -189,16 +189,16 @@ class TransitPaths:
             for arm, span in enumerate(layout.spans):
                 if not count:
                     break
-                asked = np.arange(count)
+                left = np.arange(count)
                 ends = [(length[arm], of[arm]) for length, of in zip(spared, tools, strict=True) if length[arm] > 0.0]
                 if ends:
-                    # A hand has come at least as far as it is away. How far it came is asked of the whole path.
-                    there = self._tools(arm, joints[asked])
+                    # A hand has come at least as far as it is away. How far it came is a query of the whole path.
+                    there = self._tools(arm, joints[left])
                     is_near = [np.linalg.norm(there - end, axis=1) < length for length, end in ends]
-                    asked = asked[~np.logical_or.reduce(is_near)]
-                is_clear = cloth.arm_clear(arm, base, joints[asked, span])
+                    left = left[~np.logical_or.reduce(is_near)]
+                is_clear = cloth.arm_clear(arm, base, joints[left, span])
                 if not is_clear.all():
-                    count = int(asked[is_clear.argmin()])
+                    count = int(left[is_clear.argmin()])
             return count
 
         middle, ends = 0.5 * (start + goal), np.sort([start, goal], axis=0)

@@ -46,12 +46,12 @@ class Edges:
     """The successors of each state of one planning problem."""
 
     def __init__(self, context: Context, judge: Judge) -> None:
-        """Start with nothing computed; the judge is asked each time that edges are wanted."""
+        """Start with nothing computed; the judge is called each time that edges are wanted."""
         self._primitives = [kind(context) for kind in PRIMITIVES]
         self._context = context
         self._judge = judge
         self._steps: dict[tuple[State, bool], _Found] = {}
-        self._asked: set[State] = set()
+        self._expanded: set[State] = set()
         self._left: dict[tuple[object, ...], list[tuple[int, float]]] = {}
         self._worked_out: dict[Deferred[Step], _Found] = {}
         self._towards: dict[Deferred[Step], State] = {}
@@ -59,7 +59,7 @@ class Edges:
     @property
     def expanded(self) -> int:
         """The number of distinct states expanded."""
-        return len(self._asked)
+        return len(self._expanded)
 
     def begin(self) -> None:
         """Begin a search: mark all states as not left yet."""
@@ -71,7 +71,7 @@ class Edges:
         Steps that begin with driving are left out where the base could have driven there from a state that was left
         before: from there they took no longer. This holds for states reached by steps since which all costs are alike.
         """
-        self._asked.add(state)
+        self._expanded.add(state)
         is_passed = not state.held and self._is_passed(state, cost_s, since)
         key = (state, is_passed)
         if key not in self._steps:

@@ -62,13 +62,13 @@ class FoundPlan:
         bound_s = min(known) if known and len(known) == len(bounds) else None
         statistics = replace(other.plan.statistics.after(self.plan.statistics), bound_s=bound_s)
         is_exhaustive = self.plan.is_exhaustive and other.plan.is_exhaustive
-        return better.told_again(better.plan.task, statistics, is_exhaustive=is_exhaustive)
+        return better.with_statistics(better.plan.task, statistics, is_exhaustive=is_exhaustive)
 
     def with_reasons(self, reasons: tuple[Reason, ...]) -> "FoundPlan":
         """Return this answer with the reasons why there is no plan."""
         return replace(self, plan=replace(self.plan, reasons=reasons))
 
-    def told_again(self, task: Task, statistics: Statistics, *, is_exhaustive: bool) -> "FoundPlan":
+    def with_statistics(self, task: Task, statistics: Statistics, *, is_exhaustive: bool) -> "FoundPlan":
         """Return this plan as the answer to a task with other limits, with new statistics."""
         plan = replace(self.plan, task=task, statistics=statistics, is_exhaustive=is_exhaustive)
         return FoundPlan(plan, self.context, self.plan_segments)

@@ -100,9 +100,9 @@ def _require_drive(problem: Problem, segment: Segment, times_s: list[float]) -> 
     """
     poses = [segment.base_at(t_s) for t_s in times_s]
     for (t_s, here), (_, there) in pairwise(zip(times_s, poses, strict=True)):
-        told = _undrivable(problem, here, there)
-        if told is not None:
-            raise RequestError("trajectory", f"at {t_s:.2f} s the base {told}")
+        fault = _undrivable(problem, here, there)
+        if fault is not None:
+            raise RequestError("trajectory", f"at {t_s:.2f} s the base {fault}")
 
 
 def _undrivable(problem: Problem, here: Pose2, there: Pose2) -> str | None:
@@ -193,8 +193,8 @@ def _require_arms(
         off_m = float(np.linalg.norm(off))
         is_laid = segment.fraction_at(t_s) > 1.0 - _LAID
         if off_m > TOOL_M and not (is_laid and _may_open(off)):
-            told = f"at {t_s:.2f} s the {card.arms[arm_number].name} tool is {off_m:.3f} m from what it holds"
-            raise RequestError("trajectory", told)
+            message = f"at {t_s:.2f} s the {card.arms[arm_number].name} tool is {off_m:.3f} m from what it holds"
+            raise RequestError("trajectory", message)
 
 
 def _may_open(off: FloatArray) -> bool:

@@ -121,7 +121,7 @@ class _PlanSearch:
             return
         if status == "infeasible":
             yield Blocked(self._answer(status, (), is_cut_short=is_cut_short), exact.obstacles)
-        # It is made anew, since it counts what was asked meanwhile to find out why.
+        # It is made anew, since it counts the queries made meanwhile to find out why.
         yield Done(self._answer(status, (), is_cut_short=is_cut_short or self._is_bounded))
 
     def run(self, pauses: Iterable[Pause]) -> Iterator[Event]:
@@ -222,7 +222,7 @@ class _PlanSearch:
         if is_last:
             plan_segments = self._hands.held(plan_segments, self.budget.deadline)
         if known is not None and plan_segments == known.plan_segments:
-            return known.told_again(self.problem.task, statistics, is_exhaustive=is_exhaustive)
+            return known.with_statistics(self.problem.task, statistics, is_exhaustive=is_exhaustive)
         return FoundPlan.of(self.problem, status, plan_segments, (), statistics, is_exhaustive=is_exhaustive)
 
 
@@ -287,4 +287,4 @@ STRATEGIES: tuple[Strategy, ...] = (
     _restrict,
     _try_thoroughly,
 )
-"""The strategies, in the order in which they are asked."""
+"""The strategies, in the order in which they are called."""

@@ -156,8 +156,8 @@ class SingleFold:
                 if self._budget.is_over:
                     return stages
                 rows = np.flatnonzero(alive[grip][:, left].any(axis=1))
-                asked = _ReachKey(case.done, bool(case.held) and sweep < 1.0, station, arm, sweep, _key(points[grip]))
-                found = self._found(asked, trial, points[grip], trial.approaches[grip][rows], left)
+                key = _ReachKey(case.done, bool(case.held) and sweep < 1.0, station, arm, sweep, _key(points[grip]))
+                found = self._found(key, trial, points[grip], trial.approaches[grip][rows], left)
                 alive[grip][np.ix_(rows, left)] &= found
                 left = left[alive[grip][:, left].any(axis=0)]
                 if not len(left):
@@ -167,7 +167,7 @@ class SingleFold:
 
     def _found(
         self,
-        asked: _ReachKey,
+        key: _ReachKey,
         trial: FoldTrial,
         point: FloatArray,
         approaches: NDArray[np.int64],
@@ -177,16 +177,16 @@ class SingleFold:
 
         Many trials share a point, so the answers are kept.
         """
-        if asked not in self._answers:
+        if key not in self._answers:
             shape = (2, len(self._context.reach.approaches), len(self._places))
-            self._answers[asked] = np.zeros(shape, dtype=bool)
-        is_known, is_found = self._answers[asked]
+            self._answers[key] = np.zeros(shape, dtype=bool)
+        is_known, is_found = self._answers[key]
         missing = ~is_known[np.ix_(approaches, places)]
         if missing.any():
             block = np.ix_(approaches[missing.any(axis=1)], places[missing.any(axis=0)])
             raised = point + np.column_stack([self._places[block[1][0]], np.zeros(block[1].size)])
-            tools = raised if asked.is_held_out else trial.path.over_edge(raised, trial.path.top)
-            is_found[block] = self._from_anywhere(asked.station, asked.arm, tools, block[0][:, 0])
+            tools = raised if key.is_held_out else trial.path.over_edge(raised, trial.path.top)
+            is_found[block] = self._from_anywhere(key.station, key.arm, tools, block[0][:, 0])
             is_known[block] = True
         return np.asarray(is_found[np.ix_(approaches, places)])
 

@@ -95,9 +95,9 @@ def _kind(name: str) -> str:
 def _use_kernels(name: str, is_backwards: bool) -> None:
     """Use every kernel for a robot.
 
-    A napkin is planned and played, the reach is asked why places are out of reach, and the arms are led past each
+    A napkin is planned and played, the reach is queried why places are out of reach, and the arms are led past each
     other: together these use every kernel. Objects that exist by then, above all modules, are hidden from the garbage
-    collector, which is asked less often from then on.
+    collector, which is called less often from then on.
     """
     gc.set_threshold(max(_ALLOCATIONS, gc.get_threshold()[0]), *gc.get_threshold()[1:])
     gc.freeze()  # modules are no garbage, and scanning them stops the process for some hundredths of a second
@@ -133,7 +133,7 @@ def _ask_why(problem: Problem) -> None:
 def _drive(problem: Problem) -> None:
     """Drive, and bound the driving.
 
-    The bound is asked from where nothing is in reach: from the table it takes half a second, for some arms 17 s.
+    The bound is computed from where nothing is in reach: from the table it takes half a second, for some arms 17 s.
     """
     strips = np.ones((1, 2), dtype=np.uint32)
     travel(strips, 2)

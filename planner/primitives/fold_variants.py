@@ -69,13 +69,13 @@ def _by_travel(context: Context, state: State, trial: FoldTrial, end: int) -> It
     Mostly only a few are wanted, and where arms reach from standoffs far back takes long to ask. So the standoffs are
     limited first: a way that drives further back than both its ends drives that far twice.
     """
-    told, furthest = -1, max(state.standoff, end)
+    yielded, furthest = -1, max(state.standoff, end)
     for count in _counts(furthest + 1, context.standoffs):
         is_all = count == context.standoffs
         most = abs(state.standoff - end) + 2 * (count - 1 - furthest)
-        found = (v for v in trial_variants(context, state, trial, end, count=count) if v.steps > told)
+        found = (v for v in trial_variants(context, state, trial, end, count=count) if v.steps > yielded)
         yield from sorted((v for v in found if is_all or v.steps <= most), key=_rank)
-        told = most
+        yielded = most
 
 
 def _counts(least: int, most: int) -> Iterator[int]:
@@ -150,7 +150,7 @@ def _all_strips(
 ) -> tuple[NDArray[np.uint32], NDArray[np.int64], NDArray[np.int64]]:
     """Return every combination of approaches for which the base has one of some standoffs at every waypoint.
 
-    A hand is asked only about the standoffs at which those before it can be.
+    A hand is queried only about the standoffs at which those before it can be.
 
     Returns:
         Bit masks of standoffs, shape (combinations, waypoints); each hand's approach, shape (combinations, hands); and

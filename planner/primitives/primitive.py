@@ -168,7 +168,7 @@ class Primitive(Protocol):
     begins_with_driving: bool
 
     def __init__(self, context: Context) -> None:
-        """Take the task's planning context; nothing is computed before it is asked for."""
+        """Take the task's planning context; nothing is computed before it is needed."""
 
     def successors(self, state: State) -> Iterable[Step]:
         """Return the possible steps of this kind in a state; `DeferredSteps` where computing them is slow."""

@@ -37,10 +37,10 @@ class Packet:
         cloth: the stack.
         folds: all folds, those that stood at the beginning first.
         moves: the moves by which it was folded from there, each by its kind and axis.
-        effort: the summed efforts of the moves, and of the robot where one is asked.
+        effort: the summed efforts of the moves, and of the robot where one is queried.
         is_turned: whether it was turned over, before them or after them.
-        stand: where robot and cloth are after the folds that a robot was asked about; None before it was.
-        asked: the number of those folds.
+        stand: where robot and cloth are after the folds that a robot was queried about; None before it was.
+        queried: the number of those folds.
         doubts: the number of those that the robot probably cannot do.
         is_sketch: whether it was found without the robot, so that a variant may suit that better.
     """
@@ -51,14 +51,14 @@ class Packet:
     effort: float = 0.0
     is_turned: bool = False
     stand: Stand | None = None
-    asked: int = 0
+    queried: int = 0
     doubts: int = 0
     is_sketch: bool = False
 
     @staticmethod
     def of(garment: Garment) -> "Packet":
         """Return the garment as its folds leave it; raises `FoldError` if one is not legal."""
-        return Packet(FoldSequence.of(garment).final, garment.folds, asked=len(garment.folds))
+        return Packet(FoldSequence.of(garment).final, garment.folds, queried=len(garment.folds))
 
     @cached_property
     def size_m(self) -> Sides:
@@ -129,14 +129,14 @@ class Packet:
 
     @property
     def is_checked(self) -> bool:
-        """Whether a robot was asked about all folds."""
-        return self.asked == len(self.folds)
+        """Whether a robot was queried about all folds."""
+        return self.queried == len(self.folds)
 
     def checked(self, robot: RobotCheck) -> "Packet":
-        """Return the packet with what the folds that a robot was not asked about mean to it."""
-        found = robot.of(self.folds, self.asked, self.stand or robot.start)
+        """Return the packet with what the folds that a robot was not queried about mean to it."""
+        found = robot.of(self.folds, self.queried, self.stand or robot.start)
         effort, doubts = self.effort + found.effort, self.doubts + found.doubts
-        return replace(self, effort=effort, stand=found.stand, asked=len(self.folds), doubts=doubts)
+        return replace(self, effort=effort, stand=found.stand, queried=len(self.folds), doubts=doubts)
 
     def images(self, outline: Region) -> Iterator[tuple[DrawnFold, ...]]:
         """Yield its folds mirrored, for each axis on which an outline lies symmetric; it was folded from that outline.

@@ -7,7 +7,7 @@ is always the one with the least effort so far and the least that is still neede
 side to the target, and the layers in which all of the cloth lies within it. So packets come out about in the order of
 what people like, and the first are there while the rest is not yet looked for.
 
-A robot is asked about a stack when its turn comes to be folded on. What the robot hardly can do waits longer then, and
+A robot is queried about a stack when its turn comes to be folded on. What it hardly can do waits longer then, and
 so does what begins with folds that turned out to have no plan.
 """
 
@@ -32,7 +32,7 @@ _LAYERS_MAX = 64
 """The most layers of a stack that is looked at."""
 
 _SOON, _PAUSE = 20, 8
-"""The sequences that are folded without one that fits, before sketches come first; and before that is told."""
+"""The sequences that are folded without one that fits, before sketches come first; and before that is reported."""
 
 _VARIANTS = 3
 """The most variants that are folded: packets of one way that fit, and states of one way and size."""
@@ -85,7 +85,7 @@ class PacketSearch:
         self._full_m = tuple(min(most, begun) for most, begun in ordered)
         self._max_folds = max_folds
         self._face = face
-        self._robot = None if target.is_smallest else robot  # all are folded before the first is told
+        self._robot = None if target.is_smallest else robot  # all are folded before the first is yielded
         self._queue: list[_Waiting] = []
         self._serial = count()
         self._met: dict[object, int] = {}

@@ -50,16 +50,16 @@ from planner.task.scene import Scene
 from planner.task.task import DEFAULT_ROBOT, Task
 
 Face: TypeAlias = Literal["any", "front", "back"]
-"""The faces of the cloth that may be asked to look up."""
+"""The faces of the cloth that may be requested to look up."""
 
 COUNT_MAX = 32
-"""The most proposals that may be asked for."""
+"""The most proposals that may be requested."""
 
 WORK_LIMIT_S = 1.0
 """The work for the plan of one packet, in seconds of a present-day machine, by default."""
 
 _FAILURES = 4
-"""Packets without a plan for each proposal asked for, after which no more are planned."""
+"""Packets without a plan for each proposal requested, after which no more are planned."""
 
 _BRIEF_SHARE = 0.4
 """The work for the plan of a packet's first folds, for a first try and for improving the first plan, as a share."""
@@ -74,7 +74,7 @@ _VARIANTS, _MORE = 3, 4
 """Variants of one way that are planned, at most, and packets more that are looked at for them in the end."""
 
 _FIRST, _SKETCHES = 2, 2
-"""Sketches that are planned where the robot must be asked much, and ways looked at for each sketch."""
+"""Sketches that are planned where the robot must be queried much, and ways looked at for each sketch."""
 
 
 class ProposalOptions(TypedDict, total=False):

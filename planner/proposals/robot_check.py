@@ -63,7 +63,7 @@ class RobotCheck:
     """Looks for a stand for each fold."""
 
     def __init__(self, task: Task) -> None:
-        """Prepare the check; the robot is loaded once it is asked."""
+        """Prepare the check; the robot is loaded once it is queried."""
         self._task = task
 
     @cached_property

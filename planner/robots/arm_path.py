@@ -22,7 +22,7 @@ _SMOOTHINGS = 6
 _TRIES_MAX = 16
 """Chains tried before the search gives up."""
 
-_ASKED_OF = {1: 3, 2: 1}
+_TESTED_OF = {1: 3, 2: 1}
 """By try, the stride over the links whose samples are checked: a few links soon show that there is no path."""
 
 
@@ -66,7 +66,7 @@ class ArmSearch:
         self.jump, self.links = 0.0, np.empty(0, dtype=np.int64)
         self.samples, self.costs = np.empty((0, 0, len(speeds))), np.empty((0, 0))
         self.chain, self.spans = np.empty(0, dtype=np.int64), np.empty(0)
-        self._is_asked = np.empty(0, dtype=bool)
+        self._is_tested = np.empty(0, dtype=bool)
         self.has_dropped = False
 
     def found(self, stride: int | None = None) -> FloatArray | NoPath:
@@ -82,7 +82,7 @@ class ArmSearch:
         self.jump = min(_JUMP_RAD, stride * LEAP_RAD)
         self.links = np.unique(np.append(np.arange(0, count, stride), count - 1))
         self.spans = np.add.reduceat(np.append(self._path.spans_s, 0.0), self.links)[:-1]
-        self._is_asked = np.zeros(len(self.links), dtype=bool)
+        self._is_tested = np.zeros(len(self.links), dtype=bool)
         places, axes = self._path.positions[self.links], self._path.rotations[self.links]
         self.samples, self.costs = self._arm.samples(places, axes, self._torso_m, self._floor_m)
         for number in range(_TRIES_MAX):
@@ -122,7 +122,7 @@ class ArmSearch:
 
     def able(self, link: int) -> tuple[NDArray[np.int64], FloatArray]:
         """Return the samples at a link that do not collide: indices, shape (k,), and joints, (k, joints)."""
-        self._ask(np.array([link])[~self._is_asked[[link]]])
+        self._test(np.array([link])[~self._is_tested[[link]]])
         which = np.flatnonzero(np.isfinite(self.costs[link]))
         return which, self.samples[link, which]
 
@@ -142,20 +142,20 @@ class ArmSearch:
         """
         beside = links_beside(self.links, bad)
         everywhere = np.arange(len(chain))
-        taken = everywhere if number in _ASKED_OF else beside
-        for asked in (everywhere[:: _ASKED_OF[number]], everywhere) if number in _ASKED_OF else (beside,):
-            self._ask(np.asarray(asked[~self._is_asked[asked]], dtype=np.int64))
+        taken = everywhere if number in _TESTED_OF else beside
+        for tested in (everywhere[:: _TESTED_OF[number]], everywhere) if number in _TESTED_OF else (beside,):
+            self._test(np.asarray(tested[~self._is_tested[tested]], dtype=np.int64))
             if np.isinf(self.costs[taken, chain[taken]]).any():
                 return
         self.has_dropped = True
         self.costs[taken, chain[taken]] = np.inf
 
-    def _ask(self, links: NDArray[np.int64]) -> None:
+    def _test(self, links: NDArray[np.int64]) -> None:
         rows, columns = np.nonzero(np.isfinite(self.costs[links]))
-        asked = links[rows]
-        self._is_asked[links] = True
-        is_bad = ~self._is_free(self.links[asked], self.samples[asked, columns])
-        self.costs[asked[is_bad], columns[is_bad]] = np.inf
+        tested = links[rows]
+        self._is_tested[links] = True
+        is_bad = ~self._is_free(self.links[tested], self.samples[tested, columns])
+        self.costs[tested[is_bad], columns[is_bad]] = np.inf
 
 
 def links_inside(links: NDArray[np.int64], core: tuple[int, int]) -> NDArray[np.int64]:

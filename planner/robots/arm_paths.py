@@ -22,7 +22,7 @@ from planner.robots.tool_path import IsFree, NoPath, PathArm, ToolPath
 _TRIES_MAX = 24
 """Pairs of chains tried before the search gives up."""
 
-_ASKED_OF = (4, 2, 1)
+_TESTED_OF = (4, 2, 1)
 """Strides over the poses to be checked: few are checked first, the others only if that changes nothing."""
 
 
@@ -111,7 +111,7 @@ class _PairSearch:
         self._spans = np.stack([arm.spans for arm in arms])
         count = len(self._links)
         self._is_allowed = np.ones((count, self._size, self._size), dtype=np.bool_)
-        self._is_asked = np.zeros(count, dtype=bool)
+        self._is_tested = np.zeros(count, dtype=bool)
         self._has_dropped = any(arm.has_dropped for arm in arms)
 
     def found(self) -> FloatArray | NoPath:
@@ -158,7 +158,7 @@ class _PairSearch:
         """
         beside = links_beside(self._links, bad)
         taken = (beside, chains[0, beside], chains[1, beside])
-        for step in _ASKED_OF:
+        for step in _TESTED_OF:
             if not all(self._ask(int(link)) for link in beside[::step]):
                 return False
             if not self._is_allowed[taken].all():
@@ -169,8 +169,8 @@ class _PairSearch:
 
     def _ask(self, link: int) -> bool:
         """Check all pairs of samples at a link, once; return whether a pair is collision-free."""
-        if not self._is_asked[link]:
-            self._is_asked[link] = True
+        if not self._is_tested[link]:
+            self._is_tested[link] = True
             (rows, left), (columns, right) = (arm.able(link) for arm in self._arms)
             allowed = np.zeros_like(self._is_allowed[link])
             allowed[np.ix_(rows, columns)] = self._together.postures_apart(self._pair, left, right)

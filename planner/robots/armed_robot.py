@@ -73,7 +73,7 @@ class ArmedRobot(ABC):
             comfort_m: the comfort radius (m).
             is_passing: whether it is for a few queries only: it takes no memory from earlier plans and leaves none.
             minds_body: whether a place is out of reach where the robot's body may be in the arm's way. What that leaves
-                is told in cells of 2 cm; a path that keeps clear of the body knows better.
+                is known in cells of 2 cm; a path that keeps clear of the body knows better.
             minds_arms: whether it is out of reach, too, where the other arm at home may be in the way. That arm may be
                 elsewhere, so this is for restricted tasks.
 

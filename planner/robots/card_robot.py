@@ -50,13 +50,13 @@ class CardRobot(ArmedRobot):
             return self._seen(torso_m)
 
         numbers, heights = self._seen(torso_m)
-        asked = QueriedArms(names, self._arms, numbers, ALL_ROUND, labels)
-        return MappedReach(asked, heights, covering, joints, lengths, torso_m, comfort_m, memories)
+        queried = QueriedArms(names, self._arms, numbers, ALL_ROUND, labels)
+        return MappedReach(queried, heights, covering, joints, lengths, torso_m, comfort_m, memories)
 
     def _seen(self, torso_m: float) -> tuple[MappedArms, Heights]:
         """Return the arms for the compiled queries with the lift raised, and the heights that their maps cover."""
-        asked, heights, each = self._prepared()
-        return rooted(asked, [arm.shoulder(torso_m) for arm in each]), heights
+        queried, heights, each = self._prepared()
+        return rooted(queried, [arm.shoulder(torso_m) for arm in each]), heights
 
     def forget_reach(self) -> None:
         """Drop the memories of where the arms reach and how, so that benchmarks measure their computation."""
@@ -72,7 +72,7 @@ class CardRobot(ArmedRobot):
         """Return the arms with their reach maps, which are read or built at the first call.
 
         Args:
-            progress: is told how far the maps are that must be built (0 to 1).
+            progress: called with how far the maps are that must be built (0 to 1).
         """
         return self._prepared(progress)[2]
 
@@ -101,10 +101,10 @@ class CardRobot(ArmedRobot):
 def _sharing(arms: tuple[MappedArm, ...]) -> _Mapped:
     """Return arms for the compiled queries, and the arms, which use parts of what these hold as their maps."""
     maps = [arm.known for arm in arms]
-    asked = mapped_arms([arm.chain for arm in arms], maps)
-    for arm, known, shared in zip(arms, maps, shared_maps(asked, maps), strict=True):
+    queried = mapped_arms([arm.chain for arm in arms], maps)
+    for arm, known, shared in zip(arms, maps, shared_maps(queried, maps), strict=True):
         arm.take(known, shared)
-    return asked, tuple(covered_heights(known.grid) for known in maps), arms
+    return queried, tuple(covered_heights(known.grid) for known in maps), arms
 
 
 def shared_maps(arms: MappedArms, maps: Sequence[ReachMap]) -> tuple[ReachMap, ...]:

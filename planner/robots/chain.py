@@ -28,7 +28,7 @@ class Chain(NamedTuple):
         turns: which joints have a whole turn or more, and so no limit for a pose; shape (n,).
         tool_rotation: the tool's axes in the last joint's frame, as columns; x is the approach axis. Shape (3, 3).
         tool_offset: the tool's position in the last joint's frame, shape (3,).
-        rows: what the arm is asked of a pose where the roll does not matter: `PITCH`, `AXIS` or `WHOLE`.
+        rows: what of a pose the arm must take where the roll does not matter: `PITCH`, `AXIS` or `WHOLE`.
         scale: the length by which angles count as distances (m).
     """
 

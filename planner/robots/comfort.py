@@ -10,7 +10,7 @@ query came first. All arms share the memory: mirror images of each other under t
 their own. The memory is a hash table with linear probing. When it is
 three quarters full it stores no more rows, and the answers stay the same.
 
-Whether a place is within the radius is told by the arm (see `planner.robots.arm_query`).
+Whether a place is within the radius is answered by the arm (see `planner.robots.arm_query`).
 """
 
 from typing import NamedTuple
@@ -35,7 +35,7 @@ ROWS, QUERIES = 0, 1
 """Indices of the counts: rows, and queries made."""
 
 KNOWN, GOOD, TESTED, PASSED = range(4)
-"""Indices of a row's bits: which places this plan has asked about, and which of them are within the comfort radius; and
+"""Indices of a row's bits: which places this plan has queried, and which of them are within the comfort radius; and
 the same of all plans that have had the memory. A place that passed without a test is beyond the arm's length."""
 
 YES, NO = 5, 1
@@ -127,7 +127,7 @@ def recall(bits: NDArray[np.int64], counts: NDArray[np.int64], slot: int, cells:
         bits: the memory's rows.
         counts: its counts.
         slot: the row's slot.
-        cells: the bits of cells that this plan has not asked about yet and others have.
+        cells: the bits of cells that this plan has not queried yet and others have.
         comfort: the comfort radius (m).
     """
     tested = bits[slot, TESTED] & cells

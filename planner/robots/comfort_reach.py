@@ -41,7 +41,7 @@ class Memories:
 
     Where an arm reaches depends on the robot alone, and a garment that has changed a little asks about much the same
     places. A memory (see `planner.robots.comfort`) must not be shared between threads, so a plan takes one and leaves
-    it when done. A plan is charged for what another has asked, so that its work does not depend on what came before it.
+    it when done. A plan is charged for the queries of another, so that its work does not depend on what came before it.
     """
 
     def __init__(self) -> None:
@@ -123,7 +123,7 @@ class ReachingArm(Protocol):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class QueriedArms:
-    """The arms of a robot, and how the compiled queries are asked about them.
+    """The arms of a robot, and how the compiled queries take them.
 
     Attributes:
         names: the arms from left to right.
@@ -158,25 +158,25 @@ class ComfortReach(ABC):
         memory: what has been answered so far.
     """
 
-    def __init__(self, asked: QueriedArms, torso_m: float, comfort_m: float, memories: Memories | None) -> None:
+    def __init__(self, queried: QueriedArms, torso_m: float, comfort_m: float, memories: Memories | None) -> None:
         """Start with nothing remembered.
 
         Args:
-            asked: the arms.
+            queried: the arms.
             torso_m: how far the torso is raised (m).
             comfort_m: the comfort radius (m).
             memories: what earlier plans with the same arms, torso, radius and room have learned; None: nothing.
         """
-        self._asked = asked
-        self.arm_names, self.approaches = asked.names, asked.approaches
+        self._queried = queried
+        self.arm_names, self.approaches = queried.names, queried.approaches
         self.torso_m, self.comfort_m = torso_m, comfort_m
         self.memory = PlanMemory(memories)
-        self._shoulders = tuple(arm.shoulder(torso_m) for arm in asked.arms)
+        self._shoulders = tuple(arm.shoulder(torso_m) for arm in queried.arms)
 
     @property
     def shoulders(self) -> tuple[Point3, ...]:
         """The shoulder of each arm, base frame (m)."""
-        seen = zip(self._asked.arms, self._shoulders, strict=True)
+        seen = zip(self._queried.arms, self._shoulders, strict=True)
         found = [arm.mirrored_places(shoulder[None])[0] for arm, shoulder in seen]
         return tuple((float(x), float(y), float(z)) for x, y, z in found)
 
@@ -200,8 +200,8 @@ class ComfortReach(ABC):
             numbers,
             self._shoulders[path.arm],
             self.memory.rows,
-            self._asked.arms[path.arm].mirrored_places(path.points),
-            self._asked.labels[path.arm][path.approaches],
+            self._queried.arms[path.arm].mirrored_places(path.points),
+            self._queried.labels[path.arm][path.approaches],
             path.count,
             self.comfort_m,
             full if start is None else 1 << start,
@@ -218,8 +218,8 @@ class ComfortReach(ABC):
         places = np.empty((hands, waypoints, 3), dtype=np.int64)
         for hand, path in enumerate(paths):
             numbers = self._numbers_for(path)
-            labels[hand, : len(path.approaches)] = self._asked.labels[path.arm][path.approaches]
-            steps = grid_keys(self._asked.arms[path.arm].mirrored_places(path.points))
+            labels[hand, : len(path.approaches)] = self._queried.labels[path.arm][path.approaches]
+            steps = grid_keys(self._queried.arms[path.arm].mirrored_places(path.points))
             places[hand] = steps - grid_keys(self._shoulders[path.arm])
         slots = np.full((*labels.shape, waypoints), UNSEEN, dtype=np.int64)
         cells = places[:, :, 0] // STANDOFF_STEP + ROW_CELLS // 2
@@ -242,8 +242,8 @@ class ComfortReach(ABC):
             numbers,
             self._shoulders[places.arm],
             self.memory.rows,
-            self._asked.arms[places.arm].mirrored_places(places.points),
-            self._asked.labels[places.arm][places.approaches],
+            self._queried.arms[places.arm].mirrored_places(places.points),
+            self._queried.labels[places.arm][places.approaches],
             places.count,
             self.comfort_m,
         )
@@ -252,7 +252,7 @@ class ComfortReach(ABC):
 
     def _numbers_for(self, _query: ReachQuery) -> ArmNumbers:
         """Return what the compiled queries compute with, good for some points."""
-        return self._asked.numbers
+        return self._queried.numbers
 
     @abstractmethod
     def at_least_short(self, ways: ReachQuery) -> FloatArray:

@@ -104,7 +104,7 @@ def remembered(bits: NDArray[np.int64], slot: int, cell: int, wanted: int) -> in
 def recalled(
     bits: NDArray[np.int64], counts: NDArray[np.int64], slot: int, cell: int, wanted: int, comfort: float
 ) -> int:
-    """Return what `remembered` does, if this plan and others together have asked about all of it; else -1.
+    """Return what `remembered` does, if this plan and others together have queried all of it; else -1.
 
     The plan is charged for what it learns by it. It takes few arguments: passing a task on costs more than all this.
     """

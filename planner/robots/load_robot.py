@@ -46,11 +46,11 @@ def load_robot(name_or_path: str) -> Pr2 | CardRobot:
 def prepare_robot(name_or_path: str, progress: Progress) -> None:
     """Make a robot ready for planning, which takes up to a minute when its arms have never been mapped on this machine.
 
-    Planning does so by itself, but does not tell how far it is. Raises as `load_robot` does.
+    Planning does so by itself, but does not report how far it is. Raises as `load_robot` does.
 
     Args:
         name_or_path: the robot's name, or the path of its card.
-        progress: is told how far the maps are that must be built (0 to 1); not called for those that exist.
+        progress: called with how far the maps are that must be built (0 to 1); not called for those that exist.
     """
     robot = load_robot(name_or_path)
     if isinstance(robot, CardRobot):

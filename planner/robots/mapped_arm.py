@@ -18,7 +18,7 @@ from planner.robots.reach_map import ReachMap, reachable_poses
 from planner.robots.reach_maps import Progress, covered_heights, covering, reach_map
 
 _POSES_KEPT = 4096
-"""Poses whose samples are kept, those asked last: some ten MB."""
+"""Poses whose samples are kept, those queried last: some ten MB."""
 
 _Key = tuple[bytes, bytes, float]
 _Samples = tuple[FloatArray, FloatArray]
@@ -86,7 +86,7 @@ ALL_ROUND = (
 """Directions from which a gripper may pinch, all round: fixed arms may stand on opposite sides of a table."""
 
 _BELOW_M, _ABOVE_M = 0.1, 0.8
-"""The heights below and above the table's top that a map covers from the first; layers are added when asked (m)."""
+"""The heights below and above the table's top that a map covers from the first; layers are added when queried (m)."""
 
 _WIDE_RAD = 2 * math.tau - 0.01
 """A joint with this range may wind up along a chain: wherever it began, some whole turns bring it within its limits."""
@@ -100,7 +100,7 @@ joints turn farther for a centimetre.
 class MappedArm:
     """An arm with the reach map. Its answers do not change, so all users may share one instance.
 
-    The map grows by layers when something above or below it is asked, which changes no answer.
+    The map grows by layers when something above or below it is queried, which changes no answer.
 
     Poses are of the tool, x along the approach axis, in the base frame (m). How high the lift is raised is given with
     each question.
@@ -255,14 +255,14 @@ def mapped_arm(robot: DescribedRobot, number: int, progress: Progress | None = N
     Args:
         robot: the robot.
         number: the arm's index.
-        progress: is told how far a map is that must be built.
+        progress: called with how far a map is that must be built.
     """
     arm = robot.arms[number]
     return MappedArm(arm, reach_map(arm.chain, ALL_ROUND, heights(robot, arm), progress))
 
 
 def all_arms(robot: DescribedRobot, progress: Progress | None = None) -> tuple[MappedArm, ...]:
-    """Return all arms of a robot with their maps, see `mapped_arm`; `progress` is told the share of all of them."""
+    """Return all arms of a robot with their maps, see `mapped_arm`; `progress` is called with the share of all."""
     count = len(robot.arms)
     return tuple(mapped_arm(robot, number, _part(progress, number, count)) for number in range(count))
 

@@ -2,11 +2,11 @@
 
 The joints for the place itself are found from the map; those for the four places on the circle round it by Newton's
 method from these, or else from the map too. Nothing is taken over from one question to the next, so that answers do not
-depend on what was asked before.
+depend on earlier queries.
 
 As for a closed form (`planner.robots.pr2.nearest_comfort`) the search for the nearest such place goes outwards in
 shells, along all directions and approaches and from all places of the base at once, and ends in the first shell that
-has one. Shells are thicker here, because each query takes longer, and what the arm's length rules out is not asked.
+has one. Shells are thicker here, because each query takes longer, and what the arm's length rules out is not queried.
 """
 
 import math
@@ -36,7 +36,7 @@ _PER_JOINT = 16
 """Numbers of a joint: rotation, offset, limits, and the middle and half of its range."""
 
 _COUNT, _ROWS, _CELLS, _START, _STARTS = 0, 1, 2, 5, 6
-"""Indices of an arm's whole numbers: its joints, what it is asked of a pose, the cells of its map along three axes, and
+"""Indices of an arm's whole numbers: its joints, what of a pose it must take, the cells of its map along three axes,
 where the starts of its map begin and how many there are."""
 
 

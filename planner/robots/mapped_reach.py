@@ -23,7 +23,7 @@ Covering: TypeAlias = Callable[[int, FloatArray], tuple[MappedArms, Heights]]
 """Has an arm's map cover points that are seen from its root; returns all arms with their maps, and these' heights."""
 
 _QUERIES_MAX = 50_000
-"""Queries after which a shortfall is told as far as it is known: some tenths of a second."""
+"""Queries after which a shortfall is returned as far as it is known: some tenths of a second."""
 
 _QUERIES_LATE_MAX = 5_000
 """The same where nobody waits for the answer any more."""
@@ -34,7 +34,7 @@ class MappedReach(ComfortReach):
 
     def __init__(
         self,
-        asked: QueriedArms,
+        queried: QueriedArms,
         heights: Heights,
         covering: Covering,
         joint_names: tuple[tuple[str, ...], ...],
@@ -46,7 +46,7 @@ class MappedReach(ComfortReach):
         """Start with nothing remembered.
 
         Args:
-            asked: the arms, with maps.
+            queried: the arms, with maps.
             heights: those that their maps cover.
             covering: has an arm's map cover more.
             joint_names: the joints of each arm.
@@ -55,7 +55,7 @@ class MappedReach(ComfortReach):
             comfort_m: the comfort radius (m).
             memories: what earlier plans have learned; None: nothing.
         """
-        super().__init__(asked, torso_m, comfort_m, memories)
+        super().__init__(queried, torso_m, comfort_m, memories)
         self._heights = heights
         self._covering = covering
         self._joint_names = joint_names
@@ -63,7 +63,7 @@ class MappedReach(ComfortReach):
 
     def _arms(self) -> MappedArms:
         """Return the arms with their maps."""
-        return cast(MappedArms, self._asked.numbers)
+        return cast(MappedArms, self._queried.numbers)
 
     def _numbers_for(self, query: ReachQuery) -> ArmNumbers:
         """Return the arms with maps that cover some points."""
@@ -71,8 +71,8 @@ class MappedReach(ComfortReach):
         low_m, high_m = self._heights[query.arm]
         if seen.size and (seen[..., 2].min() < low_m or seen[..., 2].max() > high_m):
             numbers, self._heights = self._covering(query.arm, seen)
-            self._asked = replace(self._asked, numbers=numbers)
-        return self._asked.numbers
+            self._queried = replace(self._queried, numbers=numbers)
+        return self._queried.numbers
 
     def _searched_m(self, arm: int, seen: FloatArray, furthest_m: float) -> float:
         """Return how far points were displaced in every direction in which the arm's map or its length ends (m)."""
@@ -92,7 +92,7 @@ class MappedReach(ComfortReach):
 
     def _least_shortfall(self, place: ReachQuery, at_most_m: float, deadline: Deadline) -> tuple[Shortfall, int]:
         arm, approaches = place.arm, place.approaches
-        seen, labels = place.points - self._shoulders[arm], self._asked.labels[arm][approaches]
+        seen, labels = place.points - self._shoulders[arm], self._queried.labels[arm][approaches]
         furthest = min(at_most_m, FURTHEST_M)
         most = _QUERIES_LATE_MAX if deadline.is_long_over else _QUERIES_MAX
         short_by_m, seen_from, approach, direction, queries = nearest_place(

@@ -177,7 +177,7 @@ def solve(
         chain: the arm.
         point: the tool's position, shape (3,).
         rotation: the tool's axes as columns, shape (3, 3); with `AXIS` and `PITCH` only the first counts.
-        rows: what is asked of the pose.
+        rows: what of the pose is required.
         joints: where to begin, shape (n,); within the limits, but for joints that have whole turns.
         scratch: working memory.
     """
@@ -238,7 +238,7 @@ def solve_from(
         chain: the arm.
         points: positions, shape (m, 3).
         rotations: rotations, shape (m, 3, 3).
-        rows: what is asked of each pose.
+        rows: what of each pose is required.
         starts: joints to begin with, shape (m, n).
     """
     scratch, joints = scratch_for(starts.shape[1]), starts.copy()

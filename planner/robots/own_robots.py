@@ -1,7 +1,7 @@
 """The user's own robots: a folder for each, by name, with its card and the files that the card names.
 
 It is `robots` in Pleat's data folder: that of the server, or of `PLEAT_DATA`, or the user's. Work that a server does
-in other processes is told which (`app.worker`).
+in other processes learns which (`app.worker`).
 """
 
 import os

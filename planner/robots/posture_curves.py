@@ -54,7 +54,7 @@ def spread(
         periods: what each joint may be off without any difference, see `posture_samples`.
         point: the tool's position, shape (3,).
         rotation: its rotation, shape (3, 3).
-        rows: what is asked of the pose.
+        rows: what of the pose is required.
         free: how many joints more than that the arm has.
         first: the sample to begin with, one of the last.
         samples: the samples.

@@ -32,10 +32,10 @@ _SAME = 0.1
 """A start has led to no other samples where another one has led to joints so near (rad, m)."""
 
 _ROLLS, _ROLL_STEP = 3, math.pi / 6.0
-"""Samples to either side of the roll that is wanted, where it is not asked, and what they differ by (rad)."""
+"""Samples to either side of the roll that is wanted, where it is free, and what they differ by (rad)."""
 
 _ROLL_COST = 0.1
-"""Cost of a roll by its squared distance from the one that is wanted, where it is not asked."""
+"""Cost of a roll by its squared distance from the one that is wanted, where it is free."""
 
 _ROUNDS = 2
 """Times an arm is brought back to its place after its last joint has turned: the tool may be beside that axis."""
@@ -197,7 +197,7 @@ def _collect_rolled(
 def _take_pose(
     chain: Chain, point: FloatArray, rotation: FloatArray, more: float, joints: FloatArray, scratch: Scratch
 ) -> bool:
-    """Bring joints to a pose, rolled by an angle more where the roll is not asked; return whether they take it."""
+    """Bring joints to a pose, rolled by an angle more where the roll is free; return whether they take it."""
     if chain.rows != PITCH:
         if chain.rows == AXIS and not turn_to_roll(chain, rotation, more, joints, scratch) and len(joints) <= WHOLE:
             return False

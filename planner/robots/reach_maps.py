@@ -2,8 +2,8 @@
 
 A map covers the heights at which most cloth is handled. Cloth that hangs far over an edge of the table is taken and
 carried below them, a long part rises above them. So maps are made higher and deeper, layer by layer, when something
-above or below them is asked. Each layer is a map of its own, grown and cached alone, and then becomes part of the
-whole: the postures that the map had stay as they are, so an answer does not depend on what was asked before it.
+above or below them is queried. Each layer is a map of its own, grown and cached alone, and then becomes part of the
+whole: the postures that the map had stay as they are, so an answer does not depend on earlier queries.
 """
 
 from collections.abc import Callable, Sequence
@@ -64,8 +64,8 @@ def reach_map(
 
     Args:
         chain: the arm.
-        approaches: the approaches that will mostly be asked.
-        heights_m: the lowest and the highest point that will be asked, seen from the arm's root (m).
+        approaches: the approaches that will mostly be queried.
+        heights_m: the lowest and the highest point that will be queried, seen from the arm's root (m).
         progress: called with the share of the work that is done.
         directory: the cache directory; None: the platform's own.
     """
@@ -153,7 +153,7 @@ def covering(chain: Chain, known: ReachMap, heights_m: tuple[float, float], dire
     Args:
         chain: the arm.
         known: its map.
-        heights_m: the lowest and the highest point that are asked, seen from the arm's root (m).
+        heights_m: the lowest and the highest point that are queried, seen from the arm's root (m).
         directory: the cache directory; None: the platform's own.
     """
     reach = float(-known.grid.low[0])

@@ -5,7 +5,7 @@ again. Besides the memory (see `planner.robots.comfort`) two things make it chea
 
 - *Early rejection.* A path is followed in one orientation, so an approach is dropped at the first point that no
   standoff reaches. A path's end and middle are tested first: they are the likeliest to fail.
-- *Only what matters.* Of two hands the second is asked where the first can be. Where the end is told, an approach is
+- *Only what matters.* Of two hands the second is queried where the first can be. Where the end is given, an approach is
   dropped if the last point is out of reach from there.
 - *Centre first.* The points on the comfort circle are tested only where the centre is reachable.
 

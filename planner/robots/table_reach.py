@@ -13,10 +13,10 @@ from planner.robots.mapped_arm import ALL_ROUND, MappedArm, all_arms
 from planner.robots.reach_maps import Progress
 
 STEP_M = 0.05
-"""The distance between the points of the table that are asked (m)."""
+"""The distance between the points of the table that are queried (m)."""
 
 ABOVE_TABLE_M = 0.02
-"""The height of the tool over the table at which they are asked (m): fingertips that are about to take cloth."""
+"""The height of the tool over the table at which they are queried (m): fingertips that are about to take cloth."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +41,7 @@ def table_reach(robot: DescribedRobot, progress: Progress | None = None) -> Tabl
 
     Args:
         robot: the robot.
-        progress: is told how far the maps are that must be built (0 to 1).
+        progress: called with how far the maps are that must be built (0 to 1).
     """
     scene = robot.card.scene
     points = _grid(scene.table)

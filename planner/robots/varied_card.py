@@ -22,8 +22,8 @@ _FIXED = ("pleat_robot", "name")
 
 def changed(name: str, values: Mapping[str, object]) -> str:
     """Return the name of a robot with some more fields of its card changed, by their paths."""
-    told = ":".join(f"{path}={json.dumps(value)}" for path, value in values.items())
-    return f"{name}{':' if '@' in name else '@'}{told}" if values else name
+    changed = ":".join(f"{path}={json.dumps(value)}" for path, value in values.items())
+    return f"{name}{':' if '@' in name else '@'}{changed}" if values else name
 
 
 def split_changes(name: str) -> tuple[str, Changes]:
@@ -32,15 +32,15 @@ def split_changes(name: str) -> tuple[str, Changes]:
     Raises:
         RequestError: what follows the ``@`` is not a list of changes.
     """
-    base, mark, told = name.partition("@")
+    base, mark, changed = name.partition("@")
     if not mark:
         return name, ()
-    changes = [tuple(part.split("=", 1)) for part in told.split(":")]
+    changes = [tuple(part.split("=", 1)) for part in changed.split(":")]
     if len(changes) > CHANGES_MAX:
         raise RequestError("robot", f"changes {len(changes)} fields, {CHANGES_MAX} at most")
     pairs = [change for change in changes if len(change) == 2]
     if len(pairs) < len(changes):
-        raise RequestError("robot", f"{told[:80]!r} is no list of changes like scene.table.height_m=0.7")
+        raise RequestError("robot", f"{changed[:80]!r} is no list of changes like scene.table.height_m=0.7")
     return base, tuple((path, value) for path, value in pairs)
 
 

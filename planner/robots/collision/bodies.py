@@ -84,17 +84,17 @@ class Bodies:
         Lines on which a pair may touch, by how far its parts move, are halved until it cannot, or they are very short.
         The postures between are estimates, so there pairs need keep no margin and may overlap by `_LENIENT_M`.
         """
-        asked, stands, ways = pairs, rows(bases), joints
+        left, stands, ways = pairs, rows(bases), joints
         is_end = np.zeros(len(joints), dtype=np.bool_)  # of a line of its own
         for halvings in range(_HALVINGS + 1):
             start = np.zeros(len(ways), dtype=np.int64)
-            close, _, may_touch = self.first_close(asked, stands, ways, arms, start, is_one_enough=True, is_path=True)
+            close, _, may_touch = self.first_close(left, stands, ways, arms, start, is_one_enough=True, is_path=True)
             if (close >= 0).any():
                 return False
             ends = np.flatnonzero(may_touch & ~is_end)
             if not len(ends) or halvings == _HALVINGS:
                 break
-            asked = Pairs(pairs.numbers, np.full(len(pairs.numbers), -_LENIENT_M))
+            left = Pairs(pairs.numbers, np.full(len(pairs.numbers), -_LENIENT_M))
             ways, is_end = _halved(ways, ends), np.tile([True, False, False], len(ends))
             stands = _halved(stands, ends) if len(stands) > 1 else stands
         return True

@@ -25,7 +25,7 @@ WASTE_MAX_M3 = 5e-5
 """A volume that may be wasted in any case: that of a cube of 37 mm."""
 
 _SAMPLES = 200
-"""Points of each shape of which it is asked whether others fill them too."""
+"""Points of each shape that are tested for whether others fill them too."""
 
 _DIRECTIONS = 96
 """Directions whose extreme corners stand for a shape while clusters are sought."""

@@ -83,7 +83,7 @@ class Contact:
     Attributes:
         first: the first part's name for people, always of the robot: ``left forearm``.
         second: the second part's name for people: ``right palm``, ``torso``, ``table top``.
-        depth_m: how far either part must move until the margin asked for is kept (m).
+        depth_m: how far either part must move until the margin required is kept (m).
     """
 
     first: str

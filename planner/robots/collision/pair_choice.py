@@ -27,7 +27,7 @@ from planner.robots.collision.robot_parts import RobotParts, compiled_parts
 from planner.robots.described_robot import DescribedArm
 
 NEAR = 3
-"""Number of joints between two parts up to which their meshes are asked."""
+"""Number of joints between two parts up to which their meshes are compared."""
 
 SAMPLES, MESH_SAMPLES = 600, 100
 """Postures in which hulls are compared, and at most so many of these in which their meshes are."""

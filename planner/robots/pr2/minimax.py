@@ -109,10 +109,10 @@ def minimax(
         for place in np.argsort(-ranking.gaps[approach]):
             if not _is_within_margin(shape, alone, places[place], scratch):
                 lines = directions_from(shape, alone, places[place], directions)
-                short, _, _, _, asked = nearest_comfort(
+                short, _, _, _, made = nearest_comfort(
                     shape, alone, places[place], directions, limit, lines, MANY_QUERIES
                 )
-                queries += asked
+                queries += made
                 if short > worst:
                     worst, worst_place = short, place
                 if worst >= limit:

@@ -132,12 +132,12 @@ def nearest_comfort(
                     if short > 0.0:
                         hopeless[place, approach, direction] = far + short
                         continue
-                    found, asked = meets_query(shape, query, aim, approach, comfort, scratch)
-                    queries += asked
+                    found, made = meets_query(shape, query, aim, approach, comfort, scratch)
+                    queries += made
                     if not found:
                         continue
-                    far, asked = _nearest_on(shape, query, approach, start, towards, near, far, scratch)
-                    queries += asked
+                    far, made = _nearest_on(shape, query, approach, start, towards, near, far, scratch)
+                    queries += made
                     best, best_place, best_approach, best_direction = far, place, approach, direction
                     limit = far - FINEST_M
         inner = outer
@@ -161,8 +161,8 @@ def _nearest_on(
     while far - near > FINEST_M:
         middle = 0.5 * (near + far)
         aim = _aim_along(shape, query.axes[approach], start, middle, towards)
-        found, asked = meets_query(shape, query, aim, approach, query.comfort, scratch)
-        queries += asked
+        found, made = meets_query(shape, query, aim, approach, query.comfort, scratch)
+        queries += made
         near, far = (near, middle) if found else (middle, far)
     return far, queries
 
@@ -192,14 +192,14 @@ def widest_comfort(shape: ArmShape, query: Requirements, points: FloatArray) -> 
             aim = aim_of(shape, query, points[place], approach)
             if comfort_gap(shape, aim, 0.0) > 0.0:
                 continue
-            found, asked = meets_query(shape, query, aim, approach, near, scratch)
-            queries += asked
+            found, made = meets_query(shape, query, aim, approach, near, scratch)
+            queries += made
             if not found:
                 continue
             while far - near > FINEST_M:
                 middle = 0.5 * (near + far)
-                found, asked = meets_query(shape, query, aim, approach, middle, scratch)
-                queries += asked
+                found, made = meets_query(shape, query, aim, approach, middle, scratch)
+                queries += made
                 near, far = (middle, far) if found else (near, middle)
             best, best_place, best_approach = near, place, approach
     return best, best_place, best_approach, queries

@@ -81,8 +81,8 @@ class Pr2Reach(ComfortReach):
             no_hints(len(APPROACHES)),
             no_walls() if room is None else room._replace(poses=room.poses.copy()),
         )
-        asked = QueriedArms(arm_names, arms, self._arm, APPROACHES, self._labels)
-        super().__init__(asked, torso_m, comfort_m, memories)
+        queried = QueriedArms(arm_names, arms, self._arm, APPROACHES, self._labels)
+        super().__init__(queried, torso_m, comfort_m, memories)
 
     def at_least_short(self, ways: ReachQuery) -> FloatArray:
         """Return a lower bound in closed form on each way's shortfall (see `Reach`)."""
