@@ -16,7 +16,7 @@ class FoldCheck:
 
     Attributes:
         must_hold: the vertices that must be held, garment frame (m).
-        grips: the fewest that hold them (m), empty if there are too few arms; as pages are told, those of the plan,
+        grips: the fewest that hold them (m), empty if there are too few arms; for pages, those of the plan,
             which may have a hand more so that corners are held firmly.
         grips_needed: the number of the fewest; None if there are too few arms.
     """

@@ -1,7 +1,7 @@
 """Plans the versions of a document; runs in a worker, which keeps what was found for the next version.
 
 Usually the plan shown last still works for the new drawing, or a greedy search finds one. Both take much less time than
-finding the quickest plan, so the result is told first, and another if the full search finds one.
+finding the quickest plan, so the result is shown first, and another if the full search finds one.
 """
 
 import uuid
@@ -114,7 +114,7 @@ def plan_live(caller: Caller, document: str, task: Task, shown: str | None, work
     """Tell plans for a task, each better than the one before, the quickest at last.
 
     Args:
-        caller: who is told.
+        caller: who gets the plans.
         document: the key of the document.
         task: the task.
         shown: the name of the plan on show for it, if any.

@@ -216,7 +216,7 @@ class Replanner:
         """Show a plan; then write it if it is final and no preview's, and drop the plans that nobody needs by id.
 
         These are plans that were never shown, and those of previews that another preview's replaces. Others can be read
-        for a while once they are replaced: a page may have been told of them a moment ago.
+        for a while once they are replaced: a page may have been sent them a moment ago.
         """
         assert asked.task is not None, "what has no task is not planned"
         now = self._document.state

@@ -50,7 +50,7 @@ class Tried:
 
 
 _LAST_SHARE = 0.99
-"""The share of a search for suggestions that is told at most before its end."""
+"""The share of a search for suggestions that is reported at most before its end."""
 
 
 def plan(caller: Caller, task: Task) -> PackedPlan:

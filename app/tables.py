@@ -96,16 +96,16 @@ def comparison_table(found: Sequence[Comparison]) -> Table:
     for one in found:
         folds, plan = one.plan.garment.folds, one.plan
         causes = sorted(plan.reasons, key=lambda reason: reason.code == "waits_for_fold")
-        told = [sentence(reason.says, folds, reason.fold) for reason in causes[:1]]
+        sentences = [sentence(reason.says, folds, reason.fold) for reason in causes[:1]]
         if one.is_cut_short and not plan.is_solved:
-            told.append(
+            sentences.append(
                 f"the time limit of {plan.task.limits.time_limit_s:g} s, or as much work, ran out before more was tried"
             )
-        told += [] if one.help is None else [f"{sentence(one.help.says, folds)}: {one.help.cost_s:.1f} s"]
+        sentences += [] if one.help is None else [f"{sentence(one.help.says, folds)}: {one.help.cost_s:.1f} s"]
         cost = "" if plan.cost_s is None else f"{plan.cost_s:.2f}"
         margin = "" if one.margin_m is None else f"{1000.0 * one.margin_m:.0f}"
         answer = {"solved": "yes", "infeasible": "no"}.get(plan.status, "not known")
-        table.add_row(one.robot, answer, cost, margin, "; ".join(told))
+        table.add_row(one.robot, answer, cost, margin, "; ".join(sentences))
     return table
 
 

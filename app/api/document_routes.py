@@ -224,7 +224,7 @@ async def post_places(request: Request, document_id: str, wanted: PlacesRequestB
 async def share_document(request: Request, document_id: str) -> JSONResponse:
     """Make a link with which others may look at the document and play its plan, but change nothing.
 
-    They need no token of the server. The link is told this once.
+    They need no token of the server. The link is shown this once.
     """
     token = await run_in_threadpool(workspace_of(request).shares.add, document_id)
     return JSONResponse({"path": f"{request.scope.get('root_path', '')}/s/{token}/d/{document_id}"}, 201)

@@ -106,7 +106,7 @@ class ImportAnswer(BaseModel):
     `creases` says on which cloth the fold lines of a drawing were read; null if that makes no difference. `sizes`
     gives the width and height of the drawing in other units (m). `says` has the numbers of the notes, by name, null
     for a note without numbers. `seen` says of a picture where the garment lies in it, what gave the scale, and how sure
-    that is, as `pleat see` does; null for other files. `allowance` is told of a drawing
+    that is, as `pleat see` does; null for other files. `allowance` is there for a drawing
     with a seam line inside a cut line, `graded` of one in several sizes, `pieces` of one with several pieces.
     """
 
@@ -228,7 +228,7 @@ def _made(export: Export, state: DocumentState, rate_hz: float, should_stop: Sto
 
 
 def _imported(imported: Imported) -> dict[str, Any]:
-    told = {field.name: getattr(imported, field.name) for field in fields(imported)}
-    parts = {name: asdict(part) for name in ("allowance", "graded", "pieces") if (part := told[name]) is not None}
+    answer = {field.name: getattr(imported, field.name) for field in fields(imported)}
+    parts = {name: asdict(part) for name in ("allowance", "graded", "pieces") if (part := answer[name]) is not None}
     notes = {"notes": [note.text for note in imported.notes], "says": [note.to_dict() for note in imported.notes]}
-    return {**told, **parts, **notes, "garment": imported.garment.to_dict()}
+    return {**answer, **parts, **notes, "garment": imported.garment.to_dict()}

@@ -104,16 +104,16 @@ async def follow_job(
     found. A client that comes back with `Last-Event-ID` is sent what has changed since, and all that was found.
     Comments keep the connection open.
     """
-    jobs, changed, sent, told = workspace_of(request).jobs, asyncio.Event(), last_event_id, 0
+    jobs, changed, sent, yielded = workspace_of(request).jobs, asyncio.Event(), last_event_id, 0
     found = jobs.found(job.id)
     unsubscribe = jobs.subscribe(job.id, waking(changed))
     try:
         while True:
             changed.clear()
             now = await run_in_threadpool(jobs.job, job.id)
-            while told < len(found):
-                told += 1
-                yield ServerSentEvent(event="found", data=found[told - 1])
+            while yielded < len(found):
+                yielded += 1
+                yield ServerSentEvent(event="found", data=found[yielded - 1])
             if not now.is_open:
                 answer = await run_in_threadpool(_answer, jobs, job.id)
                 yield ServerSentEvent(event="end", id=str(now.revision), data=answer)

@@ -29,7 +29,7 @@ class BelowPrefix:
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Call the routes with `root_path` and the whole path in the scope."""
-        prefix = self._prefix if scope["type"] == "lifespan" else _told(scope["headers"], self._prefix)
+        prefix = self._prefix if scope["type"] == "lifespan" else _prefix_in(scope["headers"], self._prefix)
         if not prefix:
             await self._app(scope, receive, send)
         elif scope.get("path") == prefix and scope["type"] == "http":
@@ -91,7 +91,7 @@ class HeadAsGet:
         await self._app({**scope, "method": "GET"}, receive, send_head)
 
 
-def _told(headers: Iterable[tuple[bytes, bytes]], otherwise: str) -> str:
+def _prefix_in(headers: Iterable[tuple[bytes, bytes]], otherwise: str) -> str:
     """Return the prefix in the proxy's header; empty if it would lead to another host."""
     for name, value in headers:
         prefix = value.decode("latin-1").strip().rstrip("/")

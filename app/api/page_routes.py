@@ -46,16 +46,16 @@ async def read_page(request: Request, document_id: str) -> Response:
 @router.get("/static/page.js")
 async def read_scripts(request: Request) -> Response:
     """Return all of the page's modules."""
-    return await _told(request, scripts, "text/javascript")
+    return await _joined(request, scripts, "text/javascript")
 
 
 @router.get("/static/page.css")
 async def read_styles(request: Request) -> Response:
     """Return all of the page's style sheets."""
-    return await _told(request, styles, "text/css")
+    return await _joined(request, styles, "text/css")
 
 
-async def _told(request: Request, put_together: Callable[[], str], media_type: str) -> Response:
+async def _joined(request: Request, put_together: Callable[[], str], media_type: str) -> Response:
     """Return a text that changes with the files it is made of, or that the browser has it already."""
     response = Response(await run_in_threadpool(put_together), media_type=media_type)
     response.headers.update({"etag": f'"{sha256(response.body).hexdigest()}"'} | _FRESH)
@@ -78,11 +78,13 @@ def _with_preview(request: Request, document_id: str) -> str:
     """Return the page with the document's title, and where its picture is if there is a plan."""
     state = workspace_of(request).opened(document_id).document.state
     title = f"{state.drawing.title or state.drawing.name} - Pleat"
-    told = {"og:type": "website", "og:title": title}
+    properties = {"og:type": "website", "og:title": title}
     if _PICTURE is not None and _PICTURE.reason(state) is None:
-        told["og:image"] = f"{str(request.base_url).rstrip('/')}/api/documents/{document_id}/files/{_PICTURE.what}"
-        told["twitter:card"] = "summary_large_image"
-    lines = [f'    <meta property="{name}" content="{escape(content)}">\n' for name, content in told.items()]
+        properties["og:image"] = (
+            f"{str(request.base_url).rstrip('/')}/api/documents/{document_id}/files/{_PICTURE.what}"
+        )
+        properties["twitter:card"] = "summary_large_image"
+    lines = [f'    <meta property="{name}" content="{escape(content)}">\n' for name, content in properties.items()]
     page = (static_dir() / "index.html").read_text(encoding="utf-8")
     return page.replace(_HEAD_END, "".join(lines) + _HEAD_END, 1)
 

@@ -62,8 +62,8 @@ async def post_plan(request: Request, wanted: PlanRequestBody) -> Response:
     """
     workspace, limit = workspace_of(request), TimeLimit(wanted.time_limit_s)
     work = partial(_plan, workspace, wanted, limit)
-    told = await answer_of(request, workspace.lanes.searches, work, limit.limit_s)
-    return Response(told, media_type="application/json")
+    answer = await answer_of(request, workspace.lanes.searches, work, limit.limit_s)
+    return Response(answer, media_type="application/json")
 
 
 @router.post("/plans/imports", openapi_extra=_PLAN_FILE_BODY, responses=answering(PlanAnswer, 413, 422, 503))

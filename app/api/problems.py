@@ -285,8 +285,8 @@ def _parameters(request: Request, method: str) -> int | None:
     root_path = request.scope.get("app_root_path", request.scope.get("root_path", ""))  # set by mounted folders
     scope = {**request.scope, "method": method, "root_path": root_path, "path_params": {}}
     routes = [route for route in _routes(request.app.router) if method == "GET" or not isinstance(route, Mount)]
-    matches = [told for route in routes for match, told in [route.matches(scope)] if match is Match.FULL]
-    return min((len(told.get("path_params", ())) for told in matches), default=None)
+    matches = [values for route in routes for match, values in [route.matches(scope)] if match is Match.FULL]
+    return min((len(values.get("path_params", ())) for values in matches), default=None)
 
 
 def _routes(router: Router) -> Iterator[BaseRoute]:

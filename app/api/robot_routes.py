@@ -86,8 +86,8 @@ async def post_robot_import(request: Request, prefer: Prefer = None, filename: F
         return await _as_job(request, workspace.robots, data)
     work = partial(_imported, workspace, data if filename is None else searches.Described(filename, data))
     card, draft, is_new = await answer_of(request, workspace.lanes.robots, work)
-    told = {} if draft is None else {"draft": {"guesses": draft.guesses, "unknown": draft.unknown}}
-    return JSONResponse({**robot_entry(card), **told}, status_code=201 if is_new else 200)
+    drafted = {} if draft is None else {"draft": {"guesses": draft.guesses, "unknown": draft.unknown}}
+    return JSONResponse({**robot_entry(card), **drafted}, status_code=201 if is_new else 200)
 
 
 @router.get("/{name}", responses=answering(CardFile, 404, 422))

@@ -45,8 +45,8 @@ async def read_study_file(request: Request, study_id: str, file: FileName) -> Re
 async def post_cell_plan(request: Request, study_id: str, cell: Annotated[int, Path(ge=0, examples=[0])]) -> Response:
     """Make the plan of a cell again, by its number in the table; it is kept as those of `POST /api/plans` are."""
     workspace = workspace_of(request)
-    told = await answer_of(request, workspace.lanes.searches, partial(_plan, workspace, study_id, cell))
-    return Response(told, media_type="application/json")
+    answer = await answer_of(request, workspace.lanes.searches, partial(_plan, workspace, study_id, cell))
+    return Response(answer, media_type="application/json")
 
 
 def _plan(workspace: Workspace, study_id: str, cell: int, stop: Stop) -> bytes:

@@ -152,7 +152,7 @@ class SuggestionSearch:
         self._limit = TimeLimit(wanted.time_limit_s)
         self._started = time.perf_counter()
         self._loop = asyncio.get_running_loop()
-        self._told: asyncio.Queue[searches.Suggested | searches.Tried | None] = asyncio.Queue()
+        self._news: asyncio.Queue[searches.Suggested | searches.Tried | None] = asyncio.Queue()
         self._begun: Future[None] = Future()
         self._job: Job[bool] | None = None
 
@@ -172,7 +172,7 @@ class SuggestionSearch:
         assert self._job is not None
         count = 0
         try:
-            while (found := await self._told.get()) is not None:
+            while (found := await self._news.get()) is not None:
                 if isinstance(found, searches.Tried):
                     yield ServerSentEvent(event="trying", data=found.body)
                     continue
@@ -201,7 +201,7 @@ class SuggestionSearch:
             except StoppedError:
                 if stop():
                     raise
-                return False  # it took too long over something; what it has found by then is told
+                return False  # it took too long over something; what it has found by then is sent
 
     def _hear(self, news: searches.Suggested | searches.Tried | None) -> None:
         if news is None:
@@ -219,7 +219,7 @@ class SuggestionSearch:
 
     def _tell(self, found: searches.Suggested | searches.Tried | None) -> None:
         with suppress(RuntimeError):  # the loop has ended: nobody reads the events
-            self._loop.call_soon_threadsafe(self._told.put_nowait, found)
+            self._loop.call_soon_threadsafe(self._news.put_nowait, found)
 
     def _done(self, count: int, *, is_complete: bool) -> ServerSentEvent:
         elapsed_s = time.perf_counter() - self._started

@@ -84,7 +84,7 @@ COMMANDS = {
         "see",
         "Read a garment from a picture: its outline, where it lies, how sure that is; or how far it is folded.",
         "pleat see shirt.jpg --json -",
-        "0 read, 2 bad input, or no scale, 3 nothing can be told from the picture",
+        "0 read, 2 bad input, or no scale, 3 nothing can be read from the picture",
     ),
     "camera": _Command(
         "camera",

@@ -73,8 +73,8 @@ def _table(plan: Plan, result: RehearsalResult) -> Table:
         what = "" if verdict.of_plan is None else step_words(plan.steps[verdict.of_plan], plan.garment)
         empty = f", {' and '.join(verdict.empty)} found no cloth" if verdict.empty else ""
         numbers = (f"{number:.1f}" for number in (verdict.mean_mm, verdict.p95_mm, verdict.slid_mm))
-        told = ("held" if verdict.held else "lost") + empty
-        table.add_row(str(verdict.step), what, f"{verdict.iou:.3f}", *numbers, told)
+        verdict_text = ("held" if verdict.held else "lost") + empty
+        table.add_row(str(verdict.step), what, f"{verdict.iou:.3f}", *numbers, verdict_text)
     if reason := result.runs[0].reason:
         table.add_row("", reason, *[""] * 5)
     return table

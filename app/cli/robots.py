@@ -45,16 +45,16 @@ def check(
     with program.blaming(card):
         found = read_robot(card)
         points, warnings = tool_points(found), warnings_of(found)
-    told_on = program.errors if json_to == program.STANDARD_OUTPUT else program.output
+    output = program.errors if json_to == program.STANDARD_OUTPUT else program.output
     for warning in warnings:
-        told_on.print(f"Warning: {warning['message']}.", markup=False, soft_wrap=True)
+        output.print(f"Warning: {warning['message']}.", markup=False, soft_wrap=True)
     with Progress(console=program.errors, transient=True) as progress:
         task = progress.add_task("Looking where the arms can go", total=1.0)
         reach = table_reach(found, lambda share: progress.update(task, completed=share))
     reached = {"arms": reach.arms, "any_arm": reach.any_arm, "two_arms": reach.two_arms}
-    told: dict[str, Any] = {"tool_points": [asdict(point) for point in points], "warnings": warnings}
-    told |= {"name": found.card.name, "title": found.card.title, "table_reached": reached}
-    program.print_answer(told, json_to, robot_check_table(found.card, reach))
+    answer: dict[str, Any] = {"tool_points": [asdict(point) for point in points], "warnings": warnings}
+    answer |= {"name": found.card.name, "title": found.card.title, "table_reached": reached}
+    program.print_answer(answer, json_to, robot_check_table(found.card, reach))
 
 
 @robot.command()
@@ -88,8 +88,8 @@ def draft(
             shutil.rmtree(out)
         raise
     program.output.print(f"{out / CARD}: {len(draft.card.arms)} arms, each with a gripper", soft_wrap=True)
-    for title, told in (("Guessed", draft.guesses), ("Not known", draft.unknown)):
-        for one in told:
+    for title, entries in (("Guessed", draft.guesses), ("Not known", draft.unknown)):
+        for one in entries:
             program.output.print(f"{title}: {one}.", soft_wrap=True)
     for warning in warnings:
         program.output.print(f"Warning: {warning['message']}.", soft_wrap=True)

@@ -66,13 +66,13 @@ def run(
         card = load_robot(plan.task.robot).card
         look = _look(plan, camera, calibration)
         kept = Recording(card)
-        with _Told(auto) as told:
+        with _Console(auto) as console:
             ended = run_plan(
                 plan,
                 card,
                 _driver(driver, card, address),
-                told.confirm,
-                told.progress,
+                console.confirm,
+                console.progress,
                 kept,
                 from_step,
                 speed,
@@ -117,7 +117,7 @@ def _look(plan: "Plan", camera: str | None, calibration: Path | None) -> "Look |
     return look
 
 
-class _Told:
+class _Console:
     """Asks and tells in the terminal."""
 
     def __init__(self, is_auto: bool) -> None:
@@ -130,7 +130,7 @@ class _Told:
         self._bar = Progress(*columns, console=errors, transient=True)
         self._task: TaskID | None = None
 
-    def __enter__(self) -> "_Told":
+    def __enter__(self) -> "_Console":
         return self
 
     def __exit__(self, *_: object) -> None:

@@ -65,7 +65,7 @@ def see(
     kind = None if like is None else find_template(like) or program.garment_of(like)
     with telling(image):
         found = see_garment(picture_file(image), image.stem, scaled, kind)
-    program.print_answer(found.to_dict(), json_to, _told(found))
+    program.print_answer(found.to_dict(), json_to, _seen_text(found))
     if found.sure.unknown is not None:
         program.errors.print(f"{image}: not sure: {found.sure.unknown.text}")
 
@@ -75,7 +75,7 @@ def _see_state(image: Path, scale: str | Calibration | None, of: Garment | Plan,
     garment, plan = (of.garment, of) if isinstance(of, Plan) else (of, None)
     with telling(image):
         found = see_state(picture_file(image), scale, garment, plan)
-    program.print_answer(found.to_dict(), json_to, _state_told(found))
+    program.print_answer(found.to_dict(), json_to, _state_text(found))
     if found.unknown is not None:
         program.errors.print(f"{image}: not sure: {found.unknown.text}")
 
@@ -117,7 +117,7 @@ def telling(source: Path) -> Iterator[None]:
             raise program.failure(f"--scale: {error.message}") from None
 
 
-def _state_told(found: SeenState) -> str:
+def _state_text(found: SeenState) -> str:
     """Return which state was seen, in a few lines."""
     done = ", ".join(str(index + 1) for index in found.folds) or "none"
     lines = [f"{found.garment.title}: folds done: {done}; the scale from the {found.scale_from}"]
@@ -134,7 +134,7 @@ def _state_told(found: SeenState) -> str:
     return "\n".join(lines)
 
 
-def _told(found: Seen) -> str:
+def _seen_text(found: Seen) -> str:
     """Return what was read, in a few lines."""
     width, height = (max(axis) - min(axis) for axis in zip(*found.garment.outline, strict=True))
     place, sure = found.placement, found.sure

@@ -31,7 +31,7 @@ def demonstrate(
         dataset: the dataset; whatever ends this early, it is whole.
         episodes: how many it is to have.
         workers: how many are made at once; the dataset is the same for any number.
-        progress: is told how many episodes there are, and how many seeds were tried.
+        progress: called with how many episodes there are, and how many seeds were tried.
         has_wrists: whether there are cameras on the wrists.
 
     Raises:

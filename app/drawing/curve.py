@@ -1,7 +1,7 @@
 """The curve of an edge: an arc through both corners and a handle, and the points that stand for it.
 
 The curve is the image of an arc of a circle under a shear along the chord: an arc of a circle where the handle lies
-over the middle of the chord, of an ellipse where it lies to one side. It is told in lengths of the chord, so that it
+over the middle of the chord, of an ellipse where it lies to one side. It is given in lengths of the chord, so that it
 keeps its form when a corner is moved. The planner sees the points alone.
 """
 
@@ -24,7 +24,7 @@ CURVE_MAX: Final = 2.0
 
 
 _STRAIGHT_RAD: Final = 1e-4
-"""Half angle below which an arc is told from a parabola only by rounding (rad)."""
+"""Half angle below which an arc differs from a parabola only by rounding (rad)."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -126,9 +126,9 @@ class RosbridgeDriver:
         if action is None:
             return
         values = result.get("values")
-        told = values if isinstance(values, dict) else {"error_string": values}
-        if result.get("result") is not True or result.get("status") != _SUCCEEDED or told.get("error_code", 0) != 0:
-            why = told.get("error_string") or f"status {result.get('status')}, error {told.get('error_code')}"
+        answer = values if isinstance(values, dict) else {"error_string": values}
+        if result.get("result") is not True or result.get("status") != _SUCCEEDED or answer.get("error_code", 0) != 0:
+            why = answer.get("error_string") or f"status {result.get('status')}, error {answer.get('error_code')}"
             raise LostError(f"{action} refuses or fails: {why}")
 
     def _say(self, message: Mapping[str, Any]) -> None:
@@ -147,8 +147,8 @@ class RosbridgeDriver:
             for text in self._socket:
                 message = json.loads(text)
                 if message.get("op") == "publish" and message.get("topic") == "/joint_states":
-                    told = message["msg"]
-                    self._state = {**self._state, **dict(zip(told["name"], told["position"], strict=False))}
+                    joints = message["msg"]
+                    self._state = {**self._state, **dict(zip(joints["name"], joints["position"], strict=False))}
                     if wanted <= self._state.keys():
                         self._has_state.set()
                 elif message.get("op") == "action_result":

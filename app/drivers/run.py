@@ -116,7 +116,7 @@ def run_plan(
         card: its robot.
         driver: what moves the robot; it is connected here, and closed at the end.
         confirm: is asked before each part.
-        progress: is told how far each part is.
+        progress: called with how far each part is.
         recording: keeps what is sent and read.
         from_step: the first step that is performed.
         speed: the share of the planned speed.

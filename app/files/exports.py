@@ -95,8 +95,8 @@ def _of_plan(name: str, *, may_stop: bool = False) -> Make:
     module, _, function = name.partition(".")
 
     def make(state: DocumentState, _: float, should_stop: ShouldStop) -> bytes:
-        told = (plan_in(state), should_stop) if may_stop else (plan_in(state),)
-        made: bytes = getattr(import_module(f"app.files.{module}"), function)(*told)
+        arguments = (plan_in(state), should_stop) if may_stop else (plan_in(state),)
+        made: bytes = getattr(import_module(f"app.files.{module}"), function)(*arguments)
         return made
 
     return make

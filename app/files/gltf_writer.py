@@ -114,7 +114,7 @@ class GltfWriter:
 
         Args:
             values: the numbers; stored in single precision.
-            is_bounded: whether their least and greatest are told, as glTF asks of positions and of times.
+            is_bounded: whether their least and greatest are written, as glTF requires of positions and of times.
         """
         stored = np.ascontiguousarray(values, dtype=np.float32)
         rows = stored.reshape(len(stored), -1)

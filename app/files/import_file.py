@@ -134,8 +134,8 @@ def _picture(kind: str, name: str, data: bytes, measured: str | None, like: str 
     except NothingToldError as error:
         raise ImportedFileError("file", error.says) from None
     doubt = () if found.sure.unknown is None else (found.sure.unknown,)
-    told = {key: value for key, value in found.to_dict().items() if key not in ("garment", "notes")}
-    return Imported(found.garment, (*doubt, *found.notes), seen=told, format=kind)
+    seen = {key: value for key, value in found.to_dict().items() if key not in ("garment", "notes")}
+    return Imported(found.garment, (*doubt, *found.notes), seen=seen, format=kind)
 
 
 def read_json(data: bytes) -> tuple[Garment, tuple[Message, ...]] | Sketch:

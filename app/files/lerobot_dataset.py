@@ -158,7 +158,7 @@ def episode_row(episode: Episode, number: int, first: int, *, as_video: bool = F
         "meta/episodes/chunk_index": 0,
         "meta/episodes/file_index": 0,
         **seen,
-        **{f"stats/{name}/{kind}": row for name, told in stats.items() for kind, row in told.items()},
+        **{f"stats/{name}/{kind}": row for name, rows in stats.items() for kind, row in rows.items()},
     }
 
 
@@ -237,8 +237,11 @@ def _info(card: RobotCard, rows: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
 
 
 def _video_info(width_px: int, height_px: int) -> dict[str, Any]:
-    told = {"height": height_px, "width": width_px, "channels": 3, "codec": CODEC, "pix_fmt": PIXELS, "fps": FPS}
-    return {f"video.{name}": value for name, value in told.items()} | {"video.is_depth_map": False, "has_audio": False}
+    features = {"height": height_px, "width": width_px, "channels": 3, "codec": CODEC, "pix_fmt": PIXELS, "fps": FPS}
+    return {f"video.{name}": value for name, value in features.items()} | {
+        "video.is_depth_map": False,
+        "has_audio": False,
+    }
 
 
 def _stats(values: np.ndarray[Any, Any]) -> dict[str, Any]:
@@ -253,8 +256,8 @@ def picture_stats(colours: FloatArray, count: int) -> Stats:
 
 
 def _figures(rows: FloatArray, axis: int) -> dict[str, FloatArray]:
-    told = {"min": rows.min(axis), "max": rows.max(axis), "mean": rows.mean(axis), "std": rows.std(axis)}
-    return told | {name: np.quantile(rows, share, axis) for name, share in _QUANTILES.items()}
+    statistics = {"min": rows.min(axis), "max": rows.max(axis), "mean": rows.mean(axis), "std": rows.std(axis)}
+    return statistics | {name: np.quantile(rows, share, axis) for name, share in _QUANTILES.items()}
 
 
 def _joined_stats(rows: Sequence[Mapping[str, Any]]) -> dict[str, dict[str, Any]]:
@@ -268,20 +271,20 @@ def _stats_in(row: Mapping[str, Any], feature: str) -> dict[str, np.ndarray[Any,
     return {key.removeprefix(start): np.array(value) for key, value in row.items() if key.startswith(start)}
 
 
-def _joined(told: Sequence[Mapping[str, np.ndarray[Any, Any]]]) -> dict[str, Any]:
-    weights = np.array([float(one["count"][0]) for one in told])
+def _joined(parts: Sequence[Mapping[str, np.ndarray[Any, Any]]]) -> dict[str, Any]:
+    weights = np.array([float(one["count"][0]) for one in parts])
 
     def mean(values: Sequence[np.ndarray[Any, Any]]) -> np.ndarray[Any, Any]:
         return np.asarray(np.average(np.array(values), axis=0, weights=weights))
 
-    middle = mean([one["mean"] for one in told])
-    spread = np.sqrt(mean([one["std"] ** 2 + (one["mean"] - middle) ** 2 for one in told]))
+    middle = mean([one["mean"] for one in parts])
+    spread = np.sqrt(mean([one["std"] ** 2 + (one["mean"] - middle) ** 2 for one in parts]))
     joined = {
-        "min": np.min([one["min"] for one in told], axis=0),
-        "max": np.max([one["max"] for one in told], axis=0),
+        "min": np.min([one["min"] for one in parts], axis=0),
+        "max": np.max([one["max"] for one in parts], axis=0),
         "mean": middle,
         "std": spread,
-        **{name: mean([one[name] for one in told]) for name in _QUANTILES},
+        **{name: mean([one[name] for one in parts]) for name in _QUANTILES},
     }
     return {**{name: values.tolist() for name, values in joined.items()}, "count": [int(weights.sum())]}
 
@@ -309,5 +312,5 @@ def _parquet(table: Any) -> bytes:  # noqa: ANN401
     return written.getvalue()
 
 
-def _json(told: dict[str, Any]) -> bytes:
-    return (json.dumps(told, indent=1) + "\n").encode("ascii")
+def _json(content: dict[str, Any]) -> bytes:
+    return (json.dumps(content, indent=1) + "\n").encode("ascii")

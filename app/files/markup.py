@@ -1,6 +1,6 @@
 """Reads XML safely: it fetches nothing, expands nothing, and refuses what is too large or too deep.
 
-Python's parsers build on expat, which reads no external file or address unless told to. That leaves entities that a
+Python's parsers build on expat, which reads no external file or address unless made to. That leaves entities that a
 document declares itself, which can grow into gigabytes; a document that declares any is refused. A plain document
 type, as drawing programs write it, is ignored.
 """

@@ -177,8 +177,8 @@ class _Robot:
     def positions(self, times_s: FloatArray) -> FloatArray:
         """Return the joints at times of the plan, shape (n, joints): rad, m."""
         values = dict(zip(self._sources, positions_at(self._path, times_s).T, strict=True))
-        told = (self._joints.get(name, (name, 1.0, 0.0)) for name in self.names)
-        return np.column_stack([factor * values[source] + offset for source, factor, offset in told])
+        followed = (self._joints.get(name, (name, 1.0, 0.0)) for name in self.names)
+        return np.column_stack([factor * values[source] + offset for source, factor, offset in followed])
 
     def tie(self, ties: Element, arm: str, t_s: float, vertices: Mapping[int, FloatArray]) -> Iterator[str]:
         """Tie vertices of the cloth to where the tool of an arm has them at a time (s); yield the ties' names.

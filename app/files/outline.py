@@ -43,7 +43,7 @@ class FoundOutline:
         is_bent: whether any of the curves is more than straight segments.
         is_simplified: whether corners of the drawing are left out.
         others: the lowest and highest coordinates of each other closed curve (m), shape (n, 2, 2).
-        allowance: what was told of a cut line and a seam line; None where the drawing has no such two.
+        allowance: what was noted about a cut line and a seam line; None where the drawing has no such two.
         fold: where the half piece that was drawn is folded (m); None for a piece that was drawn whole.
         is_joined: whether it was drawn as two halves beside each other.
         has_unfolded: whether any piece of the drawing was mirrored over a fold line.

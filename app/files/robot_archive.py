@@ -112,8 +112,8 @@ def _path(entry: ZipInfo) -> PurePosixPath:
     if path.is_absolute() or ".." in path.parts or any(sign in named for sign in "\\:\0"):
         raise RobotError("file", f"{named[:PATH_MAX]!r} leads out of the archive's folder")
     if len(named) > PATH_MAX or len(path.parts) > DEPTH_MAX or not (path.parts and named.isprintable()):
-        told = f"at most {PATH_MAX} characters and {DEPTH_MAX} folders"
-        raise RobotError("file", f"{named[:PATH_MAX]!r} is no path that is taken: {told}")
+        limits = f"at most {PATH_MAX} characters and {DEPTH_MAX} folders"
+        raise RobotError("file", f"{named[:PATH_MAX]!r} is no path that is taken: {limits}")
     return path
 
 

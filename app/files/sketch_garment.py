@@ -156,8 +156,8 @@ def _read(garment: Garment, creases: Creases | None, notes: list[Message]) -> tu
         )
         notes.append(Message.plain(text))
     if read.cut_m:
-        told = (f"{garment.folds[index].name!r} by {1000 * by:.0f} mm" for index, by in read.cut_m.items())
-        text = f"Fold lines were made to end at the edge of the cloth: {', '.join(told)}."
+        changed = (f"{garment.folds[index].name!r} by {1000 * by:.0f} mm" for index, by in read.cut_m.items())
+        text = f"Fold lines were made to end at the edge of the cloth: {', '.join(changed)}."
         lines = [{"fold": index, "by_m": by_m} for index, by_m in read.cut_m.items()]
         notes.append(Message("lines_cut", text, {"lines": lines}))
     if read.problem:

@@ -129,7 +129,7 @@ class Found:
 
 def propose(asked: ProposalsTask, progress: Progress) -> dict[str, Any]:
     """Return the proposals as JSON, telling each as it is found; the work of the job."""
-    told: dict[int, dict[str, Any]] = {}
+    bodies: dict[int, dict[str, Any]] = {}
 
     def hear(proposal: Proposal) -> None:
         if proposal.plan is None:
@@ -137,15 +137,15 @@ def propose(asked: ProposalsTask, progress: Progress) -> dict[str, Any]:
             return
         body = {**proposal.to_dict(), "plan_id": uuid.uuid4().hex}
         if proposal.number:
-            told[proposal.number] = body
+            bodies[proposal.number] = body
         progress(
-            len(told) / asked.most,
-            f"{len(told)} found",
+            len(bodies) / asked.most,
+            f"{len(bodies)} found",
             Found(body, (proposal.plan.task, PackedPlan.of(proposal.plan))),
         )
 
     found = all_proposals(asked.begin(), hear)
-    return {**found.to_dict(), "proposals": [told[one.number] for one in found.proposals]}
+    return {**found.to_dict(), "proposals": [bodies[one.number] for one in found.proposals]}
 
 
 def _tell(stores: Stores, found: Found) -> dict[str, Any]:

@@ -31,7 +31,7 @@ class FilmedWorld:
         Args:
             plan: the plan.
             begun: returns the world, given what that calls after every time step.
-            progress: told the fraction of the plan's steps that is done.
+            progress: called with the fraction of the plan's steps that is done.
         """
         self.frames: list[tuple[float, Frames]] = []
         self._plan: Plan | None = plan

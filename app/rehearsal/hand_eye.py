@@ -48,24 +48,24 @@ class HandEye:
             hands: the points of the parts of each hand, those of the rest of the robot as "", table frame, shape
                 (n, 3), m, each.
         """
-        told: dict[str, SeenBeside] = {}
+        seen_of_arm: dict[str, SeenBeside] = {}
         here, likely_m2 = self._corrected(camera), self._covariance_m2 + _ARM_M**2 * np.eye(2)
         for name, parts in hands.items():
             others = [part for other, those in hands.items() if other != name for part in those]
             found = seen_beside(image, here, parts, others, likely_m2)
             if found is not None and _is_likely(found, likely_m2):
-                told[name] = found
-        count = len(told)
-        seen = np.concatenate([np.empty(0), *(self.shift_m + one.shift_m for one in told.values())])
+                seen_of_arm[name] = found
+        count = len(seen_of_arm)
+        seen = np.concatenate([np.empty(0), *(self.shift_m + one.shift_m for one in seen_of_arm.values())])
         # The state: the camera's shift, then those of the parts seen; each of these is seen shifted by both.
         state = np.concatenate([self.shift_m, np.zeros(2 * count)])
         covariance = block_diag(self._covariance_m2, *[_ARM_M**2 * np.eye(2)] * count)
         sees = np.hstack([np.tile(np.eye(2), (count, 1)), np.eye(2 * count)])
-        errors = block_diag(np.empty((0, 0)), *(one.covariance_m2 for one in told.values()))
+        errors = block_diag(np.empty((0, 0)), *(one.covariance_m2 for one in seen_of_arm.values()))
         gain = covariance @ sees.T @ np.linalg.inv(sees @ covariance @ sees.T + errors)
         state, covariance = state + gain @ (seen - sees @ state), covariance - gain @ sees @ covariance
         self.shift_m, self._covariance_m2 = state[:2], covariance[:2, :2]
-        shifts = zip(told, state[2:].reshape(-1, 2), strict=True)
+        shifts = zip(seen_of_arm, state[2:].reshape(-1, 2), strict=True)
         self.hands_m = {name: shift_m for name, shift_m in shifts if name}
         return self._corrected(camera)
 

@@ -68,7 +68,7 @@ class Performer:
         world: the world.
         gate: what counts as held.
         replan: plans a task again; None performs the plan as it is, without looking.
-        progress: told the fraction that is done.
+        progress: called with the fraction that is done.
     """
 
     plan: Plan

@@ -77,7 +77,7 @@ def rehearse(
     Args:
         plan: a solved plan.
         options: how often, and in what worlds.
-        progress: told the fraction that is done, now and then.
+        progress: called with the fraction that is done, as it rises.
 
     Raises:
         UnsolvedPlanError: the plan has no steps to rehearse.
@@ -134,14 +134,14 @@ def one_run(
             raise StoppedError
         return again
 
-    told = _rising(progress)
-    world = FilmedWorld(plan, begun, told)
+    rising = _rising(progress)
+    world = FilmedWorld(plan, begun, rising)
     assert plan.trajectory is not None
     begins = posture_at(plan.trajectory, 0.0)
     camera = CameraWorld(world, plan.task, begins, seed)
     seen = camera if noise == Noise() else NoisyWorld(camera, noise, seed, plan.task)
     seen.perform(StepMotion(0, WITHDRAW, 0.0, ends=begins))  # it stands beside where it believes to
-    performer = Performer(plan, seen, options.gate, planned_again if options.feedback else None, told)
+    performer = Performer(plan, seen, options.gate, planned_again if options.feedback else None, rising)
     try:
         found = performer.performed()
     except FloatingPointError as error:
@@ -169,13 +169,13 @@ def _rising(progress: Callable[[float], None]) -> Callable[[float], None]:
     """Return a function that passes on only progress beyond that before: a step that is tried again goes back."""
     most = 0.0
 
-    def told(share: float) -> None:
+    def rise(share: float) -> None:
         nonlocal most
         if share > most:
             most = share
             progress(share)
 
-    return told
+    return rise
 
 
 def _share(progress: Callable[[float], None], before: int, runs: int) -> Callable[[float], None]:

@@ -90,7 +90,7 @@ class RunTrace:
 
     def packed(self) -> bytes:
         """Return the trace as bytes, which `unpacked` reads."""
-        told = {
+        described = {
             "pictures": self.pictures,
             "of_plan": [step.of_plan for step in self.steps],
             "outlines": [step.outlines for step in self.steps],
@@ -104,7 +104,7 @@ class RunTrace:
             frames=self.frames,
             found=np.array([step.found for step in self.steps], np.int16) if self.steps else empty,
             planned=np.array([step.planned for step in self.steps], np.int16) if self.steps else empty,
-            told=np.frombuffer(json.dumps(told).encode(), np.uint8),
+            told=np.frombuffer(json.dumps(described).encode(), np.uint8),
         )
         return file.getvalue()
 
@@ -112,10 +112,10 @@ class RunTrace:
     def unpacked(content: bytes) -> "RunTrace":
         """Return the trace that was packed."""
         with np.load(io.BytesIO(content), allow_pickle=False) as file:
-            told = json.loads(file["told"].tobytes())
-            parts = zip(told["of_plan"], file["found"], file["planned"], told["outlines"], strict=True)
+            described = json.loads(file["told"].tobytes())
+            parts = zip(described["of_plan"], file["found"], file["planned"], described["outlines"], strict=True)
             steps = tuple(StepTrace(*part) for part in parts)
-            return RunTrace(file["triangles"], file["times_s"], file["frames"], steps, told["pictures"])
+            return RunTrace(file["triangles"], file["times_s"], file["frames"], steps, described["pictures"])
 
 
 def counterpart(plan: Plan, step: PlanStep) -> int | None:

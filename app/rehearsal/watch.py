@@ -191,9 +191,9 @@ class Watch:
         there = replace(seen, carried=carry(seen.step.after.placement, sight.fit.placement))
         edges = {edge.arm: edge for edge in laid_edges(there, sight.stack)}
         found = {arm: self.eyes.short_m(edge) for arm, edge in edges.items()}
-        told = {arm: short_m for arm, short_m in found.items() if short_m is not None}
+        measured = {arm: short_m for arm, short_m in found.items() if short_m is not None}
         known_m = 0.0 if all(edge.is_on_edge for edge in edges.values()) else sight.fit.error_m
-        return edges, told if max(told.values(), default=0.0) > known_m else dict.fromkeys(told, 0.0)
+        return edges, measured if max(measured.values(), default=0.0) > known_m else dict.fromkeys(measured, 0.0)
 
     def _is_failed(self, sight: Sight) -> bool:
         """Return whether a fold of this run has left the cloth with another outline than it should have."""

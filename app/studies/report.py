@@ -72,8 +72,8 @@ def _head(findings: Findings) -> Iterator[str]:
     counted = zip(findings.counts, _TITLES, strict=True)
     yield f'<ul class="counts">{"".join(f"<li><b>{count:,}</b>{what}</li>" for count, what in counted)}</ul>'
     fixed = [axis for axis in study.all_axes[1:] if len(axis.values) == 1]
-    told = ", ".join(f"{escape(axis.name)} {escape(shown(axis.values[0]))}" for axis in fixed)
-    yield f'<p class="faint">The same everywhere: {told}.</p>' if told else ""
+    same = ", ".join(f"{escape(axis.name)} {escape(shown(axis.values[0]))}" for axis in fixed)
+    yield f'<p class="faint">The same everywhere: {same}.</p>' if same else ""
 
 
 def _who_folds_what(findings: Findings) -> Iterator[str]:
@@ -112,10 +112,10 @@ def _what_holds(findings: Findings) -> Iterator[str]:
         for n, name in enumerate(garments[:_ROWS])
     )
     yield "<h2>What holds</h2>"
-    told = (
+    how_many = (
         f"Share of rehearsed runs that held, {rehearsal.runs} of each plan from seed {rehearsal.seed}, by garment and"
     )
-    yield plain_table(f"{told} noise", "", [shown(value) for value in noise], rows)
+    yield plain_table(f"{how_many} noise", "", [shown(value) for value in noise], rows)
 
 
 def _best(findings: Findings) -> Iterator[str]:
@@ -215,10 +215,10 @@ def plain_table(caption: str, corner: str, heads: Sequence[str], rows: Iterable[
         heads: the headings of the others.
         rows: the first column's text, and the other cells as HTML.
     """
-    told = f"<caption>{escape(caption)}</caption>" if caption else ""
+    title = f"<caption>{escape(caption)}</caption>" if caption else ""
     top = "".join(f'<th scope="col">{escape(head)}</th>' for head in (corner, *heads))
     body = "".join(f'<tr><th scope="row">{escape(name)}</th>{"".join(cells)}</tr>' for name, cells in rows)
-    return f'<div class="wide"><table>{told}<thead><tr>{top}</tr></thead><tbody>{body}</tbody></table></div>'
+    return f'<div class="wide"><table>{title}<thead><tr>{top}</tr></thead><tbody>{body}</tbody></table></div>'
 
 
 def share_cell(solved: int, cells: int, cost_s: float, what: str = "cells") -> str:

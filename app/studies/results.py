@@ -92,8 +92,8 @@ class Results:
             plans = self.folder / PLANS
             plans.mkdir(exist_ok=True)
             (plans / f"{answer.row['plan_id']}.plan.json.gz").write_bytes(answer.plan)
-        told = (answer.index, json.dumps(answer.row), json.dumps(answer.timing))
-        self._file.execute("INSERT OR REPLACE INTO answer VALUES (?, ?, ?)", told)
+        values = (answer.index, json.dumps(answer.row), json.dumps(answer.timing))
+        self._file.execute("INSERT OR REPLACE INTO answer VALUES (?, ?, ?)", values)
 
     def forget_failed(self) -> None:
         """Drop the answers that are failures, so that their cells are planned again."""

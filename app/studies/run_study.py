@@ -102,7 +102,7 @@ def do_study(asked: tuple[Study, Path], progress: Callable[[float, str], None]) 
 
     Args:
         asked: the study, and the folder of all studies.
-        progress: told the share that is done.
+        progress: called with the share that is done.
 
     Returns:
         The study's id, and how many cells have which status.

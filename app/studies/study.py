@@ -117,8 +117,8 @@ class Study:
     @property
     def digest(self) -> str:
         """A digest of all on which its cells depend."""
-        told = {name: value for name, value in self.to_dict().items() if name != "title"}
-        return hashlib.sha256(json.dumps(told, sort_keys=True).encode()).hexdigest()
+        fields = {name: value for name, value in self.to_dict().items() if name != "title"}
+        return hashlib.sha256(json.dumps(fields, sort_keys=True).encode()).hexdigest()
 
 
 _FORM = JsonForm(Study)

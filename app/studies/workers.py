@@ -111,15 +111,15 @@ def answers_of(
                     lost_in_a_row = 0
                     yield from future.result()
                     continue
-                told = f"{type(error).__name__}: {error}"
+                why = f"{type(error).__name__}: {error}"
                 lost_in_a_row += 1
                 if lost_in_a_row > LOST_MAX:
-                    raise WorkersLostError(told)
+                    raise WorkersLostError(why)
                 if len(some) == 1:
                     lost[some[0].index] += 1
                 if len(some) == 1 and lost[some[0].index] >= tries:
                     del lost[some[0].index]
-                    yield failed(some[0], f"its worker was lost: {told}")
+                    yield failed(some[0], f"its worker was lost: {why}")
                 else:
                     alone.extend(some)
     finally:

@@ -88,16 +88,16 @@ class Measures:
             by_m: a length that the words mention (m).
         """
         if self._values[name] >= than_m:
-            told = self._told("must be less than", name, than_m, what, by_m)
-            raise MeasureError(name, Message("measure_not_less", *told))
+            content = self._message("must be less than", name, than_m, what, by_m)
+            raise MeasureError(name, Message("measure_not_less", *content))
 
     def require_at_least(self, name: str, least_m: float, what: str) -> None:
         """Raise `MeasureError` if a measure is less than a limit (m)."""
         if self._values[name] < least_m:
-            told = self._told("must be at least", name, least_m, what, 0.0)
-            raise MeasureError(name, Message("measure_too_small", *told))
+            content = self._message("must be at least", name, least_m, what, 0.0)
+            raise MeasureError(name, Message("measure_too_small", *content))
 
-    def _told(self, must: str, name: str, than_m: float, what: str, by_m: float) -> tuple[str, dict[str, Any]]:
+    def _message(self, must: str, name: str, than_m: float, what: str, by_m: float) -> tuple[str, dict[str, Any]]:
         """Return a sentence about a measure, and its values."""
         label, value_m = self._asked[name].label.lower(), self._values[name]
         text = f"{label} ({value_m:g} m) {must} {what.format(f'{by_m:g} m')} ({than_m:.4g} m)"

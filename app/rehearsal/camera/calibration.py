@@ -82,10 +82,10 @@ class Calibration:
             OSError: the system refuses to read.
         """
         try:
-            told = json.loads(path.read_text(encoding="utf-8"))
+            content = json.loads(path.read_text(encoding="utf-8"))
         except ValueError:
             raise CalibrationError("", "is no JSON") from None
-        return _FORM.read(told)
+        return _FORM.read(content)
 
     def file(self) -> str:
         """Return the content of a calibration's file."""

@@ -62,31 +62,33 @@ def _some(vertices: FloatArray) -> FloatArray:
 def _arrays(links: tuple[Link, ...]) -> dict[str, Any]:
     visuals = [one for link in links for one in link.visuals]
     return {
-        "links": np.frombuffer(dumps([_told(link) for link in links]).encode(), np.uint8),
+        "links": np.frombuffer(dumps([_described(link) for link in links]).encode(), np.uint8),
         "points": np.vstack([np.empty((0, 3)), *(one.vertices for one in visuals)]),
         "counts": np.array([len(one.vertices) for one in visuals], np.int64),
     }
 
 
-def _told(link: Link) -> dict[str, Any]:
-    told = {name: getattr(link, name) for name in Link.__slots__}
-    poses = {"origin": _pose_told(link.origin), "visuals": [_pose_told(one.pose) for one in link.visuals]}
-    return told | poses | {"axis": link.axis.tolist()}
+def _described(link: Link) -> dict[str, Any]:
+    described = {name: getattr(link, name) for name in Link.__slots__}
+    poses = {"origin": _pose_described(link.origin), "visuals": [_pose_described(one.pose) for one in link.visuals]}
+    return described | poses | {"axis": link.axis.tolist()}
 
 
-def _pose_told(pose: Pose3) -> list[float]:
+def _pose_described(pose: Pose3) -> list[float]:
     return [float(number) for number in (*pose.position, *pose.wxyz)]
 
 
-def _read(told: bytes, points: FloatArray, counts: FloatArray) -> tuple[Link, ...]:
+def _read(described: bytes, points: FloatArray, counts: FloatArray) -> tuple[Link, ...]:
     parts = iter(np.split(points, np.cumsum(counts)[:-1]) if len(counts) else [])
-    return tuple(_link(one, parts) for one in loads(told))
+    return tuple(_link(one, parts) for one in loads(described))
 
 
-def _link(told: dict[str, Any], parts: Any) -> Link:  # noqa: ANN401
-    poses = [_pose(numbers) for numbers in told["visuals"]]
+def _link(described: dict[str, Any], parts: Any) -> Link:  # noqa: ANN401
+    poses = [_pose(numbers) for numbers in described["visuals"]]
     visuals = tuple(Visual(pose, next(parts), np.empty((0, 3), np.int64)) for pose in poses)
-    return Link(**told | {"origin": _pose(told["origin"]), "axis": np.array(told["axis"]), "visuals": visuals})
+    return Link(
+        **described | {"origin": _pose(described["origin"]), "axis": np.array(described["axis"]), "visuals": visuals}
+    )
 
 
 def _pose(numbers: list[float]) -> Pose3:

@@ -4,7 +4,7 @@ A robot that has just made a fold knows about where everything lies. So unknown 
 what is expected: the placement, how far the last crease is beside its line and turned, and how far inside of their
 lines all creases lie because cloth turns over in loops. Where the outline does not tell one of them, it stays as
 expected, and the error says how far off that may be. Of cloth that was halved either half may stick out: of several
-minima the mean is told, each with its weight, and the error covers them.
+minima the mean is returned, each with its weight, and the error covers them.
 """
 
 import math
@@ -107,11 +107,11 @@ class Creased:
         row, covariance = _mean(_distinct(found))
         return SeenStack(self.figure, self.folded, row, covariance)
 
-    def told(self, found: SeenStack) -> StackFit:
+    def fit_of(self, found: SeenStack) -> StackFit:
         """Return the placement by a fit, with an error that covers all placements that fit as well."""
         figure, inside_m = self._figure(found.row[3:5]), 0.0 if self.folded is None else self._inside(found.row)
         error_m = found.placement_error_m
-        return figure.told(found.row[:3], self.seen, [], is_ambiguous=False, error_m=error_m, inside_m=inside_m)
+        return figure.fit_of(found.row[:3], self.seen, [], is_ambiguous=False, error_m=error_m, inside_m=inside_m)
 
     def _flat(self, pose: Pose2) -> FloatArray:
         """Return the row of a stack that lies there, its crease as expected."""

@@ -158,7 +158,7 @@ def fit_fold(contour: FloatArray, sequence: FoldSequence, done: int, index: int,
     kept = fit.figure.fit_at(whole.placement if near is None else near)
     alike.sort(key=lambda one: fit.figure.apart(one, kept))
     spread = np.abs([one.row - alike[0].row for one in alike]).max(axis=0)
-    return fit.told(alike[0].row, spread[3:], whole.others, near)
+    return fit.fit_of(alike[0].row, spread[3:], whole.others, near)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -204,7 +204,7 @@ class _CreaseFit:
         row = np.asarray(found.x)
         return Fitted(row, self.with_crease(row[3:]).misfit(row[:3], self.seen))
 
-    def told(self, row: FloatArray, spread: FloatArray, others: tuple[Pose2, ...], near: Pose2 | None) -> FoldFit:
+    def fit_of(self, row: FloatArray, spread: FloatArray, others: tuple[Pose2, ...], near: Pose2 | None) -> FoldFit:
         """Return the placement and the crease of a fit, with their errors.
 
         Args:

@@ -3,8 +3,8 @@
 The distance of every point seen from the stack's outline is made small by least squares. From a wrong angle that ends
 in a wrong minimum, so it is begun at angles all round, with a loss that lets far points pull (soft L1); the best few
 are fitted again with one that does not (Cauchy): what is far by then is a robot's arm or a wrinkle. Soft L1 alone let
-an arm at one end of a tie push it 8 cm along. What else fits about as well is told, since a rectangle that is turned by
-half looks the same.
+an arm at one end of a tie push it 8 cm along. What else fits about as well is returned too: a rectangle
+that is turned by half looks the same.
 """
 
 import numpy as np

@@ -127,7 +127,7 @@ class Looker:
         on_table = heights.seen_at(self.camera, contour, whole.placement)
         creased = Creased.of(on_table, sequence, folds, near)
         found = replace(creased.fitted(whole), outline=on_table)
-        fit = creased.told(found)
+        fit = creased.fit_of(found)
         doubt = why_in_doubt(replace(seen, at_border=0.0), None)
         fitted = [self._pixels(fit.placement.to_outer(ring), height_m) for ring in stack.silhouette.rings]
         return Sight(fit, contour, max(fitted, key=len), fit.unknown or doubt, expected=expected, stack=found)

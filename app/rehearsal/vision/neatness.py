@@ -66,11 +66,13 @@ class Neatness:
     def text(self) -> str:
         """It in one sentence."""
         skewed = f"skewed by {abs(math.degrees(self.skewed_rad)):.1f} degrees"
-        told = f"It matches {self.iou:.0%} of the outline as planned: {1000 * self.edge_error_m:.0f} mm off on average"
+        matched = (
+            f"It matches {self.iou:.0%} of the outline as planned: {1000 * self.edge_error_m:.0f} mm off on average"
+        )
         if self.turned_rad is None or self.off_m is None:
-            return f"{told}, {skewed}."
+            return f"{matched}, {skewed}."
         turned = f"turned by {math.degrees(self.turned_rad):.1f} degrees, {1000 * self.off_m:.0f} mm from its place"
-        return f"{told}, {turned}, {skewed}."
+        return f"{matched}, {turned}, {skewed}."
 
     def to_dict(self) -> dict[str, Any]:
         """Return it as JSON."""
@@ -80,6 +82,6 @@ class Neatness:
 def _skew(feet: FloatArray, distances: FloatArray, outwards: FloatArray) -> float:
     """Return the shear of the affine map that moves points of an outline outwards by these distances (rad)."""
     (x, y), (across, up) = feet.T, outwards.T
-    told_by = np.column_stack([across, up, across * x, across * y, up * x, up * y])
-    found = np.linalg.lstsq(told_by, distances, rcond=None)[0]
+    factors = np.column_stack([across, up, across * x, across * y, up * x, up * y])
+    found = np.linalg.lstsq(factors, distances, rcond=None)[0]
     return float(found[3] + found[4])

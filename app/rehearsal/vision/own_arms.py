@@ -132,15 +132,15 @@ def _best_of_grid(likely_m2: FloatArray, slopes: FloatArray, offsets: FloatArray
 
 def _refined(shift_m: FloatArray, slopes: FloatArray, offsets: FloatArray, steep: FloatArray) -> SeenBeside:
     """Return the shift by least squares to the steepest edge near each point; edges further away count less."""
-    told_by = np.column_stack([slopes, np.ones(len(slopes))])
+    factors = np.column_stack([slopes, np.ones(len(slopes))])
     held = np.diag([_EDGE_PX / _MOST_M, _EDGE_PX / _MOST_M, _EDGE_PX / _WIDER_PX]) ** 2
     state = np.append(shift_m, 0.0)
     for _ in range(_ROUNDS):
-        ought = told_by @ state
+        ought = factors @ state
         near = np.where(np.abs(offsets - ought[:, None]) <= _NEAR_PX, steep, 0.0)
         at = near.argmax(axis=1)
         left = offsets[at] + _STEP_PX * peaks(near, at) - ought
         weights = near.max(axis=1) / near.max() / (1.0 + (left / _EDGE_PX) ** 2)
-        told = told_by.T @ (weights[:, None] * told_by) * _APART_PX / _ALIKE_PX + held
-        state = state + np.linalg.solve(told, told_by.T @ (weights * left) * _APART_PX / _ALIKE_PX)
-    return SeenBeside(state[:2], np.linalg.inv(told)[:2, :2] * _EDGE_PX**2)
+        information = factors.T @ (weights[:, None] * factors) * _APART_PX / _ALIKE_PX + held
+        state = state + np.linalg.solve(information, factors.T @ (weights * left) * _APART_PX / _ALIKE_PX)
+    return SeenBeside(state[:2], np.linalg.inv(information)[:2, :2] * _EDGE_PX**2)

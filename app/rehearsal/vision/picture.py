@@ -141,16 +141,16 @@ def _focal(data: bytes, shape: tuple[int, ...]) -> Focal:
         data: the file.
         shape: the picture's height and width, upright (pixels).
     """
-    told = _exif(data)
+    tags = _exif(data)
     longer, shorter = float(max(shape[:2])), float(min(shape[:2]))
-    taken = sorted(float(told.get(tag, 0.0)) for tag in (_WIDTH, _HEIGHT))
+    taken = sorted(float(tags.get(tag, 0.0)) for tag in (_WIDTH, _HEIGHT))
     if taken[0] > 0 and abs(taken[1] / taken[0] / (longer / shorter) - 1.0) > 0.02:
         return USUAL_FOCAL
     sides = 0.0
-    if told.get(_FOCAL_35_MM, 0.0) > 0:
-        sides = told[_FOCAL_35_MM] / _FILM_DIAGONAL_MM * math.hypot(longer, shorter) / longer
-    elif min(told.get(tag, 0.0) for tag in (_FOCAL_MM, _X_PER_UNIT)) > 0 and taken[1] > 0:
-        sides = told[_FOCAL_MM] * told[_X_PER_UNIT] / _UNITS_MM.get(int(told.get(_UNIT, 2.0)), 25.4) / taken[1]
+    if tags.get(_FOCAL_35_MM, 0.0) > 0:
+        sides = tags[_FOCAL_35_MM] / _FILM_DIAGONAL_MM * math.hypot(longer, shorter) / longer
+    elif min(tags.get(tag, 0.0) for tag in (_FOCAL_MM, _X_PER_UNIT)) > 0 and taken[1] > 0:
+        sides = tags[_FOCAL_MM] * tags[_X_PER_UNIT] / _UNITS_MM.get(int(tags.get(_UNIT, 2.0)), 25.4) / taken[1]
     return Focal(sides, _FOCAL_SPREAD) if _FOCALS[0] <= sides <= _FOCALS[1] else USUAL_FOCAL
 
 

@@ -2,7 +2,7 @@
 
 A stripe of the table's colour cuts a cloth into pieces that lie side by side: narrow ones, and each faces its neighbour
 along most of its length. Garments beside each other come near at a corner, or are wider. What is said of two narrow
-cloths laid exactly along each other is therefore a guess, and told as one.
+cloths laid exactly along each other is therefore a guess, and reported as one.
 """
 
 import math

@@ -97,7 +97,7 @@ def see(data: bytes, name: str, scale: str | Calibration | None, like: Like | No
 
     Raises:
         PictureError: the file is no picture that can be read, or the scale is not one.
-        NothingToldError: there is nothing to be told from it.
+        NothingToldError: there is nothing to be read from it.
         ScaleNeededError: nothing says how large it is.
     """
     said = read_scale(scale) if isinstance(scale, str) else scale

@@ -118,7 +118,7 @@ def see_state(data: bytes, scale: str | Calibration | None, garment: Garment, pl
     Raises:
         PictureError: the file is no picture that can be read, or the scale is not one.
         FoldError: a fold of the garment is not legal.
-        NothingToldError: there is nothing to be told from the picture.
+        NothingToldError: there is nothing to be read from the picture.
         ScaleNeededError: nothing says how large the cloth is.
     """
     said = read_scale(scale) if isinstance(scale, str) else scale

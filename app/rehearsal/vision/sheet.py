@@ -18,7 +18,7 @@ _WORST_MISFIT = 1200.0
 """The largest misfit of the corners of a sheet."""
 
 _TELLS = 25.0
-"""How much better one of A4 and Letter must fit to be told from the other: five standard deviations."""
+"""How much better one of A4 and Letter must fit to be distinguished from the other: five standard deviations."""
 
 _LEAST_OF_STRONGEST = 0.2
 """The least strength of a sheet's faintest edge, as a share of its strongest."""

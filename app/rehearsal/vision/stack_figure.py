@@ -194,9 +194,9 @@ class Figure:
             start = self.fit_at(near)
             alike.sort(key=lambda one: self.apart(one, start))
             is_ambiguous = self.apart(alike[0], start) > 0.5 * self.apart(alike[1], start)
-        return self.told(alike[0].row, seen, [self.pose(one.row) for one in alike[1:]], is_ambiguous=is_ambiguous)
+        return self.fit_of(alike[0].row, seen, [self.pose(one.row) for one in alike[1:]], is_ambiguous=is_ambiguous)
 
-    def told(
+    def fit_of(
         self,
         row: FloatArray,
         seen: FloatArray,

@@ -154,7 +154,7 @@ def _seen(row: FloatArray, longer: float) -> FloatArray:
 
     The row is the turn (3), where the plane's origin is seen (2, in longer sides of the picture), the logarithm of the
     scale there (longer sides per metre), and that of the focal length. A scale, and not a depth: seen from straight
-    above, focal length and depth cannot be told apart, but their quotient is known well.
+    above, focal length and depth cannot be distinguished, but their quotient is known well.
     """
     turned, _ = cv2.Rodrigues(np.ascontiguousarray(row[:3]))
     focal, depth = math.exp(float(row[6])), math.exp(float(row[6] - row[5]))

@@ -92,8 +92,8 @@ def test_a_placement_that_fits_as_well_until_creases_are_asked_leaves_no_doubt()
     doubt = replace(whole, others=(LIES.moved(0.015, 0.0),), unknown=Message(LOOKS_ALIKE, "two fit"))
     creased = Creased.of(points, sequence, (0,), Expected(NEAR))
     stack = creased.fitted(doubt)
-    told = creased.told(stack)
-    assert told.is_known and told.error_m < 0.015
+    fit = creased.fit_of(stack)
+    assert fit.is_known and fit.error_m < 0.015
     assert most_off(sequence.cloth(1).silhouette, stack.placement, LIES) < 0.003
 
 
@@ -108,7 +108,7 @@ def test_of_two_placements_that_fit_equally_well_the_error_told_covers_both() ->
     step = np.diff(LIES.to_outer(along), axis=0)[0] * 0.03
     whole = replace(fit_near(points, sequence.cloth(0), LIES), placement=LIES, others=(LIES.moved(*step),))
     creased = Creased.of(points, sequence, (), Expected(LIES))
-    assert creased.told(creased.fitted(whole)).error_m > 0.02
+    assert creased.fit_of(creased.fitted(whole)).error_m > 0.02
 
 
 def test_what_was_seen_is_expected_and_gets_less_sure_as_things_move() -> None:
@@ -136,7 +136,7 @@ def test_errors_told_cover_outlines_of_much_noise() -> None:
 def told_of(seen_points: FloatArray, stack: Region) -> StackFit:
     """Return what is known of a stack that is known to lie at `LIES`."""
     figure = Figure.about(stack)
-    return figure.told(figure.fit_at(LIES).row, seen_points, [], is_ambiguous=False)
+    return figure.fit_of(figure.fit_at(LIES).row, seen_points, [], is_ambiguous=False)
 
 
 def test_the_overlap_of_an_outline_that_ends_short_is_that_of_the_areas() -> None:
@@ -167,6 +167,6 @@ def test_creases_inside_of_their_lines_take_nothing_off_the_overlap() -> None:
     is_crease = edges.are_creases(points - distances[:, None] * outwards)
     points[is_crease] -= 0.012 * outwards[is_crease]
     contour = LIES.to_outer(points)
-    fit = Creased.of(contour, sequence, folds, Expected(NEAR)).told(fitted(contour, sequence, folds))
+    fit = Creased.of(contour, sequence, folds, Expected(NEAR)).fit_of(fitted(contour, sequence, folds))
     assert fit_near(contour, stack, NEAR).overlap < fit.overlap
     assert fit.overlap > 0.95
