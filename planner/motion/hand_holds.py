@@ -12,7 +12,7 @@ from typing import TypeAlias
 import numpy as np
 
 from planner.folds.fold_path import REST_HEIGHT_M
-from planner.geometry.tolerance import ANGLE_RAD
+from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M
 from planner.motion.joint_trajectory import CLOSED_M, OPEN_M
 from planner.motion.waypoints import Waypoints
 from planner.robots.armed_robot import ArmedRobot
@@ -68,11 +68,32 @@ class HandHold:
 Holds: TypeAlias = tuple[HandHold, ...]
 """How the hand of each arm holds."""
 
-_BESIDE = HandHold(BESIDE)
+_BESIDE, _NARROWLY = HandHold(BESIDE), HandHold(BESIDE, opening_m=EDGE_OPEN_M)
 
 
-def wide_holds(waypoints: Waypoints) -> tuple[Holds, ...]:
-    """Return the ways in which hands that open widely may hold cloth in a transfer, the best first."""
+def usual_holds(waypoints: Waypoints, height_m: float) -> tuple[Holds, ...]:
+    """Return the ways in which hands may hold cloth in a transfer, the best first.
+
+    Hands open widely; between hanging cloth and the table's edge there may be room for narrowly opened fingers only.
+
+    Args:
+        waypoints: the waypoints while cloth is held.
+        height_m: the table top's height above the floor (m).
+    """
+    beside = tuple(
+        _NARROWLY if is_used and _hangs(waypoints, arm, height_m) else _BESIDE
+        for arm, is_used in enumerate(waypoints.is_used.tolist())
+    )
+    return (*_wide_holds(waypoints), *([beside] if _NARROWLY in beside else []))
+
+
+def _hangs(waypoints: Waypoints, arm: int, height_m: float) -> bool:
+    """Return whether a hand takes or lets go of cloth that hangs: lower than tools rest over the table."""
+    held = waypoints.positions[arm, waypoints.is_held[arm]]
+    return bool(held[[0, -1], 2].min() < height_m + REST_HEIGHT_M - LENGTH_M)
+
+
+def _wide_holds(waypoints: Waypoints) -> tuple[Holds, ...]:
     beside = (_BESIDE,) * len(waypoints.is_used)
     sines = [-waypoints.rotations[arm, 0, 2, 0] for arm in np.flatnonzero(waypoints.is_used)]
     if not all(sine > _STEEP for sine in sines):

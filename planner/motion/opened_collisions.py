@@ -37,9 +37,9 @@ class OpenedCollisions:
     def of(self, hold: HandHold, *, is_open: bool) -> Collisions:
         """Return the collisions of a hand that holds, or that comes to its grip or leaves it with open fingers."""
         held, edge, wide = self._up_to
-        if not hold.is_narrow:
-            return wide
-        return edge if is_open else held
+        if hold.is_narrow:
+            return edge if is_open else held
+        return wide if is_open else edge
 
     def is_path_free(self, bases: FloatArray, joints: FloatArray, openings_m: FloatArray) -> bool:
         """Return whether nothing touches along a path, from one configuration to the next.

@@ -56,7 +56,7 @@ class Transfer:
     @property
     def edges(self) -> int:
         """How many hands hold an edge with one finger under it."""
-        return sum(hold.is_narrow for hold in self.holds)
+        return sum(hold.is_narrow and hold.kind == "edge" for hold in self.holds)
 
     @property
     def free_phases(self) -> tuple[Phase, ...]:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from planner.geometry.pose import BoolArray, FloatArray
 from planner.geometry.tolerance import ANGLE_RAD, LENGTH_M
 from planner.motion.answer_memory import RecentAnswers, digest
-from planner.motion.hand_holds import HandHold, Holds, edge_holds, opening_of, settles, wide_holds
+from planner.motion.hand_holds import HandHold, Holds, edge_holds, opening_of, settles, usual_holds
 from planner.motion.lying_cloth import LyingCloth
 from planner.motion.opened_collisions import OpenedCollisions
 from planner.motion.transfer_path import TransferPath
@@ -52,11 +52,11 @@ class FreePostures:
     To test single waypoints is much cheaper than to search for a joint path.
     """
 
-    def __init__(self, machine: ArmedRobot, collisions: OpenedCollisions, torso_m: float) -> None:
-        """Keep a robot and the height of its lift (m), and empty caches."""
+    def __init__(self, machine: ArmedRobot, collisions: OpenedCollisions, torso_m: float, height_m: float) -> None:
+        """Keep a robot, the height of its lift and that of the table (m), and empty caches."""
         self._machine = machine
         self._collisions = collisions
-        self._torso_m = torso_m
+        self._torso_m, self._height_m = torso_m, height_m
         self._layout = JointLayout.of(machine.card)
         self._rolling = np.array([-1.0 if arm.is_mirrored else 1.0 for arm in machine.card.arms])
         self._free_postures = RecentAnswers[tuple[int, _Pose], FloatArray](_PLACES_KEPT)
@@ -68,7 +68,7 @@ class FreePostures:
         Args:
             waypoints: the waypoints of the transfer.
             first: the waypoints that are tested before others.
-            ways: the ways in which hands may hold; none given: those in which they open widely.
+            ways: the ways in which hands may hold; none given: the usual ones.
         """
         looks = _LOOKED_AT if waypoints.is_held.any(axis=1).sum() > 1 else 2
         which = [*first, *np.linspace(0, len(waypoints) - 1, looks).astype(np.int64).tolist()]
@@ -77,7 +77,7 @@ class FreePostures:
     def can_hold_at(self, waypoints: Waypoints, which: Iterable[int], ways: Sequence[Holds] = ()) -> bool:
         """Return whether the arms have free postures at some waypoints, each tested alone; see `can_hold`."""
         arms = [int(arm) for arm in np.flatnonzero(waypoints.is_held.any(axis=1))]
-        ways = ways or wide_holds(waypoints)[::-1]
+        ways = ways or usual_holds(waypoints, self._height_m)[::-1]
         return all(any(self._can_hold(arms, waypoints, waypoint, holds) for holds in ways) for waypoint in which)
 
     def _can_hold(self, arms: list[int], waypoints: Waypoints, waypoint: int, holds: Holds) -> bool:
@@ -89,7 +89,8 @@ class FreePostures:
         poses: list[_Pose | None] = [None] * len(self._layout.arms)
         for arm in held:
             rotation = waypoints.rotations[arm, waypoint] @ rolled(holds[arm].roll_rad * self._rolling[arm])
-            collisions = self._collisions.of(holds[arm], is_open=False)
+            is_open = holds[arm].raised_m == 0.0 and waypoint in waypoints.is_held[arm].nonzero()[0][[0, -1]]
+            collisions = self._collisions.of(holds[arm], is_open=is_open)
             poses[arm] = _pose(collisions, waypoints.bases[waypoint], waypoints.positions[arm, waypoint], rotation)
         if len(held) < len(arms):
             return all(len(self._able(arm, pose)) > 0 for arm, pose in enumerate(poses))
@@ -183,7 +184,7 @@ class TransferPathFinder:
         self._layout = JointLayout.of(machine.card)
         self._rolling = np.array([-1.0 if arm.is_mirrored else 1.0 for arm in machine.card.arms])
         self._searched = RecentAnswers[tuple[_TransferKey, Holds], TransferPath | NoPath](TRANSFERS_KEPT)
-        self.postures = FreePostures(machine, collisions, torso_m)
+        self.postures = FreePostures(machine, collisions, torso_m, height_m)
 
     def transfer_path(self, waypoints: Waypoints, cloths: Cloths, ways: Sequence[Holds] = ()) -> TransferPath | NoPath:
         """Return the joint paths of a transfer, or the waypoints at which there is no path. Cached.
@@ -191,10 +192,10 @@ class TransferPathFinder:
         Args:
             waypoints: the waypoints while cloth is held.
             cloths: the cloth on the table before and after.
-            ways: the ways in which hands may hold, the best first; none given: those in which they open widely.
+            ways: the ways in which hands may hold, the best first; none given: the usual ones.
         """
         key = _TransferKey.of(waypoints, cloths)
-        *others, last = ways or wide_holds(waypoints)
+        *others, last = ways or usual_holds(waypoints, self._height_m)
         found = (self._searched.answer((key, holds), self._search) for holds in others)
         best = next((one for one in found if isinstance(one, TransferPath)), None)
         return self._searched.answer((key, last), self._search) if best is None else best
@@ -218,7 +219,8 @@ class TransferPathFinder:
         if _TransferKey.of(waypoints, cloths) == _TransferKey.of(like.waypoints, like.cloths):
             return like
         are_same_arms = np.array_equal(waypoints.is_used, like.waypoints.is_used)
-        if not are_same_arms or like.lines.holds not in (*wide_holds(waypoints), edge_holds(self._machine, waypoints)):
+        holds = (*usual_holds(waypoints, self._height_m), edge_holds(self._machine, waypoints))
+        if not are_same_arms or like.lines.holds not in holds:
             return None
         tool_paths = self._tool_paths(waypoints, like.lines, cloths)
         joints, guides = (
@@ -324,7 +326,8 @@ class TransferPathFinder:
             opened, held = (collisions.of(holds[arm], is_open=is_open) for is_open in (True, False))
             if opened is held:
                 return opened.arm_free(arm, bases, joints)
-            answers, is_open = np.empty(len(steps), dtype=np.bool_), approach.is_open(steps)
+            answers = np.empty(len(steps), dtype=np.bool_)
+            is_open = approach.is_open(steps, opens_on_path=holds[arm].raised_m == 0.0)
             for rows, fingers in ((is_open, opened), (~is_open, held)):
                 answers[rows] = fingers.arm_free(arm, bases[rows], joints[rows])
             return answers

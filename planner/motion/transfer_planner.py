@@ -40,7 +40,7 @@ from planner.primitives.drive_time import DriveTime
 from planner.primitives.obstacle import BlockingContact
 from planner.primitives.primitive import Step
 from planner.robots.armed_robot import ArmedRobot
-from planner.robots.card import HELD_M, OPENING_M
+from planner.robots.card import EDGE_OPEN_M, HELD_M
 from planner.robots.tool_path import NoPath
 from planner.task.trajectory import Phase
 
@@ -361,8 +361,12 @@ def is_clear_between(transfer_path: TransferPath, timing: TransferTiming, collis
     joints = values_at(timing.times_s, transfer_path.joints[rows], timing.velocities, times)
     bases = np.column_stack([np.interp(times, timing.times_s, column) for column in transfer_path.bases[rows].T])
     holds, lead, tail = transfer_path.lines.holds, transfer_path.approach, transfer_path.retreat
-    held_m = [HELD_M if hold.is_narrow else OPENING_M for hold in holds]
+    is_held = np.all(transfer_path.waypoints.is_held[:, [0, -1]], axis=1)
     open_m = [opening_of(hold) for hold in holds]
+    held_m = [
+        opening_of(hold) if not is_held[arm] else HELD_M if hold.is_narrow else EDGE_OPEN_M
+        for arm, hold in enumerate(holds)
+    ]
     return all(
         collisions.is_path_free(stands, there, np.tile(openings_m, (len(there), 1)))
         for stands, there, openings_m in (

@@ -84,10 +84,13 @@ class TransferToolPath:
     let_go: int
     is_coming: bool
 
-    def is_open(self, steps: NDArray[np.int64]) -> BoolArray:
-        """Return at which steps its fingers may be open: before the grip and after letting go."""
+    def is_open(self, steps: NDArray[np.int64], *, opens_on_path: bool) -> BoolArray:
+        """Return at which steps its fingers may be open: before the grip and after letting go.
+
+        Fingers that open and close where the cloth's path begins and ends may be open there too.
+        """
         begin, end = self.path.core
-        return ((steps < begin) & self.is_coming) | (steps >= end)
+        return ((steps < begin + opens_on_path) & self.is_coming) | (steps >= end - opens_on_path)
 
     def must_clear(self, steps: NDArray[np.int64]) -> tuple[BoolArray, BoolArray]:
         """Return at which steps it must be clear of the cloth on the table, as it lies before and as it lies after."""

@@ -159,7 +159,7 @@ class BarredCollisions:
         return is_open & self._real.arm_free(arm, bases, joints)
 
     def is_arm_path_free(self, arm: int, bases: Pose2 | FloatArray, joints: FloatArray) -> bool:
-        return bool(self.arm_free(arm, bases, joints).all())
+        return self._real.is_arm_path_free(arm, bases, joints)  # also asked about arms that stay at home
 
     def arms_apart(self, arms: tuple[int, ...], joints: FloatArray) -> BoolArray:
         return self._real.arms_apart(arms, joints)
