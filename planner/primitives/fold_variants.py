@@ -7,7 +7,7 @@ that tie, the grips swapped between the arms, other orientations, a path begun o
 from collections.abc import Iterator
 from dataclasses import dataclass
 from heapq import merge
-from itertools import product
+from itertools import product, zip_longest
 from typing import TypeAlias
 
 import numpy as np
@@ -88,15 +88,17 @@ def _counts(least: int, most: int) -> Iterator[int]:
 
 
 def fold_spread(context: Context, state: State, fold: int, count: int) -> Iterator[Variant]:
-    """Yield the best ways to do a fold in a state, and an evenly spaced selection of the others.
+    """Yield the best ways to do a fold in a state, in turns with an evenly spaced selection of the others.
 
-    The base may end anywhere. While the hands are empty, the ways do not depend on where the base stands before.
+    Where one of the best fails, mostly the next best fail too. The base may end anywhere. While the hands are empty,
+    the ways do not depend on where the base stands before.
     """
     found = [v for trial in fold_trials(context, state, fold) for v in trial_variants(context, state, trial)]
     found.sort(key=lambda variant: (variant.driven, variant.rank))
     best = count // 2
     step = max(1, -(-(len(found) - best) // (count - best)))
-    yield from (*found[:best], *found[best::step])
+    for pair in zip_longest(found[:best], found[best::step]):
+        yield from (variant for variant in pair if variant is not None)
 
 
 def _rank(variant: Variant) -> tuple[int, int, int]:
